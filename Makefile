@@ -1,0 +1,54 @@
+# Needs only make and Python >= 3.11; `make help` lists what there is.
+# PYTHON=/path/to/python chooses the interpreter that .venv is made with.
+
+# Small dense systems are many times slower with threaded BLAS.
+export OPENBLAS_NUM_THREADS ?= 1
+export OMP_NUM_THREADS ?= 1
+
+VENV := .venv
+BIN := $(VENV)/bin
+STAMP := $(VENV)/.installed
+CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
+
+.DEFAULT_GOAL := help
+.PHONY: help venv demo test test-fast check clean
+
+help: ## list the targets
+	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
+
+venv: $(STAMP) ## make .venv and install rollnip into it (again only when pyproject.toml changed)
+
+$(STAMP): pyproject.toml
+	@python=; for candidate in $(CANDIDATES); do \
+	  if "$$candidate" -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' \
+	    >/dev/null 2>&1; then python=$$candidate; break; fi; \
+	done; \
+	if [ -z "$$python" ]; then \
+	  echo "No Python >= 3.11 with its venv module among: $(CANDIDATES)." >&2; \
+	  echo "Install one (Debian, Ubuntu: apt-get install python3 python3-venv), or say: make venv PYTHON=/path/to/python3" >&2; \
+	  exit 1; \
+	fi; \
+	if $(BIN)/python -m pip --version >/dev/null 2>&1; then :; \
+	else echo "making $(VENV) with $$python"; "$$python" -m venv --clear $(VENV); fi
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@
+
+demo: venv ## solve the paper's configuration II, print the summary, write a picture to out/
+	@mkdir -p out
+	$(BIN)/rollnip solve examples/configuration-2-driven.toml --plot out/configuration-2-driven.png
+
+test: venv ## all tests
+	$(BIN)/python -m pytest
+
+test-fast: venv ## the tests that take seconds
+	$(BIN)/python -m pytest -m "not slow"
+
+check: venv ## style, types, floors
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+clean: ## remove .venv, caches and out/
+	rm -rf $(VENV) out build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache .hypothesis
+	find src tests -name __pycache__ -type d -prune -exec rm -rf {} +

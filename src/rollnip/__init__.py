@@ -1,0 +1,1 @@
+"""Rolling contact of cylinders coated with layered, viscoelastic rubber."""

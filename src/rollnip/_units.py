@@ -1,0 +1,1 @@
+"""Quantities with their units, as industry writes them, into mm, N, MPa, s."""

@@ -1,0 +1,36 @@
+"""Materials: isotropic linear solids given by their complex modulus E*(s) and Poisson ratio."""
+
+from rollnip.materials.base import Material
+from rollnip.materials.elastic import Elastic
+from rollnip.materials.passivity import is_passive
+from rollnip.materials.shift import WLF, Arrhenius
+from rollnip.materials.shore import (
+    ShoreBand,
+    shore_a_band,
+    shore_a_modulus,
+    shore_a_modulus_log_linear,
+)
+from rollnip.materials.viscoelastic import (
+    FractionalZener,
+    LossFactor,
+    Prony,
+    StandardLinearSolid,
+    Viscoelastic,
+)
+
+__all__ = [
+    "WLF",
+    "Arrhenius",
+    "Elastic",
+    "FractionalZener",
+    "LossFactor",
+    "Material",
+    "Prony",
+    "ShoreBand",
+    "StandardLinearSolid",
+    "Viscoelastic",
+    "is_passive",
+    "shore_a_band",
+    "shore_a_modulus",
+    "shore_a_modulus_log_linear",
+]

@@ -1,0 +1,79 @@
+"""The elastic material."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rollnip.materials.base import Material, checked_modulus, checked_poisson
+from rollnip.materials.shore import shore_a_modulus
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Elastic(Material):
+    """An elastic material.
+
+    Parameters
+    ----------
+    modulus :
+        Young's modulus E [MPa], from 1e-9 to 1e12.
+    poisson :
+        Poisson ratio, in (-1, 0.5].
+
+    Raises
+    ------
+    InvalidInputError
+        where a parameter lies outside its range.
+    """
+
+    modulus: float
+    poisson: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "modulus", checked_modulus("modulus", self.modulus))
+        object.__setattr__(self, "poisson", checked_poisson(self.poisson))
+
+    @classmethod
+    def from_shear_modulus(cls, shear_modulus: float, poisson: float) -> Elastic:
+        """Elastic material of the shear modulus G [MPa]: E = 2 G (1 + nu).
+
+        Raises InvalidInputError where a parameter lies outside its range.
+        """
+        shear = checked_modulus("shear_modulus", shear_modulus)
+        ratio = checked_poisson(poisson)
+        return cls(modulus=2.0 * shear * (1.0 + ratio), poisson=ratio)
+
+    @classmethod
+    def from_shore_a(cls, shore_a: float, poisson: float = 0.5) -> Elastic:
+        """Elastic material of a Shore A hardness, by Gent's formula.
+
+        An estimate only: `rollnip.materials.shore_a_band` says how far it may be off (a factor
+        of 2). Raises InvalidInputError for a hardness outside 20 to 95.
+        """
+        return cls(modulus=shore_a_modulus(shore_a), poisson=poisson)
+
+    def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
+        """E*(s) = E [MPa], complex array of the shape of ``s``."""
+        return np.full(np.shape(s), self.modulus, dtype=np.complex128)
+
+    @property
+    def is_elastic(self) -> bool:
+        """True."""
+        return True
+
+    @property
+    def relaxed_modulus(self) -> float:
+        """E [MPa]."""
+        return self.modulus
+
+    @property
+    def glassy_modulus(self) -> float:
+        """E [MPa]."""
+        return self.modulus
+
+    @property
+    def relaxation_times(self) -> tuple[float, ...]:
+        """Empty: an elastic material has no memory."""
+        return ()

@@ -1,0 +1,80 @@
+"""Time-temperature shift."""
+
+from math import exp
+
+import numpy as np
+import pytest
+
+from rollnip._errors import InvalidInputError
+from rollnip.materials import WLF, Arrhenius, Prony, StandardLinearSolid
+
+UNIVERSAL = WLF(17.44, 51.6, 23.0)
+
+
+def test_wlf_at_reference_and_one_c2_above():
+    """At T = T_ref + c2 the law gives half of c1 decades exactly."""
+    assert UNIVERSAL.factor(23.0) == 1.0
+    assert UNIVERSAL.factor(23.0 + 51.6) == pytest.approx(10 ** (-17.44 / 2), rel=1e-12)
+
+
+def test_arrhenius_by_hand():
+    """60 kJ/mol from 20 to 40 degC: exp(60000/8.314462618 (1/313.15 - 1/293.15))."""
+    expected = exp(60000.0 / 8.314462618 * (1 / 313.15 - 1 / 293.15))
+    assert Arrhenius(60.0, 20.0).factor(40.0) == pytest.approx(expected, rel=1e-8)
+    assert Arrhenius(60.0, 20.0).factor(20.0) == 1.0
+
+
+@pytest.mark.parametrize("shift", [UNIVERSAL, Arrhenius(60.0, 23.0)])
+def test_heat_is_frequency(shift):
+    """E* at T and frequency w equals E* at the reference and frequency a_T w."""
+    cold = Prony(modulus=1.0, terms=((1.0, 1e-3), (2.0, 1.0)), poisson=0.5)
+    warm = Prony(
+        modulus=1.0, terms=((1.0, 1e-3), (2.0, 1.0)), poisson=0.5, temperature=40.0, shift=shift
+    )
+    s = 1j * np.logspace(-3, 5, 17)
+    factor = shift.factor(40.0)
+    assert factor < 1.0
+    np.testing.assert_allclose(warm.modulus_at(s), cold.modulus_at(factor * s), rtol=1e-13)
+    assert warm.relaxation_times == pytest.approx([1e-3 * factor, factor], rel=1e-14)
+    assert warm.terms == cold.terms
+
+
+@pytest.mark.parametrize(
+    ("temperature", "shift", "message"),
+    [
+        (40.0, None, "`shift` must be given"),
+        (None, UNIVERSAL, "`temperature` must be given"),
+        (23.0 - 51.6, UNIVERSAL, "pole of the WLF law"),
+        (-100.0, UNIVERSAL, "pole of the WLF law"),
+        (-28.0, UNIVERSAL, "shift factor between"),
+        (-300.0, Arrhenius(60.0, 23.0), "absolute zero"),
+        (-270.0, Arrhenius(60.0, 23.0), "shift factor between"),
+        (float("nan"), UNIVERSAL, "finite number"),
+        (40.0, "wlf", "`shift` must be WLF or Arrhenius"),
+    ],
+)
+def test_half_or_impossible_shifts_are_refused(temperature, shift, message):
+    with pytest.raises(InvalidInputError, match=message):
+        StandardLinearSolid(
+            modulus=1.0,
+            stiffening=1.0,
+            relaxation_time=1.0,
+            poisson=0.5,
+            temperature=temperature,
+            shift=shift,
+        )
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda: WLF(0.0, 51.6, 23.0),
+        lambda: WLF(17.44, -1.0, 23.0),
+        lambda: WLF(17.44, 51.6, -273.15),
+        lambda: Arrhenius(-60.0, 23.0),
+        lambda: Arrhenius(60.0, float("inf")),
+    ],
+)
+def test_constants_out_of_range_are_refused(make):
+    with pytest.raises(InvalidInputError):
+        make()

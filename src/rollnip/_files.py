@@ -1,0 +1,39 @@
+"""Writing a file all or nothing."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from rollnip._errors import RollnipError
+
+
+def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
+    """Raise RollnipError unless ``path`` could be written: its ending, its folder, no folder."""
+    if path.suffix.lower() not in suffixes:
+        raise RollnipError(f"{path}: the name must end in {' or '.join(suffixes)}.")
+    if path.is_dir():
+        raise RollnipError(f"{path}: cannot write, it is a directory.")
+    folder = path.parent
+    if not folder.is_dir():
+        raise RollnipError(f"{path}: cannot write, there is no directory {folder}.")
+    if not os.access(folder, os.W_OK):
+        raise RollnipError(f"{path}: cannot write, the directory {folder} is not writable.")
+
+
+def write_whole(path: Path, write: Callable[[Path], object]) -> None:
+    """Let ``write`` fill a temporary file beside ``path``, then rename it onto ``path``.
+
+    Whatever goes wrong, ``path`` stays as it was and the temporary file is removed; an OSError
+    becomes a RollnipError of one line.
+    """
+    target = Path(os.path.realpath(path))
+    temporary = target.with_name(f".{os.getpid()}-{target.name}")
+    try:
+        write(temporary)
+        temporary.replace(target)
+    except OSError as error:
+        raise RollnipError(f"{path}: cannot write: {error.strerror or error}.") from error
+    finally:
+        temporary.unlink(missing_ok=True)

@@ -1,0 +1,74 @@
+"""What the compliance functions take and return."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+FloatArray = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+Array = NDArray[Any]
+"""Real for elastic moduli, complex for viscoelastic ones."""
+
+
+class SurfaceCompliance(NamedTuple):
+    """Surface displacement per unit surface traction, wave number by wave number.
+
+    (u_x, u_z) = [[xx, xz], [-xz, zz]] (t_x, t_z), each field times exp(i k x), k > 0.  The value at
+    -k is the complex conjugate.  Elastic layers: ``xx`` and ``zz`` real, ``xz`` imaginary.
+
+    Attributes
+    ----------
+    xx, zz, xz :
+        (n,) complex arrays [mm/MPa].
+    """
+
+    xx: ComplexArray
+    zz: ComplexArray
+    xz: ComplexArray
+
+
+class SurfaceState(NamedTuple):
+    """The 2x2 minors of the two solutions a body admits, at one depth.
+
+    With u_x = i U, s_xz = i S (k > 0) and stresses measured in units of 2 G k, the body below
+    answers (U, u_z) = -D (S, s_zz), D = [[xx, xz], [xz, zz]] / one; ``det`` is det D * one.
+
+    The minors are carried instead of D because they obey a *linear* equation in depth: no growing
+    and decaying solutions are subtracted from each other, in thin layers nor in thick ones
+    (Dunkin 1965, Bull. Seism. Soc. Am. 55, 335-358, for elastic waves).
+    """
+
+    det: Array | float
+    xz: Array | float
+    xx: Array | float
+    zz: Array | float
+    one: Array | float
+
+
+RIGID = SurfaceState(det=0.0, xz=0.0, xx=0.0, zz=0.0, one=1.0)
+
+
+def half_space_state(poisson: float) -> SurfaceState:
+    """Minors of an elastic half-space in units of its own modulus: theory of plane strain."""
+    return SurfaceState(
+        det=3.0 - 4.0 * poisson,
+        xz=1.0 - 2.0 * poisson,
+        xx=2.0 * (1.0 - poisson),
+        zz=2.0 * (1.0 - poisson),
+        one=1.0,
+    )
+
+
+def rescaled(state: SurfaceState, ratio: Array | float) -> SurfaceState:
+    """Normalise to ``one`` = 1 and measure stresses in a modulus ``ratio`` times the former one."""
+    factor = ratio / state.one
+    return SurfaceState(
+        det=state.det * factor * ratio,
+        xz=state.xz * factor,
+        xx=state.xx * factor,
+        zz=state.zz * factor,
+        one=1.0,
+    )

@@ -1,1 +1,118 @@
-"""Rolling contact of cylinders coated with layered, viscoelastic rubber."""
+"""Rolling contact of cylinders coated with layered, viscoelastic rubber.
+
+Units: mm, N, MPa, s. Two rollers, upper and lower; x points to the leading edge (inlet);
+traction and creepage are positive where the upper roller drives. Names are loaded when first
+asked for, so that the command line starts without the numerics.
+"""
+
+from __future__ import annotations
+
+import sys
+from importlib import import_module
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
+
+from rollnip._errors import (
+    CaseFileError,
+    ConvergenceError,
+    InvalidInputError,
+    RollnipError,
+    RollnipWarning,
+)
+
+if TYPE_CHECKING:
+    from rollnip.io import Case, read_case, write_result
+    from rollnip.materials import (
+        WLF,
+        Arrhenius,
+        Elastic,
+        FractionalZener,
+        LossFactor,
+        Prony,
+        StandardLinearSolid,
+    )
+    from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
+    from rollnip.rollers import Layer, Roller
+    from rollnip.solution import Solution
+    from rollnip.solve import Model, solve
+
+    __version__: str
+
+_HOMES = {
+    "rollnip.io": ("Case", "read_case", "write_result"),
+    "rollnip.materials": (
+        "WLF",
+        "Arrhenius",
+        "Elastic",
+        "FractionalZener",
+        "LossFactor",
+        "Prony",
+        "StandardLinearSolid",
+    ),
+    "rollnip.nip": ("Approach", "Creepage", "LineLoad", "Nip", "Torque", "Traction"),
+    "rollnip.rollers": ("Layer", "Roller"),
+    "rollnip.solution": ("Solution",),
+    "rollnip.solve": ("Model",),
+}
+_HOME = {name: module for module, names in _HOMES.items() for name in names}
+
+__all__ = [
+    "WLF",
+    "Approach",
+    "Arrhenius",
+    "Case",
+    "CaseFileError",
+    "ConvergenceError",
+    "Creepage",
+    "Elastic",
+    "FractionalZener",
+    "InvalidInputError",
+    "Layer",
+    "LineLoad",
+    "LossFactor",
+    "Model",
+    "Nip",
+    "Prony",
+    "Roller",
+    "RollnipError",
+    "RollnipWarning",
+    "Solution",
+    "StandardLinearSolid",
+    "Torque",
+    "Traction",
+    "__version__",
+    "read_case",
+    "solve",
+    "write_result",
+]
+
+
+class _Door(ModuleType):
+    """The package as a module whose ``solve`` is the function, not the file solve.py."""
+
+    @property
+    def solve(self) -> Any:
+        return import_module("rollnip.solve").solve
+
+    @solve.setter
+    def solve(self, module: ModuleType) -> None:
+        """Ignore that the import system hangs the submodule here."""
+
+
+sys.modules[__name__].__class__ = _Door
+
+
+def __getattr__(name: str) -> Any:
+    if name == "__version__":
+        from importlib.metadata import version
+
+        return version("rollnip")
+    if name not in _HOME:
+        raise AttributeError(f"module 'rollnip' has no attribute {name!r}")
+    value = getattr(import_module(_HOME[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)

@@ -22,6 +22,7 @@ Dimension = Literal[
     "speed",
     "time",
     "temperature",
+    "temperature difference",
     "ratio",
     "molar energy",
 ]
@@ -170,6 +171,7 @@ _KINDS: dict[Dimension, _Kind] = {
     "speed": _Kind("a speed", "mm/s", "20 m/min", _SPEED),
     "time": _Kind("a time", "s", "7 ms", _TIME),
     "temperature": _Kind("a temperature", "degC", "23 degC", _TEMPERATURE),
+    "temperature difference": _Kind("a temperature difference", "K", "51.6 K", _units({"K": 1})),
     "ratio": _Kind("a plain number", "", "0.5 %", _RATIO),
     "molar energy": _Kind("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
 }

@@ -1,0 +1,168 @@
+"""The commands. Numerics are imported inside them, so that help comes at once."""
+
+from __future__ import annotations
+
+import os
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, TextIO
+
+import typer
+
+from rollnip._errors import RollnipError
+
+if TYPE_CHECKING:
+    from rollnip.solve import Model
+
+app = typer.Typer(
+    name="rollnip",
+    help="Rolling contact of cylinders coated with layered, viscoelastic rubber.",
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    no_args_is_help=True,
+)
+
+
+@app.callback(invoke_without_command=True)
+def root(
+    version: Annotated[
+        bool, typer.Option("--version", help="Print the version and leave.")
+    ] = False,
+) -> None:
+    """Take the options that stand before a command."""
+    if version:
+        with _clear_failures():
+            _print_version()
+        raise typer.Exit
+
+
+@app.command()
+def solve(
+    case: Annotated[str, typer.Argument(help="Case file, TOML or JSON; - is the standard input.")],
+    json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    out: Annotated[
+        Path | None, typer.Option(help="Write the result: name.json or name.nc (netCDF).")
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw pressure and shear: name.png, .svg or .pdf.")
+    ] = None,
+    geometry: Annotated[
+        str | None, typer.Option(help="linear, corrected or curved; overrides the case file.")
+    ] = None,
+    tolerance: Annotated[
+        str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides too.")
+    ] = None,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary.")] = False,
+) -> None:
+    """Solve one nip and print a summary.
+
+    Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
+    """
+    with _clear_failures():
+        from rollnip.io import check_result_target, read_case, result_text, write_result
+
+        problem = read_case(case)
+        model = _overridden(problem.model, geometry, tolerance)
+        if out is not None:
+            check_result_target(out)
+        if plot is not None:
+            from rollnip.plots import check_figure_target, save_pressure
+
+            check_figure_target(plot)
+        from rollnip.solve import solve as solve_nip
+
+        solution = solve_nip(problem.nip, model, on_failure="return")
+        if out is not None:
+            write_result(solution, out)
+        if plot is not None:
+            save_pressure(solution, plot)
+        if json:
+            _print(result_text(solution))
+        elif not quiet:
+            from rollnip.cli.summary import print_summary
+
+            print_summary(solution)
+        _flush()
+    if not solution.converged:
+        raise typer.Exit(1)
+
+
+@app.command()
+def schema() -> None:
+    """Print the JSON schema of the case file, for editors and other programs."""
+    with _clear_failures():
+        from json import dumps
+
+        from rollnip.io import case_schema
+
+        _print(dumps(case_schema(), indent=2) + "\n")
+        _flush()
+
+
+@app.command()
+def version() -> None:
+    """Print the version."""
+    with _clear_failures():
+        _print_version()
+
+
+def _overridden(model: Model, geometry: str | None, tolerance: str | None) -> Model:
+    from dataclasses import replace
+
+    from rollnip._errors import InvalidInputError
+    from rollnip._units import parse_quantity
+
+    try:
+        if tolerance is not None:
+            model = replace(model, tolerance=parse_quantity(tolerance, "ratio"))
+    except InvalidInputError as error:
+        raise InvalidInputError(f"--tolerance: {error}") from None
+    try:
+        return model if geometry is None else replace(model, geometry=geometry)
+    except InvalidInputError as error:
+        raise InvalidInputError(f"--geometry: {error}") from None
+
+
+def _print_version() -> None:
+    from importlib.metadata import version
+
+    _print(f"rollnip {version('rollnip')}\n")
+    _flush()
+
+
+def _print(text: str) -> None:
+    sys.stdout.write(text)
+
+
+def _flush() -> None:
+    sys.stdout.flush()
+
+
+@contextmanager
+def _clear_failures() -> Iterator[None]:
+    """Turn what a user can cause into one message on stderr and an exit code."""
+    try:
+        yield
+    except RollnipError as error:
+        _leave(str(error), 2)
+    except KeyboardInterrupt:
+        _leave("interrupted.", 130)
+    except BrokenPipeError:
+        _silence(sys.stdout)
+        raise typer.Exit(141) from None
+    except OSError as error:
+        _silence(sys.stdout)
+        _leave(f"cannot write to the standard output: {error.strerror or error}.", 2)
+
+
+def _leave(message: str, code: int) -> None:
+    sys.stderr.write(f"rollnip: {message}\n")
+    raise typer.Exit(code) from None
+
+
+def _silence(stream: TextIO) -> None:
+    """Send what is still in the buffer nowhere, so that leaving does not fail on it again."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())

@@ -1,0 +1,180 @@
+"""The summary of a solution on the terminal."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from rich.console import Console, Group, RenderableType
+from rich.padding import Padding
+from rich.table import Table
+from rich.text import Text
+
+from rollnip._units import format_quantity
+from rollnip.solution import Solution
+
+_WIDTH = 96
+_DIGITS = 4
+_SIGNS = (
+    "x points to the inlet (leading edge). Traction and creepage > 0: the upper roller drives. "
+    "Torque > 0: that axle puts power in."
+)
+
+
+class _Row(NamedTuple):
+    """One number: its name, value in the solution's unit, unit shown and factor to it, error."""
+
+    name: str
+    value: float | None
+    unit: str = ""
+    scale: float = 1.0
+    error: float | None = None
+    note: str = ""
+
+
+def print_summary(solution: Solution, console: Console | None = None) -> None:
+    """Print a solution: loads, nip, drive, zones, losses, errors, warnings.
+
+    Parameters
+    ----------
+    solution :
+        what `solve` returned.
+    console :
+        where to; the standard output by default, at most 96 columns wide.
+    """
+    console = console or Console(highlight=False)
+    console.width = min(console.width, _WIDTH)
+    console.print(Group(*_parts(solution)))
+
+
+def _parts(solution: Solution) -> Iterator[RenderableType]:
+    yield Text(solution.nip.title or "Nip", style="bold")
+    yield _verdict(solution)
+    for heading, rows in (
+        ("Nip", _nip_rows(solution)),
+        ("Drive", _drive_rows(solution)),
+        ("Losses", _loss_rows(solution)),
+        ("In all", _total_rows(solution)),
+    ):
+        if rows:
+            yield Text(f"\n{heading}", style="bold")
+            yield _table(rows)
+    if solution.zones:
+        yield Text("\nStick and slip", style="bold")
+        yield _zones(solution)
+    yield Text()
+    for warning in solution.warnings:
+        yield Text(f"Note: {warning}", style="yellow")
+    yield Text(_SIGNS, style="dim")
+
+
+def _verdict(solution: Solution) -> Text:
+    solver = solution.solver
+    how = (
+        f"geometry {solution.model.geometry}, {solver.elements} elements, "
+        f"residual {format_quantity(solver.residual, digits=2)}, {solver.seconds:.2f} s"
+    )
+    if solution.converged:
+        return Text.assemble(("converged and verified", "green"), f" ({how})")
+    return Text.assemble(("NOT CONVERGED", "bold red"), f": {solution.status} ({how})")
+
+
+def _nip_rows(solution: Solution) -> list[_Row]:
+    error = solution.error
+    return [
+        _Row("line load", solution.load, "N/mm", error=error.get("load")),
+        _Row(
+            "approach",
+            solution.approach,
+            "mm",
+            error=error.get("approach"),
+            note="not defined with a half-space core",
+        ),
+        _Row("nip width", solution.nip_width, "mm", error=error.get("nip_width")),
+        *_contact_rows(solution.contact),
+        _Row("dwell time", solution.dwell_time, "ms", 1e3, note="needs `speed`"),
+        _Row("peak pressure", solution.peak_pressure, "MPa", error=error.get("peak_pressure")),
+        _Row("  at x", solution.peak_pressure_x, "mm"),
+        _Row("mean pressure", solution.mean_pressure, "MPa"),
+    ]
+
+
+def _contact_rows(contact: Sequence[tuple[float, float]]) -> Iterator[_Row]:
+    for trailing, leading in contact:
+        yield _Row("  from x", trailing, "mm")
+        yield _Row("  to x", leading, "mm")
+
+
+def _drive_rows(solution: Solution) -> list[_Row]:
+    return [
+        _Row("traction", solution.traction, "N/mm"),
+        _Row(
+            "creepage",
+            solution.creepage,
+            "%",
+            100.0,
+            solution.error.get("creepage"),
+            "not defined without friction",
+        ),
+        _Row("speed ratio upper/lower", solution.speed_ratio),
+        _Row("torque on the upper axle", solution.torque_upper, "N mm/mm"),
+        _Row("torque on the lower axle", solution.torque_lower, "N mm/mm"),
+    ]
+
+
+def _loss_rows(solution: Solution) -> list[_Row]:
+    return [
+        _Row("rolling resistance", solution.rolling_resistance),
+        _Row("friction", solution.dissipation_friction, "mW/mm", note="needs `speed`"),
+        _Row("viscous", solution.dissipation_viscous, "mW/mm", note="needs `speed`"),
+    ]
+
+
+def _total_rows(solution: Solution) -> list[_Row]:
+    width = solution.nip.face_width
+    if width is None:
+        return []
+    return [
+        _Row("face width", width, "mm"),
+        _Row("load", solution.load, "N", width),
+        _Row("torque on the upper axle", solution.torque_upper, "N m", 1e-3 * width),
+        _Row("torque on the lower axle", solution.torque_lower, "N m", 1e-3 * width),
+    ]
+
+
+def _table(rows: Sequence[_Row]) -> RenderableType:
+    table = Table.grid(padding=(0, 1))
+    table.add_column(min_width=26)
+    table.add_column(justify="right", min_width=11)
+    table.add_column(min_width=7)
+    table.add_column(style="dim")
+    for row in rows:
+        if row.value is None:
+            table.add_row(row.name, "-", "", row.note or "not defined")
+            continue
+        value = format_quantity(row.value * row.scale, digits=_DIGITS)
+        table.add_row(row.name, value, row.unit, _plus_minus(row))
+    return Padding(table, (0, 0, 0, 2))
+
+
+def _plus_minus(row: _Row) -> str:
+    if not row.error:
+        return ""
+    return f"± {format_quantity(abs(row.error * row.scale), digits=2)}"
+
+
+def _zones(solution: Solution) -> RenderableType:
+    table = Table.grid(padding=(0, 1))
+    table.add_column(min_width=6)
+    for _ in range(2):
+        table.add_column(justify="right", min_width=9)
+    table.add_column()
+    faster = {-1: "the upper surface is faster", 1: "the lower surface is faster"}
+    for zone in solution.zones:
+        table.add_row(
+            zone.state,
+            format_quantity(zone.start, digits=_DIGITS),
+            format_quantity(zone.stop, digits=_DIGITS),
+            Text.assemble("mm  ", (faster.get(zone.direction or 0, ""), "dim")),
+        )
+    return Padding(table, (0, 0, 0, 2))

@@ -1,0 +1,204 @@
+"""From tables whose form is right to the problem; gathers what the constructors refuse."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import TypeVar
+
+from rollnip._errors import InvalidInputError
+from rollnip.io.messages import placed, unknown_name
+from rollnip.io.tables import (
+    AnyMaterial,
+    ArrheniusTable,
+    CaseTable,
+    ElasticTable,
+    FractionalZenerTable,
+    LayerTable,
+    LossFactorTable,
+    NipTable,
+    PronyTable,
+    RollerTable,
+    StandardLinearSolidTable,
+    ViscoelasticTable,
+    WlfTable,
+)
+from rollnip.materials import (
+    WLF,
+    Arrhenius,
+    Elastic,
+    FractionalZener,
+    LossFactor,
+    Material,
+    Prony,
+    StandardLinearSolid,
+    Viscoelastic,
+)
+from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rollers import Layer, Roller
+from rollnip.solve import Model
+
+_OF_THE_WHOLE = {"upper": "nip", "lower": "nip", "radius": "upper.radius, lower.radius"}
+_KINDS: dict[type[ViscoelasticTable], type[Viscoelastic]] = {
+    StandardLinearSolidTable: StandardLinearSolid,
+    PronyTable: Prony,
+    FractionalZenerTable: FractionalZener,
+    LossFactorTable: LossFactor,
+}
+T = TypeVar("T")
+
+
+class Builder:
+    """Builds the parts of a case one by one; a part that is refused is None and a line in errors.
+
+    Parameters
+    ----------
+    table :
+        the case as read.
+    """
+
+    def __init__(self, table: CaseTable) -> None:
+        self.table = table
+        self.errors: list[str] = []
+
+    def model(self) -> Model | None:
+        """The model of the geometry, with the tolerance."""
+        model = Model()
+        geometry, tolerance = self.table.model.geometry, self.table.solver.tolerance
+        return self._made(
+            "model",
+            lambda: Model(
+                geometry=model.geometry if geometry is None else geometry,
+                tolerance=model.tolerance if tolerance is None else tolerance,
+            ),
+            {"tolerance": "solver.tolerance"},
+        )
+
+    def nip(self) -> Nip | None:
+        """The problem; None where any part of it was refused."""
+        self._check_materials()
+        upper = self._roller("upper", self.table.upper)
+        lower = self._roller("lower", self.table.lower)
+        controls = self._controls(self.table.nip)
+        if upper is None or lower is None or controls is None or self.errors:
+            return None
+        normal, tangential = controls
+        table = self.table.nip
+        return self._made(
+            "nip",
+            lambda: Nip(
+                upper=upper,
+                lower=lower,
+                normal=normal,
+                tangential=tangential,
+                friction=table.friction,
+                speed=table.speed,
+                face_width=table.face_width,
+                title=self.table.title,
+            ),
+            _OF_THE_WHOLE,
+        )
+
+    def _made(
+        self, path: str, make: Callable[[], T], elsewhere: Mapping[str, str] | None = None
+    ) -> T | None:
+        try:
+            return make()
+        except InvalidInputError as error:
+            line = placed(path, str(error), elsewhere)
+            if line not in self.errors:
+                self.errors.append(line)
+            return None
+
+    def _check_materials(self) -> None:
+        """Also of those that no layer names."""
+        for name, table in self.table.materials.items():
+            if name == "rigid":
+                self.errors.append('materials.rigid: must have another name; "rigid" is a core.')
+            self._material(f"materials.{name}", table)
+
+    def _controls(
+        self, table: NipTable
+    ) -> tuple[LineLoad | Approach, Traction | Creepage | Torque] | None:
+        normal = self._made("nip", lambda: _normal(table))
+        tangential = self._made("nip", lambda: _tangential(table))
+        return None if normal is None or tangential is None else (normal, tangential)
+
+    def _roller(self, path: str, table: RollerTable) -> Roller | None:
+        if table.profile is not None:
+            self.errors.append(f"{path}.profile: is not available yet; leave it out.")
+        layers = [self._layer(f"{path}.layers[{i}]", layer) for i, layer in enumerate(table.layers)]
+        core = None if table.core == "rigid" else self._named(f"{path}.core", table.core)
+        whole = tuple(layer for layer in layers if layer is not None)
+        return self._made(path, lambda: Roller(radius=table.radius, layers=whole, core=core))
+
+    def _layer(self, path: str, table: LayerTable) -> Layer | None:
+        material = self._named(f"{path}.material", table.material)
+        if material is None:
+            return None
+        return self._made(path, lambda: Layer(table.thickness, material))
+
+    def _named(self, path: str, material: str | AnyMaterial) -> Material | None:
+        if not isinstance(material, str):
+            return self._material(path, material)
+        known = self.table.materials
+        if material in known:
+            return self._material(f"materials.{material}", known[material])
+        names = [*known, "rigid"] if path.endswith("core") else list(known)
+        self.errors.append(unknown_name(path, material, names, "[materials]"))
+        return None
+
+    def _material(self, path: str, table: AnyMaterial) -> Material | None:
+        if isinstance(table, ElasticTable):
+            return self._made(path, lambda: _elastic(table))
+        shift = self._shift(path, table)
+        if shift is None and table.shift is not None:
+            return None
+        return self._made(path, lambda: _viscoelastic(table, shift))
+
+    def _shift(self, path: str, table: ViscoelasticTable) -> WLF | Arrhenius | None:
+        shift = table.shift
+        if isinstance(shift, WlfTable):
+            return self._made(f"{path}.shift", lambda: WLF(shift.c1, shift.c2, shift.reference))
+        if isinstance(shift, ArrheniusTable):
+            return self._made(
+                f"{path}.shift", lambda: Arrhenius(shift.activation_energy, shift.reference)
+            )
+        return None
+
+
+def _normal(table: NipTable) -> LineLoad | Approach:
+    if table.approach is not None:
+        return Approach(table.approach)
+    return LineLoad(table.load if table.load is not None else 0.0)
+
+
+def _tangential(table: NipTable) -> Traction | Creepage | Torque:
+    if table.creepage is not None:
+        return Creepage(table.creepage)
+    if table.torque_lower is not None:
+        return Torque(table.torque_lower)
+    return Traction(table.traction if table.traction is not None else 0.0)
+
+
+def _elastic(table: ElasticTable) -> Elastic:
+    given = [
+        name for name in ("modulus", "shear_modulus", "shore_a") if getattr(table, name) is not None
+    ]
+    if len(given) != 1:
+        raise InvalidInputError(
+            "must hold exactly one of modulus, shear_modulus, shore_a, "
+            f"got {' and '.join(given) or 'none'}."
+        )
+    if table.shear_modulus is not None:
+        return Elastic.from_shear_modulus(table.shear_modulus, table.poisson)
+    if table.shore_a is not None:
+        return Elastic.from_shore_a(table.shore_a, table.poisson)
+    assert table.modulus is not None
+    return Elastic(modulus=table.modulus, poisson=table.poisson)
+
+
+def _viscoelastic(table: ViscoelasticTable, shift: WLF | Arrhenius | None) -> Material:
+    values = table.model_dump(exclude={"model", "terms", "shift"})
+    if isinstance(table, PronyTable):
+        values["terms"] = tuple((term.modulus, term.relaxation_time) for term in table.terms)
+    return _KINDS[type(table)](**values, shift=shift)

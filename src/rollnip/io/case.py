@@ -1,0 +1,93 @@
+"""Case files: from a path or a text to the problem."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
+
+from pydantic import ValidationError
+
+from rollnip._errors import CaseFileError
+from rollnip.io.build import Builder
+from rollnip.io.document import parse_document, read_document
+from rollnip.io.messages import form_error, wrong_controls
+from rollnip.io.tables import CaseTable
+from rollnip.nip import Nip
+from rollnip.solve import Model
+
+_MOST_ERRORS = 20
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Case:
+    """A case file as read.
+
+    Attributes
+    ----------
+    nip :
+        the problem.
+    model :
+        the model of the geometry and the tolerance.
+    source :
+        the file's name.
+    """
+
+    nip: Nip
+    model: Model
+    source: str
+
+
+def read_case(path: str | Path) -> Case:
+    """Read a case file, TOML or JSON.
+
+    Parameters
+    ----------
+    path :
+        the file; ``-`` is the standard input.
+
+    Raises
+    ------
+    CaseFileError
+        where the file cannot be read or does not describe a nip; one line for each error, with
+        the name of the file and the path of the key.
+    """
+    return parse_case(read_document(path), source=str(path))
+
+
+def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:
+    """Read a case from a text (TOML or JSON) or from the tree that such a text holds.
+
+    ``source`` names it in messages. Raises CaseFileError as `read_case` does.
+    """
+    tree = parse_document(case, source) if isinstance(case, str) else dict(case)
+    table = _checked(tree, source)
+    builder = Builder(table)
+    nip, model = builder.nip(), builder.model()
+    if nip is None or model is None:
+        _refuse(source, builder.errors)
+    return Case(nip=nip, model=model, source=source)
+
+
+def case_schema() -> dict[str, Any]:
+    """JSON schema of the case file, for editors and other programs."""
+    return CaseTable.model_json_schema()
+
+
+def _checked(tree: dict[str, Any], source: str) -> CaseTable:
+    lines = wrong_controls(tree)
+    try:
+        table = CaseTable.model_validate(tree)
+    except ValidationError as error:
+        _refuse(source, [form_error(details) for details in error.errors()] + lines)
+    if lines:
+        _refuse(source, lines)
+    return table
+
+
+def _refuse(source: str, lines: Sequence[str]) -> NoReturn:
+    shown = [f"{source}: {line}" for line in lines[:_MOST_ERRORS]]
+    if len(lines) > _MOST_ERRORS:
+        shown.append(f"{source}: and {len(lines) - _MOST_ERRORS} more errors.")
+    raise CaseFileError("\n".join(shown)) from None

@@ -1,0 +1,89 @@
+"""From a file or a text to a tree of plain values; every fault is one clear line."""
+
+from __future__ import annotations
+
+import json
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+from rollnip._errors import CaseFileError
+
+LARGEST = 1_000_000  # bytes; a case file has some thousand
+
+
+def read_document(path: str | Path) -> dict[str, Any]:
+    """Read a TOML or JSON file; ``-`` is the standard input.
+
+    Raises
+    ------
+    CaseFileError
+        where it cannot be read, is too large, is no text, or its syntax is broken.
+    """
+    name = str(path)
+    return parse_document(_text(_bytes(name), name), name)
+
+
+def parse_document(text: str, name: str) -> dict[str, Any]:
+    """Read TOML or JSON (a text that opens with a brace, or a name that ends in .json)."""
+    is_json = name.lower().endswith(".json") or text.lstrip().startswith("{")
+    try:
+        tree = _json(text) if is_json else tomllib.loads(text)
+    except RecursionError:
+        raise CaseFileError(f"{name}: is nested too deeply for a case file.") from None
+    except ValueError as error:
+        kind = "JSON" if is_json else "TOML"
+        raise CaseFileError(f"{name}: is not valid {kind}: {_one_line(error)}.") from None
+    if not isinstance(tree, dict):
+        raise CaseFileError(f"{name}: must hold a table (an object), got {type(tree).__name__}.")
+    return tree
+
+
+def _bytes(name: str) -> bytes:
+    try:
+        if name == "-":
+            data = sys.stdin.buffer.read(LARGEST + 1)
+        else:
+            if Path(name).is_dir():
+                raise CaseFileError(f"{name}: is a directory, not a case file.")
+            with Path(name).open("rb") as stream:
+                data = stream.read(LARGEST + 1)
+    except FileNotFoundError:
+        raise CaseFileError(f"{name}: there is no such file.") from None
+    except OSError as error:
+        raise CaseFileError(f"{name}: cannot be read: {error.strerror or error}.") from None
+    except ValueError:
+        raise CaseFileError(f"{name!r}: cannot be the name of a file.") from None
+    if len(data) > LARGEST:
+        raise CaseFileError(f"{name}: is larger than 1 MB, as no case file is.")
+    return data
+
+
+def _text(data: bytes, name: str) -> str:
+    if b"\0" in data:
+        raise CaseFileError(f"{name}: is not a text file (it holds zero bytes).")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = data.count(b"\n", 0, error.start) + 1
+        raise CaseFileError(
+            f"{name}: is not UTF-8 text (byte 0x{data[error.start]:02x} on line {line})."
+        ) from None
+
+
+def _json(text: str) -> Any:
+    def table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+        tree = dict(pairs)
+        if len(tree) < len(pairs):
+            names = [name for name, _ in pairs]
+            twice = next(name for name in names if names.count(name) > 1)
+            raise ValueError(f"the key {twice!r} is given twice")
+        return tree
+
+    return json.loads(text, object_pairs_hook=table)
+
+
+def _one_line(error: ValueError) -> str:
+    text = " ".join(str(error).split()).rstrip(".")
+    return text if len(text) <= 200 else text[:200] + "..."

@@ -1,0 +1,97 @@
+"""What is wrong with the form of a case file, in words: path of the key, rule, value."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+from typing import Any
+
+from pydantic_core import ErrorDetails
+
+from rollnip.io.tables import TABLES, CaseTable, Table
+
+_CONTROLS = (("load", "approach"), ("traction", "creepage", "torque_lower"))
+_NAMED = re.compile(r"`(\w+)([^`]*)` (.*)", re.DOTALL)
+_WORDS = {"list_type": "a list", "string_type": "a text", "bool_type": "true or false"}
+
+
+def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
+    """Lines about the keys of which [nip] takes exactly one."""
+    nip = tree.get("nip")
+    if not isinstance(nip, dict):
+        return []
+    lines = []
+    for names in _CONTROLS:
+        given = [name for name in names if name in nip]
+        if len(given) > 1:
+            lines.append(
+                f"nip: must hold only one of {', '.join(names)}, got {' and '.join(given)}."
+            )
+    if "load" not in nip and "approach" not in nip:
+        lines.append("nip: must hold load or approach, got neither.")
+    return lines
+
+
+def form_error(details: ErrorDetails) -> str:
+    """One error of pydantic as a line of ours."""
+    kind, context = details["type"], details.get("ctx", {})
+    path, got = _path(details["loc"]), shown(details["input"])
+    if kind == "missing":
+        return f"{path}: is missing."
+    if kind == "extra_forbidden":
+        return f"{path}: is not a known key{_suggestion(details['loc'])}"
+    if kind == "quantity":
+        return f"{path}: {details['msg']}"
+    if kind == "model":
+        return f"{path}: {details['msg']}, got {got}."
+    wanted = _WORDS.get(kind, context.get("expected", "a table"))
+    return f"{path}: must be {wanted}, got {got}."
+
+
+def placed(path: str, message: str, elsewhere: Mapping[str, str] | None = None) -> str:
+    """Put the path of a key before a constructor's message "`name` must ..., got ...".
+
+    ``elsewhere`` gives the whole path of names that do not stand at ``path``.
+    """
+    match = _NAMED.fullmatch(message)
+    if match is None:
+        return f"{path}: {message}"
+    name, index, rest = match.groups()
+    if name in (elsewhere or {}) or index.startswith(" "):
+        return f"{(elsewhere or {}).get(name, path)}: {message}"
+    # the terms of a Prony series are pairs in Python and tables in the file
+    index = index.replace("][0]", "].modulus").replace("][1]", "].relaxation_time")
+    return f"{path}.{name}{index}: {rest}"
+
+
+def unknown_name(path: str, name: str, known: Sequence[str], where: str) -> str:
+    """Line about a name that is not among the known ones."""
+    near = get_close_matches(name, known, n=1, cutoff=0.5)
+    hint = f'; did you mean "{near[0]}"?' if near else f" (there: {', '.join(known) or 'none'})."
+    return f"{path}: {shown(name)} is not in {where}{hint}"
+
+
+def shown(value: object) -> str:
+    """A value as it stands in a message: short, on one line."""
+    text = f'"{value}"' if isinstance(value, str) and value.isprintable() else repr(value)
+    return text if len(text) <= 60 else text[:60] + "..."
+
+
+def _path(loc: Sequence[str | int]) -> str:
+    path = ""
+    for part in loc:
+        if isinstance(part, int):
+            path += f"[{part}]"
+        elif part != "<name>" and not (part.startswith("<") and part in TABLES):
+            key = part if part.isprintable() and len(part) <= 40 else repr(part[:40])
+            path += f".{key}" if path else key
+    return path or "case"
+
+
+def _suggestion(loc: Sequence[str | int]) -> str:
+    above = [TABLES[part] for part in loc[:-1] if isinstance(part, str) and part in TABLES]
+    table: type[Table] = above[-1] if above else CaseTable
+    names = list(table.model_fields)
+    near = get_close_matches(str(loc[-1]), names, n=1, cutoff=0.7)
+    return f'; did you mean "{near[0]}"?' if near else f" here (known: {', '.join(names)})."

@@ -1,0 +1,134 @@
+"""The result of a solution as a tree of plain values, and files of it."""
+
+from __future__ import annotations
+
+import json
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+from rollnip._files import check_target, write_whole
+from rollnip.io.netcdf import PROFILE_UNITS, require_netcdf, write_netcdf
+from rollnip.solution import Solution, Zone
+
+SCHEMA = 1
+SUFFIXES = (".json", ".nc")
+_ERRORS = ("approach", "load", "creepage", "nip_width", "peak_pressure")
+_CONTROLS = ("load", "approach", "traction", "creepage", "speed_ratio")
+_NIP = ("nip_width", "dwell_time", "peak_pressure", "peak_pressure_x", "mean_pressure")
+
+
+def result_dict(solution: Solution) -> dict[str, Any]:
+    """The result as a tree of finite numbers, texts and None: what the JSON holds.
+
+    Units mm, N, MPa, s; per axial length, save ``totals`` (N, N m, W), which is there where the
+    nip has a face width. What is not finite or not defined is None.
+    """
+    tree: dict[str, Any] = {
+        "schema": SCHEMA,
+        "title": solution.nip.title,
+        "converged": bool(solution.converged),
+        "geometry": solution.model.geometry,
+    }
+    tree |= {name: _number(getattr(solution, name)) for name in _CONTROLS}
+    tree["contact"] = [[_number(edge) for edge in interval] for interval in solution.contact]
+    tree |= {name: _number(getattr(solution, name)) for name in _NIP}
+    tree["zones"] = [_zone(zone) for zone in solution.zones]
+    for name in ("torque_upper", "torque_lower", "rolling_resistance"):
+        tree[name] = _number(getattr(solution, name))
+    tree["dissipation"] = {
+        "friction": _number(solution.dissipation_friction),
+        "viscous": _number(solution.dissipation_viscous),
+    }
+    if solution.nip.face_width is not None:
+        tree["totals"] = _totals(solution, solution.nip.face_width)
+    tree["error"] = {name: _number(solution.error.get(name)) for name in _ERRORS}
+    tree["profiles"] = {name: _numbers(getattr(solution.profiles, name)) for name in PROFILE_UNITS}
+    tree["solver"] = {
+        "elements": int(solution.solver.elements),
+        "iterations": int(solution.solver.iterations),
+        "residual": _number(solution.solver.residual),
+        "seconds": _number(solution.solver.seconds),
+        "version": solution.solver.version,
+        "status": solution.status,
+    }
+    tree["warnings"] = list(solution.warnings)
+    return tree
+
+
+def result_text(solution: Solution) -> str:
+    """The result as JSON, a line for each key."""
+    lines = [
+        f"{json.dumps(name)}: {json.dumps(value, allow_nan=False)}"
+        for name, value in result_dict(solution).items()
+    ]
+    return "{\n  " + ",\n  ".join(lines) + "\n}\n"
+
+
+def write_result(solution: Solution, path: str | Path) -> None:
+    """Write a solution to a file, all or nothing.
+
+    Parameters
+    ----------
+    solution :
+        what `solve` returned.
+    path :
+        ends in .json or .nc (netCDF, with the extra ``rollnip[netcdf]``).
+
+    Raises
+    ------
+    RollnipError
+        where the ending is another, the extra is missing, or the file cannot be written; a file
+        of that name stays as it was.
+    """
+    target = Path(path)
+    check_result_target(target)
+    if target.suffix.lower() == ".nc":
+        tree = result_dict(solution)
+        write_whole(target, lambda file: write_netcdf(tree, file))
+    else:
+        text = result_text(solution)
+        write_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
+
+
+def check_result_target(path: Path) -> None:
+    """Raise RollnipError where a result could not be written to ``path``; costs next to nothing."""
+    check_target(path, SUFFIXES)
+    if path.suffix.lower() == ".nc":
+        require_netcdf()
+
+
+def _number(value: float | None) -> float | None:
+    if value is None or not isfinite(value):
+        return None
+    return float(value)
+
+
+def _numbers(values: Any) -> list[float | None] | None:
+    if values is None:
+        return None
+    return [_number(value) for value in values.tolist()]
+
+
+def _zone(zone: Zone) -> dict[str, Any]:
+    tree = {"from": _number(zone.start), "to": _number(zone.stop), "state": zone.state}
+    if zone.direction is not None:
+        tree["direction"] = int(zone.direction)
+    return tree
+
+
+def _totals(solution: Solution, width: float) -> dict[str, float | None]:
+    """Values times the face width: N, N m (1e-3 N mm) and W (1e-3 N mm/s)."""
+
+    def total(value: float | None, scale: float) -> float | None:
+        return None if value is None else _number(value * width * scale)
+
+    return {
+        "face_width": width,
+        "load": total(solution.load, 1.0),
+        "traction": total(solution.traction, 1.0),
+        "torque_upper": total(solution.torque_upper, 1e-3),
+        "torque_lower": total(solution.torque_lower, 1e-3),
+        "dissipation_friction": total(solution.dissipation_friction, 1e-3),
+        "dissipation_viscous": total(solution.dissipation_viscous, 1e-3),
+    }

@@ -1,0 +1,256 @@
+"""The tables of a case file as pydantic models: which keys there are and what each may hold.
+
+Only the form is checked here: keys, types, units. What the numbers must satisfy is said by the
+constructors of the problem itself.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Discriminator, Field, GetJsonSchemaHandler, Tag
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import Dimension, base_unit, example, known_units, parse_quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """Marks a float of a table as a number in the base unit, or a text that carries its unit."""
+
+    dimension: Dimension
+    infinite: bool = False
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
+        """Read with the unit parser."""
+        return core_schema.no_info_plain_validator_function(self._read)
+
+    def __get_pydantic_json_schema__(
+        self, _schema: CoreSchema, _handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Say which units there are."""
+        number = f"A number in {base_unit(self.dimension)}".removesuffix(" in ")
+        units = ", ".join(known_units(self.dimension))
+        return {
+            "description": f"{number}, or a text with one of: {units}.",
+            "anyOf": [{"type": "number"}, {"type": "string"}],
+            "examples": [example(self.dimension)],
+        }
+
+    def _read(self, value: object) -> float:
+        try:
+            return parse_quantity(value, self.dimension, infinite=self.infinite)
+        except InvalidInputError as error:
+            raise PydanticCustomError("quantity", "{why}", {"why": str(error)}) from None
+
+
+Length = Annotated[float, Quantity("length")]
+Radius = Annotated[float, Quantity("length", infinite=True)]
+Force = Annotated[float, Quantity("force")]
+LineLoad = Annotated[float, Quantity("line load")]
+Pressure = Annotated[float, Quantity("pressure")]
+Ratio = Annotated[float, Quantity("ratio")]
+Speed = Annotated[float, Quantity("speed")]
+Temperature = Annotated[float, Quantity("temperature")]
+TemperatureDifference = Annotated[float, Quantity("temperature difference")]
+Time = Annotated[float, Quantity("time")]
+MolarEnergy = Annotated[float, Quantity("molar energy")]
+
+
+class Table(BaseModel):
+    """A table of the file; unknown keys are errors."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+def _tag(models: tuple[str, ...], *, names: bool = False) -> Callable[[Any], str | None]:
+    """Choose by the `model` key; tags stand in <> so that error paths can drop them."""
+
+    def tag(value: Any) -> str | None:
+        if names and isinstance(value, str):
+            return "<name>"
+        model = value.get("model") if isinstance(value, dict) else getattr(value, "model", None)
+        return f"<{model}>" if model in models else None
+
+    return tag
+
+
+def _choice(models: tuple[str, ...], *, names: bool = False) -> Discriminator:
+    allowed = "the name of a material or a table" if names else "a table"
+    return Discriminator(
+        _tag(models, names=names),
+        custom_error_type="model",
+        custom_error_message=f"must be {allowed} with `model` one of {', '.join(models)}",
+    )
+
+
+class WlfTable(Table):
+    """Williams-Landel-Ferry shift of the relaxation times with temperature."""
+
+    model: Literal["wlf"]
+    c1: Ratio
+    c2: TemperatureDifference
+    reference: Temperature
+
+
+class ArrheniusTable(Table):
+    """Arrhenius shift of the relaxation times with temperature."""
+
+    model: Literal["arrhenius"]
+    activation_energy: MolarEnergy
+    reference: Temperature
+
+
+Shift = Annotated[
+    Annotated[WlfTable, Tag("<wlf>")] | Annotated[ArrheniusTable, Tag("<arrhenius>")],
+    _choice(("wlf", "arrhenius")),
+]
+
+
+class ElasticTable(Table):
+    """An elastic material; exactly one of modulus, shear_modulus, shore_a."""
+
+    model: Literal["elastic"]
+    modulus: Pressure | None = None
+    shear_modulus: Pressure | None = None
+    shore_a: Ratio | None = None
+    poisson: Ratio
+
+
+class ViscoelasticTable(Table):
+    """What the viscoelastic materials share."""
+
+    modulus: Pressure
+    poisson: Ratio
+    temperature: Temperature | None = None
+    shift: Shift | None = None
+
+
+class StandardLinearSolidTable(ViscoelasticTable):
+    """The standard linear solid: sigma + tau sigma' = E0 eps + (E0 + k) tau eps'."""
+
+    model: Literal["standard-linear-solid"]
+    stiffening: Pressure
+    relaxation_time: Time
+
+
+class TermTable(Table):
+    """One term of a Prony series."""
+
+    modulus: Pressure
+    relaxation_time: Time
+
+
+class PronyTable(ViscoelasticTable):
+    """A Prony series over its relaxed modulus."""
+
+    model: Literal["prony"]
+    terms: list[TermTable]
+
+
+class FractionalZenerTable(ViscoelasticTable):
+    """The fractional Zener solid; order in (0, 1]."""
+
+    model: Literal["fractional-zener"]
+    stiffening: Pressure
+    relaxation_time: Time
+    order: Ratio
+
+
+class LossFactorTable(ViscoelasticTable):
+    """A constant loss factor at every frequency."""
+
+    model: Literal["loss-factor"]
+    loss_factor: Ratio
+
+
+MATERIALS: dict[str, type[Table]] = {
+    "elastic": ElasticTable,
+    "standard-linear-solid": StandardLinearSolidTable,
+    "prony": PronyTable,
+    "fractional-zener": FractionalZenerTable,
+    "loss-factor": LossFactorTable,
+}
+
+AnyMaterial = (
+    Annotated[ElasticTable, Tag("<elastic>")]
+    | Annotated[StandardLinearSolidTable, Tag("<standard-linear-solid>")]
+    | Annotated[PronyTable, Tag("<prony>")]
+    | Annotated[FractionalZenerTable, Tag("<fractional-zener>")]
+    | Annotated[LossFactorTable, Tag("<loss-factor>")]
+)
+Material = Annotated[AnyMaterial, _choice(tuple(MATERIALS))]
+MaterialOrName = Annotated[
+    Annotated[str, Tag("<name>")] | AnyMaterial, _choice(tuple(MATERIALS), names=True)
+]
+
+
+class LayerTable(Table):
+    """One layer of a coating."""
+
+    thickness: Length
+    material: MaterialOrName
+
+
+class RollerTable(Table):
+    """A roller: radius, core, and layers from the surface to the core."""
+
+    radius: Radius
+    core: MaterialOrName = Field(
+        "rigid", description="'rigid', or the material of a half-space below the layers."
+    )
+    layers: list[LayerTable] = []
+    profile: str | None = Field(None, description="Measured profile; not available yet.")
+
+
+class NipTable(Table):
+    """What presses and drives the rollers, friction and speed."""
+
+    load: LineLoad | None = None
+    approach: Length | None = None
+    traction: LineLoad | None = None
+    creepage: Ratio | None = None
+    torque_lower: Force | None = None
+    friction: Ratio
+    speed: Speed | None = None
+    face_width: Length | None = None
+
+
+class ModelTable(Table):
+    """Which model of the geometry is solved."""
+
+    geometry: Literal["linear", "corrected", "curved"] | None = None
+
+
+class SolverTable(Table):
+    """How accurately."""
+
+    tolerance: Ratio | None = None
+
+
+class CaseTable(Table):
+    """A whole case file."""
+
+    title: str = ""
+    nip: NipTable
+    model: ModelTable = ModelTable()
+    solver: SolverTable = SolverTable()
+    upper: RollerTable
+    lower: RollerTable
+    materials: dict[str, Material] = {}
+
+
+TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIALS.items()} | {
+    "nip": NipTable,
+    "model": ModelTable,
+    "solver": SolverTable,
+    "upper": RollerTable,
+    "lower": RollerTable,
+    "layers": LayerTable,
+    "terms": TermTable,
+    "<wlf>": WlfTable,
+    "<arrhenius>": ArrheniusTable,
+}

@@ -1,0 +1,184 @@
+"""The command: exit codes, one clear message, nothing half-written."""
+
+import json
+import subprocess
+import sys
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import rollnip as rn
+from rollnip.cli.app import app
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "configuration-2-driven.toml"
+CASE = """
+[nip]
+load = 1.78
+friction = 2.8
+[upper]
+radius = "50 mm"
+[[upper.layers]]
+thickness = "2 mm"
+material = { model = "elastic", modulus = "0.91 MPa", poisson = 0.5 }
+[lower]
+radius = "25 mm"
+"""
+
+
+@pytest.fixture
+def quick(monkeypatch, solution):
+    """The command with a solver that answers at once; the list takes what it was asked."""
+    asked = []
+
+    def solve(nip, model=None, on_failure="return"):
+        asked.append((nip, model))
+        return replace(solution, nip=nip, model=model)
+
+    monkeypatch.setattr(sys.modules["rollnip.solve"], "solve", solve)
+    return asked
+
+
+@pytest.fixture
+def case(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(CASE)
+    return str(path)
+
+
+def run(*arguments, stdin=None):
+    return CliRunner().invoke(app, list(arguments), input=stdin)
+
+
+def refused(*arguments, stdin=None) -> str:
+    """The one message of a wrong input: exit 2, nothing on stdout, no traceback."""
+    result = run(*arguments, stdin=stdin)
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert result.stderr.startswith("rollnip: ")
+    assert "Traceback" not in result.stderr
+    assert result.stderr.count("\n") == 1
+    return result.stderr
+
+
+def test_summary(quick, case):
+    result = run("solve", case)
+    assert result.exit_code == 0
+    for text in ("converged and verified", "nip width", "7.220", "mm", "slip", "A reservation."):
+        assert text in result.stdout
+    assert result.stderr == ""
+
+
+def test_json(quick, case):
+    result = run("solve", case, "--json")
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["nip_width"] == 7.22
+
+
+def test_quiet_prints_nothing(quick, case, tmp_path):
+    out, plot = tmp_path / "r.json", tmp_path / "p.png"
+    result = run("solve", case, "--quiet", "--out", str(out), "--plot", str(plot))
+    assert (result.exit_code, result.stdout, result.stderr) == (0, "", "")
+    assert json.loads(out.read_text())["schema"] == 1
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_standard_input(quick):
+    assert run("solve", "-", "--json", stdin=CASE).exit_code == 0
+    assert "is not valid TOML" in refused("solve", "-", stdin="load 5")
+
+
+def test_options_override_the_file(quick, case):
+    run("solve", case, "--geometry", "linear", "--tolerance", "1 %")
+    assert quick[-1][1] == rn.Model(geometry="linear", tolerance=0.01)
+
+
+def test_not_converged_is_exit_1_and_prints_all_the_same(monkeypatch, case, solution):
+    def solve(nip, model=None, on_failure="return"):
+        return replace(solution, converged=False, status="The mesh ran out.")
+
+    monkeypatch.setattr(sys.modules["rollnip.solve"], "solve", solve)
+    result = run("solve", case, "--json")
+    assert result.exit_code == 1
+    assert json.loads(result.stdout)["converged"] is False
+    result = run("solve", case)
+    assert result.exit_code == 1
+    assert "NOT CONVERGED: The mesh ran out." in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "hint"),
+    [
+        (("--tolerance", "nan"), "--tolerance: "),
+        (("--tolerance", "abc"), "--tolerance: must be a plain number"),
+        (("--tolerance", "-1"), "--tolerance: "),
+        (("--geometry", "flat"), "--geometry: "),
+        (("--out", "result.csv"), "must end in .json or .nc"),
+        (("--out", "."), "must end in"),
+        (("--out", "none/result.json"), "no directory none"),
+        (("--plot", "picture.gif"), "must end in .png"),
+    ],
+)
+def test_wrong_options(quick, case, arguments, hint):
+    assert hint in refused("solve", case, *arguments)
+    assert quick == []  # refused before the work
+
+
+def test_wrong_files(quick, tmp_path, case):
+    assert "no such file" in refused("solve", str(tmp_path / "none.toml"))
+    assert "is a directory" in refused("solve", str(tmp_path))
+    Path(case).write_text(CASE.replace("0.91 MPa", "0.91 mm"))
+    assert "upper.layers[0].material.modulus: must be a pressure" in refused("solve", case)
+
+
+def test_a_traction_beyond_friction_names_the_limit(case):
+    Path(case).write_text(CASE.replace("friction", "traction = 6\nfriction"))
+    assert "nip.traction: must be smaller than friction * load = 4.984 N/mm" in refused(
+        "solve", case
+    )
+
+
+def test_usage_errors_are_exit_2():
+    for arguments in (("solve",), ("solve", "a", "b"), ("solve", "--what"), ("what",)):
+        result = run(*arguments)
+        assert (result.exit_code, result.stdout) == (2, "")
+
+
+def test_version_and_schema():
+    for arguments in (("version",), ("--version",)):
+        assert run(*arguments).stdout == f"rollnip {rn.__version__}\n"
+    assert json.loads(run("schema").stdout)["title"] == "CaseTable"
+
+
+COMMAND = [sys.executable, "-c", "from rollnip.cli import main; main()"]
+
+
+def test_a_closed_pipe_is_no_traceback():
+    with subprocess.Popen(
+        [*COMMAND, "schema"], stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        process.stdout.close()
+        errors = process.stderr.read()
+        assert process.wait(60) == 141
+    assert errors == b""
+
+
+@pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
+def test_a_full_disk_is_one_line():
+    with Path("/dev/full").open("w") as full:
+        done = subprocess.run(
+            [*COMMAND, "schema"], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+        )
+    assert done.returncode == 2
+    assert done.stderr == "rollnip: cannot write to the standard output: No space left on device.\n"
+
+
+def test_interrupted_is_130(monkeypatch, case):
+    def solve(nip, model=None, on_failure="return"):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(sys.modules["rollnip.solve"], "solve", solve)
+    result = run("solve", case)
+    assert (result.exit_code, result.stdout) == (130, "")
+    assert result.stderr == "rollnip: interrupted.\n"

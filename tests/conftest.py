@@ -1,0 +1,78 @@
+"""What the tests share. Threads are set before numpy loads: see the Makefile."""
+
+import os
+
+for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
+    os.environ.setdefault(_name, "1")
+
+import numpy as np  # noqa: E402
+import pytest  # noqa: E402
+from hypothesis import settings  # noqa: E402
+
+import rollnip as rn  # noqa: E402
+from rollnip.solution import Profiles, Solution, SolverInfo, Zone  # noqa: E402
+
+# a slow machine is no error of the code under test
+settings.register_profile("rollnip", deadline=None)
+settings.load_profile("rollnip")
+
+
+@pytest.fixture
+def solution() -> Solution:
+    """A solution made by hand: every field filled, no solver run."""
+    rubber = rn.Elastic(modulus=0.91, poisson=0.5)
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50.0, layers=(rn.Layer(2.0, rubber),)),
+        lower=rn.Roller(radius=25.0),
+        normal=rn.LineLoad(1.78),
+        tangential=rn.Traction(0.53),
+        friction=2.8,
+        speed=100.0,
+        title="Made by hand",
+    )
+    x = np.linspace(-11.0, 11.0, 45)
+    pressure = 0.35 * np.sqrt(np.clip(1.0 - (x / 3.6) ** 2, 0.0, None))
+    zero = np.zeros_like(x)
+    return Solution(
+        nip=nip,
+        model=rn.Model(),
+        converged=True,
+        status="Solved and verified.",
+        load=1.78,
+        approach=0.28,
+        traction=0.53,
+        creepage=0.0689,
+        speed_ratio=1.07,
+        contact=((-3.5, 3.72),),
+        nip_width=7.22,
+        dwell_time=0.0722,
+        peak_pressure=0.353,
+        peak_pressure_x=0.12,
+        mean_pressure=0.246,
+        zones=(Zone(-3.5, -3.0, "slip", -1), Zone(-3.0, 3.72, "stick", None)),
+        torque_upper=27.8,
+        torque_lower=-13.62,
+        rolling_resistance=0.0,
+        dissipation_friction=4.78,
+        dissipation_viscous=0.0,
+        error={
+            "approach": 1e-4,
+            "load": 0.0,
+            "creepage": 1e-5,
+            "nip_width": 2e-3,
+            "peak_pressure": 1e-4,
+        },
+        profiles=Profiles(
+            x=x,
+            pressure=pressure,
+            shear=0.3 * pressure,
+            gap=np.clip(x**2 - 13.0, 0.0, None) / 33.0,
+            slip_velocity=zero,
+            strain_upper=zero,
+            strain_lower=zero,
+            speed_upper=100.0 + zero,
+            speed_lower=100.0 + zero,
+        ),
+        solver=SolverInfo(elements=240, iterations=9, residual=3e-5, seconds=0.21, version="0"),
+        warnings=("A reservation.",),
+    )

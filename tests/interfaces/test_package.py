@@ -1,0 +1,75 @@
+"""The package as others meet it: what it loads, what it offers."""
+
+import subprocess
+import sys
+import time
+from importlib.metadata import version
+
+import pytest
+
+import rollnip as rn
+
+HEAVY = ("pydantic", "typer", "rich", "matplotlib", "xarray", "pandas", "h5py")
+
+
+def loaded_after(code: str) -> set[str]:
+    """Top-level modules in a fresh process after ``code``."""
+    script = f"{code}\nimport sys\nprint(*{{name.split('.')[0] for name in sys.modules}})"
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, check=True, text=True
+    )
+    return set(done.stdout.split())
+
+
+def test_import_loads_only_numpy_and_scipy():
+    loaded = loaded_after(
+        "import rollnip as rn; rn.solve, rn.Nip, rn.Elastic, rn.Solution, rn.Model"
+    )
+    assert {"numpy", "scipy"} <= loaded
+    assert loaded.isdisjoint(HEAVY)
+
+
+def test_reading_a_case_loads_no_pictures():
+    loaded = loaded_after("import rollnip as rn; rn.read_case, rn.write_result")
+    assert loaded.isdisjoint({"matplotlib", "typer", "xarray", "h5py"})
+
+
+def test_the_command_line_starts_without_numerics():
+    loaded = loaded_after("import rollnip.cli.app")
+    assert loaded.isdisjoint({"numpy", "scipy", "matplotlib"})
+
+
+def test_help_comes_at_once():
+    def seconds() -> float:
+        start = time.perf_counter()
+        code = "from rollnip.cli import main; main()"
+        subprocess.run([sys.executable, "-c", code, "--help"], capture_output=True, check=True)
+        return time.perf_counter() - start
+
+    assert min(seconds() for _ in range(5)) < 0.3
+
+
+@pytest.mark.parametrize("name", rn.__all__)
+def test_every_public_name_is_there(name):
+    assert getattr(rn, name) is not None
+    assert name in dir(rn)
+
+
+def test_names_of_the_contract():
+    names = (
+        "solve Model read_case write_result Elastic StandardLinearSolid Prony Layer Roller Nip "
+        "LineLoad Approach Traction Creepage Torque"
+    )
+    assert set(rn.__all__) >= set(names.split())
+    assert rn.__version__ == version("rollnip")
+
+
+def test_an_unknown_name_is_an_attribute_error():
+    with pytest.raises(AttributeError, match="has no attribute 'Nipp'"):
+        _ = rn.Nipp
+
+
+@pytest.mark.parametrize("first", ["from rollnip.solve import Model", "import rollnip.solve", ""])
+def test_solve_is_the_function_whatever_was_imported_before(first):
+    code = f"{first}\nimport rollnip as rn\nfrom rollnip import solve\nassert callable(rn.solve)\n"
+    loaded_after(code + "assert rn.solve is solve")

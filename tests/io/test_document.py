@@ -1,0 +1,72 @@
+import pytest
+
+from rollnip._errors import CaseFileError
+from rollnip.io.document import LARGEST, parse_document, read_document
+
+
+def refused(path) -> str:
+    with pytest.raises(CaseFileError) as caught:
+        read_document(path)
+    message = str(caught.value)
+    assert "\n" not in message
+    assert message.startswith(str(path)) or "\0" in str(path)
+    return message
+
+
+def test_toml_and_json_are_the_same_tree(tmp_path):
+    toml, json = tmp_path / "a.toml", tmp_path / "a.json"
+    toml.write_text('title = "ä"\n[nip]\nload = 1.5\n', encoding="utf-8")
+    json.write_text('{"title": "ä", "nip": {"load": 1.5}}', encoding="utf-8")
+    assert read_document(toml) == read_document(json) == {"title": "ä", "nip": {"load": 1.5}}
+
+
+def test_a_byte_order_mark_and_windows_lines_are_fine(tmp_path):
+    path = tmp_path / "a.toml"
+    path.write_bytes(b'\xef\xbb\xbftitle = "a"\r\n[nip]\r\nload = 1\r\n')
+    assert read_document(path)["title"] == "a"
+
+
+@pytest.mark.parametrize(
+    ("content", "hint"),
+    [
+        (b"\x89PNG\r\n\x1a\n\0\0\0", "not a text file"),
+        (b'title = "a"\nx = "\xe9"\n', "not UTF-8 text (byte 0xe9 on line 2)"),
+        ("title = 'a'".encode("utf-16"), "not a text file"),
+        (b"[nip]\nload = \n", "line 2"),
+        (b"[nip]\nload = 1\nload = 2\n", "line 3"),
+        (b"[nip]\nload = 1\n[nip]\nload = 2\n", "line 3"),
+        (b"load 5", "not valid TOML"),
+        (b'{"nip": {"load": 1, "load": 2}}', "'load' is given twice"),
+        (b'{"nip": ', "not valid JSON"),
+        (b'{"a":' * 100_000, "nested too deeply"),
+        (b"a = " + b"[" * 100_000, "nested too deeply"),
+        (b'{"a": ' + b"1" * 5000 + b"}", "not valid JSON"),
+        (b"x" * (10 * LARGEST), "larger than 1 MB"),
+        (bytes(range(256)) * 40_000, "larger than 1 MB"),
+    ],
+)
+def test_bad_content_is_one_line(tmp_path, content, hint):
+    path = tmp_path / "case.toml"
+    path.write_bytes(content)
+    assert hint in refused(path)
+
+
+def test_json_that_is_no_table(tmp_path):
+    path = tmp_path / "case.json"
+    path.write_text("[1, 2]")
+    assert "must hold a table" in refused(path)
+
+
+def test_missing_directory_and_impossible_names(tmp_path):
+    assert "no such file" in refused(tmp_path / "none.toml")
+    assert "directory" in refused(tmp_path)
+    assert "cannot be read" in refused(tmp_path / ("x" * 300))
+    assert "cannot be the name" in refused("a\0b")
+
+
+def test_an_endless_device_is_cut_off():
+    assert "larger than 1 MB" in refused("/dev/zero")
+
+
+def test_an_empty_text_is_an_empty_table():
+    assert parse_document("", "case") == {}

@@ -31,10 +31,11 @@ if TYPE_CHECKING:
         Prony,
         StandardLinearSolid,
     )
+    from rollnip.model import Model
     from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
     from rollnip.rollers import Layer, Roller
     from rollnip.solution import Solution
-    from rollnip.solve import Model, solve
+    from rollnip.solve import solve
 
     __version__: str
 
@@ -49,10 +50,10 @@ _HOMES = {
         "Prony",
         "StandardLinearSolid",
     ),
+    "rollnip.model": ("Model",),
     "rollnip.nip": ("Approach", "Creepage", "LineLoad", "Nip", "Torque", "Traction"),
     "rollnip.rollers": ("Layer", "Roller"),
     "rollnip.solution": ("Solution",),
-    "rollnip.solve": ("Model",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 

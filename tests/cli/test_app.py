@@ -4,6 +4,7 @@ import json
 import subprocess
 import sys
 from dataclasses import replace
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -36,7 +37,7 @@ def quick(monkeypatch, solution):
         asked.append((nip, model))
         return replace(solution, nip=nip, model=model)
 
-    monkeypatch.setattr(sys.modules["rollnip.solve"], "solve", solve)
+    monkeypatch.setattr(import_module("rollnip.solve"), "solve", solve)
     return asked
 
 
@@ -98,7 +99,7 @@ def test_not_converged_is_exit_1_and_prints_all_the_same(monkeypatch, case, solu
     def solve(nip, model=None, on_failure="return"):
         return replace(solution, converged=False, status="The mesh ran out.")
 
-    monkeypatch.setattr(sys.modules["rollnip.solve"], "solve", solve)
+    monkeypatch.setattr(import_module("rollnip.solve"), "solve", solve)
     result = run("solve", case, "--json")
     assert result.exit_code == 1
     assert json.loads(result.stdout)["converged"] is False
@@ -178,7 +179,7 @@ def test_interrupted_is_130(monkeypatch, case):
     def solve(nip, model=None, on_failure="return"):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(sys.modules["rollnip.solve"], "solve", solve)
+    monkeypatch.setattr(import_module("rollnip.solve"), "solve", solve)
     result = run("solve", case)
     assert (result.exit_code, result.stdout) == (130, "")
     assert result.stderr == "rollnip: interrupted.\n"

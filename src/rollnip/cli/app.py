@@ -14,7 +14,7 @@ import typer
 from rollnip._errors import RollnipError
 
 if TYPE_CHECKING:
-    from rollnip.solve import Model
+    from rollnip.model import Model
 
 app = typer.Typer(
     name="rollnip",

@@ -15,7 +15,7 @@ from rollnip.io.document import parse_document, read_document
 from rollnip.io.messages import form_error, wrong_controls
 from rollnip.io.tables import CaseTable
 from rollnip.nip import Nip
-from rollnip.solve import Model
+from rollnip.model import Model
 
 _MOST_ERRORS = 20
 

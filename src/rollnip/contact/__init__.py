@@ -1,0 +1,30 @@
+"""Contact: which nodes touch, stick or slip, by Kalker's algorithms and a coupled active set."""
+
+from rollnip.contact.coupled import CoupledActiveSet
+from rollnip.contact.features import Zone, contact_intervals, contact_zones, states_on
+from rollnip.contact.given import Norm, Tang
+from rollnip.contact.mesh import Demand, graded_nodes
+from rollnip.contact.methods import Alternation, Safeguarded
+from rollnip.contact.path import CreepagePath
+from rollnip.contact.problem import ContactProblem, ContactState, Control, State, creep, gap
+
+__all__ = [
+    "Alternation",
+    "ContactProblem",
+    "ContactState",
+    "Control",
+    "CoupledActiveSet",
+    "CreepagePath",
+    "Demand",
+    "Norm",
+    "Safeguarded",
+    "State",
+    "Tang",
+    "Zone",
+    "contact_intervals",
+    "contact_zones",
+    "creep",
+    "gap",
+    "graded_nodes",
+    "states_on",
+]

@@ -1,0 +1,139 @@
+"""Contact intervals and stick/slip zones of a discrete solution, to a fraction of an element."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rollnip.contact.problem import Array, ContactState, State, States
+
+_SLIVER = 1e-3  # of the width of all contact
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """A piece of the contact in one state.
+
+    Attributes
+    ----------
+    start, stop : trailing and leading end [mm].
+    state : STICK, SLIP_PLUS or SLIP_MINUS.
+    """
+
+    start: float
+    stop: float
+    state: State
+
+
+def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Zone, ...]:
+    """Zones from trailing to leading edge; without friction each interval is one STICK zone.
+
+    Pressure goes to zero as the square root of the distance to an edge, and mu p - |q| as the
+    square root of the distance to a transition, so their squares are extrapolated linearly.
+    """
+    states = np.minimum(state.states, State.STICK) if friction == 0.0 else state.states
+    zones = []
+    for first, last in runs(states != State.FREE):
+        edges = (
+            _crossing(x, state.pressure, first, -1),
+            _crossing(x, state.pressure, last, +1),
+        )
+        zones += _split(x, state, friction, states, (first, last), edges)
+    return tuple(_without_slivers(zones))
+
+
+def contact_intervals(zones: tuple[Zone, ...]) -> tuple[tuple[float, float], ...]:
+    """Join neighbouring zones to contact intervals (trailing, leading) [mm]."""
+    intervals: list[tuple[float, float]] = []
+    for zone in zones:
+        if intervals and zone.start <= intervals[-1][1]:
+            intervals[-1] = (intervals[-1][0], zone.stop)
+        else:
+            intervals.append((zone.start, zone.stop))
+    return tuple(intervals)
+
+
+def states_on(x: Array, zones: tuple[Zone, ...]) -> States:
+    """State of each of the nodes ``x`` that lies in a zone, FREE elsewhere."""
+    out = np.full(x.size, State.FREE, dtype=np.int8)
+    for zone in zones:
+        out[(x > zone.start) & (x < zone.stop)] = zone.state
+    return out
+
+
+def runs(mask: Array) -> list[tuple[int, int]]:
+    """First and last index of each run of True."""
+    padded = np.concatenate([[False], mask, [False]])
+    changes = np.flatnonzero(padded[1:] != padded[:-1])
+    return [(int(a), int(b) - 1) for a, b in zip(changes[::2], changes[1::2], strict=True)]
+
+
+def _split(
+    x: Array,
+    state: ContactState,
+    friction: float,
+    states: States,
+    interval: tuple[int, int],
+    edges: tuple[float, float],
+) -> list[Zone]:
+    """Cut one contact interval at its changes of state."""
+    first, last = interval
+    slack = friction * state.pressure - np.abs(state.shear)
+    zones: list[Zone] = []
+    start = edges[0]
+    for i in range(first, last + 1):
+        if i < last and states[i + 1] == states[i]:
+            continue
+        stop = edges[1] if i == last else _transition(x, slack, states, i)
+        zones.append(Zone(start, stop, State(states[i])))
+        start = stop
+    return zones
+
+
+def _without_slivers(zones: list[Zone]) -> list[Zone]:
+    """Join slip zones thinner than a thousandth of the contact to a sticking neighbour.
+
+    At an edge the pressure of the last node is as large as its error, and whether that node
+    alone sticks or slips says nothing about the contact.
+    """
+    kept: list[Zone] = []
+    width = zones[-1].stop - zones[0].start if zones else 0.0
+    for zone in zones:
+        before = kept[-1] if kept and kept[-1].stop == zone.start else None
+        thin = zone.stop - zone.start < _SLIVER * width
+        if before is not None and thin and before.state == State.STICK:
+            kept[-1] = Zone(before.start, zone.stop, before.state)
+        elif (
+            before is not None
+            and zone.state == State.STICK
+            and before.stop - before.start < _SLIVER * width
+        ):
+            kept[-1] = Zone(before.start, zone.stop, zone.state)
+        elif before is not None and before.state == zone.state:
+            kept[-1] = Zone(before.start, zone.stop, zone.state)
+        else:
+            kept.append(zone)
+    return kept
+
+
+def _transition(x: Array, slack: Array, states: States, i: int) -> float:
+    """Place between nodes i and i + 1 where the state changes."""
+    if states[i + 1] == State.STICK:
+        return _crossing(x, slack, i + 1, -1)
+    if states[i] == State.STICK:
+        return _crossing(x, slack, i, +1)
+    return 0.5 * float(x[i] + x[i + 1])
+
+
+def _crossing(x: Array, values: Array, i: int, step: int) -> float:
+    """Where values^2, extrapolated from nodes i - step and i, is zero between i and i + step."""
+    beyond = i + step
+    limit = x[beyond] if 0 <= beyond < x.size else x[i] + step * abs(x[i] - x[i - step])
+    if not 0 <= i - step < x.size:
+        return 0.5 * float(x[i] + limit)
+    here, before = values[i] ** 2, values[i - step] ** 2
+    if before <= here:
+        return 0.5 * float(x[i] + limit)
+    place = x[i] + (x[i] - x[i - step]) * here / (before - here)
+    return float(min(max(place, min(x[i], limit)), max(x[i], limit)))

@@ -1,0 +1,152 @@
+"""Kalker's NORM and TANG: the normal problem for given shear, the tangential for given pressure.
+
+Both are active-set loops in two nested levels (Kalker 1990, section 4.3): the inner one drops
+what violates an inequality until nothing does, the outer one takes in what the signs of gap and
+slip ask for. On a positive definite problem no set comes twice; where one does all the same,
+the loop goes on one node at a time (NORM) or along the creepage (TANG).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rollnip.contact.coupled import solve_states
+from rollnip.contact.path import CreepagePath
+from rollnip.contact.problem import (
+    Array,
+    ContactProblem,
+    ContactState,
+    Control,
+    State,
+    States,
+    creep,
+    gap,
+    shear_signs,
+)
+
+_ROUNDING = 1e-11
+
+
+def with_shear(problem: ContactProblem, shear: Array) -> ContactProblem:
+    """The normal problem: frictionless, the gap that a given shear opens added to the clearance."""
+    return replace(
+        problem,
+        clearance=problem.clearance + problem.normal_shear @ shear,
+        friction=0.0,
+        control=replace(problem.control, traction=0.0, creepage=None),
+    )
+
+
+def with_pressure(problem: ContactProblem, pressure: Array) -> ContactProblem:
+    """The tangential problem: a pressure that is given whatever the shear.
+
+    With the unit matrix in place of the normal compliance, -p as clearance and no approach, a gap
+    of zero says that the pressure is the given one.
+    """
+    control = problem.control
+    return replace(
+        problem,
+        clearance=-pressure,
+        normal_pressure=np.eye(pressure.size),
+        normal_shear=np.zeros((pressure.size, pressure.size)),
+        control=Control(None, 0.0, control.traction, control.creepage),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Norm:
+    """NORM: contact set and pressure for a given shear.
+
+    Parameters
+    ----------
+    max_steps :
+        linear systems to solve at most, per node.
+    """
+
+    max_steps: int = 10
+
+    def solve(self, problem: ContactProblem, states: States, shear: Array) -> ContactState:
+        """Pressure and approach (or load) with the shear held; ``states`` is where to begin."""
+        normal = with_shear(problem, shear)
+        states = np.minimum(states, State.STICK)
+        if not np.any(states):
+            states[np.argmin(normal.clearance)] = State.STICK
+        seen: set[bytes] = set()
+        single = False
+        for step in range(1, self.max_steps * states.size + 1):
+            solution = replace(solve_states(normal, states), steps=step)
+            wrong = _tension(solution)
+            if not np.any(wrong):
+                wrong = _overlap(normal, solution)
+            if not np.any(wrong):
+                return replace(solution, shear=shear, creepage=np.nan, settled=True)
+            single = single or states.tobytes() in seen
+            seen.add(states.tobytes())
+            if single:  # Murty's least-index rule: finite for a P-matrix
+                wrong = np.arange(wrong.size) == np.flatnonzero(wrong)[0]
+            states = np.where(wrong, State.STICK - states, states).astype(np.int8)
+        return replace(solution, shear=shear, settled=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Tang:
+    """TANG: stick, slip, shear and creepage (or traction) for a given pressure.
+
+    Parameters
+    ----------
+    max_steps :
+        linear systems to solve at most before the creepage is followed instead.
+    """
+
+    max_steps: int = 40
+
+    def solve(self, problem: ContactProblem, states: States, pressure: Array) -> ContactState:
+        """Shear with the pressure held; ``states`` is where to begin."""
+        tangential = with_pressure(problem, pressure)
+        states = np.where(pressure > 0.0, np.maximum(states, State.STICK), State.FREE)
+        states = states.astype(np.int8)
+        start = states
+        for step in range(1, self.max_steps + 1):
+            if not np.any(states == State.STICK):
+                break
+            solution = replace(solve_states(tangential, states), steps=step)
+            wanted = _over_bound(tangential, solution)
+            if np.array_equal(wanted, states):
+                wanted = _wrong_way(tangential, solution)
+            if np.array_equal(wanted, states):
+                return replace(solution, pressure=pressure, settled=True)
+            states = wanted
+        followed = CreepagePath().solve(tangential, start)
+        return replace(followed, pressure=pressure)
+
+
+def _tension(solution: ContactState) -> Array:
+    """Nodes in contact under tension."""
+    return solution.pressure < -_ROUNDING * np.max(solution.pressure)
+
+
+def _overlap(problem: ContactProblem, solution: ContactState) -> Array:
+    """Free nodes that overlap."""
+    scale = np.max(np.abs(problem.clearance)) + abs(solution.approach)
+    return (solution.states == State.FREE) & (gap(problem, solution) < -_ROUNDING * scale)
+
+
+def _over_bound(problem: ContactProblem, solution: ContactState) -> States:
+    """Let sticking nodes slip where the shear exceeds the traction bound."""
+    out = solution.states.copy()
+    bound = problem.friction * solution.pressure * (1.0 + _ROUNDING)
+    stick = out == State.STICK
+    out[stick & (solution.shear > bound)] = State.SLIP_PLUS
+    out[stick & (solution.shear < -bound)] = State.SLIP_MINUS
+    return out
+
+
+def _wrong_way(problem: ContactProblem, solution: ContactState) -> States:
+    """Let slipping nodes stick where the slip would go with the shear that resists it."""
+    out = solution.states.copy()
+    rate = creep(problem, solution) * shear_signs(out)
+    floor = -_ROUNDING * np.max(np.abs(problem.creep_length)) * max(abs(solution.creepage), 1e-6)
+    out[(shear_signs(out) != 0.0) & (rate < floor)] = State.STICK
+    return out

@@ -1,0 +1,107 @@
+"""Meshes graded to contact edges, to transitions between stick and slip, and to the tractions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+_SMALLEST_ZONE = 6  # elements in a zone, however short
+_ASKED = 0.3  # share of the nodes placed by the demand of a former solution
+_MARGIN = np.array([1.0, 2.0, 4.0, 8.0])  # nodes outside the contact, in edge elements
+
+
+@dataclass(frozen=True, slots=True)
+class Demand:
+    """How many elements tractions ask for: the integral of |f''|^(1/3) over each interval.
+
+    Linear interpolation of f errs by f'' h^2/12 on average; with a given number of elements the
+    integral of the error is smallest where h goes as |f''|^(-1/3).
+
+    Attributes
+    ----------
+    x : (n,) increasing places [mm].
+    total : (n,) elements asked for from x[0] up to each place, in any unit.
+    """
+
+    x: Array
+    total: Array
+
+    @classmethod
+    def of(cls, x: Array, *tractions: Array) -> Demand:
+        """Demand of nodal tractions (each (n,)), each counted relative to its largest value."""
+        density = np.zeros(x.size)
+        for values in tractions:
+            largest = np.max(np.abs(values))
+            if largest > 0.0:
+                density = np.maximum(density, _bend(x, values / largest) ** (1.0 / 3.0))
+        smooth = np.convolve(np.pad(density, 2, mode="edge"), [0.1, 0.2, 0.4, 0.2, 0.1], "valid")
+        steps = 0.5 * (smooth[1:] + smooth[:-1]) * np.diff(x)
+        return cls(x, np.concatenate([[0.0], np.cumsum(steps)]))
+
+    def up_to(self, places: Array) -> Array:
+        """Elements asked for up to each place."""
+        return np.interp(places, self.x, self.total)
+
+
+def graded_nodes(breaks: Array, count: int, demand: Demand | None = None) -> Array:
+    """Nodes on zones between ``breaks``, dense at every break and where tractions bend.
+
+    Tractions go to zero as the square root of the distance to an edge or a transition; nodes
+    whose distance to it grows as a square (a cosine over the zone) then make the interpolation
+    error equal on all elements, and the whole of second order in 1/count. Most nodes are placed
+    so; the others, where a former solution is there to ask, by its demand.
+
+    Parameters
+    ----------
+    breaks : (m,) increasing: outermost contact edges, further edges, transitions [mm].
+    count :
+        number of elements, about.
+    demand :
+        of a former solution; None: cosines alone.
+
+    Returns
+    -------
+    (n,) increasing nodes [mm], a few of them outside the outermost breaks.
+    """
+    lengths = np.diff(breaks)
+    shares = np.sqrt(lengths / lengths.sum())
+    shares /= shares.sum()
+    if demand is not None:
+        asked = np.diff(demand.up_to(breaks))
+        if asked.sum() > 0.0:
+            shares += _ASKED * (asked / asked.sum() - shares)
+    counts = np.maximum(np.rint(count * shares), _SMALLEST_ZONE).astype(int)
+    parts = [breaks[:1]]
+    for start, stop, n in zip(breaks[:-1], breaks[1:], counts, strict=True):
+        parts.append(_zone_nodes(float(start), float(stop), int(n), demand))
+    inner = np.concatenate(parts)
+    first, last = inner[1] - inner[0], inner[-1] - inner[-2]
+    return np.concatenate([inner[0] - first * _MARGIN[::-1], inner, inner[-1] + last * _MARGIN])
+
+
+def _zone_nodes(start: float, stop: float, count: int, demand: Demand | None) -> Array:
+    """Nodes of one zone, without its first."""
+    cosine = 0.5 * (1.0 - np.cos(np.pi * np.arange(count + 1) / count))
+    if demand is None:
+        return start + (stop - start) * cosine[1:]
+    fine = np.linspace(0.0, 1.0, 8 * count + 1)
+    places = start + (stop - start) * 0.5 * (1.0 - np.cos(np.pi * fine))
+    asked = demand.up_to(places) - demand.up_to(np.array([start]))
+    if not asked[-1] > 0.0:
+        return start + (stop - start) * cosine[1:]
+    rank = fine + _ASKED * (asked / asked[-1] - fine)
+    nodes = np.interp(np.arange(1, count + 1) / count, rank, places)
+    nodes[-1] = stop
+    return nodes
+
+
+def _bend(x: Array, values: Array) -> Array:
+    """|f''| at the nodes, from differences; 0 at both ends."""
+    slopes = np.diff(values) / np.diff(x)
+    bend = np.zeros(x.size)
+    bend[1:-1] = np.abs(np.diff(slopes)) / (0.5 * (x[2:] - x[:-2]))
+    return bend

@@ -1,0 +1,119 @@
+"""The discrete rolling contact problem: arrays in, arrays out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+States = NDArray[np.int8]
+
+
+class State(IntEnum):
+    """State of a node of the mesh; slip is named after the sign of the shear q."""
+
+    FREE = 0
+    STICK = 1
+    SLIP_PLUS = 2
+    SLIP_MINUS = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Control:
+    """What is prescribed: exactly one of each pair is a number, the other None.
+
+    load [N/mm] or approach [mm]; traction [N/mm] or creepage.
+    """
+
+    load: float | None
+    approach: float | None
+    traction: float | None
+    creepage: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class ContactProblem:
+    """Steady rolling contact on n nodes x_1 < ... < x_n (trailing to leading), theory section 5.
+
+    The gap at node i and the creep of the interval from node i to node i + 1 (towards the leading
+    edge, where the material comes from) are linear in the nodal pressures p and shears q:
+
+        gap   = clearance - delta + normal_pressure p + normal_shear q      >= 0, p >= 0
+        creep = creep_offset + xi creep_length + creep_pressure p + creep_shear q
+
+    The creep is the length by which the upper surface outruns the lower over the interval; the
+    slip velocity is -V creep/length. Stick: creep = 0, |q| <= mu p. Slip: q = mu p sign(creep).
+
+    Attributes
+    ----------
+    x : (n,) nodes [mm].
+    weights : (n,) load of a unit nodal pressure [mm].
+    clearance : (n,) gap of the undeformed rollers at touch [mm].
+    normal_pressure, normal_shear : (n, n) [mm/MPa].
+    creep_pressure, creep_shear : (n, n) [mm/MPa].
+    creep_length, creep_offset : (n,) [mm].
+    friction : Coulomb coefficient mu >= 0.
+    control : what is prescribed.
+    """
+
+    x: Array
+    weights: Array
+    clearance: Array
+    normal_pressure: Array
+    normal_shear: Array
+    creep_pressure: Array
+    creep_shear: Array
+    creep_length: Array
+    creep_offset: Array
+    friction: float
+    control: Control
+
+
+@dataclass(frozen=True, slots=True)
+class ContactState:
+    """A solution of the discrete problem, or the last iterate.
+
+    Attributes
+    ----------
+    states : (n,) State of each node.
+    pressure, shear : (n,) nodal tractions [MPa].
+    approach, creepage : delta [mm], xi; xi is nan without friction and prescription.
+    steps : linear systems solved.
+    settled : whether the states reproduce themselves.
+    """
+
+    states: States
+    pressure: Array
+    shear: Array
+    approach: float
+    creepage: float
+    steps: int
+    settled: bool
+
+
+def gap(problem: ContactProblem, state: ContactState) -> Array:
+    """Gap at each node [mm]."""
+    return (
+        problem.clearance
+        - state.approach
+        + problem.normal_pressure @ state.pressure
+        + problem.normal_shear @ state.shear
+    )
+
+
+def creep(problem: ContactProblem, state: ContactState) -> Array:
+    """Creep of each interval [mm]; the slip velocity is -V creep/length."""
+    return (
+        problem.creep_offset
+        + state.creepage * problem.creep_length
+        + problem.creep_pressure @ state.pressure
+        + problem.creep_shear @ state.shear
+    )
+
+
+def shear_signs(states: States) -> Array:
+    """+1 and -1 where a node slips, 0 elsewhere."""
+    return (states == State.SLIP_PLUS).astype(float) - (states == State.SLIP_MINUS)

@@ -1,0 +1,52 @@
+"""Second-order geometry: true distance of deformed surfaces, stretch and rotation of a surface.
+
+Arrays of displacements in, arrays out; theory section 6. Displacements are those of a roller's
+surface in its own frame: u_x along the nip, u_z into the roller.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def sagitta(x: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
+    """Depth of a deformed surface below the tangent at first touch, at the deformed abscissa x.
+
+    The point at the angle theta of a roller of radius R moves to
+    (R - u_z) e_r + u_x e_theta: to the radius rho = sqrt((R - u_z)^2 + u_x^2). At the deformed
+    abscissa x it is therefore R - sqrt(rho^2 - x^2) below the tangent. A plane: u_z.
+
+    Parameters
+    ----------
+    x, u_x, u_z : (n,) [mm].
+    curvature : 1/R [1/mm].
+
+    Returns
+    -------
+    (n,) [mm]; its flat, linear approximation is x^2/(2R) + u_z.
+    """
+    # sqrt(rho^2 - x^2) = R sqrt(1 - t): written so that a large R loses no digits.
+    t = curvature * (2.0 * u_z + curvature * (x * x - u_z * u_z - u_x * u_x))
+    half = (2.0 * u_z + curvature * (x * x - u_z * u_z - u_x * u_x)) / (
+        1.0 + np.sqrt(np.maximum(1.0 - t, 0.0))
+    )
+    return np.asarray(half)
+
+
+def mean_of_neighbours(values: Array) -> Array:
+    """Mean over each interval of a quantity given at its ends."""
+    return 0.5 * (values[1:] + values[:-1])
+
+
+def linear_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
+    """int (du_x/dx - u_z/R) dx over each interval: first-order stretch of an arc [mm]."""
+    return np.diff(u_x) - curvature * dx * mean_of_neighbours(u_z)
+
+
+def rotation_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
+    """int (rotation^2)/2 dx over each interval, rotation = du_z/dx + u_x/R [mm]."""
+    rotation = np.diff(u_z) / dx + curvature * mean_of_neighbours(u_x)
+    return 0.5 * rotation**2 * dx

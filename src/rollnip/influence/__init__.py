@@ -1,0 +1,25 @@
+"""Influence functions: from compliances in the Fourier domain to displacements on a mesh."""
+
+from rollnip.influence.hats import displacement_matrix, load_weights, strain_matrix
+from rollnip.influence.kernel import Kernel, Window, tabulate
+from rollnip.influence.surface import (
+    SurfaceKernels,
+    covering_window,
+    is_ring,
+    surface_compliance,
+    surface_kernels,
+)
+
+__all__ = [
+    "Kernel",
+    "SurfaceKernels",
+    "Window",
+    "covering_window",
+    "displacement_matrix",
+    "is_ring",
+    "load_weights",
+    "strain_matrix",
+    "surface_compliance",
+    "surface_kernels",
+    "tabulate",
+]

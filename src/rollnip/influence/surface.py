@@ -1,0 +1,121 @@
+"""Influence functions of a roller's surface, from its layers, its core and the rolling speed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import inf, isinf
+
+import numpy as np
+
+from rollnip.compliance import flat_compliance, half_space_limit, ring_compliance
+from rollnip.influence.kernel import Array, Kernel, Window, tabulate
+from rollnip.influence._weights import ComplexArray
+from rollnip.materials import Material
+from rollnip.rollers import Roller
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceKernels:
+    """Displacements of one roller's surface under line tractions, in its own frame.
+
+    u_x = xx * t_x + xz * t_z and u_z = -xz * t_x + zz * t_z (convolutions; C_zx = -C_xz).
+    """
+
+    xx: Kernel
+    zz: Kernel
+    xz: Kernel
+
+
+def is_ring(roller: Roller, geometry: str) -> bool:
+    """Whether the layers are treated as curved: finite radius, rigid core, geometry "curved"."""
+    return geometry == "curved" and not isinf(roller.radius) and roller.core is None
+
+
+def covering_window(rollers: tuple[Roller, ...], speed: float | None) -> Window:
+    """Window that resolves every length of the rollers: radii, thicknesses, V tau."""
+    radii = [roller.radius for roller in rollers if roller.radius < inf]
+    thicknesses = [layer.thickness for roller in rollers for layer in roller.layers]
+    memories = [
+        tau * (speed or 0.0)
+        for roller in rollers
+        for material in roller.materials
+        for tau in material.relaxation_times
+    ]
+    memories = [length for length in memories if length > 0.0]
+    longest = 8.0 * min(radii)
+    # Below the shortest the table goes on as its limit, linear in ln|x|: what is left out there
+    # is of relative order (x/thickness)^2, x/radius and x/(V tau).
+    shortest = min(
+        [1e-6 * min(radii)] + [1e-3 * d for d in thicknesses] + [1e-5 * m for m in memories]
+    )
+    slowest = max([0.0, *thicknesses, *(r.coating_thickness for r in rollers), *memories])
+    return Window.covering(max(shortest, 2.0**-32 * longest), longest, slowest)
+
+
+def surface_kernels(
+    roller: Roller,
+    speed: float | None,
+    geometry: str,
+    window: Window,
+    tolerance: float = 1e-7,
+) -> SurfaceKernels:
+    """Tabulate the influence functions of a roller in steady rolling.
+
+    Parameters
+    ----------
+    roller :
+        not a bare rigid one.
+    speed :
+        rolling speed V [mm/s]; may be None where all materials are elastic.
+    geometry :
+        "curved" bends the layers to rings; "linear" and "corrected" keep them flat.
+    window :
+        lengths and wave numbers to tabulate.
+    tolerance :
+        relative accuracy of the inverse transform.
+    """
+    core = roller.core
+    low: tuple[complex, complex, complex] = (0.0, 0.0, 0.0)
+    if core is not None:
+        lowest = np.array([2.0 ** (window.octaves[0] - 60)])
+        modulus = _moduli(core, lowest, speed)
+        a, b = half_space_limit(modulus, core.poisson)
+        low = (complex(a[0]), complex(a[0]), 1j * complex(b[0]))
+    xx, zz, xz = tabulate(
+        surface_compliance(roller, speed, geometry), window, low_limit=low, tolerance=tolerance
+    )
+    return SurfaceKernels(xx=xx, zz=zz, xz=xz)
+
+
+def surface_compliance(
+    roller: Roller, speed: float | None, geometry: str
+) -> Callable[[Array], tuple[ComplexArray, ComplexArray, ComplexArray]]:
+    """Compliances (C_xx, C_zz, C_xz) of a roller as a function of the wave number w > 0.
+
+    Steady rolling: a field e^{iwx} is seen by the material at the time factor s = -i w V.
+    """
+    thickness = np.array([layer.thickness for layer in roller.layers])
+    poisson = np.array([layer.material.poisson for layer in roller.layers])
+
+    def compliance(k: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
+        moduli = [_moduli(layer.material, k, speed) for layer in roller.layers]
+        modulus = np.array(moduli).reshape(len(moduli), k.size)
+        if is_ring(roller, geometry):
+            c = ring_compliance(k, roller.radius, thickness, modulus, poisson)
+        elif roller.core is None:
+            c = flat_compliance(k, thickness, modulus, poisson)
+        else:
+            core = _moduli(roller.core, k, speed)
+            c = flat_compliance(k, thickness, modulus, poisson, core, roller.core.poisson)
+        return c.xx, c.zz, c.xz
+
+    return compliance
+
+
+def _moduli(material: Material, k: Array, speed: float | None) -> Array | ComplexArray:
+    """Modulus at each wave number: real where the material is elastic."""
+    if material.is_elastic:
+        return np.full(k.shape, material.relaxed_modulus)
+    assert speed is not None  # a Nip with a viscoelastic material has a speed
+    return material.modulus_at(-1j * k * speed)

@@ -1,0 +1,47 @@
+"""How a nip is computed: the geometry model and the accuracy wanted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+from rollnip._errors import InvalidInputError, require_positive
+
+Geometry = Literal["linear", "corrected", "curved"]
+
+_FINEST = 1e-6
+_COARSEST = 0.1
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Model:
+    """Geometry model and accuracy.
+
+    Parameters
+    ----------
+    geometry :
+        "linear": flat layers, parabolic gap. "corrected": flat layers, true distance of the
+        deformed surfaces. "curved": ring layers and stretch to second order.
+    tolerance :
+        wanted relative accuracy of creepage, nip width, peak pressure, approach or load, as far
+        as the discretisation goes; between 1e-6 and 0.1.
+
+    Raises
+    ------
+    InvalidInputError
+        for another geometry or a tolerance outside its range.
+    """
+
+    geometry: Geometry = "curved"
+    tolerance: float = 1e-3
+
+    def __post_init__(self) -> None:
+        if self.geometry not in get_args(Geometry):
+            known = ", ".join(f'"{name}"' for name in get_args(Geometry))
+            raise InvalidInputError(f"`geometry` must be one of {known}, got {self.geometry!r}.")
+        require_positive("tolerance", self.tolerance)
+        if not _FINEST <= self.tolerance <= _COARSEST:
+            raise InvalidInputError(
+                f"`tolerance` must lie between {_FINEST:g} and {_COARSEST:g}, "
+                f"got {self.tolerance!r}."
+            )

@@ -1,0 +1,182 @@
+"""The problem: two rollers, what presses them, what drives them, friction and speed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from rollnip._errors import (
+    InvalidInputError,
+    require_finite,
+    require_not_negative,
+    require_positive,
+)
+from rollnip.rollers import Roller
+
+
+@dataclass(frozen=True, slots=True)
+class LineLoad:
+    """Prescribed line load F = int p dx [N/mm], positive."""
+
+    load: float
+
+    def __post_init__(self) -> None:
+        require_positive("load", self.load)
+
+
+@dataclass(frozen=True, slots=True)
+class Approach:
+    """Prescribed approach of the axles from first touch [mm], positive."""
+
+    approach: float
+
+    def __post_init__(self) -> None:
+        require_positive("approach", self.approach)
+
+
+@dataclass(frozen=True, slots=True)
+class Traction:
+    """Prescribed traction T = int q dx [N/mm]; T > 0: the upper roller drives the lower one."""
+
+    traction: float
+
+    def __post_init__(self) -> None:
+        require_finite("traction", self.traction)
+
+
+@dataclass(frozen=True, slots=True)
+class Creepage:
+    """Prescribed creepage xi = (V_u - V_l)/V, between -2 and 2."""
+
+    creepage: float
+
+    def __post_init__(self) -> None:
+        require_finite("creepage", self.creepage)
+        if not -2.0 < self.creepage < 2.0:
+            raise InvalidInputError(
+                f"`creepage` must lie between -2 and 2, got {self.creepage!r}."
+            )
+
+
+@dataclass(frozen=True, slots=True)
+class Torque:
+    """Prescribed driving torque on the lower axle per length [N]; 0: an idler."""
+
+    torque_lower: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_finite("torque_lower", self.torque_lower)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Nip:
+    """Two rollers pressed together and rolling steadily.
+
+    Parameters
+    ----------
+    upper, lower :
+        the rollers.
+    normal :
+        LineLoad or Approach.
+    friction :
+        Coulomb coefficient mu >= 0; 0 is frictionless.
+    tangential :
+        Traction, Creepage or Torque; free rolling by default.
+    speed :
+        rolling speed V [mm/s], positive; needed only where a material is viscoelastic.
+    face_width :
+        axial length [mm] for totals; None leaves everything per length.
+    title :
+        free text, carried into the result.
+
+    Raises
+    ------
+    InvalidInputError
+        where the parts do not make a nip: both rollers rigid or flat, speed missing for a
+        viscoelastic material, approach prescribed on a half-space core, traction beyond mu F.
+    """
+
+    upper: Roller
+    lower: Roller
+    normal: LineLoad | Approach
+    friction: float
+    tangential: Traction | Creepage | Torque = Traction(0.0)
+    speed: float | None = None
+    face_width: float | None = None
+    title: str = ""
+
+    def __post_init__(self) -> None:
+        self._check_types()
+        require_not_negative("friction", self.friction)
+        if self.speed is not None:
+            require_positive("speed", self.speed)
+        if self.face_width is not None:
+            require_positive("face_width", self.face_width)
+        self._check_rollers()
+        self._check_controls()
+
+    @property
+    def curvature(self) -> float:
+        """1/R_upper + 1/R_lower [1/mm]."""
+        return self.upper.curvature + self.lower.curvature
+
+    @property
+    def is_viscoelastic(self) -> bool:
+        """True where any material of either roller is viscoelastic."""
+        return self.upper.is_viscoelastic or self.lower.is_viscoelastic
+
+    @property
+    def has_half_space(self) -> bool:
+        """True where a core is a half-space: the approach is then not defined."""
+        return self.upper.core is not None or self.lower.core is not None
+
+    def _check_types(self) -> None:
+        wanted = {
+            "upper": (Roller,),
+            "lower": (Roller,),
+            "normal": (LineLoad, Approach),
+            "tangential": (Traction, Creepage, Torque),
+        }
+        for name, types in wanted.items():
+            value = getattr(self, name)
+            if not isinstance(value, types):
+                names = " or ".join(kind.__name__ for kind in types)
+                raise InvalidInputError(f"`{name}` must be {names}, got {value!r}.")
+
+    def _check_rollers(self) -> None:
+        if self.upper.is_rigid and self.lower.is_rigid:
+            raise InvalidInputError(
+                "`upper` and `lower` must not both be bare rigid cores: nothing would deform."
+            )
+        if self.curvature == 0.0:
+            raise InvalidInputError("`radius` must be finite for at least one roller, got two planes.")
+        if self.is_viscoelastic and self.speed is None:
+            raise InvalidInputError("`speed` must be given: a material is viscoelastic.")
+
+    def _check_controls(self) -> None:
+        if isinstance(self.normal, Approach):
+            self._check_approach(self.normal.approach)
+        if self.friction == 0.0 and isinstance(self.tangential, Traction):
+            if self.tangential.traction != 0.0:
+                raise InvalidInputError(
+                    "`traction` must be 0 without friction, "
+                    f"got {self.tangential.traction!r} with `friction` 0."
+                )
+        if isinstance(self.normal, LineLoad) and isinstance(self.tangential, Traction):
+            limit = self.friction * self.normal.load
+            if self.friction > 0.0 and abs(self.tangential.traction) >= limit:
+                raise InvalidInputError(
+                    f"`traction` must be smaller than friction * load = {limit:.6g} N/mm "
+                    f"in size (beyond it the nip slides), got {self.tangential.traction!r}."
+                )
+
+    def _check_approach(self, approach: float) -> None:
+        if self.has_half_space:
+            raise InvalidInputError(
+                "`approach` must not be prescribed with a half-space core (it is infinite in "
+                "plane strain); prescribe `load`."
+            )
+        smallest = min(self.upper.radius, self.lower.radius)
+        if approach >= smallest:
+            raise InvalidInputError(
+                f"`approach` must be smaller than the radius {smallest:g} mm, got {approach!r}."
+            )

@@ -1,0 +1,40 @@
+"""The rolling contact of two rollers: assembly, rounds of refinement, the check afterwards."""
+
+from rollnip.rolling.assemble import (
+    Displacements,
+    PairKernels,
+    hoop_curvature,
+    pair_kernels,
+    pressure_work,
+)
+from rollnip.rolling.check import (
+    Fields,
+    fields_at,
+    fine_points,
+    residual,
+    slip_velocity,
+    surface_strain,
+)
+from rollnip.rolling.rounds import Figures, Round, creepage_scale, excess, peak_pressure, refine
+from rollnip.rolling.start import half_width_guess
+
+__all__ = [
+    "Displacements",
+    "Fields",
+    "Figures",
+    "PairKernels",
+    "Round",
+    "creepage_scale",
+    "excess",
+    "fields_at",
+    "fine_points",
+    "half_width_guess",
+    "hoop_curvature",
+    "pair_kernels",
+    "peak_pressure",
+    "pressure_work",
+    "refine",
+    "residual",
+    "slip_velocity",
+    "surface_strain",
+]

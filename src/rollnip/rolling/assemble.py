@@ -1,0 +1,274 @@
+"""From a nip, its influence functions and a mesh to a discrete contact problem."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import ContactProblem, ContactState, Control
+from rollnip.geometry import (
+    linear_stretch,
+    mean_of_neighbours,
+    rotation_stretch,
+    sagitta,
+)
+from rollnip.influence import (
+    SurfaceKernels,
+    covering_window,
+    displacement_matrix,
+    is_ring,
+    load_weights,
+    surface_kernels,
+)
+from rollnip.model import Geometry
+from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rollers import Roller
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class PairKernels:
+    """Influence functions of both surfaces; None for a bare rigid roller."""
+
+    upper: SurfaceKernels | None
+    lower: SurfaceKernels | None
+
+
+def pair_kernels(nip: Nip, geometry: Geometry) -> PairKernels:
+    """Tabulate the influence functions of both rollers on one window."""
+    window = covering_window((nip.upper, nip.lower), nip.speed)
+    upper, lower = (
+        None if roller.is_rigid else surface_kernels(roller, nip.speed, geometry, window)
+        for roller in (nip.upper, nip.lower)
+    )
+    return PairKernels(upper, lower)
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceMatrices:
+    """Displacements of one surface at some points per nodal traction of its own frame.
+
+    u_x = xx t_x + xz t_z and u_z = -xz t_x + zz t_z; each (points, N-1) [mm/MPa].
+    """
+
+    xx: Array
+    zz: Array
+    xz: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Displacements:
+    """Displacements of both surfaces, each in its own frame, at some points [mm]."""
+
+    x_upper: Array
+    z_upper: Array
+    x_lower: Array
+    z_lower: Array
+
+    @classmethod
+    def under(
+        cls, upper: SurfaceMatrices, lower: SurfaceMatrices, state: ContactState
+    ) -> Displacements:
+        """Under the tractions of a solution: (q, p) on the upper surface, (-q, p) on the lower."""
+        p, q = state.pressure, state.shear
+        return cls(
+            x_upper=upper.xz @ p + upper.xx @ q,
+            z_upper=upper.zz @ p - upper.xz @ q,
+            x_lower=lower.xz @ p - lower.xx @ q,
+            z_lower=lower.zz @ p + lower.xz @ q,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Nodes, and what the surfaces do at nodes[1:] under unit tractions at nodes[1:-1]."""
+
+    nodes: Array
+    upper: SurfaceMatrices
+    lower: SurfaceMatrices
+
+    @property
+    def inner(self) -> Array:
+        """Nodes that carry tractions, (N-1,) [mm]."""
+        return self.nodes[1:-1]
+
+    @property
+    def dx(self) -> Array:
+        """Lengths of the intervals between nodes[1:], (N-1,) [mm]."""
+        return np.diff(self.nodes[1:])
+
+    def displacements(self, state: ContactState) -> Displacements:
+        """Displacements at nodes[1:]."""
+        return Displacements.under(self.upper, self.lower, state)
+
+
+def mesh_on(nodes: Array, kernels: PairKernels) -> Mesh:
+    """Evaluate the influence functions of both surfaces on a mesh."""
+    points = nodes[1:]
+    return Mesh(
+        nodes,
+        surface_matrices(kernels.upper, points, nodes),
+        surface_matrices(kernels.lower, points, nodes),
+    )
+
+
+def surface_matrices(
+    kernels: SurfaceKernels | None, points: Array, nodes: Array
+) -> SurfaceMatrices:
+    """Displacements at ``points`` per unit traction at nodes[1:-1]; zero for a rigid roller."""
+    if kernels is None:
+        zero = np.zeros((points.size, nodes.size - 2))
+        return SurfaceMatrices(zero, zero, zero)
+    return SurfaceMatrices(
+        xx=displacement_matrix(kernels.xx, points, nodes),
+        zz=displacement_matrix(kernels.zz, points, nodes),
+        xz=displacement_matrix(kernels.xz, points, nodes),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class SecondOrder:
+    """Terms that depend on the solution itself, taken from the last one.
+
+    Attributes
+    ----------
+    clearance : (n,) added to the gap [mm].
+    creep_length : (n,) added to the interval lengths that multiply xi [mm].
+    creep_offset : (n,) added to the creep [mm].
+    traction : the traction that gives the wanted torque [N/mm]; None where no torque is wanted.
+    """
+
+    clearance: Array
+    creep_length: Array
+    creep_offset: Array
+    traction: float | None
+
+    def change(
+        self, before: SecondOrder, approach: float, strain: Array, traction: float
+    ) -> float:
+        """Largest change since ``before``, relative to an approach, strains and a traction."""
+        changes = [
+            np.max(np.abs(self.clearance - before.clearance)) / max(abs(approach), 1e-300),
+            np.max(np.abs(self.creep_offset - before.creep_offset) / strain),
+            np.max(np.abs(self.creep_length - before.creep_length) / strain),
+        ]
+        if self.traction is not None and before.traction is not None:
+            changes.append(abs(self.traction - before.traction) / traction)
+        return float(np.max(changes))
+
+
+def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
+    """1/R in the stretch of the surface; 0 where the layers are taken as flat."""
+    return roller.curvature if is_ring(roller, geometry) else 0.0
+
+
+def contact_problem(
+    nip: Nip, geometry: Geometry, mesh: Mesh, second: SecondOrder
+) -> ContactProblem:
+    """Theory sections 5 and 6: gap and creep, linear in the tractions."""
+    upper, lower = mesh.upper, mesh.lower
+    creep_pressure = np.diff(upper.xz - lower.xz, axis=0)
+    creep_shear = np.diff(upper.xx + lower.xx, axis=0)
+    hoop_u, hoop_l = (hoop_curvature(r, geometry) for r in (nip.upper, nip.lower))
+    if hoop_u or hoop_l:
+        dx = mesh.dx[:, None]
+        creep_pressure -= dx * mean_of_neighbours(hoop_u * upper.zz - hoop_l * lower.zz)
+        creep_shear += dx * mean_of_neighbours(hoop_u * upper.xz + hoop_l * lower.xz)
+    return ContactProblem(
+        x=mesh.inner,
+        weights=load_weights(mesh.nodes),
+        clearance=0.5 * nip.curvature * mesh.inner**2 + second.clearance,
+        normal_pressure=(upper.zz + lower.zz)[:-1],
+        normal_shear=(lower.xz - upper.xz)[:-1],
+        creep_pressure=creep_pressure,
+        creep_shear=creep_shear,
+        creep_length=mesh.dx + second.creep_length,
+        creep_offset=second.creep_offset,
+        friction=nip.friction,
+        control=_control(nip, second),
+    )
+
+
+def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
+    """No second-order terms yet; free rolling where a torque is wanted."""
+    zero = np.zeros(mesh.inner.size)
+    return SecondOrder(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
+
+
+def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:
+    """Second-order terms of a solution on a mesh."""
+    u = mesh.displacements(state)
+    guess = first_guess(nip, mesh)
+    clearance, length, offset = guess.clearance, guess.creep_length, guess.creep_offset
+    if geometry == "corrected":
+        clearance = _distance_correction(nip, mesh, u)
+    if geometry == "curved":
+        length, offset = _stretch_terms(nip, mesh, u, geometry)
+    traction = guess.traction
+    if isinstance(nip.tangential, Torque):
+        traction = _traction_for_torque(nip, geometry, mesh, state, u)
+    return SecondOrder(clearance, length, offset, traction)
+
+
+def _control(nip: Nip, second: SecondOrder) -> Control:
+    normal, tangential = nip.normal, nip.tangential
+    traction = tangential.traction if isinstance(tangential, Traction) else second.traction
+    creepage = tangential.creepage if isinstance(tangential, Creepage) else None
+    return Control(
+        load=normal.load if isinstance(normal, LineLoad) else None,
+        approach=normal.approach if isinstance(normal, Approach) else None,
+        traction=traction,
+        creepage=creepage,
+    )
+
+
+def _distance_correction(nip: Nip, mesh: Mesh, u: Displacements) -> Array:
+    """e(x): true distance of the deformed surfaces less its linear approximation."""
+    x = mesh.inner
+    true = sagitta(x, nip.upper.curvature, u.x_upper[:-1], u.z_upper[:-1]) + sagitta(
+        x, nip.lower.curvature, u.x_lower[:-1], u.z_lower[:-1]
+    )
+    return true - (0.5 * nip.curvature * x * x + u.z_upper[:-1] + u.z_lower[:-1])
+
+
+def _stretch_terms(
+    nip: Nip, mesh: Mesh, u: Displacements, geometry: Geometry
+) -> tuple[Array, Array]:
+    """What the creep (1 + xi/2) stretch_u - (1 - xi/2) stretch_l has beyond its linear part."""
+    length = np.zeros(mesh.inner.size)
+    offset = np.zeros(mesh.inner.size)
+    sides = (
+        (nip.upper, u.x_upper, u.z_upper, 1.0),
+        (nip.lower, u.x_lower, u.z_lower, -1.0),
+    )
+    for roller, u_x, u_z, sign in sides:
+        if roller.is_rigid:
+            continue
+        hoop = hoop_curvature(roller, geometry)
+        rotation = rotation_stretch(mesh.dx, hoop, u_x, u_z)
+        length += 0.5 * (linear_stretch(mesh.dx, hoop, u_x, u_z) + rotation)
+        offset += sign * rotation
+    return length, offset
+
+
+def _traction_for_torque(
+    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
+) -> float:
+    """T at which the lower torque R_l (-int q (1 - u_z/R_l) dx - int p du_z) is the wanted one."""
+    assert isinstance(nip.tangential, Torque)
+    lower = nip.lower
+    leaning = pressure_work(state.pressure, u.z_lower)
+    traction = -nip.tangential.torque_lower * lower.curvature - leaning
+    if geometry != "linear":
+        weights = load_weights(mesh.nodes)
+        traction += lower.curvature * float(weights @ (state.shear * u.z_lower[:-1]))
+    return traction
+
+
+def pressure_work(traction: Array, displacement: Array) -> float:
+    """int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
+    means = 0.5 * (traction + np.append(traction[1:], 0.0))
+    return float(means @ np.diff(displacement))

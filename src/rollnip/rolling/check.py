@@ -1,0 +1,226 @@
+"""The contact conditions evaluated afresh, on more points than were solved on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isnan
+
+import numpy as np
+
+from rollnip.contact import ContactState, State, Zone
+from rollnip.geometry import linear_stretch, rotation_stretch, sagitta
+from rollnip.influence import strain_matrix
+from rollnip.influence.surface import SurfaceKernels
+from rollnip.model import Geometry
+from rollnip.nip import LineLoad, Nip
+from rollnip.rolling.assemble import (
+    Array,
+    Displacements,
+    PairKernels,
+    SurfaceMatrices,
+    hoop_curvature,
+    surface_matrices,
+)
+from rollnip.rolling.rounds import Round, creepage_scale
+
+_SUBDIVISION = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Fields:
+    """What both surfaces do at some points, evaluated from the tractions of a solution.
+
+    Attributes
+    ----------
+    x : (n,) from trailing to leading [mm].
+    pressure, shear : (n,) [MPa].
+    displacements : of both surfaces, each in its own frame [mm].
+    gap : (n,) [mm].
+    creep : (n-1,) length by which the upper surface outruns the lower over each interval [mm].
+    """
+
+    x: Array
+    pressure: Array
+    shear: Array
+    displacements: Displacements
+    gap: Array
+    creep: Array
+
+
+def fields_at(
+    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round
+) -> Fields:
+    """Evaluate a solution at points ``x``, with nothing taken over but tractions, delta and xi."""
+    state = final.state
+    nodes = final.mesh.nodes
+    u = Displacements.under(
+        surface_matrices(kernels.upper, x, nodes), surface_matrices(kernels.lower, x, nodes), state
+    )
+    inner = final.mesh.inner
+    return Fields(
+        x=x,
+        pressure=np.interp(x, inner, state.pressure, left=0.0, right=0.0),
+        shear=np.interp(x, inner, state.shear, left=0.0, right=0.0),
+        displacements=u,
+        gap=_gap(x, nip, geometry, u) - state.approach,
+        creep=_creep(x, nip, geometry, u, state.creepage),
+    )
+
+
+def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
+    """Distance of the deformed surfaces, before the approach is taken off."""
+    if geometry == "corrected":
+        upper = sagitta(x, nip.upper.curvature, u.x_upper, u.z_upper)
+        return upper + sagitta(x, nip.lower.curvature, u.x_lower, u.z_lower)
+    return 0.5 * nip.curvature * x * x + u.z_upper + u.z_lower
+
+
+def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
+    """int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval."""
+    dx = np.diff(x)
+    upper = stretch_excess(dx, nip, geometry, u, side="upper")
+    lower = stretch_excess(dx, nip, geometry, u, side="lower")
+    if geometry != "curved":  # small strains: the product of creepage and strain is left out
+        return creepage * dx + upper - lower
+    return creepage * dx + (1.0 + 0.5 * creepage) * upper - (1.0 - 0.5 * creepage) * lower
+
+
+def stretch_excess(
+    dx: Array, nip: Nip, geometry: Geometry, u: Displacements, *, side: str
+) -> Array:
+    """int (stretch - 1) dx of one surface over each interval [mm]."""
+    roller = nip.upper if side == "upper" else nip.lower
+    u_x, u_z = (u.x_upper, u.z_upper) if side == "upper" else (u.x_lower, u.z_lower)
+    if roller.is_rigid:
+        return np.zeros(dx.size)
+    hoop = hoop_curvature(roller, geometry)
+    excess = linear_stretch(dx, hoop, u_x, u_z)
+    if geometry == "curved":
+        excess = excess + rotation_stretch(dx, hoop, u_x, u_z)
+    return excess
+
+
+def fine_points(final: Round) -> Array:
+    """Points of the mesh and between, and on to a little more than a nip width outside."""
+    nodes = final.mesh.nodes[2:-2]
+    between = [
+        nodes[:-1] + (nodes[1:] - nodes[:-1]) * i / _SUBDIVISION for i in range(_SUBDIVISION)
+    ]
+    inside = np.append(np.sort(np.concatenate(between)), nodes[-1])
+    width = final.figures.nip_width
+    away = np.concatenate([np.geomspace(2e-3, 0.1, 10), np.linspace(0.15, 1.1, 20)]) * width
+    edges = final.zones[0].start, final.zones[-1].stop
+    trailing = edges[0] - away[::-1]
+    leading = edges[1] + away
+    return np.concatenate(
+        [trailing[trailing < inside[0]], inside, leading[leading > inside[-1]]]
+    )
+
+
+def residual(nip: Nip, fields: Fields, final: Round) -> float:
+    """Largest violation of the contact conditions, each relative (theory section 5).
+
+    Penetration and p times gap over the approach, tension over the peak pressure, shear beyond
+    the traction bound, drift of sticking surfaces over |xi| times the nip width, slip with its
+    own shear, errors of load and traction.
+    """
+    state, figures = final.state, final.figures
+    peak = figures.peak_pressure
+    depth = _depth(nip, figures.nip_width, figures.approach)
+    parts = [
+        np.max(-fields.gap) / depth,
+        np.max(fields.pressure * np.abs(fields.gap)) / (peak * depth),
+        np.max(-state.pressure) / peak,
+        _load_error(nip, final),
+    ]
+    if nip.friction > 0.0:
+        parts += _friction_errors(nip, fields, final)
+    return float(max(0.0, *parts))
+
+
+def _depth(nip: Nip, width: float, approach: float) -> float:
+    """Length against which a penetration counts: the approach, or the gap's depth at the edge."""
+    at_edge = 0.125 * nip.curvature * width**2
+    return at_edge if nip.has_half_space else max(abs(approach), at_edge)
+
+
+def _load_error(nip: Nip, final: Round) -> float:
+    if isinstance(nip.normal, LineLoad):
+        return abs(final.figures.load - nip.normal.load) / nip.normal.load
+    return abs(final.state.approach - nip.normal.approach) / nip.normal.approach
+
+
+def _friction_errors(nip: Nip, fields: Fields, final: Round) -> list[float]:
+    state, figures = final.state, final.figures
+    bound = nip.friction * figures.peak_pressure
+    over = np.max(np.abs(state.shear) - nip.friction * np.maximum(state.pressure, 0.0))
+    allowed = creepage_scale(nip, figures) * figures.nip_width
+    errors = [float(over) / bound]
+    for zone in final.zones:
+        inside = _intervals_in(fields.x, zone)
+        if not np.any(inside):
+            continue
+        if zone.state == State.STICK:
+            drift = np.concatenate([[0.0], np.cumsum(fields.creep[inside])])
+            errors.append(float(np.ptp(drift)) / allowed)
+        else:
+            sign = 1.0 if zone.state == State.SLIP_PLUS else -1.0
+            wrong = np.maximum(-sign * fields.creep[inside], 0.0)
+            errors.append(float(np.sum(wrong)) / allowed)
+    wanted = final.problem.control.traction
+    if wanted is not None:
+        reached = float(final.problem.weights @ state.shear)
+        errors.append(abs(reached - wanted) / (nip.friction * figures.load))
+    return errors
+
+
+def _intervals_in(x: Array, zone: Zone) -> Array:
+    """Intervals between ``x`` that lie wholly in a zone."""
+    return np.asarray((x[:-1] >= zone.start) & (x[1:] <= zone.stop))
+
+
+def slip_velocity(fields: Fields, zones: tuple[Zone, ...], speed: float) -> Array:
+    """Slip velocity of the upper surface relative to the lower at each point, nan outside."""
+    rate = -speed * fields.creep / np.diff(fields.x)
+    out = np.full(fields.x.size, np.nan)
+    middle = 0.5 * (fields.x[1:] + fields.x[:-1])
+    for zone in zones:
+        inside = (fields.x >= zone.start) & (fields.x <= zone.stop)
+        if zone.state == State.STICK:
+            out[inside] = 0.0
+        else:
+            out[inside] = np.interp(fields.x[inside], middle, rate)
+    return out
+
+
+def surface_strain(
+    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round, *, side: str
+) -> Array:
+    """Strain of one surface at ``x``: du_x/dx, in curved geometry the stretch less 1."""
+    upper = side == "upper"
+    roller, surface = (nip.upper, kernels.upper) if upper else (nip.lower, kernels.lower)
+    if surface is None:
+        return np.zeros(x.size)
+    slopes, values = _slopes_and_values(surface, x, final.mesh.nodes)
+    p, q = final.state.pressure, final.state.shear * (1.0 if upper else -1.0)
+    strain = slopes.xz @ p + slopes.xx @ q
+    if geometry != "curved":
+        return strain
+    hoop = hoop_curvature(roller, geometry)
+    u_x, u_z = values.xz @ p + values.xx @ q, values.zz @ p - values.xz @ q
+    rotation = slopes.zz @ p - slopes.xz @ q + hoop * u_x
+    return strain - hoop * u_z + 0.5 * rotation**2
+
+
+def _slopes_and_values(
+    surface: SurfaceKernels, x: Array, nodes: Array
+) -> tuple[SurfaceMatrices, SurfaceMatrices]:
+    slopes = SurfaceMatrices(
+        *(strain_matrix(k, x, nodes) for k in (surface.xx, surface.zz, surface.xz))
+    )
+    return slopes, surface_matrices(surface, x, nodes)
+
+
+def has_creepage(state: ContactState) -> bool:
+    """Whether the creepage is defined."""
+    return not isnan(state.creepage)

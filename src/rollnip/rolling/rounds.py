@@ -1,0 +1,274 @@
+"""Rounds of meshing and solving: finer and better placed, until the results stand still."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf, isfinite, sqrt
+
+import numpy as np
+
+from rollnip.contact import (
+    ContactProblem,
+    ContactState,
+    Demand,
+    Safeguarded,
+    State,
+    Zone,
+    contact_intervals,
+    contact_zones,
+    graded_nodes,
+    states_on,
+)
+from rollnip.influence import load_weights
+from rollnip.model import Model
+from rollnip.nip import LineLoad, Nip
+from rollnip.rolling.assemble import (
+    Array,
+    Mesh,
+    PairKernels,
+    SecondOrder,
+    contact_problem,
+    first_guess,
+    mesh_on,
+    second_order,
+)
+
+_FIRST_COUNT = 24
+_MOST_ELEMENTS = 1000
+_MOST_ROUNDS = 24
+_MOST_TURNS = 40
+_SAFETY = 1.5  # on the estimate of the error from two meshes
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """The figures whose accuracy is watched; creepage is nan where it is not defined."""
+
+    approach: float
+    load: float
+    creepage: float
+    nip_width: float
+    peak_pressure: float
+
+    def array(self) -> Array:
+        """All of them in order, (5,)."""
+        return np.array(
+            [self.approach, self.load, self.creepage, self.nip_width, self.peak_pressure]
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Round:
+    """The solution on one mesh.
+
+    Attributes
+    ----------
+    mesh, problem, state : the discrete problem and its solution.
+    zones : contact zones from trailing to leading edge.
+    figures : approach, load, creepage, nip width, peak pressure.
+    error : estimated discretisation error of each figure, in its own unit; inf where unknown.
+    steps : linear systems solved in all rounds so far.
+    settled : whether states and second-order terms stand still.
+    """
+
+    mesh: Mesh
+    problem: ContactProblem
+    state: ContactState
+    zones: tuple[Zone, ...]
+    figures: Figures
+    error: Figures
+    steps: int
+    settled: bool
+
+
+def refine(
+    nip: Nip, model: Model, kernels: PairKernels, half_width: float, method: Safeguarded
+) -> Round:
+    """Solve on ever better meshes until the estimated error is below the tolerance.
+
+    Each mesh is graded to the edges and transitions that the one before found. The tractions
+    are piecewise linear and the error is of second order in 1/elements, so two meshes give an
+    estimate of it: |difference|/(ratio^2 - 1).
+
+    Parameters
+    ----------
+    half_width : first guess [mm].
+    method : how each discrete problem is solved.
+
+    Returns
+    -------
+    The last round; its error may exceed the tolerance where the rounds ran out.
+    """
+    count = _FIRST_COUNT
+    breaks = np.array([-1.3 * half_width, 1.3 * half_width])
+    zones: tuple[Zone, ...] = (Zone(-0.8 * half_width, 0.8 * half_width, State.STICK),)
+    demand: Demand | None = None
+    latest: Round | None = None
+    coarser: tuple[int, Figures] | None = None
+    for _ in range(_MOST_ROUNDS):
+        mesh = mesh_on(graded_nodes(breaks, count, demand), kernels)
+        latest = _solve_on(nip, model, mesh, zones, latest, method)
+        zones = latest.zones
+        found = _next_breaks(latest)
+        placed = _well_placed(breaks, found, count) and latest.settled
+        breaks = found
+        demand = Demand.of(latest.problem.x, latest.state.pressure, latest.state.shear)
+        if not placed:
+            continue
+        if coarser is not None:
+            latest = replace(latest, error=_error(latest.figures, count, *coarser))
+            ratio = excess(nip, latest, model.tolerance)
+            if ratio <= 1.0 or count >= _MOST_ELEMENTS:
+                break
+            coarser = (count, latest.figures)
+            count = min(int(count * min(max(1.1 * sqrt(ratio), 1.3), 2.0)), _MOST_ELEMENTS)
+        else:
+            coarser = (count, latest.figures)
+            count = 2 * count
+    assert latest is not None
+    return latest
+
+
+def _solve_on(
+    nip: Nip,
+    model: Model,
+    mesh: Mesh,
+    zones: tuple[Zone, ...],
+    before: Round | None,
+    method: Safeguarded,
+) -> Round:
+    """Solve on one mesh, repeating it until the second-order terms stand still."""
+    states = states_on(mesh.inner, zones)
+    if not np.any(states):
+        states[np.argmin(np.abs(mesh.inner))] = State.STICK
+    second = first_guess(nip, mesh)
+    if before is not None:
+        second = second_order(nip, model.geometry, mesh, _carried(before, mesh))
+    steps = 0 if before is None else before.steps
+    for _ in range(_MOST_TURNS):
+        problem = contact_problem(nip, model.geometry, mesh, second)
+        state = method.solve(problem, states)
+        steps += state.steps
+        updated = second_order(nip, model.geometry, mesh, state)
+        change = _change(updated, second, mesh, nip, state)
+        second, states = updated, state.states
+        if not change > 1e-2 * model.tolerance:
+            break
+    zones = contact_zones(problem.x, state, nip.friction)
+    unknown = Figures(inf, inf, inf, inf, inf)
+    figures = _figures(problem, state, zones)
+    settled = state.settled and change <= 1e-2 * model.tolerance
+    return Round(mesh, problem, state, zones, figures, unknown, steps, settled)
+
+
+def _carried(before: Round, mesh: Mesh) -> ContactState:
+    """The last solution interpolated on a new mesh."""
+    x, state = before.problem.x, before.state
+    return replace(
+        state,
+        states=np.zeros(mesh.inner.size, dtype=np.int8),
+        pressure=np.interp(mesh.inner, x, state.pressure, left=0.0, right=0.0),
+        shear=np.interp(mesh.inner, x, state.shear, left=0.0, right=0.0),
+    )
+
+
+def _change(
+    new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState
+) -> float:
+    """Largest change of the second-order terms, relative to the first-order ones."""
+    half_nip = 0.5 * (mesh.nodes[-1] - mesh.nodes[0])
+    strain = nip.curvature * half_nip
+    scale = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
+    load = float(load_weights(mesh.nodes) @ state.pressure)
+    return new.change(old, scale, strain * mesh.dx, strain * load)
+
+
+def _figures(problem: ContactProblem, state: ContactState, zones: tuple[Zone, ...]) -> Figures:
+    peak, _ = peak_pressure(problem.x, state.pressure)
+    return Figures(
+        approach=state.approach,
+        load=float(problem.weights @ state.pressure),
+        creepage=state.creepage,
+        nip_width=zones[-1].stop - zones[0].start,
+        peak_pressure=peak,
+    )
+
+
+def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
+    """Highest pressure and its place, by the parabola through the highest node's neighbours."""
+    i = int(np.argmax(pressure))
+    if not 0 < i < x.size - 1:
+        return float(pressure[i]), float(x[i])
+    rise = (pressure[i] - pressure[i - 1]) / (x[i] - x[i - 1])
+    fall = (pressure[i + 1] - pressure[i]) / (x[i + 1] - x[i])
+    bend = (fall - rise) / (x[i + 1] - x[i - 1])
+    if not bend < 0.0:
+        return float(pressure[i]), float(x[i])
+    place = 0.5 * (x[i - 1] + x[i]) - 0.5 * rise / bend
+    value = pressure[i - 1] + (rise + bend * (place - x[i])) * (place - x[i - 1])
+    return float(value), float(place)
+
+
+def _next_breaks(latest: Round) -> Array:
+    """Edges and transitions to grade the next mesh to, merged where they nearly coincide."""
+    zones, x = latest.zones, latest.problem.x
+    places = np.unique([z.start for z in zones] + [z.stop for z in zones])
+    states = latest.state.states
+    if states[0] != State.FREE:  # contact reaches the end of the mesh: make room
+        places = np.append(places[0] - 0.3 * (places[-1] - places[0]), places)
+    if states[-1] != State.FREE:
+        places = np.append(places, places[-1] + 0.3 * (places[-1] - places[0]))
+    width = places[-1] - places[0]
+    if not width > 0.0:
+        return np.array([x[0], x[-1]])
+    kept = [places[0]]
+    for place in places[1:-1]:
+        if place - kept[-1] > 1e-4 * width and places[-1] - place > 1e-4 * width:
+            kept.append(place)
+    return np.array([*kept, places[-1]])
+
+
+def _well_placed(breaks: Array, found: Array, count: int) -> bool:
+    """Whether the edges found lie where the mesh expected them, to about an edge element."""
+    width = found[-1] - found[0]
+    allowed = 4.0 * width / count**2
+    return bool(
+        abs(found[0] - breaks[0]) < allowed
+        and abs(found[-1] - breaks[-1]) < allowed
+        and found.size == breaks.size
+        and np.all(np.abs(found - breaks) < 8.0 * allowed)
+    )
+
+
+def _error(figures: Figures, count: int, coarse_count: int, coarse: Figures) -> Figures:
+    """Estimated error of each figure from its change between two meshes (second order)."""
+    gain = (count / coarse_count) ** 2 - 1.0
+    change = _SAFETY * np.abs(figures.array() - coarse.array()) / gain
+    return Figures(*(float(value) for value in change))
+
+
+def excess(nip: Nip, latest: Round, tolerance: float) -> float:
+    """Largest estimated relative error over the tolerance."""
+    figures, error = latest.figures, latest.error
+    watched = [
+        error.nip_width / figures.nip_width,
+        error.peak_pressure / figures.peak_pressure,
+    ]
+    if isinstance(nip.normal, LineLoad):
+        if not nip.has_half_space:
+            watched.append(error.approach / abs(figures.approach))
+    else:
+        watched.append(error.load / figures.load)
+    if isfinite(figures.creepage):
+        watched.append(error.creepage / creepage_scale(nip, figures))
+    return float(max(watched)) / tolerance
+
+
+def creepage_scale(nip: Nip, figures: Figures) -> float:
+    """Size against which an error of the creepage is measured.
+
+    The creepage itself, but not less than a hundredth of the slope of the gap at the edge: a
+    creepage that is zero by symmetry has no relative accuracy.
+    """
+    slope = 0.5 * figures.nip_width * nip.curvature
+    return max(abs(figures.creepage), 0.01 * slope)

@@ -1,0 +1,329 @@
+"""The result of a solve: frozen data and the figures derived from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import isfinite, isinf, isnan, nan
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import State, contact_intervals
+from rollnip.model import Model
+from rollnip.nip import Approach, Nip
+from rollnip.rolling import (
+    Fields,
+    PairKernels,
+    Round,
+    fields_at,
+    fine_points,
+    hoop_curvature,
+    peak_pressure,
+    pressure_work,
+    slip_velocity,
+    surface_strain,
+)
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """A piece of the contact in one state.
+
+    Attributes
+    ----------
+    start, stop : trailing and leading end [mm].
+    state : "stick" or "slip".
+    direction : sign of the slip velocity of the upper surface, along +x; None in stick.
+    """
+
+    start: float
+    stop: float
+    state: Literal["stick", "slip"]
+    direction: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Profiles:
+    """Distributions over x, from trailing to leading, to one nip width outside the contact.
+
+    Attributes
+    ----------
+    x : (n,) [mm], towards the leading edge.
+    pressure, shear : (n,) [MPa]; shear on the upper roller, along +x.
+    gap : (n,) distance of the surfaces [mm].
+    slip_velocity : (n,) of the upper surface relative to the lower, along +x [mm/s]; nan outside
+        the contact; None without speed or creepage.
+    strain_upper, strain_lower : (n,) du_x/dx of each surface ("curved": stretch less 1).
+    speed_upper, speed_lower : (n,) V_roller (1 + strain) [mm/s]; None without speed or creepage.
+    """
+
+    x: Array
+    pressure: Array
+    shear: Array
+    gap: Array
+    slip_velocity: Array | None
+    strain_upper: Array
+    strain_lower: Array
+    speed_upper: Array | None
+    speed_lower: Array | None
+
+
+@dataclass(frozen=True, slots=True)
+class SolverInfo:
+    """How the solution was reached.
+
+    Attributes
+    ----------
+    elements : of the last mesh.
+    iterations : linear systems solved in all.
+    residual : largest violation of the contact conditions, evaluated afresh, relative.
+    seconds : wall time.
+    version : of rollnip.
+    """
+
+    elements: int
+    iterations: int
+    residual: float
+    seconds: float
+    version: str
+
+
+@dataclass(frozen=True)
+class Solution:
+    """A solved nip. Units mm, N, MPa, s; x points to the leading edge (the inlet).
+
+    Attributes
+    ----------
+    nip, model : the problem.
+    converged : whether the fresh check and the error estimates meet the tolerance.
+    status : a sentence that says so, or what is wrong and what helps.
+    warnings : reservations, in plain words.
+    solver : how it was reached.
+    """
+
+    nip: Nip
+    model: Model
+    converged: bool
+    status: str
+    warnings: tuple[str, ...]
+    solver: SolverInfo
+    final: Round = field(repr=False)
+    kernels: PairKernels = field(repr=False)
+
+    @property
+    def load(self) -> float:
+        """Line load F [N/mm]."""
+        return self.final.figures.load
+
+    @property
+    def approach(self) -> float | None:
+        """Approach delta of the axles [mm]; None with a half-space core."""
+        return None if self.nip.has_half_space else self.final.state.approach
+
+    @property
+    def creepage(self) -> float | None:
+        """Creepage xi = (V_u - V_l)/V; None where it is free (no friction)."""
+        creepage = self.final.state.creepage
+        return None if isnan(creepage) else creepage
+
+    @property
+    def traction(self) -> float:
+        """Traction T [N/mm]: int q dx, "curved" and "corrected": per undeformed arc, mean of both.
+
+        T > 0: the upper roller drives the lower one.
+        """
+        return float(self.final.problem.weights @ self.final.state.shear)
+
+    @property
+    def speed_ratio(self) -> float | None:
+        """V_u/V_l; None where the creepage is free."""
+        xi = self.creepage
+        return None if xi is None else (1.0 + 0.5 * xi) / (1.0 - 0.5 * xi)
+
+    @cached_property
+    def contact(self) -> tuple[tuple[float, float], ...]:
+        """Contact intervals (trailing, leading) [mm], trailing first."""
+        return contact_intervals(self.final.zones)
+
+    @property
+    def nip_width(self) -> float:
+        """From the outermost trailing to the outermost leading edge [mm]."""
+        return self.final.figures.nip_width
+
+    @property
+    def dwell_time(self) -> float | None:
+        """Nip width over speed [s]; None without speed."""
+        return None if self.nip.speed is None else self.nip_width / self.nip.speed
+
+    @property
+    def peak_pressure(self) -> float:
+        """Highest pressure [MPa]."""
+        return self.final.figures.peak_pressure
+
+    @property
+    def peak_pressure_x(self) -> float:
+        """Where the pressure is highest [mm]."""
+        return peak_pressure(self.final.problem.x, self.final.state.pressure)[1]
+
+    @property
+    def mean_pressure(self) -> float:
+        """Load over contacted length [MPa]."""
+        return self.load / sum(leading - trailing for trailing, leading in self.contact)
+
+    @cached_property
+    def zones(self) -> tuple[Zone, ...]:
+        """Stick and slip zones from trailing to leading edge; empty without friction."""
+        if self.nip.friction == 0.0:
+            return ()
+        # q = -mu p sign(slip velocity): shear to the plus side resists slip to the minus side.
+        kinds: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
+            State.STICK: ("stick", None),
+            State.SLIP_PLUS: ("slip", -1),
+            State.SLIP_MINUS: ("slip", 1),
+        }
+        return tuple(Zone(z.start, z.stop, *kinds[z.state]) for z in self.final.zones)
+
+    @property
+    def torque_upper(self) -> float | None:
+        """Driving torque on the upper axle per length [N]; None for a plane."""
+        return self._torque(upper=True)
+
+    @property
+    def torque_lower(self) -> float | None:
+        """Driving torque on the lower axle per length [N]; None for a plane."""
+        return self._torque(upper=False)
+
+    @property
+    def dissipation_friction(self) -> float | None:
+        """int |q s| dx [N/s = mW/mm]; None without speed."""
+        if self.nip.speed is None:
+            return None
+        creepage = self.creepage
+        if creepage is None:
+            return 0.0
+        fields = self._fields_on_mesh
+        means = 0.5 * (fields.shear[1:] + fields.shear[:-1])
+        return float(self.nip.speed * np.sum(np.abs(means * fields.creep)))
+
+    @property
+    def dissipation_viscous(self) -> float | None:
+        """Power lost inside the layers [N/s]; 0 for elastic ones, None without speed."""
+        if self.nip.speed is None:
+            return None
+        return self.nip.speed * self._loss_per_distance if self.nip.is_viscoelastic else 0.0
+
+    @property
+    def rolling_resistance(self) -> float:
+        """Viscous dissipation/(F V)."""
+        return self._loss_per_distance / self.load if self.nip.is_viscoelastic else 0.0
+
+    @property
+    def power_in(self) -> float | None:
+        """T (V_u - V_l) + V (1/R_u + 1/R_l) int p x dx [N/s]; None without speed."""
+        if self.nip.speed is None:
+            return None
+        x, p = self.final.problem.x, self.final.state.pressure
+        moment = _moment(self.final.mesh.nodes, p) if x.size else 0.0
+        slip = self.traction * (self.creepage or 0.0)
+        return self.nip.speed * (slip + self.nip.curvature * moment)
+
+    @property
+    def error(self) -> dict[str, float]:
+        """Estimated discretisation errors, absolute, in the unit of each figure."""
+        error = self.final.error
+        out = {
+            "approach": nan if self.nip.has_half_space else error.approach,
+            "load": error.load,
+            "creepage": error.creepage,
+            "nip_width": error.nip_width,
+            "peak_pressure": error.peak_pressure,
+        }
+        if isinstance(self.nip.normal, Approach):
+            out["approach"] = 0.0
+        return out
+
+    @cached_property
+    def profiles(self) -> Profiles:
+        """Distributions in and outside the nip."""
+        x = fine_points(self.final)
+        fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
+        strains = [
+            surface_strain(
+                x, self.nip, self.model.geometry, self.kernels, self.final, side=side
+            )
+            for side in ("upper", "lower")
+        ]
+        speed, xi = self.nip.speed, self.creepage
+        known = speed is not None and xi is not None
+        slip = slip_velocity(fields, self.final.zones, speed) if known else None
+        if slip is not None and self.nip.friction == 0.0:
+            slip = None
+        return Profiles(
+            x=x,
+            pressure=fields.pressure,
+            shear=fields.shear,
+            gap=np.where(fields.pressure > 0.0, 0.0, np.maximum(fields.gap, 0.0)),
+            slip_velocity=slip,
+            strain_upper=strains[0],
+            strain_lower=strains[1],
+            speed_upper=speed * (1.0 + 0.5 * xi) * (1.0 + strains[0]) if known else None,
+            speed_lower=speed * (1.0 - 0.5 * xi) * (1.0 + strains[1]) if known else None,
+        )
+
+    @property
+    def nodes(self) -> Array:
+        """Nodes of the mesh that carry tractions, from trailing to leading, (n,) [mm]."""
+        return self.final.problem.x
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure at the nodes, linear between them, (n,) [MPa]."""
+        return self.final.state.pressure
+
+    @property
+    def shear(self) -> Array:
+        """Shear on the upper roller along +x at the nodes, linear between them, (n,) [MPa]."""
+        return self.final.state.shear
+
+    @cached_property
+    def _fields_on_mesh(self) -> Fields:
+        x = self.final.mesh.nodes[1:]
+        return fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
+
+    @property
+    def _loss_per_distance(self) -> float:
+        """-int (q du_t + p d(u_z,upper + u_z,lower)): viscous loss per rolled distance [N/mm]."""
+        u, state = self._fields_on_mesh.displacements, self.final.state
+        tangential = pressure_work(state.shear, u.x_upper - u.x_lower)
+        return -tangential - pressure_work(state.pressure, u.z_upper + u.z_lower)
+
+    def _torque(self, *, upper: bool) -> float | None:
+        """+-R T - R int p du_z: the pressure acts along the normal of the deformed interface."""
+        roller = self.nip.upper if upper else self.nip.lower
+        if isinf(roller.radius):
+            return None
+        u = self._fields_on_mesh.displacements
+        u_z = u.z_upper if upper else u.z_lower
+        shear = self.final.state.shear * (1.0 if upper else -1.0)
+        traction = float(self.final.problem.weights @ shear)
+        if self.model.geometry != "linear":
+            # The arm of the shear is R - u_z.
+            depth = roller.curvature * u_z[:-1]
+            traction -= float(self.final.problem.weights @ (shear * depth))
+        return roller.radius * (traction - pressure_work(self.final.state.pressure, u_z))
+
+
+def _moment(nodes: Array, pressure: Array) -> float:
+    """int p x dx of a pressure linear between nodes [N]."""
+    p = np.concatenate([[0.0], pressure, [0.0]])
+    a, b = nodes[:-1], nodes[1:]
+    return float(np.sum((b - a) * (p[:-1] * (2.0 * a + b) + p[1:] * (a + 2.0 * b)) / 6.0))
+
+
+def finite(value: float | None) -> float | None:
+    """``value``, or None where it is not a finite number."""
+    return value if value is not None and isfinite(value) else None

@@ -1,0 +1,132 @@
+"""The flow of one solution, as in section 3 of Braat & Kalker 1993.
+
+Influence functions from the layers by an inverse Fourier transform; contact stresses, approach
+and creepage by the contact algorithm; repeated on better meshes, with the geometry corrected,
+until the results stand still; and a fresh check of what came out.
+"""
+
+from __future__ import annotations
+
+from importlib.metadata import PackageNotFoundError, version
+from time import perf_counter
+from typing import Literal
+
+from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip.contact import Safeguarded
+from rollnip.model import Model
+from rollnip.nip import Nip, Torque
+from rollnip.rolling import (
+    Round,
+    excess,
+    fields_at,
+    fine_points,
+    half_width_guess,
+    pair_kernels,
+    refine,
+    residual,
+)
+from rollnip.solution import Solution, SolverInfo
+
+
+def solve(
+    nip: Nip,
+    model: Model | None = None,
+    *,
+    method: Safeguarded | None = None,
+    on_failure: Literal["raise", "return"] = "return",
+) -> Solution:
+    """Solve the steady rolling contact of two coated rollers.
+
+    Parameters
+    ----------
+    nip :
+        the problem.
+    model :
+        geometry and accuracy; ``Model()`` by default.
+    method :
+        how each discrete contact problem is solved; ``Safeguarded()`` by default.
+    on_failure :
+        "return" a solution whose ``converged`` is False, or "raise" ConvergenceError.
+
+    Returns
+    -------
+    Solution; ``converged`` is set by a fresh check of the contact conditions on more points than
+    were solved on, and by the estimated errors.
+
+    Raises
+    ------
+    InvalidInputError
+        where the problem has no solution: a traction beyond friction times load, a nip as wide
+        as a roller.
+    ConvergenceError
+        where ``on_failure`` is "raise" and the solution could not be verified.
+    """
+    start = perf_counter()
+    model = Model() if model is None else model
+    kernels = pair_kernels(nip, model.geometry)
+    half_width = half_width_guess(nip, kernels)
+    final = refine(nip, model, kernels, half_width, method or Safeguarded())
+    _require_grip(nip, final)
+    x = fine_points(final)
+    left = residual(nip, fields_at(x, nip, model.geometry, kernels, final), final)
+    converged, status = _verdict(nip, model, final, left)
+    solution = Solution(
+        nip=nip,
+        model=model,
+        converged=converged,
+        status=status,
+        warnings=(),
+        solver=SolverInfo(
+            elements=int(final.problem.x.size + 1),
+            iterations=final.steps,
+            residual=left,
+            seconds=perf_counter() - start,
+            version=_version(),
+        ),
+        final=final,
+        kernels=kernels,
+    )
+    if on_failure == "raise" and not converged:
+        raise ConvergenceError(status, solution)
+    return solution
+
+
+def _require_grip(nip: Nip, final: Round) -> None:
+    """Raise where the wanted traction is more than friction can carry: the nip would spin."""
+    wanted = final.problem.control.traction
+    limit = nip.friction * final.figures.load
+    if nip.friction == 0.0 or wanted is None or abs(wanted) < limit:
+        return
+    name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
+    raise InvalidInputError(
+        f"`{name}` asks for a traction of {wanted:.6g} N/mm, but friction * load carries less "
+        f"than {limit:.6g} N/mm; lower it, or raise the load or the friction."
+    )
+
+
+def _verdict(nip: Nip, model: Model, final: Round, left: float) -> tuple[bool, str]:
+    """Whether the solution stands, and a sentence that says so or what to do."""
+    too_large = excess(nip, final, model.tolerance)
+    if not final.settled:
+        return False, (
+            "The contact did not settle; the load may be too large for this geometry model. "
+            'Try `geometry = "linear"`, a smaller load or another tolerance.'
+        )
+    if not left <= model.tolerance:
+        return False, (
+            f"The contact conditions are violated by {left:.1e} (relative), more than the "
+            f"tolerance {model.tolerance:g}; try a smaller tolerance."
+        )
+    if not too_large <= 1.0:
+        return False, (
+            f"The estimated error is {too_large:.1f} times the tolerance {model.tolerance:g} on "
+            "the finest mesh; accept it with a larger tolerance."
+        )
+    return True, f"Solved and verified: residual {left:.1e}, tolerance {model.tolerance:g}."
+
+
+def _version() -> str:
+    try:
+        return version("rollnip")
+    except PackageNotFoundError:  # run from a source tree that was never installed
+        return "unknown"

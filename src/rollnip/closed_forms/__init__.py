@@ -1,0 +1,79 @@
+"""Closed forms of rolling contact: exact or asymptotic solutions to check a computation against.
+
+Pure functions; mm, N, MPa, s throughout. x points to the leading edge, pressure is positive, shear
+is the traction on the upper roller along +x, and T > 0 where the upper roller drives. Every formula
+names its source and its range.
+"""
+
+from rollnip.closed_forms.dissimilar import (
+    FullStick,
+    VanishingFriction,
+    free_rolling_full_stick,
+    free_rolling_vanishing_friction,
+)
+from rollnip.closed_forms.hertz import (
+    HertzLine,
+    InteriorStress,
+    contact_modulus,
+    effective_radius,
+    hertz_line,
+)
+from rollnip.closed_forms.hunter import Hunter, hunter
+from rollnip.closed_forms.partial_slip import (
+    Carter,
+    Cattaneo,
+    carter,
+    carter_at_creepage,
+    cattaneo,
+)
+from rollnip.closed_forms.plate import PlateContact, plate_on_foundation, plate_stiffness
+from rollnip.closed_forms.simplified import (
+    SimplifiedRolling,
+    WinklerContact,
+    simplified_rolling,
+    simplified_rolling_at_creepage,
+    winkler_contact,
+)
+from rollnip.closed_forms.strip import (
+    ViscoelasticStrip,
+    viscoelastic_strip,
+    viscoelastic_strip_of_width,
+)
+from rollnip.closed_forms.thin_layer import (
+    ThinLayer,
+    thin_compressible_layer,
+    thin_incompressible_layer,
+)
+
+__all__ = [
+    "Carter",
+    "Cattaneo",
+    "FullStick",
+    "HertzLine",
+    "Hunter",
+    "InteriorStress",
+    "PlateContact",
+    "SimplifiedRolling",
+    "ThinLayer",
+    "VanishingFriction",
+    "ViscoelasticStrip",
+    "WinklerContact",
+    "carter",
+    "carter_at_creepage",
+    "cattaneo",
+    "contact_modulus",
+    "effective_radius",
+    "free_rolling_full_stick",
+    "free_rolling_vanishing_friction",
+    "hertz_line",
+    "hunter",
+    "plate_on_foundation",
+    "plate_stiffness",
+    "simplified_rolling",
+    "simplified_rolling_at_creepage",
+    "thin_compressible_layer",
+    "thin_incompressible_layer",
+    "viscoelastic_strip",
+    "viscoelastic_strip_of_width",
+    "winkler_contact",
+]

@@ -1,0 +1,158 @@
+"""Hertz: line contact of two half-spaces, with the stress inside."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, pi, sqrt
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rollnip._errors import InvalidInputError, require_positive
+from rollnip.closed_forms._common import half_ellipse, require_all_positive, require_poisson
+
+
+class InteriorStress(NamedTuple):
+    """Stress components [MPa] at points inside a body; tension is positive."""
+
+    s_xx: NDArray[np.float64]
+    s_zz: NDArray[np.float64]
+    s_xz: NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class HertzLine:
+    """A Hertzian line contact: |x| <= half_width, no friction.
+
+    Attributes
+    ----------
+    half_width :
+        a [mm].
+    peak_pressure :
+        p0 [MPa], at x = 0.
+    """
+
+    half_width: float
+    peak_pressure: float
+
+    def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
+        """p(x) = p0 sqrt(1 - x^2/a^2) [MPa], 0 outside; x [mm] of any shape."""
+        return self.peak_pressure * half_ellipse(x, self.half_width)
+
+    def interior(self, x: ArrayLike, z: ArrayLike) -> InteriorStress:
+        """Stress inside either body under this pressure alone.
+
+        Exact for a half-space; independent of its moduli.
+
+        Parameters
+        ----------
+        x, z :
+            places [mm], broadcast together; z >= 0 is the depth.
+
+        Returns
+        -------
+        InteriorStress [MPa] of the broadcast shape; s_xz in the frame of the body, x along the
+        nip and z into the body.
+
+        Raises
+        ------
+        InvalidInputError
+            where a depth is negative.
+
+        Notes
+        -----
+        With P the harmonic function that equals p on z = 0: s_zz = -P + z P_z, s_xx = -P - z P_z,
+        s_xz = z P_x. For zeta = (x + i z)/a, P = p0 Re g with
+        g = 1/(sqrt(1 - zeta^2) - i zeta), which loses no digits far away.
+
+        References
+        ----------
+        McEwen (1949), Phil. Mag. 40, 454-459; Johnson (1985), Contact Mechanics, eq. 4.49.
+        """
+        place, depth = np.broadcast_arrays(np.asarray(x, float), np.asarray(z, float))
+        if np.any(depth < 0.0):
+            raise InvalidInputError(f"`z` must be zero or positive, got {float(depth.min())!r}.")
+        zeta = (place + 1j * depth) / self.half_width
+        root = np.sqrt(1.0 - zeta * zeta)
+        root = root.real - 1j * np.copysign(np.abs(root.imag), place)  # the branch from z > 0
+        harmonic = 1.0 / (root - 1j * zeta)
+        regular = (depth > 0.0) & (root != 0.0)
+        slope = np.where(regular, 1j * harmonic / np.where(regular, root, 1.0), 0.0)
+        level, turn = depth / self.half_width * slope.imag, depth / self.half_width * slope.real
+        return InteriorStress(
+            s_xx=-self.peak_pressure * (harmonic.real - level),
+            s_zz=-self.peak_pressure * (harmonic.real + level),
+            s_xz=self.peak_pressure * turn,
+        )
+
+
+def hertz_line(*, load: float, radius: float, contact_modulus: float) -> HertzLine:
+    """Line contact of two cylinders: a^2 = 4 F R/(pi E*), p0 = 2 F/(pi a).
+
+    For elastic half-spaces: a much smaller than the radii and than any coating. The approach of
+    the axles is not defined (it grows with the logarithm of the size of the bodies).
+
+    Parameters
+    ----------
+    load :
+        line load F [N/mm], positive.
+    radius :
+        effective radius R [mm], see `effective_radius`.
+    contact_modulus :
+        E* [MPa], see `contact_modulus`.
+
+    Returns
+    -------
+    HertzLine.
+
+    Raises
+    ------
+    InvalidInputError
+        where a parameter is not positive and finite.
+
+    References
+    ----------
+    Johnson (1985), Contact Mechanics, eqs 4.43, 4.45.
+    """
+    require_all_positive({"load": load, "radius": radius, "contact_modulus": contact_modulus})
+    half_width = sqrt(4.0 * load * radius / (pi * contact_modulus))
+    return HertzLine(half_width=half_width, peak_pressure=2.0 * load / (pi * half_width))
+
+
+def contact_modulus(
+    modulus_upper: float,
+    poisson_upper: float,
+    modulus_lower: float = inf,
+    poisson_lower: float = 0.0,
+) -> float:
+    """E* [MPa]: 1/E* = (1 - nu_u^2)/E_u + (1 - nu_l^2)/E_l; a modulus inf is a rigid body.
+
+    Raises InvalidInputError unless moduli are positive, one of them finite, and Poisson ratios
+    lie in (-1, 0.5]. Johnson (1985), Contact Mechanics, section 4.2.
+    """
+    require_poisson("poisson_upper", poisson_upper)
+    require_poisson("poisson_lower", poisson_lower)
+    upper = _inverse("modulus_upper", modulus_upper) * (1.0 - poisson_upper**2)
+    lower = _inverse("modulus_lower", modulus_lower) * (1.0 - poisson_lower**2)
+    if upper + lower == 0.0:
+        raise InvalidInputError("`modulus_upper` and `modulus_lower` must not both be inf.")
+    return 1.0 / (upper + lower)
+
+
+def effective_radius(radius_upper: float, radius_lower: float = inf) -> float:
+    """R [mm]: 1/R = 1/R_upper + 1/R_lower; a radius inf is a plane.
+
+    Raises InvalidInputError unless radii are positive and one of them finite.
+    """
+    curvature = _inverse("radius_upper", radius_upper) + _inverse("radius_lower", radius_lower)
+    if curvature == 0.0:
+        raise InvalidInputError("`radius_upper` and `radius_lower` must not both be inf.")
+    return 1.0 / curvature
+
+
+def _inverse(name: str, value: float) -> float:
+    if value == inf:
+        return 0.0
+    require_positive(name, value)
+    return 1.0 / value

@@ -72,7 +72,7 @@ def test_interior_on_the_surface_and_far_away():
 
 
 def test_largest_shear_stress_lies_below_the_surface():
-    """.300 p0 at z = .786 a (Johnson 1985, eq. 4.46; digits by maximising 4.45)."""
+    """.300 p0 at z = .786 a (Johnson 1985, section 4.2; third digits by hand)."""
     z = np.linspace(0.7, 0.9, 2001)
     stress = UNIT.interior(0.0, z)
     shear = 0.5 * np.abs(stress.s_xx - stress.s_zz)

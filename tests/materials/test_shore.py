@@ -12,6 +12,14 @@ def test_gent(shore_a, modulus):
     assert shore_a_modulus(shore_a) == pytest.approx(modulus, abs=0.006)
 
 
+@pytest.mark.parametrize("shore_a", [20.0, 50.0, 95.0])
+def test_gent_is_a_flat_punch(shore_a):
+    """Force = (8/3) E radius depth on an incompressible half-space, radius 0.516 mm."""
+    force = 9.81e-3 * (56.0 + 7.62336 * shore_a)  # N
+    depth = 2.54 * (1.0 - shore_a / 100.0)
+    assert shore_a_modulus(shore_a) == pytest.approx(force / (8 / 3 * 0.516 * depth), rel=2e-3)
+
+
 @pytest.mark.parametrize(("shore_a", "modulus"), [(60.0, 5.88), (80.0, 17.4)])
 def test_log_linear(shore_a, modulus):
     """log10 E = 0.0235 S - 0.6403, to three digits."""

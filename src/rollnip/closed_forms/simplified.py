@@ -150,8 +150,8 @@ def simplified_rolling(
 
     References
     ----------
-    Kalker (1990), Three-Dimensional Elastic Bodies in Rolling Contact, section 3.7 (here with the
-    parabolic pressure that its normal springs give); Johnson (1985), section 8.6.
+    Kalker (1973), The simplified theory of rolling contact, Delft Progr. Rep. 1, 1-10, here with
+    the parabolic pressure that normal springs give.
     """
     contact = winkler_contact(load=load, radius=radius, foundation=foundation)
     require_all_positive({"flexibility": flexibility, "friction": friction})

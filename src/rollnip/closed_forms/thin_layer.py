@@ -77,7 +77,7 @@ def thin_compressible_layer(
 
     References
     ----------
-    Johnson (1985), Contact Mechanics, section 5.8, eqs 5.68-5.70.
+    Johnson (1985), Contact Mechanics, section 5.8.
     """
     require_all_positive({"modulus": modulus, "thickness": thickness})
     require_poisson("poisson", poisson)
@@ -128,7 +128,7 @@ def thin_incompressible_layer(
 
     References
     ----------
-    Johnson (1985), Contact Mechanics, section 5.8, eqs 5.73-5.76; Jaffar (1989), Int. J. Mech.
+    Johnson (1985), Contact Mechanics, section 5.8; Jaffar (1989), Int. J. Mech.
     Sci. 31, 229-235.
     """
     require_all_positive(

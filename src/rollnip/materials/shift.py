@@ -34,7 +34,7 @@ class WLF:
 
     References
     ----------
-    Williams, Landel & Ferry (1955), J. Am. Chem. Soc. 77, 3701-3707, eq. 21.
+    Williams, Landel & Ferry (1955), J. Am. Chem. Soc. 77, 3701-3707.
     """
 
     c1: float

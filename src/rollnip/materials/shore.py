@@ -27,11 +27,11 @@ class ShoreBand(NamedTuple):
 def shore_a_modulus(shore_a: float) -> float:
     """Young's modulus [MPa] of rubber from its Shore A hardness S, by Gent's formula.
 
-    E = 0.0981 (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)): the durometer's indenter taken as a
-    flat punch of 0.79 mm on an incompressible elastic half-space, its spring force as
-    56 + 7.62336 S grams. Quasi-static modulus at small strain. A good factor of 2 is open
-    up to 80, more above;
-    see `shore_a_band`.
+    E = 0.0981 (56 + 7.62336 S)/(0.137505 (254 - 2.54 S)): the spring force 56 + 7.62336 S grams
+    on a flat punch of 0.516 mm radius (between tip and shank of the indenter), pressed
+    2.54 mm (1 - S/100) into an incompressible elastic half-space: force = (8/3) E radius depth.
+    Quasi-static modulus at small strain. A good factor of 2 is open up to 80, more above; see
+    `shore_a_band`.
 
     Parameters
     ----------
@@ -60,9 +60,9 @@ def shore_a_modulus(shore_a: float) -> float:
 def shore_a_modulus_log_linear(shore_a: float) -> float:
     """Young's modulus [MPa] from Shore A hardness S: log10 E = 0.0235 S - 0.6403.
 
-    A fit to tests on elastomers of 20 to 80 Shore A. It lies above Gent's formula
-    (`shore_a_modulus`): by 1.6 at 60, 1.9 at 80. Beware of copies with exp instead of the
-    power of ten. Hardness from 20 to 95, else InvalidInputError.
+    A fit to tests, said to be best from 30 to 60. It lies above Gent's formula
+    (`shore_a_modulus`) by a factor of 1.6 at 60 and 1.9 at 80. Beware of copies with exp instead
+    of the power of ten. Hardness from 20 to 95, else InvalidInputError.
 
     References
     ----------

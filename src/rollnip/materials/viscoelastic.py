@@ -82,7 +82,7 @@ class StandardLinearSolid(Viscoelastic):
 
     References
     ----------
-    Braat & Kalker (1993), Contact Mechanics (eds Aliabadi & Brebbia), section 2.
+    Braat & Kalker (1993), Trans. Eng. Sci. 1, 119-126, eq. 1.
     """
 
     modulus: float

@@ -1,6 +1,7 @@
 """What the tests share. Threads are set before numpy loads: see the Makefile."""
 
 import os
+from dataclasses import dataclass
 
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
@@ -10,15 +11,46 @@ import pytest  # noqa: E402
 from hypothesis import settings  # noqa: E402
 
 import rollnip as rn  # noqa: E402
-from rollnip.solution import Profiles, Solution, SolverInfo, Zone  # noqa: E402
+from rollnip.solution import Profiles, SolverInfo, Zone  # noqa: E402
 
 # a slow machine is no error of the code under test
 settings.register_profile("rollnip", deadline=None)
 settings.load_profile("rollnip")
 
 
+@dataclass(frozen=True)
+class HandMade:
+    """What a Solution shows to others, as plain fields."""
+
+    nip: rn.Nip
+    model: rn.Model
+    converged: bool
+    status: str
+    load: float
+    approach: float | None
+    traction: float
+    creepage: float | None
+    speed_ratio: float | None
+    contact: tuple[tuple[float, float], ...]
+    nip_width: float
+    dwell_time: float | None
+    peak_pressure: float
+    peak_pressure_x: float
+    mean_pressure: float
+    zones: tuple[Zone, ...]
+    torque_upper: float | None
+    torque_lower: float | None
+    rolling_resistance: float | None
+    dissipation_friction: float | None
+    dissipation_viscous: float | None
+    error: dict[str, float]
+    profiles: Profiles
+    solver: SolverInfo
+    warnings: tuple[str, ...]
+
+
 @pytest.fixture
-def solution() -> Solution:
+def solution() -> HandMade:
     """A solution made by hand: every field filled, no solver run."""
     rubber = rn.Elastic(modulus=0.91, poisson=0.5)
     nip = rn.Nip(
@@ -33,7 +65,7 @@ def solution() -> Solution:
     x = np.linspace(-11.0, 11.0, 45)
     pressure = 0.35 * np.sqrt(np.clip(1.0 - (x / 3.6) ** 2, 0.0, None))
     zero = np.zeros_like(x)
-    return Solution(
+    return HandMade(
         nip=nip,
         model=rn.Model(),
         converged=True,

@@ -183,3 +183,15 @@ def test_interrupted_is_130(monkeypatch, case):
     result = run("solve", case)
     assert (result.exit_code, result.stdout) == (130, "")
     assert result.stderr == "rollnip: interrupted.\n"
+
+
+def test_the_real_thing(tmp_path):
+    out, plot = tmp_path / "r.json", tmp_path / "p.png"
+    command = [*COMMAND, "solve", str(EXAMPLE), "--json", "--out", str(out), "--plot", str(plot)]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    tree = json.loads(done.stdout)
+    assert tree == json.loads(out.read_text())
+    assert tree["converged"] is True
+    assert tree["traction"] == pytest.approx(0.53, rel=1e-6)
+    assert sorted(tmp_path.iterdir()) == [plot, out]

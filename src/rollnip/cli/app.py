@@ -7,14 +7,14 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TextIO
+from typing import TYPE_CHECKING, Annotated, TextIO, cast
 
 import typer
 
-from rollnip._errors import RollnipError
+from rollnip._errors import InvalidInputError, RollnipError
 
 if TYPE_CHECKING:
-    from rollnip.model import Model
+    from rollnip.model import Geometry, Model
 
 app = typer.Typer(
     name="rollnip",
@@ -112,18 +112,24 @@ def version() -> None:
 def _overridden(model: Model, geometry: str | None, tolerance: str | None) -> Model:
     from dataclasses import replace
 
-    from rollnip._errors import InvalidInputError
     from rollnip._units import parse_quantity
 
-    try:
-        if tolerance is not None:
+    if tolerance is not None:
+        with _named("--tolerance"):
             model = replace(model, tolerance=parse_quantity(tolerance, "ratio"))
-    except InvalidInputError as error:
-        raise InvalidInputError(f"--tolerance: {error}") from None
+    if geometry is not None:
+        with _named("--geometry"):
+            model = replace(model, geometry=cast("Geometry", geometry))
+    return model
+
+
+@contextmanager
+def _named(option: str) -> Iterator[None]:
+    """Put the option before what is said against its value."""
     try:
-        return model if geometry is None else replace(model, geometry=geometry)
+        yield
     except InvalidInputError as error:
-        raise InvalidInputError(f"--geometry: {error}") from None
+        raise InvalidInputError(f"{option}: {error}") from None
 
 
 def _print_version() -> None:

@@ -15,6 +15,7 @@ from rollnip.solution import Solution
 
 _WIDTH = 96
 _DIGITS = 4
+_ROUNDING = 1e-9
 _SIGNS = (
     "x points to the inlet (leading edge). Traction and creepage > 0: the upper roller drives. "
     "Torque > 0: that axle puts power in."
@@ -22,7 +23,10 @@ _SIGNS = (
 
 
 class _Row(NamedTuple):
-    """One number: its name, value in the solution's unit, unit shown and factor to it, error."""
+    """One number: its name, value in the solution's unit, unit shown and factor to it, error.
+
+    ``size`` is what the value is to be compared with: a rounding error of it is shown as 0.
+    """
 
     name: str
     value: float | None
@@ -30,6 +34,7 @@ class _Row(NamedTuple):
     scale: float = 1.0
     error: float | None = None
     note: str = ""
+    size: float = 0.0
 
 
 def print_summary(solution: Solution, console: Console | None = None) -> None:
@@ -91,23 +96,25 @@ def _nip_rows(solution: Solution) -> list[_Row]:
             note="not defined with a half-space core",
         ),
         _Row("nip width", solution.nip_width, "mm", error=error.get("nip_width")),
-        *_contact_rows(solution.contact),
+        *_contact_rows(solution),
         _Row("dwell time", solution.dwell_time, "ms", 1e3, note="needs `speed`"),
         _Row("peak pressure", solution.peak_pressure, "MPa", error=error.get("peak_pressure")),
-        _Row("  at x", solution.peak_pressure_x, "mm"),
+        _Row("  at x", solution.peak_pressure_x, "mm", size=solution.nip_width),
         _Row("mean pressure", solution.mean_pressure, "MPa"),
     ]
 
 
-def _contact_rows(contact: Sequence[tuple[float, float]]) -> Iterator[_Row]:
-    for trailing, leading in contact:
-        yield _Row("  from x", trailing, "mm")
-        yield _Row("  to x", leading, "mm")
+def _contact_rows(solution: Solution) -> Iterator[_Row]:
+    size = solution.nip_width
+    for trailing, leading in solution.contact:
+        yield _Row("  from x", trailing, "mm", size=size)
+        yield _Row("  to x", leading, "mm", size=size)
 
 
 def _drive_rows(solution: Solution) -> list[_Row]:
+    moment = solution.load * solution.nip_width
     return [
-        _Row("traction", solution.traction, "N/mm"),
+        _Row("traction", solution.traction, "N/mm", size=solution.load),
         _Row(
             "creepage",
             solution.creepage,
@@ -117,8 +124,8 @@ def _drive_rows(solution: Solution) -> list[_Row]:
             "not defined without friction",
         ),
         _Row("speed ratio upper/lower", solution.speed_ratio),
-        _Row("torque on the upper axle", solution.torque_upper, "N mm/mm"),
-        _Row("torque on the lower axle", solution.torque_lower, "N mm/mm"),
+        _Row("torque on the upper axle", solution.torque_upper, "N mm/mm", size=moment),
+        _Row("torque on the lower axle", solution.torque_lower, "N mm/mm", size=moment),
     ]
 
 
@@ -152,13 +159,15 @@ def _table(rows: Sequence[_Row]) -> RenderableType:
         if row.value is None:
             table.add_row(row.name, "-", "", row.note or "not defined")
             continue
-        value = format_quantity(row.value * row.scale, digits=_DIGITS)
-        table.add_row(row.name, value, row.unit, _plus_minus(row))
+        rounding = abs(row.value) < _ROUNDING * row.size
+        value = 0.0 if rounding else row.value * row.scale
+        number = format_quantity(value, digits=_DIGITS)
+        table.add_row(row.name, number, row.unit, _plus_minus(row))
     return Padding(table, (0, 0, 0, 2))
 
 
 def _plus_minus(row: _Row) -> str:
-    if not row.error:
+    if row.error is None or not row.error > _ROUNDING * abs(row.value or 0.0):
         return ""
     return f"± {format_quantity(abs(row.error * row.scale), digits=2)}"
 

@@ -33,9 +33,9 @@ from rollnip.materials import (
     StandardLinearSolid,
     Viscoelastic,
 )
+from rollnip.model import Model
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Roller
-from rollnip.model import Model
 
 _OF_THE_WHOLE = {"upper": "nip", "lower": "nip", "radius": "upper.radius, lower.radius"}
 _KINDS: dict[type[ViscoelasticTable], type[Viscoelastic]] = {

@@ -14,8 +14,8 @@ from rollnip.io.build import Builder
 from rollnip.io.document import parse_document, read_document
 from rollnip.io.messages import form_error, wrong_controls
 from rollnip.io.tables import CaseTable
-from rollnip.nip import Nip
 from rollnip.model import Model
+from rollnip.nip import Nip
 
 _MOST_ERRORS = 20
 

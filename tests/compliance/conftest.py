@@ -16,7 +16,7 @@ Oracle = Callable[..., Compliance]
 def exponential(generator: Any, length: Any) -> Any:
     """exp(generator * length) by halving and Taylor's series; exact to the working precision."""
     scaled = generator * length
-    halvings = max(0, int(mp.ceil(mp.log(1 + mp.mnorm(scaled, 1), 2))))
+    halvings = 8 + int(mp.ceil(mp.log(1 + mp.mnorm(scaled, 1), 2)))
     scaled = scaled / mp.mpf(2) ** halvings
     total = term = mp.eye(4)
     order = 0
@@ -80,8 +80,8 @@ def _flat(
     """(xx, zz, xz, zx); a half-space core is a layer so thick that its base is out of sight."""
     layers = list(zip(thickness, modulus, poisson, strict=True))
     if core is not None:
-        layers.append((60.0 / k, *core))
-    digits = 60 + int(sum(2.0 * k * d for d, *_ in layers) + 40)
+        layers.append((45.0 / k, *core))
+    digits = 60 + int(sum(k * d for d, *_ in layers))  # exp(2kd) is lost
     with mp.workdps(digits):
         transfer = mp.eye(4)
         for d, young, nu in layers:
@@ -100,7 +100,7 @@ def _ring(
 ) -> Compliance:
     """(xx, zz, xz, zx) with u_x = u_t, u_z = -u_r, t_x = T/R, p = -S/R."""
     inner = radius - sum(thickness)
-    digits = 60 + int(2.0 * (n + 1.0) * np.log(radius / inner))
+    digits = 60 + int((n + 1.0) * np.log(radius / inner))
     with mp.workdps(digits):
         outer = mp.mpf(radius)
         transfer = mp.eye(4)
@@ -110,6 +110,83 @@ def _ring(
             outer -= mp.mpf(d)
         d_ = from_rigid(transfer) * mp.mpf(radius)
         return complex(d_[1, 1]), complex(d_[0, 0]), complex(-d_[1, 0]), complex(-d_[0, 1])
+
+
+def _flat_fields(
+    k: float,
+    z: float,
+    thickness: Sequence[float],
+    modulus: Sequence[complex],
+    poisson: Sequence[float],
+    tractions: tuple[complex, complex],
+    core: tuple[complex, float] | None = None,
+) -> list[complex]:
+    """u_x, u_z, s_xx, s_zz, s_xz at depth z, in the layer above where z is an interface."""
+    layers = list(zip(thickness, modulus, poisson, strict=True))
+    if core is not None:
+        layers.append((sum(thickness) + 45.0 / k, *core))
+    digits = 60 + int(sum(2.0 * k * d for d, *_ in layers))  # exp(4kd) is lost
+    with mp.workdps(digits):
+        transfer, lower, left, material = mp.eye(4), mp.eye(4), mp.mpf(z), layers[0]
+        for d, young, nu in layers:
+            generator = flat_generator(mp.mpf(k), mp.mpmathify(young), mp.mpf(nu))
+            transfer = transfer * exponential(generator, -mp.mpf(d))
+            if left > 0:
+                lower = exponential(generator, min(mp.mpf(d), left)) * lower
+                left, material = left - mp.mpf(d), (d, young, nu)
+        stress = mp.matrix([-mp.mpmathify(t) for t in tractions])
+        displacement = from_rigid(transfer) * stress
+        state = lower * mp.matrix([*displacement, *stress])
+        _, young, nu = material
+        gamma = mp.mpmathify(young) / (1 - mp.mpf(nu) ** 2)
+        beta = mp.mpf(nu) / (1 - mp.mpf(nu))
+        hoop = beta * state[3] + gamma * mp.mpc(0, k) * state[0]
+        return [complex(v) for v in (state[0], state[1], hoop, state[3], state[2])]
+
+
+def _ring_fields(
+    n: float,
+    z: float,
+    radius: float,
+    thickness: Sequence[float],
+    modulus: Sequence[complex],
+    poisson: Sequence[float],
+    tractions: tuple[complex, complex],
+) -> list[complex]:
+    """u_x, u_z, s_xx, s_zz, s_xz at depth z, in the layer above where z is an interface."""
+    digits = 60 + int(2.0 * (n + 1.0) * np.log(radius / (radius - sum(thickness))))
+    layers = list(zip(thickness, modulus, poisson, strict=True))
+    with mp.workdps(digits):
+        outer, target = mp.mpf(radius), mp.mpf(radius) - mp.mpf(z)
+        transfer, lower, material = mp.eye(4), mp.eye(4), layers[0]
+        for d, young, nu in layers:
+            generator = ring_generator(mp.mpf(n), mp.mpmathify(young), mp.mpf(nu))
+            inner = outer - mp.mpf(d)
+            transfer = transfer * exponential(generator, mp.log(outer / inner))
+            if target < outer:
+                lower = exponential(generator, mp.log(max(inner, target) / outer)) * lower
+                material = (d, young, nu)
+            outer = inner
+        t_x, t_z = (mp.mpmathify(t) for t in tractions)
+        stress = mp.matrix([-t_z * radius, t_x * radius])
+        displacement = from_rigid(transfer) * stress
+        state = lower * mp.matrix([*displacement, *stress])
+        _, young, nu = material
+        gamma = mp.mpmathify(young) / (1 - mp.mpf(nu) ** 2)
+        beta = mp.mpf(nu) / (1 - mp.mpf(nu))
+        hoop = beta * state[2] + gamma * (state[0] + mp.mpc(0, n) * state[1])
+        values = (state[1], -state[0], hoop / target, state[2] / target, -state[3] / target)
+        return [complex(v) for v in values]
+
+
+@pytest.fixture(scope="session")
+def flat_fields_oracle() -> Callable[..., list[complex]]:
+    return _flat_fields
+
+
+@pytest.fixture(scope="session")
+def ring_fields_oracle() -> Callable[..., list[complex]]:
+    return _ring_fields
 
 
 @pytest.fixture(scope="session")

@@ -2,6 +2,18 @@
 
 from rollnip.compliance._flat import flat_compliance, half_space_limit
 from rollnip.compliance._ring import ring_compliance
-from rollnip.compliance._types import SurfaceCompliance
+from rollnip.compliance._transfer import flat_fields, flat_transfer, ring_fields, ring_transfer
+from rollnip.compliance._types import DepthTransfer, LayerFields, SurfaceCompliance
 
-__all__ = ["SurfaceCompliance", "flat_compliance", "half_space_limit", "ring_compliance"]
+__all__ = [
+    "DepthTransfer",
+    "LayerFields",
+    "SurfaceCompliance",
+    "flat_compliance",
+    "flat_fields",
+    "flat_transfer",
+    "half_space_limit",
+    "ring_compliance",
+    "ring_fields",
+    "ring_transfer",
+]

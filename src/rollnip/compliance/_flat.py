@@ -84,7 +84,7 @@ def flat_compliance(
     """
     stack = checked_stack(k, thickness, modulus, poisson)
     core = checked_core(core_modulus, core_poisson, stack.k.size)
-    _require_finite_answer(stack, core)
+    require_finite_answer(stack, core)
     stack = stack._replace(k=floored(stack.k, stack.thickness, core))
     states = climb_flat(stack, core)
     surface_shear = stack.twice_shear[0] if stack.twice_shear else states.core_shear
@@ -218,7 +218,8 @@ def floored(k: FloatArray, thickness: FloatArray, core: Core | None) -> FloatArr
     return np.maximum(k, _SHALLOWEST / np.sum(thickness))
 
 
-def _require_finite_answer(stack: Stack, core: Core | None) -> None:
+def require_finite_answer(stack: Stack, core: Core | None) -> None:
+    """Refuse a bare rigid core, and k = 0 on a half-space, which sinks without end."""
     if core is None and stack.thickness.size == 0:
         raise InvalidInputError("`thickness` must have a layer when the core is rigid.")
     if core is not None and np.any(stack.k == 0.0):

@@ -16,7 +16,7 @@ With 1/h = 0 and n/h = 1 it is that of the flat layer.
 
 from __future__ import annotations
 
-from math import ceil, log1p
+from math import ceil, factorial, log1p
 from typing import NamedTuple
 
 import numpy as np
@@ -35,7 +35,7 @@ from rollnip.compliance._types import (
 
 _DEEPEST = 400.0
 """Beyond this t the layer below is invisible in double precision: exp(-2 * 400) = 0."""
-_LARGEST_STEP = 0.5
+LARGEST_STEP = 0.5
 """Largest log ratio of radii climbed at once; keeps the eigenvalues +-2 apart from large ones."""
 
 
@@ -149,10 +149,11 @@ def climb_ring_layer(
     state: SurfaceState, log_ratio: float, poisson: float, wave: RingWave
 ) -> SurfaceState:
     """Minors at ``log_ratio`` = log(r/r_0) above ``state`` within one medium, up to a factor."""
-    steps = max(1, ceil(log_ratio / _LARGEST_STEP))
+    steps = max(1, ceil(log_ratio / LARGEST_STEP))
     weights = _power_weights(np.minimum(wave.h * (log_ratio / steps), _DEEPEST), wave)
-    for _ in range(steps):
-        state = rescaled(_climb_step(state, weights, poisson, wave), 1.0)
+    state = _climb_step(state, weights, poisson, wave)
+    for _ in range(steps - 1):
+        state = _climb_step(rescaled(state, 1.0), weights, poisson, wave)
     return state
 
 
@@ -228,23 +229,27 @@ def _second_differences(
     odd = ((0.5 * (1.0 - decay * decay) - y * decay) / thick**3 - decay * odd1) * span
     thin = y < 2.0
     if np.any(thin):
-        even[thin], odd[thin] = (
-            decay[thin] * part for part in _symmetric_series(x2[thin], y[thin] ** 2)
-        )
+        series = symmetric_series(x2[thin], y[thin] ** 2, (4, 5))
+        even[thin], odd[thin] = (decay[thin] * part for part in series)
     return even, odd
 
 
-def _symmetric_series(x2: FloatArray, y2: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Sums of H_j/(2j+4)! and H_j/(2j+5)!, H_j = sum over i = 0..j of x^(2i) y^(2j-2i); y <= 2."""
+def symmetric_series(
+    x2: FloatArray, y2: FloatArray, firsts: tuple[int, ...]
+) -> tuple[FloatArray, ...]:
+    """Sum of H_j/(2j + f)! for each f of ``firsts``, H_j = sum of x^(2i) y^(2j-2i), i = 0..j.
+
+    The divided difference between x^2 and y^2 of the tail of cosh sqrt (f even) or
+    sinh sqrt / sqrt (f odd); complete to double precision for x <= y <= 2.
+    """
     symmetric = np.ones_like(x2)
     power = np.ones_like(x2)
-    factorial = 24.0  # (2j+4)!
-    even = symmetric / factorial
-    odd = symmetric / (5.0 * factorial)
+    totals = [np.full_like(x2, 1.0 / factorial(first)) for first in firsts]
     for j in range(1, 12):
         power = power * x2
         symmetric = symmetric * y2 + power
-        factorial *= (2 * j + 3) * (2 * j + 4)
-        even = even + symmetric * (1.0 / factorial)
-        odd = odd + symmetric * (1.0 / (factorial * (2 * j + 5)))
-    return even, odd
+        totals = [
+            total + symmetric * (1.0 / factorial(2 * j + first))
+            for total, first in zip(totals, firsts, strict=True)
+        ]
+    return tuple(totals)

@@ -30,6 +30,40 @@ class SurfaceCompliance(NamedTuple):
     xz: ComplexArray
 
 
+class LayerFields(NamedTuple):
+    """Displacements and stresses at depth, each field times exp(i k x).
+
+    Frame: x along the nip, z into the body from its outer surface; on a ring x is the tangent at
+    the point, so that s_xx is the hoop stress, s_zz = s_rr, s_xz = -s_rt.
+
+    Attributes
+    ----------
+    u_x, u_z :
+        (nz, n) complex arrays [mm].
+    s_xx, s_zz, s_xz :
+        (nz, n) complex arrays [MPa], tension positive.
+    """
+
+    u_x: ComplexArray
+    u_z: ComplexArray
+    s_xx: ComplexArray
+    s_zz: ComplexArray
+    s_xz: ComplexArray
+
+
+class DepthTransfer(NamedTuple):
+    """Fields at depth per unit surface traction [1 MPa]; displacements then in mm/MPa.
+
+    Attributes
+    ----------
+    from_x, from_z :
+        fields of t_x = 1, t_z = 0 and of t_x = 0, t_z = 1.
+    """
+
+    from_x: LayerFields
+    from_z: LayerFields
+
+
 class SurfaceState(NamedTuple):
     """The 2x2 minors of the two solutions a body admits, at one depth.
 

@@ -1,0 +1,102 @@
+"""The layer equations of flat and ring layers as one constant matrix M, and its exponential.
+
+State y = (U, W, s, q): u_x = i U, u_z = W, s_xz = i s, s_zz = q, stresses in units of 2 G h/r on
+a ring, of 2 G h where flat.  With t, measured upwards, h log r on a ring and h times the distance
+where flat,
+
+    U' = e U + c W - 2s                        s' = -e s + c b q - c m (e W + c U)
+    W' = -b (e W + c U) - (1-b) q              q' = e b q - c s - e m (e W + c U)
+
+b = nu/(1-nu), m = 1/(1-nu).  Ring: h = max(n, 1), c = n/h, e = 1/h.  Flat: h = k, c = 1, e = 0.
+The eigenvalues are +-(c + e) and +-(c - e); on the pair that grows upwards (M - c)^2 = e^2.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from rollnip.compliance._ring import RingWave, symmetric_series
+from rollnip.compliance._types import Array, FloatArray
+
+_SMALL = 1e-8
+"""sinh(e t)/e equals t to double precision for e below this and t <= 1."""
+
+
+def slope(y: Array, poisson: float, wave: RingWave) -> Array:
+    """M y, for y of shape (4, ..., n)."""
+    b = poisson / (1.0 - poisson)
+    m = 1.0 / (1.0 - poisson)
+    a = (1.0 - 2.0 * poisson) / (1.0 - poisson)
+    along, inward, shear, normal = y
+    stretch = wave.e * inward + wave.c * along  # minus the tangential strain, over h/r
+    hoop = b * normal - m * stretch
+    out = np.empty_like(y)
+    out[0] = wave.e * along + wave.c * inward - 2.0 * shear
+    out[1] = -b * stretch - a * normal
+    out[2] = wave.c * hoop - wave.e * shear
+    out[3] = wave.e * hoop - wave.c * shear
+    return out
+
+
+def hoop_stress(y: Array, poisson: float, wave: RingWave) -> Array:
+    """s_xx in the units of the state: b q - m (e W + c U), the constitutive law."""
+    b = poisson / (1.0 - poisson)
+    m = 1.0 / (1.0 - poisson)
+    return np.asarray(b * y[3] - m * (wave.e * y[1] + wave.c * y[0]))
+
+
+class Weights(NamedTuple):
+    """exp(+-t M) = even + even_z Z +- (odd + odd_z Z) M, with Z = M^2 - (c + e)^2."""
+
+    even: FloatArray
+    even_z: FloatArray
+    odd: FloatArray
+    odd_z: FloatArray
+
+
+def thin_weights(t: FloatArray, wave: RingWave) -> Weights:
+    """Weights for t <= 1: Newton's interpolation in M^2 between (c + e)^2 and (c - e)^2."""
+    c, e = np.maximum(wave.c, _SMALL), np.maximum(wave.e, _SMALL)
+    sum_, difference = wave.c + wave.e, wave.c - wave.e
+    y, x = sum_ * t, difference * t
+    (tail,) = symmetric_series(x * x, y * y, (3,))
+    return Weights(
+        even=np.cosh(y),
+        even_z=0.5 * (np.sinh(c * t) / c) * (np.sinh(e * t) / e),
+        odd=np.sinh(y) / sum_,
+        odd_z=t * t * t * tail,
+    )
+
+
+def thick_weights(t: FloatArray, wave: RingWave) -> Weights:
+    """Weights times exp(-t) for t > 1, where c = 1 and e < 1/2."""
+    e = np.maximum(wave.e, _SMALL)
+    decay = np.exp(-2.0 * t)
+    cosh, sinh = 0.5 * (1.0 + decay), 0.5 * (1.0 - decay)
+    cosh_e, sinh_e = np.cosh(wave.e * t), np.sinh(wave.e * t)
+    lever = np.where(wave.e < _SMALL, t, sinh_e / e)
+    return Weights(
+        even=cosh * cosh_e + sinh * sinh_e,
+        even_z=0.5 * sinh * lever,
+        odd=(sinh * cosh_e + cosh * sinh_e) / (1.0 + wave.e),
+        odd_z=0.5 * (cosh * lever - cosh_e * sinh) / (1.0 - wave.e**2),
+    )
+
+
+def basis_of(y: Array, poisson: float, wave: RingWave) -> tuple[Array, Array, Array, Array]:
+    """y, Z y, M y and Z M y, in the order of ``Weights``."""
+    square = (wave.c + wave.e) ** 2
+    once = slope(y, poisson, wave)
+    twice = slope(once, poisson, wave)
+    thrice = slope(twice, poisson, wave)
+    return y, twice - square * y, once, thrice - square * once
+
+
+def sign_of(y: Array, poisson: float, wave: RingWave) -> Array:
+    """sgn(M) y = M (M^2)^(-1/2) y, for n > 2: +y where y grows upwards, -y where it decays."""
+    c2, e2 = wave.c**2, wave.e**2
+    once = slope(y, poisson, wave)
+    thrice = slope(slope(once, poisson, wave), poisson, wave)
+    return ((3.0 * c2 + e2) * once - thrice) / (2.0 * wave.c * (c2 - e2))

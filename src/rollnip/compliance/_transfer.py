@@ -1,0 +1,211 @@
+"""Public functions of the fields at depth: flat and ring layers, given or unit tractions."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rollnip._errors import InvalidInputError
+from rollnip.compliance._depth import (
+    Body,
+    Side,
+    checked_depths,
+    fields_at_depth,
+    flat_body,
+    ring_body,
+)
+from rollnip.compliance._flat import require_finite_answer
+from rollnip.compliance._ring import checked_ring
+from rollnip.compliance._stack import checked_core, checked_stack
+from rollnip.compliance._types import ComplexArray, DepthTransfer, LayerFields
+
+
+def flat_fields(
+    k: ArrayLike,
+    z: ArrayLike,
+    t_x: ArrayLike,
+    t_z: ArrayLike,
+    thickness: ArrayLike,
+    modulus: ArrayLike,
+    poisson: ArrayLike,
+    core_modulus: ArrayLike | None = None,
+    core_poisson: float = 0.5,
+    *,
+    side: Side = "above",
+) -> LayerFields:
+    """Fields at depth in flat layers under the surface tractions (t_x, t_z) exp(i k x).
+
+    s_xz(0) = -t_x and s_zz(0) = -t_z.  Stable at every k z; continuous across interfaces but for
+    s_xx, which follows from the constitutive law of its own layer.
+
+    Parameters
+    ----------
+    k, thickness, modulus, poisson, core_modulus, core_poisson :
+        as in ``flat_compliance``.
+    z :
+        (nz,) depths [mm] below the surface, at most the bottom of the layers on a rigid core.
+    t_x, t_z :
+        (n,) or scalar transformed tractions [MPa], complex, along x and inwards.
+    side :
+        the layer a depth on an interface belongs to: the one "above" it or "below" it.
+
+    Returns
+    -------
+    LayerFields
+        (nz, n) complex arrays u_x, u_z [mm], s_xx, s_zz, s_xz [MPa].
+
+    Raises
+    ------
+    InvalidInputError
+        As ``flat_compliance``; a depth outside the body, an unknown side.
+
+    References
+    ----------
+    Layer equations: Johnson 1985, *Contact Mechanics*, 5.8.
+    """
+    body = _flat(k, thickness, modulus, poisson, core_modulus, core_poisson)
+    return _under(body, z, t_x, t_z, side)
+
+
+def flat_transfer(
+    k: ArrayLike,
+    z: ArrayLike,
+    thickness: ArrayLike,
+    modulus: ArrayLike,
+    poisson: ArrayLike,
+    core_modulus: ArrayLike | None = None,
+    core_poisson: float = 0.5,
+    *,
+    side: Side = "above",
+) -> DepthTransfer:
+    """Fields at depth in flat layers per unit surface traction: ``flat_fields`` of (1, 0), (0, 1).
+
+    Parameters
+    ----------
+    k, z, thickness, modulus, poisson, core_modulus, core_poisson, side :
+        as in ``flat_fields``.
+
+    Returns
+    -------
+    DepthTransfer
+        Two sets of (nz, n) complex arrays: displacements [mm/MPa], stresses [1].
+
+    Raises
+    ------
+    InvalidInputError
+        As ``flat_fields``.
+    """
+    return _unit(_flat(k, thickness, modulus, poisson, core_modulus, core_poisson), z, side)
+
+
+def ring_fields(
+    k: ArrayLike,
+    z: ArrayLike,
+    t_x: ArrayLike,
+    t_z: ArrayLike,
+    radius: float,
+    thickness: ArrayLike,
+    modulus: ArrayLike,
+    poisson: ArrayLike,
+    *,
+    side: Side = "above",
+) -> LayerFields:
+    """Fields at depth in ring layers under the surface tractions (t_x, t_z) exp(i k x).
+
+    x = radius * theta at every depth: fields vary as exp(i n theta), n = k radius.
+
+    Parameters
+    ----------
+    k, radius, thickness, modulus, poisson :
+        as in ``ring_compliance``.
+    z :
+        (nz,) depths [mm] below the outer radius, at most the sum of the thicknesses.
+    t_x, t_z :
+        (n,) or scalar transformed tractions [MPa], complex: s_rt and -s_rr at the outer radius.
+    side :
+        the layer a depth on an interface belongs to: the one "above" it or "below" it.
+
+    Returns
+    -------
+    LayerFields
+        (nz, n) complex arrays u_x = u_t, u_z = -u_r [mm], s_xx = s_tt, s_zz = s_rr,
+        s_xz = -s_rt [MPa].
+
+    Raises
+    ------
+    InvalidInputError
+        As ``ring_compliance``; a depth outside the layers, an unknown side.
+
+    References
+    ----------
+    Polar equations of plane strain: Timoshenko & Goodier 1970, *Theory of Elasticity*, ch. 4.
+    """
+    body = ring_body(checked_ring(k, radius, thickness, modulus, poisson), radius)
+    return _under(body, z, t_x, t_z, side)
+
+
+def ring_transfer(
+    k: ArrayLike,
+    z: ArrayLike,
+    radius: float,
+    thickness: ArrayLike,
+    modulus: ArrayLike,
+    poisson: ArrayLike,
+    *,
+    side: Side = "above",
+) -> DepthTransfer:
+    """Fields at depth in ring layers per unit surface traction: ``ring_fields`` of (1, 0), (0, 1).
+
+    Parameters
+    ----------
+    k, z, radius, thickness, modulus, poisson, side :
+        as in ``ring_fields``.
+
+    Returns
+    -------
+    DepthTransfer
+        Two sets of (nz, n) complex arrays: displacements [mm/MPa], stresses [1].
+
+    Raises
+    ------
+    InvalidInputError
+        As ``ring_fields``.
+    """
+    body = ring_body(checked_ring(k, radius, thickness, modulus, poisson), radius)
+    return _unit(body, z, side)
+
+
+def _flat(
+    k: ArrayLike,
+    thickness: ArrayLike,
+    modulus: ArrayLike,
+    poisson: ArrayLike,
+    core_modulus: ArrayLike | None,
+    core_poisson: float,
+) -> Body:
+    stack = checked_stack(k, thickness, modulus, poisson)
+    core = checked_core(core_modulus, core_poisson, stack.k.size)
+    require_finite_answer(stack, core)
+    return flat_body(stack, core)
+
+
+def _under(body: Body, z: ArrayLike, t_x: ArrayLike, t_z: ArrayLike, side: Side) -> LayerFields:
+    size = body.wave.h.size
+    tangential, normal = (_traction(name, t, size) for name, t in (("t_x", t_x), ("t_z", t_z)))
+    fields = fields_at_depth(body, checked_depths(z, body.bottom), tangential, normal, side)
+    return LayerFields(*fields[:, 0])
+
+
+def _unit(body: Body, z: ArrayLike, side: Side) -> DepthTransfer:
+    unit = np.zeros((2, body.wave.h.size), dtype=complex)
+    unit[0] = 1.0
+    fields = fields_at_depth(body, checked_depths(z, body.bottom), unit, unit[::-1], side)
+    return DepthTransfer(LayerFields(*fields[:, 0]), LayerFields(*fields[:, 1]))
+
+
+def _traction(name: str, values: ArrayLike, size: int) -> ComplexArray:
+    """Return one traction as (1, n)."""
+    traction = np.asarray(values, dtype=complex)
+    if traction.shape not in ((), (size,)) or not np.all(np.isfinite(traction)):
+        raise InvalidInputError(f"`{name}` must be finite, a scalar or of shape ({size},).")
+    return np.broadcast_to(traction, (size,))[None, :]

@@ -14,7 +14,7 @@ class RollnipError(Exception):
 
 
 class InvalidInputError(RollnipError, ValueError):
-    """A value that no solution can be computed for; the message names it, the rule and the value."""
+    """A value that no solution can be computed for; the message names it, the rule, the value."""
 
 
 class CaseFileError(RollnipError):
@@ -60,6 +60,6 @@ def require_finite(name: str, value: float) -> None:
 def _is_number(value: object) -> bool:
     try:
         float(value)  # type: ignore[arg-type]
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         return False
     return not isinstance(value, str | bool)

@@ -52,9 +52,7 @@ class Creepage:
     def __post_init__(self) -> None:
         require_finite("creepage", self.creepage)
         if not -2.0 < self.creepage < 2.0:
-            raise InvalidInputError(
-                f"`creepage` must lie between -2 and 2, got {self.creepage!r}."
-            )
+            raise InvalidInputError(f"`creepage` must lie between -2 and 2, got {self.creepage!r}.")
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,19 +146,16 @@ class Nip:
                 "`upper` and `lower` must not both be bare rigid cores: nothing would deform."
             )
         if self.curvature == 0.0:
-            raise InvalidInputError("`radius` must be finite for at least one roller, got two planes.")
+            raise InvalidInputError(
+                "`radius` must be finite for at least one roller, got two planes."
+            )
         if self.is_viscoelastic and self.speed is None:
             raise InvalidInputError("`speed` must be given: a material is viscoelastic.")
 
     def _check_controls(self) -> None:
         if isinstance(self.normal, Approach):
             self._check_approach(self.normal.approach)
-        if self.friction == 0.0 and isinstance(self.tangential, Traction):
-            if self.tangential.traction != 0.0:
-                raise InvalidInputError(
-                    "`traction` must be 0 without friction, "
-                    f"got {self.tangential.traction!r} with `friction` 0."
-                )
+        self._check_tangential()
         if isinstance(self.normal, LineLoad) and isinstance(self.tangential, Traction):
             limit = self.friction * self.normal.load
             if self.friction > 0.0 and abs(self.tangential.traction) >= limit:
@@ -168,6 +163,19 @@ class Nip:
                     f"`traction` must be smaller than friction * load = {limit:.6g} N/mm "
                     f"in size (beyond it the nip slides), got {self.tangential.traction!r}."
                 )
+
+    def _check_tangential(self) -> None:
+        tangential = self.tangential
+        if isinstance(tangential, Torque) and self.lower.curvature == 0.0:
+            raise InvalidInputError(
+                "`torque_lower` must not be prescribed on a plane (radius inf); "
+                "prescribe `traction` or `creepage`."
+            )
+        if self.friction == 0.0 and isinstance(tangential, Traction) and tangential.traction:
+            raise InvalidInputError(
+                "`traction` must be 0 without friction, "
+                f"got {tangential.traction!r} with `friction` 0."
+            )
 
     def _check_approach(self, approach: float) -> None:
         if self.has_half_space:

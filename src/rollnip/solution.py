@@ -19,7 +19,6 @@ from rollnip.rolling import (
     Round,
     fields_at,
     fine_points,
-    hoop_curvature,
     peak_pressure,
     pressure_work,
     slip_velocity,
@@ -199,7 +198,7 @@ class Solution:
 
     @property
     def dissipation_friction(self) -> float | None:
-        """int |q s| dx [N/s = mW/mm]; None without speed."""
+        """Int |q s| dx [N/s = mW/mm]; None without speed."""
         if self.nip.speed is None:
             return None
         creepage = self.creepage
@@ -226,8 +225,8 @@ class Solution:
         """T (V_u - V_l) + V (1/R_u + 1/R_l) int p x dx [N/s]; None without speed."""
         if self.nip.speed is None:
             return None
-        x, p = self.final.problem.x, self.final.state.pressure
-        moment = _moment(self.final.mesh.nodes, p) if x.size else 0.0
+        p = self.final.state.pressure
+        moment = _moment(self.final.mesh.nodes, p)
         slip = self.traction * (self.creepage or 0.0)
         return self.nip.speed * (slip + self.nip.curvature * moment)
 
@@ -252,16 +251,13 @@ class Solution:
         x = fine_points(self.final)
         fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
         strains = [
-            surface_strain(
-                x, self.nip, self.model.geometry, self.kernels, self.final, side=side
-            )
+            surface_strain(x, self.nip, self.model.geometry, self.kernels, self.final, side=side)
             for side in ("upper", "lower")
         ]
-        speed, xi = self.nip.speed, self.creepage
-        known = speed is not None and xi is not None
-        slip = slip_velocity(fields, self.final.zones, speed) if known else None
-        if slip is not None and self.nip.friction == 0.0:
-            slip = None
+        speeds = self._roller_speeds
+        slip = None
+        if speeds is not None and self.nip.friction > 0.0:
+            slip = slip_velocity(fields, self.final.zones, 0.5 * sum(speeds))
         return Profiles(
             x=x,
             pressure=fields.pressure,
@@ -270,8 +266,8 @@ class Solution:
             slip_velocity=slip,
             strain_upper=strains[0],
             strain_lower=strains[1],
-            speed_upper=speed * (1.0 + 0.5 * xi) * (1.0 + strains[0]) if known else None,
-            speed_lower=speed * (1.0 - 0.5 * xi) * (1.0 + strains[1]) if known else None,
+            speed_upper=None if speeds is None else speeds[0] * (1.0 + strains[0]),
+            speed_lower=None if speeds is None else speeds[1] * (1.0 + strains[1]),
         )
 
     @property
@@ -288,6 +284,14 @@ class Solution:
     def shear(self) -> Array:
         """Shear on the upper roller along +x at the nodes, linear between them, (n,) [MPa]."""
         return self.final.state.shear
+
+    @property
+    def _roller_speeds(self) -> tuple[float, float] | None:
+        """Circumferential speeds V_u, V_l [mm/s]; None without speed or creepage."""
+        if self.nip.speed is None or self.creepage is None:
+            return None
+        half = 0.5 * self.creepage
+        return self.nip.speed * (1.0 + half), self.nip.speed * (1.0 - half)
 
     @cached_property
     def _fields_on_mesh(self) -> Fields:
@@ -318,7 +322,7 @@ class Solution:
 
 
 def _moment(nodes: Array, pressure: Array) -> float:
-    """int p x dx of a pressure linear between nodes [N]."""
+    """Int p x dx of a pressure linear between nodes [N]."""
     p = np.concatenate([[0.0], pressure, [0.0]])
     a, b = nodes[:-1], nodes[1:]
     return float(np.sum((b - a) * (p[:-1] * (2.0 * a + b) + p[1:] * (a + 2.0 * b)) / 6.0))

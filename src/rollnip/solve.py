@@ -18,12 +18,9 @@ from rollnip.nip import Nip, Torque
 from rollnip.rolling import (
     Round,
     excess,
-    fields_at,
-    fine_points,
     half_width_guess,
     pair_kernels,
     refine,
-    residual,
 )
 from rollnip.solution import Solution, SolverInfo
 
@@ -67,9 +64,7 @@ def solve(
     half_width = half_width_guess(nip, kernels)
     final = refine(nip, model, kernels, half_width, method or Safeguarded())
     _require_grip(nip, final)
-    x = fine_points(final)
-    left = residual(nip, fields_at(x, nip, model.geometry, kernels, final), final)
-    converged, status = _verdict(nip, model, final, left)
+    converged, status = _verdict(nip, model, final)
     solution = Solution(
         nip=nip,
         model=model,
@@ -79,7 +74,7 @@ def solve(
         solver=SolverInfo(
             elements=int(final.problem.x.size + 1),
             iterations=final.steps,
-            residual=left,
+            residual=final.residual,
             seconds=perf_counter() - start,
             version=_version(),
         ),
@@ -104,7 +99,7 @@ def _require_grip(nip: Nip, final: Round) -> None:
     )
 
 
-def _verdict(nip: Nip, model: Model, final: Round, left: float) -> tuple[bool, str]:
+def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Whether the solution stands, and a sentence that says so or what to do."""
     too_large = excess(nip, final, model.tolerance)
     if not final.settled:
@@ -112,6 +107,7 @@ def _verdict(nip: Nip, model: Model, final: Round, left: float) -> tuple[bool, s
             "The contact did not settle; the load may be too large for this geometry model. "
             'Try `geometry = "linear"`, a smaller load or another tolerance.'
         )
+    left = final.residual
     if not left <= model.tolerance:
         return False, (
             f"The contact conditions are violated by {left:.1e} (relative), more than the "

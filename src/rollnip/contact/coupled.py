@@ -14,6 +14,8 @@ from rollnip.contact.problem import (
     Array,
     ContactProblem,
     ContactState,
+    Indices,
+    Mask,
     State,
     States,
     creep,
@@ -50,7 +52,7 @@ class CoupledActiveSet:
                 return replace(solution, settled=True)
             seen.add(states.tobytes())
             if wanted.tobytes() in seen:
-                wanted = _one_change(states, wanted, problem, solution)
+                wanted = _gentler(states, wanted, solution)
             states = _ensure_solvable(problem, wanted)
         return solution
 
@@ -80,7 +82,7 @@ def solve_states(problem: ContactProblem, states: States) -> ContactState:
 
 
 def _system(
-    problem: ContactProblem, states: States, contact: Array, stick: Array
+    problem: ContactProblem, states: States, contact: Indices, stick: Indices
 ) -> tuple[Array, Array]:
     """Rows: gap 0 in contact, creep 0 in stick, load or approach, traction or creepage."""
     n_c, n_s = contact.size, stick.size
@@ -144,7 +146,7 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     return out
 
 
-def _nearest_state(states: States, in_contact: Array) -> States:
+def _nearest_state(states: States, in_contact: Mask) -> States:
     """State of the nearest node in contact, for each node.
 
     A node that comes into contact beside slipping ones slips with them: held in stick it would
@@ -169,11 +171,18 @@ def _ensure_solvable(problem: ContactProblem, states: States) -> States:
     return states
 
 
-def _one_change(
-    states: States, wanted: States, problem: ContactProblem, solution: ContactState
-) -> States:
-    """Only the first of the changes asked for: breaks cycles (least-index rule)."""
+def _gentler(states: States, wanted: States, solution: ContactState) -> States:
+    """A smaller change than the one that led back to states already seen.
+
+    A sticking node under tension slips before it parts: beside an edge its tension may come from
+    a shear that it cannot carry. Where there is none, only the first node changes.
+    """
     out = states.copy()
+    torn = (states == State.STICK) & (wanted == State.FREE)
+    if np.any(torn):
+        slip = np.where(solution.shear > 0.0, State.SLIP_PLUS, State.SLIP_MINUS)
+        out[torn] = slip[torn]
+        return out
     first = np.flatnonzero(states != wanted)[0]
     out[first] = wanted[first]
     return out

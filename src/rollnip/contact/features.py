@@ -108,9 +108,7 @@ def _without_slivers(zones: list[Zone]) -> list[Zone]:
             before is not None
             and zone.state == State.STICK
             and before.stop - before.start < _SLIVER * width
-        ):
-            kept[-1] = Zone(before.start, zone.stop, zone.state)
-        elif before is not None and before.state == zone.state:
+        ) or (before is not None and before.state == zone.state):
             kept[-1] = Zone(before.start, zone.stop, zone.state)
         else:
             kept.append(zone)

@@ -19,6 +19,7 @@ from rollnip.contact.problem import (
     ContactProblem,
     ContactState,
     Control,
+    Mask,
     State,
     States,
     creep,
@@ -122,15 +123,16 @@ class Tang:
         return replace(followed, pressure=pressure)
 
 
-def _tension(solution: ContactState) -> Array:
+def _tension(solution: ContactState) -> Mask:
     """Nodes in contact under tension."""
-    return solution.pressure < -_ROUNDING * np.max(solution.pressure)
+    return np.asarray(solution.pressure < -_ROUNDING * np.max(solution.pressure))
 
 
-def _overlap(problem: ContactProblem, solution: ContactState) -> Array:
+def _overlap(problem: ContactProblem, solution: ContactState) -> Mask:
     """Free nodes that overlap."""
     scale = np.max(np.abs(problem.clearance)) + abs(solution.approach)
-    return (solution.states == State.FREE) & (gap(problem, solution) < -_ROUNDING * scale)
+    free = solution.states == State.FREE
+    return np.asarray(free & (gap(problem, solution) < -_ROUNDING * scale))
 
 
 def _over_bound(problem: ContactProblem, solution: ContactState) -> States:

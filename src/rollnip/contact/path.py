@@ -25,6 +25,7 @@ from rollnip.contact.problem import (
     shear_signs,
 )
 
+
 @dataclass(frozen=True, slots=True)
 class CreepagePath:
     """Solve a contact problem with friction by following the creepage from full sliding.
@@ -180,7 +181,8 @@ def _distance_to_goal(
     """Units to go until the wanted traction or creepage is reached; None where it is behind."""
     control = problem.control
     if control.traction is not None:
-        now, then = problem.weights @ here.shear, problem.weights @ ahead.shear
+        now = float(problem.weights @ here.shear)
+        then = float(problem.weights @ ahead.shear)
         goal = control.traction
     else:
         now, then, goal = here.creepage, ahead.creepage, control.creepage or 0.0

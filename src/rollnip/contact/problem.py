@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+Mask = NDArray[np.bool_]
 States = NDArray[np.int8]
 
 
@@ -116,4 +118,5 @@ def creep(problem: ContactProblem, state: ContactState) -> Array:
 
 def shear_signs(states: States) -> Array:
     """+1 and -1 where a node slips, 0 elsewhere."""
-    return (states == State.SLIP_PLUS).astype(float) - (states == State.SLIP_MINUS)
+    plus, minus = states == State.SLIP_PLUS, states == State.SLIP_MINUS
+    return np.asarray(plus.astype(float) - minus.astype(float))

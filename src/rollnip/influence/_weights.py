@@ -85,8 +85,7 @@ def gauss_legendre(nodes: int) -> tuple[Array, Array, Array]:
     """Nodes t, weights, and the matrix from nodal values to Legendre coefficients, on [-1, 1]."""
     t, weight = np.polynomial.legendre.leggauss(nodes)
     vandermonde = np.polynomial.legendre.legvander(t, nodes - 1)
-    to_coefficients = np.linalg.inv(vandermonde)
-    return t, weight, to_coefficients
+    return np.asarray(t), np.asarray(weight), np.asarray(np.linalg.inv(vandermonde))
 
 
 @lru_cache(maxsize=8)
@@ -172,8 +171,6 @@ def sample_points(octaves: tuple[int, int], panels_per_octave: int, nodes: int) 
     t, _, _ = gauss_legendre(nodes)
     i = np.arange(octaves[0] * panels_per_octave, octaves[1] * panels_per_octave)
     growth = 2.0 ** (1.0 / panels_per_octave) - 1.0
-    panels = np.multiply.outer(
-        2.0 ** (i / panels_per_octave), 1.0 + 0.5 * growth * (1.0 + t)
-    )
+    panels = np.multiply.outer(2.0 ** (i / panels_per_octave), 1.0 + 0.5 * growth * (1.0 + t))
     lowest = 2.0 ** octaves[0] * 0.5 * (1.0 + t)
     return np.concatenate([lowest, panels.ravel(), [2.0 ** octaves[1]]])

@@ -26,7 +26,7 @@ def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
 
 
 def load_weights(nodes: Array) -> Array:
-    """int hat dx of each hat, shape (N-1,) [mm]."""
+    """Int hat dx of each hat, shape (N-1,) [mm]."""
     return 0.5 * (nodes[2:] - nodes[:-2])
 
 

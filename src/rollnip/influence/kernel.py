@@ -204,7 +204,7 @@ def _transform(
 
 
 def _product(matrix: Array, columns: Array) -> Array:
-    """matrix @ columns, leaving out columns that are zero throughout."""
+    """Matrix @ columns, leaving out columns that are zero throughout."""
     out = np.zeros((matrix.shape[0], columns.shape[1]))
     used = np.any(columns != 0.0, axis=0)
     if np.any(used):

@@ -9,8 +9,8 @@ from math import inf, isinf
 import numpy as np
 
 from rollnip.compliance import flat_compliance, half_space_limit, ring_compliance
-from rollnip.influence.kernel import Array, Kernel, Window, tabulate
 from rollnip.influence._weights import ComplexArray
+from rollnip.influence.kernel import Array, Kernel, Window, tabulate
 from rollnip.materials import Material
 from rollnip.rollers import Roller
 

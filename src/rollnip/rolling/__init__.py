@@ -11,11 +11,11 @@ from rollnip.rolling.check import (
     Fields,
     fields_at,
     fine_points,
-    residual,
     slip_velocity,
     surface_strain,
 )
-from rollnip.rolling.rounds import Figures, Round, creepage_scale, excess, peak_pressure, refine
+from rollnip.rolling.refine import refine
+from rollnip.rolling.round import Figures, Round, creepage_scale, excess, peak_pressure
 from rollnip.rolling.start import half_width_guess
 
 __all__ = [
@@ -34,7 +34,6 @@ __all__ = [
     "peak_pressure",
     "pressure_work",
     "refine",
-    "residual",
     "slip_velocity",
     "surface_strain",
 ]

@@ -146,9 +146,7 @@ class SecondOrder:
     creep_offset: Array
     traction: float | None
 
-    def change(
-        self, before: SecondOrder, approach: float, strain: Array, traction: float
-    ) -> float:
+    def change(self, before: SecondOrder, approach: float, strain: Array, traction: float) -> float:
         """Largest change since ``before``, relative to an approach, strains and a traction."""
         changes = [
             np.max(np.abs(self.clearance - before.clearance)) / max(abs(approach), 1e-300),
@@ -269,6 +267,6 @@ def _traction_for_torque(
 
 
 def pressure_work(traction: Array, displacement: Array) -> float:
-    """int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
+    """Int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
     means = 0.5 * (traction + np.append(traction[1:], 0.0))
     return float(means @ np.diff(displacement))

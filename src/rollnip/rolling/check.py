@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isnan
 
 import numpy as np
 
-from rollnip.contact import ContactState, State, Zone
+from rollnip.contact import State, Zone
 from rollnip.geometry import linear_stretch, rotation_stretch, sagitta
 from rollnip.influence import strain_matrix
 from rollnip.influence.surface import SurfaceKernels
@@ -21,7 +20,7 @@ from rollnip.rolling.assemble import (
     hoop_curvature,
     surface_matrices,
 )
-from rollnip.rolling.rounds import Round, creepage_scale
+from rollnip.rolling.round import Round, creepage_scale
 
 _SUBDIVISION = 3
 
@@ -47,9 +46,7 @@ class Fields:
     creep: Array
 
 
-def fields_at(
-    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round
-) -> Fields:
+def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
     """Evaluate a solution at points ``x``, with nothing taken over but tractions, delta and xi."""
     state = final.state
     nodes = final.mesh.nodes
@@ -76,7 +73,7 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
 
 
 def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
-    """int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval."""
+    """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval."""
     dx = np.diff(x)
     upper = stretch_excess(dx, nip, geometry, u, side="upper")
     lower = stretch_excess(dx, nip, geometry, u, side="lower")
@@ -88,7 +85,7 @@ def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: f
 def stretch_excess(
     dx: Array, nip: Nip, geometry: Geometry, u: Displacements, *, side: str
 ) -> Array:
-    """int (stretch - 1) dx of one surface over each interval [mm]."""
+    """Int (stretch - 1) dx of one surface over each interval [mm]."""
     roller = nip.upper if side == "upper" else nip.lower
     u_x, u_z = (u.x_upper, u.z_upper) if side == "upper" else (u.x_lower, u.z_lower)
     if roller.is_rigid:
@@ -112,9 +109,7 @@ def fine_points(final: Round) -> Array:
     edges = final.zones[0].start, final.zones[-1].stop
     trailing = edges[0] - away[::-1]
     leading = edges[1] + away
-    return np.concatenate(
-        [trailing[trailing < inside[0]], inside, leading[leading > inside[-1]]]
-    )
+    return np.concatenate([trailing[trailing < inside[0]], inside, leading[leading > inside[-1]]])
 
 
 def residual(nip: Nip, fields: Fields, final: Round) -> float:
@@ -219,8 +214,3 @@ def _slopes_and_values(
         *(strain_matrix(k, x, nodes) for k in (surface.xx, surface.zz, surface.xz))
     )
     return slopes, surface_matrices(surface, x, nodes)
-
-
-def has_creepage(state: ContactState) -> bool:
-    """Whether the creepage is defined."""
-    return not isnan(state.creepage)

@@ -53,8 +53,6 @@ def _elliptic_displacements(kernel: Kernel, half_widths: Array) -> tuple[Array, 
     angles = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 25)
     nodes, pressure = np.sin(angles), np.cos(angles)[1:-1]
     points = np.array([0.0, 1.0])
-    values = [
-        displacement_matrix(kernel, a * points, a * nodes) @ pressure for a in half_widths
-    ]
+    values = [displacement_matrix(kernel, a * points, a * nodes) @ pressure for a in half_widths]
     centre, edge = np.array(values).T
     return centre, edge

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from math import inf, isfinite, sqrt
+from dataclasses import replace
+from math import inf, sqrt
 
 import numpy as np
 
@@ -14,14 +14,13 @@ from rollnip.contact import (
     Safeguarded,
     State,
     Zone,
-    contact_intervals,
     contact_zones,
     graded_nodes,
     states_on,
 )
 from rollnip.influence import load_weights
 from rollnip.model import Model
-from rollnip.nip import LineLoad, Nip
+from rollnip.nip import Nip
 from rollnip.rolling.assemble import (
     Array,
     Mesh,
@@ -32,53 +31,15 @@ from rollnip.rolling.assemble import (
     mesh_on,
     second_order,
 )
+from rollnip.rolling.check import fields_at, fine_points, residual
+from rollnip.rolling.round import Figures, Round, excess, peak_pressure
 
 _FIRST_COUNT = 24
-_MOST_ELEMENTS = 1000
+_MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
+_MOST_TRIES = 3  # meshes of one size that look for edges and transitions
 _MOST_TURNS = 40
 _SAFETY = 1.5  # on the estimate of the error from two meshes
-
-
-@dataclass(frozen=True, slots=True)
-class Figures:
-    """The figures whose accuracy is watched; creepage is nan where it is not defined."""
-
-    approach: float
-    load: float
-    creepage: float
-    nip_width: float
-    peak_pressure: float
-
-    def array(self) -> Array:
-        """All of them in order, (5,)."""
-        return np.array(
-            [self.approach, self.load, self.creepage, self.nip_width, self.peak_pressure]
-        )
-
-
-@dataclass(frozen=True, slots=True)
-class Round:
-    """The solution on one mesh.
-
-    Attributes
-    ----------
-    mesh, problem, state : the discrete problem and its solution.
-    zones : contact zones from trailing to leading edge.
-    figures : approach, load, creepage, nip width, peak pressure.
-    error : estimated discretisation error of each figure, in its own unit; inf where unknown.
-    steps : linear systems solved in all rounds so far.
-    settled : whether states and second-order terms stand still.
-    """
-
-    mesh: Mesh
-    problem: ContactProblem
-    state: ContactState
-    zones: tuple[Zone, ...]
-    figures: Figures
-    error: Figures
-    steps: int
-    settled: bool
 
 
 def refine(
@@ -99,7 +60,7 @@ def refine(
     -------
     The last round; its error may exceed the tolerance where the rounds ran out.
     """
-    count = _FIRST_COUNT
+    count, tries = _FIRST_COUNT, 0
     breaks = np.array([-1.3 * half_width, 1.3 * half_width])
     zones: tuple[Zone, ...] = (Zone(-0.8 * half_width, 0.8 * half_width, State.STICK),)
     demand: Demand | None = None
@@ -113,20 +74,34 @@ def refine(
         placed = _well_placed(breaks, found, count) and latest.settled
         breaks = found
         demand = Demand.of(latest.problem.x, latest.state.pressure, latest.state.shear)
-        if not placed:
+        tries += 1
+        if not placed and tries < (2 if coarser is None else 1) * _MOST_TRIES:
             continue
+        ratio = inf
         if coarser is not None:
             latest = replace(latest, error=_error(latest.figures, count, *coarser))
             ratio = excess(nip, latest, model.tolerance)
-            if ratio <= 1.0 or count >= _MOST_ELEMENTS:
-                break
-            coarser = (count, latest.figures)
-            count = min(int(count * min(max(1.1 * sqrt(ratio), 1.3), 2.0)), _MOST_ELEMENTS)
-        else:
-            coarser = (count, latest.figures)
-            count = 2 * count
+        if ratio <= 1.0 or count >= _MOST_ELEMENTS:
+            latest = _checked(nip, model, kernels, latest)
+            if latest.residual <= model.tolerance or count >= _MOST_ELEMENTS:
+                return latest
+            ratio = latest.residual / model.tolerance
+        coarser = (count, latest.figures)
+        count, tries = _next_count(count, ratio), 0
     assert latest is not None
-    return latest
+    return _checked(nip, model, kernels, latest)
+
+
+def _next_count(count: int, ratio: float) -> int:
+    """Elements that would bring the error, ``ratio`` times too large now, below the tolerance."""
+    growth = min(max(1.1 * sqrt(ratio), 1.3), 2.0)
+    return min(int(count * growth), _MOST_ELEMENTS)
+
+
+def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+    """The round with its residual, from the contact conditions on more points."""
+    fields = fields_at(fine_points(latest), nip, model.geometry, kernels, latest)
+    return replace(latest, residual=residual(nip, fields, latest))
 
 
 def _solve_on(
@@ -172,9 +147,7 @@ def _carried(before: Round, mesh: Mesh) -> ContactState:
     )
 
 
-def _change(
-    new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState
-) -> float:
+def _change(new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState) -> float:
     """Largest change of the second-order terms, relative to the first-order ones."""
     half_nip = 0.5 * (mesh.nodes[-1] - mesh.nodes[0])
     strain = nip.curvature * half_nip
@@ -192,21 +165,6 @@ def _figures(problem: ContactProblem, state: ContactState, zones: tuple[Zone, ..
         nip_width=zones[-1].stop - zones[0].start,
         peak_pressure=peak,
     )
-
-
-def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
-    """Highest pressure and its place, by the parabola through the highest node's neighbours."""
-    i = int(np.argmax(pressure))
-    if not 0 < i < x.size - 1:
-        return float(pressure[i]), float(x[i])
-    rise = (pressure[i] - pressure[i - 1]) / (x[i] - x[i - 1])
-    fall = (pressure[i + 1] - pressure[i]) / (x[i + 1] - x[i])
-    bend = (fall - rise) / (x[i + 1] - x[i - 1])
-    if not bend < 0.0:
-        return float(pressure[i]), float(x[i])
-    place = 0.5 * (x[i - 1] + x[i]) - 0.5 * rise / bend
-    value = pressure[i - 1] + (rise + bend * (place - x[i])) * (place - x[i - 1])
-    return float(value), float(place)
 
 
 def _next_breaks(latest: Round) -> Array:
@@ -245,30 +203,3 @@ def _error(figures: Figures, count: int, coarse_count: int, coarse: Figures) -> 
     gain = (count / coarse_count) ** 2 - 1.0
     change = _SAFETY * np.abs(figures.array() - coarse.array()) / gain
     return Figures(*(float(value) for value in change))
-
-
-def excess(nip: Nip, latest: Round, tolerance: float) -> float:
-    """Largest estimated relative error over the tolerance."""
-    figures, error = latest.figures, latest.error
-    watched = [
-        error.nip_width / figures.nip_width,
-        error.peak_pressure / figures.peak_pressure,
-    ]
-    if isinstance(nip.normal, LineLoad):
-        if not nip.has_half_space:
-            watched.append(error.approach / abs(figures.approach))
-    else:
-        watched.append(error.load / figures.load)
-    if isfinite(figures.creepage):
-        watched.append(error.creepage / creepage_scale(nip, figures))
-    return float(max(watched)) / tolerance
-
-
-def creepage_scale(nip: Nip, figures: Figures) -> float:
-    """Size against which an error of the creepage is measured.
-
-    The creepage itself, but not less than a hundredth of the slope of the gap at the edge: a
-    creepage that is zero by symmetry has no relative accuracy.
-    """
-    slope = 0.5 * figures.nip_width * nip.curvature
-    return max(abs(figures.creepage), 0.01 * slope)

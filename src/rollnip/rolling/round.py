@@ -1,0 +1,98 @@
+"""One round: the solution on one mesh, its figures and their estimated errors."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, isfinite
+
+import numpy as np
+
+from rollnip.contact import ContactProblem, ContactState, Zone
+from rollnip.nip import LineLoad, Nip
+from rollnip.rolling.assemble import Array, Mesh
+
+
+@dataclass(frozen=True, slots=True)
+class Figures:
+    """The figures whose accuracy is watched; creepage is nan where it is not defined."""
+
+    approach: float
+    load: float
+    creepage: float
+    nip_width: float
+    peak_pressure: float
+
+    def array(self) -> Array:
+        """All of them in order, (5,)."""
+        return np.array(
+            [self.approach, self.load, self.creepage, self.nip_width, self.peak_pressure]
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Round:
+    """The solution on one mesh.
+
+    Attributes
+    ----------
+    mesh, problem, state : the discrete problem and its solution.
+    zones : contact zones from trailing to leading edge.
+    figures : approach, load, creepage, nip width, peak pressure.
+    error : estimated discretisation error of each figure, in its own unit; inf where unknown.
+    steps : linear systems solved in all rounds so far.
+    settled : whether states and second-order terms stand still.
+    residual : largest relative violation of the contact conditions, evaluated afresh; inf where
+        it was not evaluated.
+    """
+
+    mesh: Mesh
+    problem: ContactProblem
+    state: ContactState
+    zones: tuple[Zone, ...]
+    figures: Figures
+    error: Figures
+    steps: int
+    settled: bool
+    residual: float = inf
+
+
+def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
+    """Highest pressure and its place, by the parabola through the highest node's neighbours."""
+    i = int(np.argmax(pressure))
+    if not 0 < i < x.size - 1:
+        return float(pressure[i]), float(x[i])
+    rise = (pressure[i] - pressure[i - 1]) / (x[i] - x[i - 1])
+    fall = (pressure[i + 1] - pressure[i]) / (x[i + 1] - x[i])
+    bend = (fall - rise) / (x[i + 1] - x[i - 1])
+    if not bend < 0.0:
+        return float(pressure[i]), float(x[i])
+    place = 0.5 * (x[i - 1] + x[i]) - 0.5 * rise / bend
+    value = pressure[i - 1] + (rise + bend * (place - x[i])) * (place - x[i - 1])
+    return float(value), float(place)
+
+
+def excess(nip: Nip, latest: Round, tolerance: float) -> float:
+    """Largest estimated relative error over the tolerance."""
+    figures, error = latest.figures, latest.error
+    watched = [
+        error.nip_width / figures.nip_width,
+        error.peak_pressure / figures.peak_pressure,
+    ]
+    if isinstance(nip.normal, LineLoad):
+        if not nip.has_half_space:
+            watched.append(error.approach / abs(figures.approach))
+    else:
+        watched.append(error.load / figures.load)
+    if isfinite(figures.creepage):
+        watched.append(error.creepage / creepage_scale(nip, figures))
+    return float(max(watched)) / tolerance
+
+
+def creepage_scale(nip: Nip, figures: Figures) -> float:
+    """Size against which an error of the creepage is measured.
+
+    The creepage itself, but not less than a hundredth of the slope of the gap at the edge: a
+    creepage that is zero by symmetry has no relative accuracy.
+    """
+    slope = 0.5 * figures.nip_width * nip.curvature
+    return max(abs(figures.creepage), 0.01 * slope)

@@ -149,7 +149,7 @@ def test_usage_errors_are_exit_2():
 def test_version_and_schema():
     for arguments in (("version",), ("--version",)):
         assert run(*arguments).stdout == f"rollnip {rn.__version__}\n"
-    assert json.loads(run("schema").stdout)["title"] == "CaseTable"
+    assert json.loads(run("schema").stdout)["title"] == "rollnip case file"
 
 
 COMMAND = [sys.executable, "-c", "from rollnip.cli import main; main()"]
@@ -195,3 +195,9 @@ def test_the_real_thing(tmp_path):
     assert tree["converged"] is True
     assert tree["traction"] == pytest.approx(0.53, rel=1e-6)
     assert sorted(tmp_path.iterdir()) == [plot, out]
+
+
+def test_what_only_the_solver_can_refuse_names_the_file(case):
+    Path(case).write_text(CASE.replace("1.78", "1e6"))
+    message = refused("solve", case)
+    assert message.startswith(f"rollnip: {case}: `load` must be small enough")

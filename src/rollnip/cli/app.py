@@ -74,7 +74,8 @@ def solve(
             check_figure_target(plot)
         from rollnip.solve import solve as solve_nip
 
-        solution = solve_nip(problem.nip, model, on_failure="return")
+        with _named(problem.source):
+            solution = solve_nip(problem.nip, model, on_failure="return")
         if out is not None:
             write_result(solution, out)
         if plot is not None:
@@ -124,12 +125,12 @@ def _overridden(model: Model, geometry: str | None, tolerance: str | None) -> Mo
 
 
 @contextmanager
-def _named(option: str) -> Iterator[None]:
-    """Put the option before what is said against its value."""
+def _named(source: str) -> Iterator[None]:
+    """Put the option or the file before what is said against its value."""
     try:
         yield
     except InvalidInputError as error:
-        raise InvalidInputError(f"{option}: {error}") from None
+        raise InvalidInputError(f"{source}: {error}") from None
 
 
 def _print_version() -> None:

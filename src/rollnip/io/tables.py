@@ -232,7 +232,9 @@ class SolverTable(Table):
 
 
 class CaseTable(Table):
-    """A whole case file."""
+    """A whole case file. Units: mm, N, MPa, s, unless a text carries its own."""
+
+    model_config = ConfigDict(title="rollnip case file")
 
     title: str = ""
     nip: NipTable

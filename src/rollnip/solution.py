@@ -18,6 +18,7 @@ from rollnip.rolling import (
     PairKernels,
     Round,
     fields_at,
+    fields_on_mesh,
     fine_points,
     peak_pressure,
     pressure_work,
@@ -295,8 +296,7 @@ class Solution:
 
     @cached_property
     def _fields_on_mesh(self) -> Fields:
-        x = self.final.mesh.nodes[1:]
-        return fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
+        return fields_on_mesh(self.nip, self.model.geometry, self.final)
 
     @property
     def _loss_per_distance(self) -> float:

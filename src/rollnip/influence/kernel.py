@@ -17,6 +17,7 @@ from rollnip.influence._weights import (
 )
 
 Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
 
 _POINTS_PER_OCTAVE = 8
 _NODES = 12
@@ -57,36 +58,47 @@ class Kernel:
     |x|, on either side: F_2 is analytic in ln|x| although G is singular at 0, so no singular
     part has to be split off. G is a displacement per unit of line load [mm/(N/mm)].
 
+    A kernel may carry several channels (the influence functions of one surface), which are then
+    evaluated together: results have a first axis of channels, then the shape of x.
+
     Attributes
     ----------
     points_per_octave, first :
         the grid is |x| = 2^((first + j)/points_per_octave).
     coefficients :
-        (2, cells, 6): polynomials in the fraction of a cell; side 0 is x > 0, side 1 is x < 0.
+        (6, 2 cells) or (6, channels, 2 cells): polynomials in the fraction of a cell, those of
+        x > 0 before those of x < 0. On either side the first and the last cell go on linearly in
+        ln|x|, below and beyond the grid.
     """
 
     points_per_octave: int
     first: int
     coefficients: Array
 
+    @classmethod
+    def stacked(cls, kernels: tuple[Kernel, ...]) -> Kernel:
+        """One kernel with a channel for each of some kernels on the same grid."""
+        coefficients = np.stack([kernel.coefficients for kernel in kernels], axis=1)
+        return cls(kernels[0].points_per_octave, kernels[0].first, coefficients)
+
     @property
     def reach(self) -> float:
         """Largest |x| of the table [mm]."""
-        cells = self.coefficients.shape[1]
+        cells = self.coefficients.shape[-1] // 2 - 2
         return float(2.0 ** ((self.first + cells) / self.points_per_octave))
 
     def double_integral(self, x: Array) -> Array:
-        """int_0^x int_0^t G(s) ds dt, same shape as ``x`` [mm]."""
-        return 0.5 * x * x * self._polynomials(x)[0]
+        """int_0^x int_0^t G(s) ds dt, shape of ``x`` [mm] (after channels)."""
+        return 0.5 * x * x * self._jet(x, 0)[0]
 
     def integral(self, x: Array) -> Array:
-        """int_0^x G(t) dt, same shape as ``x`` [mm]: H of theory section 4."""
-        value, slope, _ = self._polynomials(x)
+        """int_0^x G(t) dt, shape of ``x`` [mm] (after channels): H of theory section 4."""
+        value, slope = self._jet(x, 1)
         return x * (value + 0.5 * slope)
 
     def value(self, x: Array) -> Array:
-        """G(x) [mm/(N/mm)], same shape as ``x`` [mm]; infinite at 0 where a traction may jump."""
-        value, slope, bend = self._polynomials(x)
+        """G(x) [mm/(N/mm)], shape of ``x`` [mm] (after channels); large where singular at 0."""
+        value, slope, bend = self._jet(x, 2)
         return value + 1.5 * slope + 0.5 * bend
 
     def __add__(self, other: Kernel) -> Kernel:
@@ -98,30 +110,33 @@ class Kernel:
     def __mul__(self, factor: float) -> Kernel:
         return Kernel(self.points_per_octave, self.first, factor * self.coefficients)
 
-    def _polynomials(self, x: Array) -> tuple[Array, Array, Array]:
-        """F_2 and its first two derivatives to ln|x|."""
-        side = (x < 0.0).astype(np.intp)
-        distance = np.abs(x)
-        smallest = 2.0 ** (self.first / self.points_per_octave)
-        outside = np.maximum(distance, 1e-300)
-        position = np.log2(outside) * self.points_per_octave - self.first
-        cell = np.clip(position.astype(np.intp), 0, self.coefficients.shape[1] - 1)
-        fraction = position - cell
-        inside = np.maximum(fraction, 0.0)
-        c = self.coefficients[side, cell]
-        value = c[..., 5]
-        slope = np.zeros_like(value)
-        bend = np.zeros_like(value)
-        for n in range(4, -1, -1):  # Horner for the value, its slope and half its bend
-            bend = bend * inside + slope
-            slope = slope * inside + value
-            value = value * inside + c[..., n]
-        below = distance < smallest  # there F_2 is linear in ln|x|
-        if np.any(below):
-            value = np.where(below, value + slope * np.minimum(fraction, 0.0), value)
-            bend = np.where(below, 0.0, bend)
+    def _jet(self, x: Array, order: int) -> list[Array]:
+        """F_2 and its derivatives to ln|x| up to ``order``."""
+        cells = self.coefficients.shape[-1] // 2
+        position = np.log2(np.maximum(np.abs(x), 1e-300)) * self.points_per_octave - self.first
+        # Row 0 is what lies below the grid: a cell that ends at its first point.
+        cell = np.minimum(np.maximum(np.floor(position), -1.0), cells - 2.0).astype(np.intp)
+        fraction = position - np.maximum(cell, 0)
+        row = cell + 1 + cells * (x < 0.0)
         per_log = self.points_per_octave / log(2.0)
-        return value, slope * per_log, 2.0 * bend * per_log**2
+        scales = (1.0, per_log, 2.0 * per_log**2)
+        channels = self.coefficients.reshape(6, -1, 2 * cells)
+        jets = [_horner(channels[:, c], row, fraction, order) for c in range(channels.shape[1])]
+        shape = self.coefficients.shape[1:-1] + x.shape
+        return [
+            scales[m] * np.stack([jet[m] for jet in jets]).reshape(shape) for m in range(order + 1)
+        ]
+
+
+def _horner(coefficients: Array, row: Indices, fraction: Array, order: int) -> list[Array]:
+    """Polynomials of some rows with their first two derivatives (the second halved)."""
+    jet = [coefficients[5].take(row)] + [np.zeros(fraction.shape) for _ in range(order)]
+    for n in range(4, -1, -1):
+        for m in range(order, 0, -1):
+            jet[m] = jet[m] * fraction + jet[m - 1]
+        jet[0] *= fraction
+        jet[0] += coefficients[n].take(row)
+    return jet
 
 
 Compliance = Callable[[Array], tuple[ComplexArray, ...]]
@@ -213,7 +228,7 @@ def _product(matrix: Array, columns: Array) -> Array:
 
 
 def _hermite(means: Array) -> Array:
-    """Quintic coefficients (2, cells, 6) from F_0, F_1, F_2 of shape (3, points, 2)."""
+    """Coefficients (6, 2 cells) from F_0, F_1, F_2 of shape (3, points, 2)."""
     step = log(2.0) / _POINTS_PER_OCTAVE
     f_0, f_1, f_2 = np.moveaxis(means, -1, 1)
     slope = 2.0 * (f_1 - f_2)
@@ -224,7 +239,7 @@ def _hermite(means: Array) -> Array:
     rise = v1 - v0 - s0 - 0.5 * b0
     turn = s1 - s0 - b0
     curl = b1 - b0
-    return np.stack(
+    inner = np.stack(
         [
             v0,
             s0,
@@ -232,6 +247,9 @@ def _hermite(means: Array) -> Array:
             10.0 * rise - 4.0 * turn + 0.5 * curl,
             -15.0 * rise + 7.0 * turn - curl,
             6.0 * rise - 3.0 * turn + 0.5 * curl,
-        ],
-        axis=-1,
+        ]
     )
+    below, above = np.zeros((2, 6, 2, 1))
+    below[0, :, 0], below[1, :, 0] = v0[:, 0], s0[:, 0]
+    above[0, :, 0], above[1, :, 0] = v1[:, -1], s1[:, -1]
+    return np.concatenate([below, inner, above], axis=2).reshape(6, -1)

@@ -20,11 +20,17 @@ class SurfaceKernels:
     """Displacements of one roller's surface under line tractions, in its own frame.
 
     u_x = xx * t_x + xz * t_z and u_z = -xz * t_x + zz * t_z (convolutions; C_zx = -C_xz).
+
+    Attributes
+    ----------
+    xx, zz, xz : each alone.
+    together : the three as channels of one kernel, in this order.
     """
 
     xx: Kernel
     zz: Kernel
     xz: Kernel
+    together: Kernel
 
 
 def is_ring(roller: Roller, geometry: str) -> bool:
@@ -85,7 +91,7 @@ def surface_kernels(
     xx, zz, xz = tabulate(
         surface_compliance(roller, speed, geometry), window, low_limit=low, tolerance=tolerance
     )
-    return SurfaceKernels(xx=xx, zz=zz, xz=xz)
+    return SurfaceKernels(xx=xx, zz=zz, xz=xz, together=Kernel.stacked((xx, zz, xz)))
 
 
 def surface_compliance(

@@ -10,6 +10,7 @@ from rollnip.rolling.assemble import (
 from rollnip.rolling.check import (
     Fields,
     fields_at,
+    fields_on_mesh,
     fine_points,
     slip_velocity,
     surface_strain,
@@ -27,6 +28,7 @@ __all__ = [
     "creepage_scale",
     "excess",
     "fields_at",
+    "fields_on_mesh",
     "fine_points",
     "half_width_guess",
     "hoop_curvature",

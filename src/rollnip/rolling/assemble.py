@@ -122,11 +122,7 @@ def surface_matrices(
     if kernels is None:
         zero = np.zeros((points.size, nodes.size - 2))
         return SurfaceMatrices(zero, zero, zero)
-    return SurfaceMatrices(
-        xx=displacement_matrix(kernels.xx, points, nodes),
-        zz=displacement_matrix(kernels.zz, points, nodes),
-        xz=displacement_matrix(kernels.xz, points, nodes),
-    )
+    return SurfaceMatrices(*displacement_matrix(kernels.together, points, nodes))
 
 
 @dataclass(frozen=True, slots=True)

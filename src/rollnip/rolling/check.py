@@ -23,6 +23,7 @@ from rollnip.rolling.assemble import (
 from rollnip.rolling.round import Round, creepage_scale
 
 _SUBDIVISION = 3
+_OUTSIDE = np.array([0.02, 0.1, 0.3, 1.0])  # of the nip width, where overlap is looked for too
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,12 +49,36 @@ class Fields:
 
 def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
     """Evaluate a solution at points ``x``, with nothing taken over but tractions, delta and xi."""
-    state = final.state
     nodes = final.mesh.nodes
-    u = Displacements.under(
-        surface_matrices(kernels.upper, x, nodes), surface_matrices(kernels.lower, x, nodes), state
+    upper, lower = (surface_matrices(k, x, nodes) for k in (kernels.upper, kernels.lower))
+    return _fields(x, nip, geometry, final, Displacements.under(upper, lower, final.state))
+
+
+def fields_on_mesh(nip: Nip, geometry: Geometry, final: Round) -> Fields:
+    """Evaluate a solution at the nodes of its mesh but the first."""
+    u = final.mesh.displacements(final.state)
+    return _fields(final.mesh.nodes[1:], nip, geometry, final, u)
+
+
+def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
+    """Evaluate a solution at the nodes, halfway between them, and some way outside."""
+    nodes = final.mesh.nodes
+    away = final.figures.nip_width * _OUTSIDE
+    new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
+    upper, lower = (surface_matrices(k, new, nodes) for k in (kernels.upper, kernels.lower))
+    parts = (
+        Displacements.under(upper, lower, final.state),
+        final.mesh.displacements(final.state),
     )
-    inner = final.mesh.inner
+    x = np.concatenate([new, nodes[1:]])
+    order = np.argsort(x)
+    names = ("x_upper", "z_upper", "x_lower", "z_lower")
+    merged = (np.concatenate([getattr(part, name) for part in parts])[order] for name in names)
+    return _fields(x[order], nip, geometry, final, Displacements(*merged))
+
+
+def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacements) -> Fields:
+    state, inner = final.state, final.mesh.inner
     return Fields(
         x=x,
         pressure=np.interp(x, inner, state.pressure, left=0.0, right=0.0),
@@ -210,7 +235,5 @@ def surface_strain(
 def _slopes_and_values(
     surface: SurfaceKernels, x: Array, nodes: Array
 ) -> tuple[SurfaceMatrices, SurfaceMatrices]:
-    slopes = SurfaceMatrices(
-        *(strain_matrix(k, x, nodes) for k in (surface.xx, surface.zz, surface.xz))
-    )
+    slopes = SurfaceMatrices(*strain_matrix(surface.together, x, nodes))
     return slopes, surface_matrices(surface, x, nodes)

@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 
 from rollnip._errors import InvalidInputError
-from rollnip.influence import Kernel, displacement_matrix
+from rollnip.influence import Kernel
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import Array, PairKernels
 
-_CANDIDATES = 60
+_CANDIDATES = 40
 _SMALLEST = 1e-9  # of the smaller radius
 
 
@@ -51,8 +51,10 @@ def _normal_kernel(kernels: PairKernels) -> Kernel:
 def _elliptic_displacements(kernel: Kernel, half_widths: Array) -> tuple[Array, Array]:
     """u_z at the centre and the edge under p = sqrt(1 - x^2/a^2), for each a [mm/MPa]."""
     angles = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 25)
-    nodes, pressure = np.sin(angles), np.cos(angles)[1:-1]
-    points = np.array([0.0, 1.0])
-    values = [displacement_matrix(kernel, a * points, a * nodes) @ pressure for a in half_widths]
-    centre, edge = np.array(values).T
+    nodes, pressure = np.sin(angles), np.cos(angles)
+    # The changes of slope of the pressure for a = 1; u is the sum of changes * int int G.
+    slopes = np.concatenate([[0.0], np.diff(pressure) / np.diff(nodes), [0.0]])
+    distances = np.array([0.0, 1.0])[:, None] - nodes
+    values = kernel.double_integral(np.multiply.outer(half_widths, distances))
+    centre, edge = (values @ np.diff(slopes)).T / half_widths
     return centre, edge

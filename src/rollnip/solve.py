@@ -19,6 +19,7 @@ from rollnip.rolling import (
     Round,
     excess,
     half_width_guess,
+    has_grip,
     pair_kernels,
     refine,
 )
@@ -56,13 +57,16 @@ def solve(
         where the problem has no solution: a traction beyond friction times load, a nip as wide
         as a roller.
     ConvergenceError
-        where ``on_failure`` is "raise" and the solution could not be verified.
+        where ``on_failure`` is "raise" and the solution could not be verified, or where there
+        is none at all.
     """
     start = perf_counter()
     model = Model() if model is None else model
     kernels = pair_kernels(nip, model.geometry)
     half_width = half_width_guess(nip, kernels)
     final = refine(nip, model, kernels, half_width, method or Safeguarded())
+    if not final.zones:
+        raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
     converged, status = _verdict(nip, model, final)
     solution = Solution(
@@ -89,9 +93,9 @@ def solve(
 def _require_grip(nip: Nip, final: Round) -> None:
     """Raise where the wanted traction is more than friction can carry: the nip would spin."""
     wanted = final.problem.control.traction
-    limit = nip.friction * final.figures.load
-    if nip.friction == 0.0 or wanted is None or abs(wanted) < limit:
+    if wanted is None or has_grip(final):
         return
+    limit = nip.friction * final.figures.load
     name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
     raise InvalidInputError(
         f"`{name}` asks for a traction of {wanted:.6g} N/mm, but friction * load carries less "

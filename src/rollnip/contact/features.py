@@ -8,8 +8,6 @@ import numpy as np
 
 from rollnip.contact.problem import Array, ContactState, State, States
 
-_SLIVER = 1e-3  # of the width of all contact
-
 
 @dataclass(frozen=True, slots=True)
 class Zone:
@@ -32,7 +30,8 @@ def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Zone,
     Pressure goes to zero as the square root of the distance to an edge, and mu p - |q| as the
     square root of the distance to a transition, so their squares are extrapolated linearly.
     """
-    states = np.minimum(state.states, State.STICK) if friction == 0.0 else state.states
+    states = state.states
+    states = np.minimum(states, State.STICK) if friction == 0.0 else _without_slivers(states)
     zones = []
     for first, last in runs(states != State.FREE):
         edges = (
@@ -40,7 +39,7 @@ def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Zone,
             _crossing(x, state.pressure, last, +1),
         )
         zones += _split(x, state, friction, states, (first, last), edges)
-    return tuple(_without_slivers(zones))
+    return tuple(zones)
 
 
 def contact_intervals(zones: tuple[Zone, ...]) -> tuple[tuple[float, float], ...]:
@@ -91,28 +90,17 @@ def _split(
     return zones
 
 
-def _without_slivers(zones: list[Zone]) -> list[Zone]:
-    """Join slip zones thinner than a thousandth of the contact to a sticking neighbour.
+def _without_slivers(states: States) -> States:
+    """Let single slipping nodes beside sticking ones, with none slipping beside them, stick.
 
     At an edge the pressure of the last node is as large as its error, and whether that node
     alone sticks or slips says nothing about the contact.
     """
-    kept: list[Zone] = []
-    width = zones[-1].stop - zones[0].start if zones else 0.0
-    for zone in zones:
-        before = kept[-1] if kept and kept[-1].stop == zone.start else None
-        thin = zone.stop - zone.start < _SLIVER * width
-        if before is not None and thin and before.state == State.STICK:
-            kept[-1] = Zone(before.start, zone.stop, before.state)
-        elif (
-            before is not None
-            and zone.state == State.STICK
-            and before.stop - before.start < _SLIVER * width
-        ) or (before is not None and before.state == zone.state):
-            kept[-1] = Zone(before.start, zone.stop, zone.state)
-        else:
-            kept.append(zone)
-    return kept
+    padded = np.pad(states, 1, constant_values=State.FREE)
+    before, after = padded[:-2], padded[2:]
+    alone = (states > State.STICK) & (before <= State.STICK) & (after <= State.STICK)
+    beside_stick = (before == State.STICK) | (after == State.STICK)
+    return np.where(alone & beside_stick, State.STICK, states).astype(np.int8)
 
 
 def _transition(x: Array, slack: Array, states: States, i: int) -> float:

@@ -9,7 +9,7 @@ import numpy as np
 from rollnip.contact.coupled import CoupledActiveSet, next_states
 from rollnip.contact.given import Norm, Tang
 from rollnip.contact.path import CreepagePath
-from rollnip.contact.problem import ContactProblem, ContactState, State, States
+from rollnip.contact.problem import ContactProblem, ContactState, State, States, unsolved
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,18 +35,28 @@ class Safeguarded:
         try:
             solution = self.fast.solve(problem, states)
         except np.linalg.LinAlgError:
-            solution = None
-        if solution is not None and solution.settled:
+            solution = unsolved(problem)
+        if solution.settled:
             return solution
-        spent = self.fast.max_steps if solution is None else solution.steps
+        try:
+            slow = self._slow(problem, states)
+        except np.linalg.LinAlgError:
+            slow = unsolved(problem)
+        if not slow.settled and np.any(solution.pressure):
+            slow = solution
+        return replace(slow, steps=solution.steps + slow.steps)
+
+    def _slow(self, problem: ContactProblem, states: States) -> ContactState:
+        """NORM without friction, path following with it; its result is examined once more."""
         if problem.friction == 0.0:
-            slow = Norm().solve(problem, states, np.zeros(states.size))
-            creepage = np.nan if problem.control.creepage is None else problem.control.creepage
-            return replace(slow, creepage=creepage, steps=spent + slow.steps)
+            normal = Norm().solve(problem, states, np.zeros(states.size))
+            creepage = problem.control.creepage
+            return replace(normal, creepage=np.nan if creepage is None else creepage)
         slow = CreepagePath().solve(problem, states)
+        if not slow.settled:
+            return slow
         consistent = np.array_equal(next_states(problem, slow, self.rounding), slow.states)
-        settled = slow.settled and consistent
-        return replace(slow, settled=settled, steps=spent + slow.steps)
+        return replace(slow, settled=consistent)
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,6 +23,7 @@ from rollnip.contact.problem import (
     creep,
     gap,
     shear_signs,
+    unsolved,
 )
 
 
@@ -34,17 +35,22 @@ class CreepagePath:
     ----------
     most_events :
         changes of state at most, per node.
+    most_nodes :
+        larger problems are declined: four systems an event and an event a node take minutes.
     """
 
-    most_events: int = 20
+    most_events: int = 5
+    most_nodes: int = 160
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
         """Follow the path; ``states`` only says where contact may begin."""
         wanted = problem.control
+        if problem.x.size > self.most_nodes:
+            return unsolved(problem)
         sign = _side(problem)
         start = _sliding(problem, states, sign)
-        if not start.settled:
-            return start
+        if not start.settled or _beyond_sliding(problem, start, sign):
+            return replace(start, settled=False)
         creepage, heading = start.creepage, -sign
         current = start.states
         for step in range(1, self.most_events * problem.x.size + 1):
@@ -54,7 +60,7 @@ class CreepagePath:
             if length is not None and length <= event:
                 goal = creepage + heading * length * _unit(problem)
                 at = replace(problem, control=replace(wanted, traction=None, creepage=goal))
-                found = replace(solve_states(at, current), steps=start.steps + step)
+                found = replace(solve_states(at, current), steps=start.steps + 4 * step)
                 return replace(found, settled=True)
             if not np.isfinite(event):
                 break
@@ -62,7 +68,7 @@ class CreepagePath:
             current = _changed(problem, current, here, ahead, event, node)
             if _turns(problem, current, creepage, heading, node):
                 heading = -heading
-        return replace(here, steps=start.steps + step, settled=False)
+        return replace(here, steps=start.steps + 4 * step, settled=False)
 
 
 def _unit(problem: ContactProblem) -> float:
@@ -95,6 +101,12 @@ def _sliding(problem: ContactProblem, states: States, sign: int) -> ContactState
     rates = (sign * creep(problem, sliding) / problem.creep_length)[touching]
     nearest = far - sign * (float(rates.min()) - _unit(problem))
     return replace(sliding, creepage=nearest)
+
+
+def _beyond_sliding(problem: ContactProblem, sliding: ContactState, sign: int) -> bool:
+    """Whether more traction is wanted than full sliding gives."""
+    wanted = problem.control.traction
+    return wanted is not None and sign * (wanted - float(problem.weights @ sliding.shear)) >= 0.0
 
 
 def _pair(

@@ -120,3 +120,10 @@ def shear_signs(states: States) -> Array:
     """+1 and -1 where a node slips, 0 elsewhere."""
     plus, minus = states == State.SLIP_PLUS, states == State.SLIP_MINUS
     return np.asarray(plus.astype(float) - minus.astype(float))
+
+
+def unsolved(problem: ContactProblem) -> ContactState:
+    """No solution: free surfaces, not settled."""
+    zero = np.zeros(problem.x.size)
+    states = np.full(problem.x.size, State.FREE, dtype=np.int8)
+    return ContactState(states, zero, zero, 0.0, np.nan, 0, False)

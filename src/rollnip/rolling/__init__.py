@@ -15,8 +15,8 @@ from rollnip.rolling.check import (
     slip_velocity,
     surface_strain,
 )
-from rollnip.rolling.refine import refine
-from rollnip.rolling.round import Figures, Round, creepage_scale, excess, peak_pressure
+from rollnip.rolling.refinement import refine
+from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_grip, peak_pressure
 from rollnip.rolling.start import half_width_guess
 
 __all__ = [
@@ -31,6 +31,7 @@ __all__ = [
     "fields_on_mesh",
     "fine_points",
     "half_width_guess",
+    "has_grip",
     "hoop_curvature",
     "pair_kernels",
     "peak_pressure",

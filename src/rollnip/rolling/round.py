@@ -96,3 +96,10 @@ def creepage_scale(nip: Nip, figures: Figures) -> float:
     """
     slope = 0.5 * figures.nip_width * nip.curvature
     return max(abs(figures.creepage), 0.01 * slope)
+
+
+def has_grip(latest: Round) -> bool:
+    """Whether friction can carry the wanted traction: |T| < mu F."""
+    wanted = latest.problem.control.traction
+    limit = latest.problem.friction * latest.figures.load
+    return wanted is None or latest.problem.friction == 0.0 or abs(wanted) < limit

@@ -32,11 +32,13 @@ from rollnip.rolling.assemble import (
     second_order,
 )
 from rollnip.rolling.check import fields_between, residual
-from rollnip.rolling.round import Figures, Round, excess, peak_pressure
+from rollnip.rolling.round import Figures, Round, excess, has_grip, peak_pressure
 
 _FIRST_COUNT = 24
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
+_MOST_STEPS = 4000  # linear systems, after which what has not settled is given up
+_MOST_ZONES = 30  # of an unsettled contact
 _MOST_TRIES = 3  # meshes of one size that look for edges and transitions
 _MOST_TURNS = 40
 # A turn shrinks what is left of the second-order terms at least tenfold.
@@ -60,17 +62,20 @@ def refine(
 
     Returns
     -------
-    The last round; its error may exceed the tolerance where the rounds ran out.
+    The last round that settled; its error may exceed the tolerance where the rounds ran out.
     """
     count, tries = _FIRST_COUNT, 0
     breaks = np.array([-1.3 * half_width, 1.3 * half_width])
     zones: tuple[Zone, ...] = (Zone(-0.8 * half_width, 0.8 * half_width, State.STICK),)
     demand: Demand | None = None
     latest: Round | None = None
+    best: Round | None = None
     coarser: tuple[int, Figures] | None = None
     for _ in range(_MOST_ROUNDS):
         mesh = mesh_on(graded_nodes(breaks, count, demand), kernels)
         latest = _solve_on(nip, model, mesh, zones, latest, method)
+        if _is_hopeless(latest, count):
+            break
         zones = latest.zones
         found = _next_breaks(latest)
         placed = _well_placed(breaks, found, count) and latest.settled
@@ -83,6 +88,7 @@ def refine(
         if coarser is not None:
             latest = replace(latest, error=_error(latest.figures, count, *coarser))
             ratio = excess(nip, latest, model.tolerance)
+        best = latest if latest.settled or best is None else best
         if ratio <= 1.0 or count >= _MOST_ELEMENTS:
             latest = _checked(nip, model, kernels, latest)
             if latest.residual <= model.tolerance or count >= _MOST_ELEMENTS:
@@ -90,8 +96,18 @@ def refine(
             ratio = latest.residual / model.tolerance
         coarser = (count, latest.figures)
         count, tries = _next_count(count, ratio), 0
-    assert latest is not None
-    return _checked(nip, model, kernels, latest)
+    last = best or latest
+    assert last is not None
+    return _checked(nip, model, kernels, last) if last.zones else last
+
+
+def _is_hopeless(latest: Round, count: int) -> bool:
+    """Whether to give up: unsettled after much work, on a fine mesh or for want of friction."""
+    if latest.settled:
+        return False
+    spent = latest.steps > _MOST_STEPS or count > 4 * _FIRST_COUNT
+    spent = spent or len(latest.zones) > _MOST_ZONES
+    return spent or not latest.zones or not has_grip(latest)
 
 
 def _next_count(count: int, ratio: float) -> int:
@@ -130,7 +146,7 @@ def _solve_on(
         updated = second_order(nip, model.geometry, mesh, state)
         change = _change(updated, second, mesh, nip, state)
         second, states = updated, state.states
-        if not change > allowed:
+        if not change > allowed or not state.settled:
             break
     zones = contact_zones(problem.x, state, nip.friction)
     unknown = Figures(inf, inf, inf, inf, inf)
@@ -165,7 +181,7 @@ def _figures(problem: ContactProblem, state: ContactState, zones: tuple[Zone, ..
         approach=state.approach,
         load=float(problem.weights @ state.pressure),
         creepage=state.creepage,
-        nip_width=zones[-1].stop - zones[0].start,
+        nip_width=zones[-1].stop - zones[0].start if zones else 0.0,
         peak_pressure=peak,
     )
 

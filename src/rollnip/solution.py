@@ -4,13 +4,21 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import isfinite, isinf, isnan, nan
+from math import isinf, isnan, nan
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
+from rollnip._errors import InvalidInputError
 from rollnip.contact import State, contact_intervals
+from rollnip.interior import (
+    InterfaceStress,
+    InteriorField,
+    SurfaceTractions,
+    interface_stresses,
+    interior_field,
+)
 from rollnip.model import Model
 from rollnip.nip import Approach, Nip
 from rollnip.rolling import (
@@ -286,6 +294,67 @@ class Solution:
         """Shear on the upper roller along +x at the nodes, linear between them, (n,) [MPa]."""
         return self.final.state.shear
 
+    def interior(
+        self,
+        roller: Literal["upper", "lower"],
+        z: ArrayLike,
+        x: ArrayLike | None = None,
+        *,
+        side: Literal["above", "below"] = "above",
+    ) -> InteriorField:
+        """Displacements, stresses and strains inside the "upper" or "lower" roller, in its frame.
+
+        Parameters
+        ----------
+        z : (nz,) or scalar depths [mm], 0 at the surface; on a half-space core to any depth.
+        x :
+            (nx,) or scalar places [mm], to half a turn of the smaller roller; None: 401, to one
+            nip width outside the contact.
+        side : the layer a depth on an interface belongs to: the one "above" it or "below" it.
+
+        Returns
+        -------
+        InteriorField; arrays of shape (nz, nx), compressive stress negative [MPa], mm.
+
+        Raises
+        ------
+        InvalidInputError
+            where the roller is unknown or a bare rigid core, a depth lies outside its layers, a
+            place outside the window, a value is not finite or none is given.
+        """
+        if roller not in ("upper", "lower"):
+            raise InvalidInputError(f'`roller` must be "upper" or "lower", got {roller!r}.')
+        return interior_field(
+            self.nip.upper if roller == "upper" else self.nip.lower,
+            self._tractions_on(roller),
+            z,
+            self._section if x is None else x,
+            geometry=self.model.geometry,
+            speed=self.nip.speed,
+            side=side,
+            window=float(np.pi) * min(self.nip.upper.radius, self.nip.lower.radius),
+        )
+
+    @cached_property
+    def interfaces(self) -> tuple[InterfaceStress, ...]:
+        """Stresses on every interface and bond of the upper, then of the lower roller."""
+        x = np.union1d(self._section, self.nodes)
+        model = (self.model.geometry, self.nip.speed)
+        upper = interface_stresses("upper", self.nip.upper, self._tractions_on("upper"), x, *model)
+        lower = interface_stresses("lower", self.nip.lower, self._tractions_on("lower"), x, *model)
+        return upper + lower
+
+    @property
+    def _section(self) -> Array:
+        """Places to one nip width outside the contact, (401,) [mm]."""
+        trailing, leading = self.contact[0][0], self.contact[-1][1]
+        return np.linspace(trailing - self.nip_width, leading + self.nip_width, 401)
+
+    def _tractions_on(self, roller: str) -> SurfaceTractions:
+        """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""
+        shear = self.shear if roller == "upper" else -self.shear
+        return SurfaceTractions.on_inner(self.final.mesh.nodes, shear, self.pressure)
+
     @property
     def _roller_speeds(self) -> tuple[float, float] | None:
         """Circumferential speeds V_u, V_l [mm/s]; None without speed or creepage."""
@@ -326,8 +395,3 @@ def _moment(nodes: Array, pressure: Array) -> float:
     p = np.concatenate([[0.0], pressure, [0.0]])
     a, b = nodes[:-1], nodes[1:]
     return float(np.sum((b - a) * (p[:-1] * (2.0 * a + b) + p[1:] * (a + 2.0 * b)) / 6.0))
-
-
-def finite(value: float | None) -> float | None:
-    """``value``, or None where it is not a finite number."""
-    return value if value is not None and isfinite(value) else None

@@ -1,0 +1,15 @@
+"""Fields inside the layers of a roller under given surface tractions."""
+
+from rollnip.interior.bonds import InterfaceStress, interface_stresses
+from rollnip.interior.evaluate import interior_field
+from rollnip.interior.field import InteriorField, StressRanges
+from rollnip.interior.tractions import SurfaceTractions
+
+__all__ = [
+    "InterfaceStress",
+    "InteriorField",
+    "StressRanges",
+    "SurfaceTractions",
+    "interface_stresses",
+    "interior_field",
+]

@@ -1,0 +1,115 @@
+"""What interfaces between layers, and the bond to the core, have to carry."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rollnip.interior.evaluate import interior_field
+from rollnip.interior.field import InteriorField
+from rollnip.interior.tractions import Array, SurfaceTractions
+from rollnip.rollers import Roller
+
+
+@dataclass(frozen=True, slots=True)
+class InterfaceStress:
+    """Stresses on one interface as material passes the nip; each revolution is one cycle.
+
+    Attributes
+    ----------
+    roller : which one, "upper" or "lower".
+    depth : below the surface [mm].
+    is_bond : True for the lower face of the last layer, on the core.
+    x : (n,) places [mm], from trailing to leading.
+    shear : (n,) s_xz in the roller's frame [MPa].
+    peel : (n,) s_zz, tension positive [MPa].
+    shear_min, shear_max, peel_min, peel_max : extremes over x [MPa].
+    shear_min_x, shear_max_x, peel_min_x, peel_max_x : their places [mm].
+    shear_range, peel_range : largest less smallest, 0 far from the nip included [MPa].
+    von_mises_max : largest von Mises stress of the layers on either side (the layer above alone
+        on a rigid core) [MPa].
+    """
+
+    roller: str
+    depth: float
+    is_bond: bool
+    x: Array
+    shear: Array
+    peel: Array
+    shear_min: float
+    shear_min_x: float
+    shear_max: float
+    shear_max_x: float
+    peel_min: float
+    peel_min_x: float
+    peel_max: float
+    peel_max_x: float
+    shear_range: float
+    peel_range: float
+    von_mises_max: float
+
+
+def interface_stresses(
+    name: str,
+    roller: Roller,
+    tractions: SurfaceTractions,
+    x: Array,
+    geometry: str,
+    speed: float | None,
+) -> tuple[InterfaceStress, ...]:
+    """Stresses on every interface of a roller, from the surface to the core.
+
+    Parameters
+    ----------
+    name : of the roller.
+    roller, tractions, geometry, speed : as in ``interior_field``.
+    x : (n,) increasing places [mm].
+
+    Returns
+    -------
+    One for each layer, its lower face; empty for a roller without layers.
+
+    Raises
+    ------
+    InvalidInputError
+        As ``interior_field``.
+    """
+    if not roller.layers:
+        return ()
+    depths = np.array(roller.interfaces)
+    above = interior_field(roller, tractions, depths, x, geometry=geometry, speed=speed)
+    von_mises = above.von_mises.max(axis=1)
+    shared = depths if roller.core is not None else depths[:-1]
+    if shared.size:
+        below = interior_field(
+            roller, tractions, shared, x, geometry=geometry, speed=speed, side="below"
+        )
+        beneath = below.von_mises.max(axis=1)
+        von_mises[: shared.size] = np.maximum(von_mises[: shared.size], beneath)
+    return tuple(_figures(name, above, i, float(von_mises[i])) for i in range(depths.size))
+
+
+def _figures(name: str, field: InteriorField, row: int, von_mises: float) -> InterfaceStress:
+    shear, peel, x = field.s_xz[row], field.s_zz[row], field.x
+    lowest_shear, highest_shear = int(np.argmin(shear)), int(np.argmax(shear))
+    lowest_peel, highest_peel = int(np.argmin(peel)), int(np.argmax(peel))
+    return InterfaceStress(
+        roller=name,
+        depth=float(field.z[row]),
+        is_bond=row == field.z.size - 1,
+        x=x,
+        shear=shear,
+        peel=peel,
+        shear_min=float(shear[lowest_shear]),
+        shear_min_x=float(x[lowest_shear]),
+        shear_max=float(shear[highest_shear]),
+        shear_max_x=float(x[highest_shear]),
+        peel_min=float(peel[lowest_peel]),
+        peel_min_x=float(x[lowest_peel]),
+        peel_max=float(peel[highest_peel]),
+        peel_max_x=float(x[highest_peel]),
+        shear_range=max(0.0, float(shear.max())) - min(0.0, float(shear.min())),
+        peel_range=max(0.0, float(peel.max())) - min(0.0, float(peel.min())),
+        von_mises_max=von_mises,
+    )

@@ -1,0 +1,169 @@
+"""The door's function: from a roller and its surface tractions to the field inside."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from rollnip._errors import InvalidInputError
+from rollnip.interior.field import InteriorField
+from rollnip.interior.medium import Medium, Side
+from rollnip.interior.tractions import Array, SurfaceTractions
+from rollnip.interior.transform import Transformed, fields_in_space, strain_of
+from rollnip.rollers import Roller
+
+_ROUNDING = 1e-12
+_ROWS, _COLUMNS = 256, 2048  # points at once: bounds the memory
+
+
+def interior_field(
+    roller: Roller,
+    tractions: SurfaceTractions,
+    z: ArrayLike,
+    x: ArrayLike,
+    *,
+    geometry: str = "curved",
+    speed: float | None = None,
+    side: Side = "above",
+    window: float | None = None,
+) -> InteriorField:
+    """Displacements, stresses and strains inside a roller that rolls steadily.
+
+    f(x, z) = (1/pi) int_0^inf Re[f^(k, z) e^{ikx}] dk, f^ the transformed tractions times the
+    transfer of the layers to the depth z. As z -> 0 s_zz and s_xz tend to the tractions.
+
+    Parameters
+    ----------
+    roller :
+        with a coating or a half-space core.
+    tractions :
+        on its surface, in its own frame.
+    z :
+        (nz,) or scalar depths [mm], from 0 to the bottom of the coating (half-space core: finite).
+    x :
+        (nx,) or scalar places [mm], in any order.
+    geometry :
+        "curved" bends the layers of a roller on a rigid core to rings; others keep them flat.
+    speed :
+        V [mm/s]; needed where a material is viscoelastic.
+    side :
+        the layer a depth on an interface belongs to: the one "above" it (nearer to the surface)
+        or "below" it.
+    window :
+        largest |x| that is accepted [mm]; None: half the circumference, any x of a plane.
+
+    Returns
+    -------
+    InteriorField; arrays of shape (nz, nx). Stresses and displacements err by about 1e-8 of
+    their largest; strains of a viscoelastic layer by 1e-5 and their rates by 1e-3 closer to the
+    surface than a hundredth of the width looked at.
+
+    Raises
+    ------
+    InvalidInputError
+        where the roller is a bare rigid core; a depth is negative or below the coating on a
+        rigid core; a place lies outside the window; a value is not finite or none is given; the
+        side is unknown; the speed is missing.
+
+    References
+    ----------
+    Braat & Kalker (1993), Trans. Eng. Sci. 1, 119-126, sections 2 and 3.
+    """
+    depths, places = _values("z", z), _values("x", x)
+    _check_roller(roller, speed, side)
+    depths = _checked_depths(depths, roller)
+    reach = window if window is not None else np.pi * roller.radius
+    if np.any(np.abs(places) > reach * (1.0 + _ROUNDING)):
+        worst = float(places[np.argmax(np.abs(places))])
+        raise InvalidInputError(
+            f"`x` must lie within {reach:.6g} mm of the centre of the nip, got {worst!r}."
+        )
+    medium = Medium(roller, speed, geometry, side)
+    return _wrapped(medium, depths, places, _in_pieces(medium, tractions, depths, places))
+
+
+def _values(name: str, values: ArrayLike) -> Array:
+    """Finite values as (n,); a scalar counts as one."""
+    try:
+        out = np.atleast_1d(np.asarray(values, dtype=float))
+    except (TypeError, ValueError):
+        raise InvalidInputError(f"`{name}` must hold numbers, got {values!r}.") from None
+    if out.ndim != 1 or out.size == 0:
+        raise InvalidInputError(
+            f"`{name}` must be one-dimensional and not empty, got the shape {out.shape}."
+        )
+    if not np.all(np.isfinite(out)):
+        bad = float(out[~np.isfinite(out)][0])
+        raise InvalidInputError(f"`{name}` must be finite, got {bad!r}.")
+    return out
+
+
+def _check_roller(roller: Roller, speed: float | None, side: str) -> None:
+    if roller.is_rigid:
+        raise InvalidInputError(
+            "`roller` must have a coating, got a bare rigid core: nothing deforms inside."
+        )
+    if roller.is_viscoelastic and speed is None:
+        raise InvalidInputError("`speed` must be given: a material is viscoelastic.")
+    if side not in ("above", "below"):
+        raise InvalidInputError(f'`side` must be "above" or "below", got {side!r}.')
+
+
+def _checked_depths(z: Array, roller: Roller) -> Array:
+    """Depths inside the deformable body; those beyond its bottom by rounding are put on it."""
+    if np.any(z < 0.0):
+        raise InvalidInputError(f"`z` must be zero or positive, got {float(z.min())!r}.")
+    if roller.core is not None:
+        return z
+    bottom = roller.coating_thickness
+    if np.any(z > bottom * (1.0 + _ROUNDING)):
+        raise InvalidInputError(
+            f"`z` must be at most {bottom:.6g} mm, the thickness of the coating on a rigid core, "
+            f"got {float(z.max())!r}."
+        )
+    return np.minimum(z, bottom)
+
+
+def _in_pieces(medium: Medium, tractions: SurfaceTractions, z: Array, x: Array) -> Transformed:
+    """Fields computed for so many points at once that memory stays small."""
+    parts = 11 if medium.is_viscoelastic else 5
+    values = np.empty((parts, z.size, x.size))
+    loss = np.empty(z.size)
+    for row in range(0, z.size, _ROWS):
+        rows = slice(row, row + _ROWS)
+        for column in range(0, x.size, _COLUMNS):
+            columns = slice(column, column + _COLUMNS)
+            piece = fields_in_space(medium, tractions, z[rows], x[columns])
+            values[:, rows, columns] = piece.values
+            loss[rows] = piece.loss
+    return Transformed(values, loss)
+
+
+def _wrapped(medium: Medium, z: Array, x: Array, fields: Transformed) -> InteriorField:
+    layer = medium.layers_of(z)
+    poisson = medium.poisson_of(layer)
+    values, stress = fields.values, fields.values[2:5]
+    if medium.is_viscoelastic:
+        strain, rate = values[5:8], values[8:11]
+        power = -(stress[0] * rate[0] + stress[1] * rate[1] + 2.0 * stress[2] * rate[2])
+    else:
+        moduli = np.array([m.relaxed_modulus for m in medium.roller.materials])[layer]
+        strain = strain_of(stress, poisson, moduli[:, None])
+        power = np.zeros_like(stress[0])
+    speed = np.nan if medium.speed is None else medium.speed
+    return InteriorField(
+        x=x,
+        z=z,
+        layer=layer,
+        u_x=values[0],
+        u_z=values[1],
+        s_xx=stress[0],
+        s_zz=stress[1],
+        s_xz=stress[2],
+        e_xx=strain[0],
+        e_zz=strain[1],
+        e_xz=strain[2],
+        loss_density=speed * power,
+        loss_per_depth=speed * fields.loss * (1.0 - medium.curvature * z),
+        poisson=poisson,
+    )

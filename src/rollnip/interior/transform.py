@@ -1,0 +1,206 @@
+"""Fields in space from the transforms of the tractions and of the layers.
+
+f(x, z) = (1/pi) int_0^inf Re[f^(k, z) e^{ikx}] dk. At the depth z the transform falls as e^{-kz}:
+a row of points needs wave numbers up to about 16/z only. Rows too close to the surface for that,
+in the top layer, have their half-space part taken out of the transform and added in closed form;
+what is left falls as e^{-k(2d-z)}, d the thickness of the top layer.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.interior.medium import IntArray, Medium
+from rollnip.interior.near import (
+    Depth,
+    Powers,
+    half_space_displacement,
+    half_space_sinking,
+    half_space_stress,
+    potentials,
+    spectral_powers,
+)
+from rollnip.interior.tractions import Array, ComplexArray, SurfaceTractions
+from rollnip.interior.waves import Waves
+
+_FADED = 16.0
+"""k z at which a transform has fallen to e^-16; what is left out is 1e-8 of the peak."""
+_MOST_PANELS = 40
+"""Panels of full width that rows near the surface are worth; below their reach: closed form."""
+AnyArray = NDArray[Any]
+
+_STRESS, _STRAIN, _RATE = slice(2, 5), slice(5, 8), slice(8, 11)
+
+
+@dataclass(frozen=True, slots=True)
+class Rows:
+    """What is wanted at which depths, and how far each depth needs wave numbers.
+
+    Attributes
+    ----------
+    z : (nz,) depths [mm].
+    layers, poisson : (nz,) of each depth.
+    near : (nz,) True where the half-space part is added in closed form.
+    last : (nz,) largest wave number needed [1/mm].
+    """
+
+    z: Array
+    layers: IntArray
+    poisson: Array
+    near: Array
+    last: Array
+
+    @property
+    def cut(self) -> float:
+        """Wave number whose modulus the half-space part has: the end of the near rows' own."""
+        return float(self.last.max())
+
+    @classmethod
+    def of(cls, medium: Medium, z: Array, waves: Waves) -> Rows:
+        """Sort the depths into near and far ones."""
+        layers = medium.layers_of(z)
+        most = _MOST_PANELS * waves.width
+        near = (layers == 0) & (z * most < _FADED)
+        top = np.inf if not medium.roller.layers else medium.roller.layers[0].thickness
+        # Half-space and layer differ by what the bottom of the top layer sends back.
+        back = max(most, _FADED / top)
+        last = np.where(near, back, _FADED / np.maximum(z, _FADED / back))
+        return cls(z, layers, medium.poisson_of(layers), near, last)
+
+
+@dataclass(frozen=True, slots=True)
+class Transformed:
+    """Fields in space.
+
+    Attributes
+    ----------
+    values : (5 or 11, nz, nx): u_x, u_z, s_xx, s_zz, s_xz and, for a viscoelastic roller, the
+        strains e_xx, e_zz, e_xz and their derivatives along x.
+    loss : (nz,) -int s_ij d(e_ij)/dx dx over all x [MPa]; zero where elastic.
+    """
+
+    values: Array
+    loss: Array
+
+
+def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Array) -> Transformed:
+    """Fields at depths ``z`` and places ``x`` [mm]."""
+    places = x - tractions.centre
+    reach = float(np.max(np.abs(places))) + tractions.half_width
+    waves = Waves.resolving(reach, medium.slowest)
+    rows = Rows.of(medium, z, waves)
+    parts = 11 if medium.is_viscoelastic else 5
+    values = np.zeros((parts, z.size, x.size))
+    loss = np.zeros(z.size)
+    half_space = HalfSpace(medium, rows.cut)
+    for block in waves.blocks(float(rows.last.max())):
+        active = np.flatnonzero(rows.last > block.start)
+        transforms = tractions.transform(block.k, block.phases(tractions.places))
+        spectrum = _spectrum(medium, rows, active, block.k, transforms)
+        if medium.is_viscoelastic:
+            loss[active] += _loss(spectrum, block.weights)
+        _take_out(half_space, spectrum, rows, active, (block.k, transforms))
+        spectrum *= block.weights
+        values[:, active] += _product(spectrum, block.phases(places))
+    sinking = _constants(half_space, medium, rows, tractions.resultants, 1e-9 * waves.lowest)
+    values[:2] += waves.logarithm() * sinking
+    for row in np.flatnonzero(rows.near):
+        depth = Depth(float(z[row]), medium.curvature)
+        values[:, row] += half_space.fields(potentials(tractions, depth, places), depth).real
+    return Transformed(values, loss)
+
+
+def _spectrum(
+    medium: Medium, rows: Rows, active: IntArray, k: Array, transforms: ComplexArray
+) -> ComplexArray:
+    """Transforms of all quantities, (parts, rows, k)."""
+    fields = medium.fields(k, rows.z[active], transforms)
+    if not medium.is_viscoelastic:
+        return np.stack(fields)
+    out = np.empty((11, active.size, k.size), dtype=complex)
+    out[:5] = fields
+    moduli = np.array(medium.moduli(k))[rows.layers[active]]
+    out[_STRAIN] = strain_of(out[_STRESS], rows.poisson[active], moduli)
+    np.multiply(out[_STRAIN], 1j * k, out=out[_RATE])
+    return out
+
+
+def strain_of(stress: AnyArray, poisson: Array, modulus: AnyArray) -> AnyArray:
+    """e_xx, e_zz, e_xz of plane strain from s_xx, s_zz, s_xz; poisson (nz,), modulus (nz, n)."""
+    nu = poisson[:, None]
+    s_xx, s_zz, s_xz = stress
+    law = np.stack([(1.0 - nu) * s_xx - nu * s_zz, (1.0 - nu) * s_zz - nu * s_xx, s_xz])
+    return np.asarray(law * ((1.0 + nu) / modulus))
+
+
+def _loss(spectrum: ComplexArray, weights: Array) -> Array:
+    """-int s_ij d(e_ij)/dx dx by Parseval's theorem: -(1/pi) int_0 Re[s conj(ik e)] dk."""
+    shear = np.array([1.0, 1.0, 2.0])
+    stress, rate = spectrum[_STRESS], spectrum[_RATE]
+    work = np.einsum("c,czk,czk->zk", shear, stress.real, rate.real)
+    work += np.einsum("c,czk,czk->zk", shear, stress.imag, rate.imag)
+    return np.asarray(-work @ weights)
+
+
+def _product(spectrum: ComplexArray, phases: ComplexArray) -> Array:
+    """Re[spectrum e^{ikx}] summed over k, as one real product; ``phases`` are e^{-ikx} (x, k)."""
+    parts, rows, size = spectrum.shape
+    left = np.ascontiguousarray(spectrum).reshape(parts * rows, size).view(float)
+    return np.asarray(left @ phases.view(float).T).reshape(parts, rows, -1)
+
+
+class HalfSpace:
+    """The half-space part of the fields, with the modulus the top layer has at one wave number.
+
+    Attributes
+    ----------
+    compliance : 1/(2G) there [1/MPa].
+    """
+
+    def __init__(self, medium: Medium, cut: float) -> None:
+        self.material = medium.roller.materials[0]
+        self.viscoelastic = medium.is_viscoelastic
+        self.modulus = np.asarray(medium.moduli(np.array([cut]))[0], dtype=complex)
+        self.compliance = complex((1.0 + self.material.poisson) / self.modulus[0])
+        self.curvature = medium.curvature
+
+    def fields(self, powers: Powers, depth: Depth) -> ComplexArray:
+        """All quantities at one depth, (parts, n)."""
+        nu = self.material.poisson
+        stress = half_space_stress(powers, depth)
+        parts = [half_space_displacement(powers, depth, self.compliance, nu), stress]
+        if self.viscoelastic:
+            for some in (stress, half_space_stress(powers.raised(), depth)):
+                strain = strain_of(some[:, None], np.array([nu]), self.modulus[:, None])
+                parts.append(strain[:, 0])
+        return np.concatenate(parts)
+
+
+def _take_out(
+    half_space: HalfSpace,
+    spectrum: ComplexArray,
+    rows: Rows,
+    active: IntArray,
+    surface: tuple[Array, ComplexArray],
+) -> None:
+    """Subtract from the near rows what is added to them in closed form."""
+    k, transforms = surface
+    inside = np.flatnonzero(rows.near[active])
+    if inside.size == 0:
+        return
+    powers = spectral_powers(transforms, k)
+    for row in inside:
+        depth = Depth(float(rows.z[active[row]]), half_space.curvature)
+        spectrum[:, row] -= half_space.fields(powers, depth) * depth.decay(k)
+
+
+def _constants(half_space: HalfSpace, medium: Medium, rows: Rows, loads: Array, k: float) -> Array:
+    """Factors of 1/k in the displacements as k -> 0, (2, nz, 1): the core's, less what is out."""
+    core = medium.roller.materials[-1].poisson
+    kept = half_space_sinking(loads, medium.low_limit(k), core)
+    taken = half_space_sinking(loads, half_space.compliance, half_space.material.poisson)
+    return np.asarray(kept[:, None] - np.outer(taken, rows.near))[:, :, None]

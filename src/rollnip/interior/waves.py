@@ -1,0 +1,125 @@
+"""Wave numbers of the inverse transform: panels that resolve the oscillation and the layers.
+
+(1/pi) int_0^W Re[f(w) e^{iwx}] dw by Gauss-Legendre panels: in octaves from w_0 up, where the
+layers and their memory change over each octave, and of one width P above, where w (x - s) of the
+farthest point x and traction s turns by not more than a panel can follow. The wave numbers are
+non-equidistant as in the paper (Braat & Kalker 1993, figure 2); a long memory V tau or a
+half-space, which an equidistant mesh pays with its window, costs a few panels at the low end.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+from math import ceil, log2, pi
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+ComplexArray = NDArray[np.complex128]
+
+NODES = 24
+_NODES_LOW = 16
+"""On octaves panels are at most half as wide: (e y/(4 m))^(2m) = 1e-12 for y = 10."""
+_HALF_TURN = 20.0
+"""Largest half-width of a panel times distance: (e y/(4 m))^(2m) = 1e-12 for m = 24 nodes."""
+_BLOCK = 1536
+"""Most wave numbers dealt with at once."""
+_MOST_OCTAVES = 60
+
+
+@lru_cache(maxsize=2)
+def _gauss(nodes: int) -> tuple[Array, Array]:
+    t, weight = np.polynomial.legendre.leggauss(nodes)
+    return np.asarray(t), np.asarray(weight)
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Some panels in a row, all dealt with at once.
+
+    Attributes
+    ----------
+    start : lower end of the first panel [1/mm].
+    middles, halves : (m,) of the panels [1/mm].
+    nodes : on each panel.
+    """
+
+    start: float
+    middles: Array
+    halves: Array
+    nodes: int
+
+    @property
+    def k(self) -> Array:
+        """Wave numbers, (n,) [1/mm]."""
+        return np.asarray(
+            (self.middles[:, None] + np.multiply.outer(self.halves, _gauss(self.nodes)[0])).ravel()
+        )
+
+    @property
+    def weights(self) -> Array:
+        """Quadrature weights over pi, (n,) [1/mm]."""
+        return np.multiply.outer(self.halves, _gauss(self.nodes)[1] / pi).ravel()
+
+    def phases(self, x: Array) -> ComplexArray:
+        """e^{-ikx}, (x, n); each panel's middle times the nodes of a panel."""
+        if np.ptp(self.halves) > 0.0:
+            return np.asarray(np.exp(-1j * np.multiply.outer(x, self.k)))
+        within = np.exp(-1j * np.multiply.outer(x, self.halves[0] * _gauss(self.nodes)[0]))
+        middles = np.exp(-1j * np.multiply.outer(x, self.middles))
+        return np.asarray(middles[:, :, None] * within[:, None, :]).reshape(x.size, -1)
+
+
+@dataclass(frozen=True, slots=True)
+class Waves:
+    """Panels for points at most ``reach`` away from any traction.
+
+    Attributes
+    ----------
+    width : P of the panels of one width [1/mm].
+    lowest : w_0, the first panel is [0, w_0] [1/mm].
+    """
+
+    width: float
+    lowest: float
+
+    @classmethod
+    def resolving(cls, reach: float, slowest: float) -> Waves:
+        """Panels for distances up to ``reach`` and features as fine as 1/``slowest`` [mm]."""
+        width = 2.0 * _HALF_TURN / reach
+        octaves = ceil(log2(max(2.0, width * slowest)))
+        return cls(width, width * 2.0 ** -min(octaves, _MOST_OCTAVES))
+
+    def blocks(self, last: float) -> list[Block]:
+        """Panels from 0 to ``last`` [1/mm] or a little above, blocks growing."""
+        octaves = round(log2(self.width / self.lowest))
+        edges = np.zeros(octaves + 2)
+        edges[1:] = np.ldexp(self.lowest, np.arange(octaves + 1))
+        blocks = [_block(edges, _NODES_LOW)]
+        count = max(0, ceil(last / self.width) - 1)
+        done = 0
+        while done < count:
+            size = min(max(2, done + 1), _BLOCK // NODES, count - done)
+            blocks.append(_block(self.width * np.arange(1 + done, 2 + done + size), NODES))
+            done += size
+        return blocks
+
+    def logarithm(self) -> float:
+        """Correction of the sum for a part c/k of the integrand: add it times c.
+
+        The finite part of int_0 dk/k, as if only wave numbers above 1/mm counted, less what the
+        nodes of the lowest panel sum up to; over pi.
+        """
+        first = self.blocks(0.0)[0]
+        inside = slice(0, _NODES_LOW)
+        return float(np.log(self.lowest) / pi - np.sum(first.weights[inside] / first.k[inside]))
+
+
+def _block(edges: NDArray[Any], nodes: int) -> Block:
+    halves = 0.5 * np.diff(edges)
+    if edges.size > 2 and np.ptp(halves) < 1e-9 * halves[0]:
+        halves = np.full(halves.size, halves.mean())
+    return Block(float(edges[0]), 0.5 * (edges[1:] + edges[:-1]), halves, nodes)

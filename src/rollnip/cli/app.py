@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO, cast
 import typer
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip.cli.verify import verify
 
 if TYPE_CHECKING:
     from rollnip.model import Geometry, Model
@@ -24,6 +25,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     no_args_is_help=True,
 )
+app.command()(verify)
 
 
 @app.callback(invoke_without_command=True)

@@ -1,0 +1,139 @@
+"""Finite elements at finite strain, against the default (curved) geometry."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import NamedTuple
+
+import numpy as np
+
+from rollnip.materials import Elastic
+from rollnip.model import Model
+from rollnip.nip import LineLoad, Nip, Traction
+from rollnip.rollers import Roller
+from rollnip.solution import Solution
+from rollnip.verification._nips import (
+    approach,
+    coated,
+    creepage,
+    half_width,
+    peak_pressure,
+    solved,
+)
+from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+
+_SOURCE = (
+    "Finite elements, finite strain: incompressible neo-Hookean layer on a rigid core against a "
+    "rigid roller; mesh-converged to 0.1 % (approach, peak), 0.3 % (edges), 0.5 % (creepage)"
+)
+_CURVED = Model(geometry="curved")
+
+
+class Coating(NamedTuple):
+    """Coated upper roller on a bare lower one: radii, layer, load."""
+
+    radius: float
+    thickness: float
+    modulus: float
+    lower_radius: float
+    load: float
+
+
+class Reference(NamedTuple):
+    """What the finite elements give; creepage and stretch in stick are None without friction."""
+
+    name: str
+    coating: Coating
+    friction: float
+    traction: float
+    approach: float
+    edges: tuple[float, float]
+    peak_pressure: float
+    creepage: float | None = None
+    stretch: float | None = None
+
+
+_ONE = Coating(50.0, 2.0, 0.91, 25.0, 0.74)
+_BLACK = Coating(25.0, 2.7, 2.04, 50.0, 1.78)
+REFERENCES = (
+    Reference("I frictionless", _ONE, 0.0, 0.0, 0.142735, (-2.40864, 2.40864), 0.210587),
+    Reference(
+        "I free", _ONE, 2.7, 0.0, 0.135818, (-2.35364, 2.35364), 0.216789, -0.0413343, 1.0422065
+    ),
+    Reference(
+        "I, T -0.05",
+        _ONE,
+        2.7,
+        -0.05,
+        0.139170,
+        (-2.42830, 2.32615),
+        0.214825,
+        -0.0499022,
+        1.0511792,
+    ),
+    Reference(
+        "I, T +0.05",
+        _ONE,
+        2.7,
+        0.05,
+        0.132539,
+        (-2.25954, 2.38173),
+        0.218688,
+        -0.0326010,
+        1.0331413,
+    ),
+    Reference("IIb frictionless", _BLACK, 0.0, 0.0, 0.201469, (-2.73172, 2.73172), 0.437542),
+    Reference(
+        "IIb free", _BLACK, 2.8, 0.0, 0.195090, (-2.69176, 2.69176), 0.446361, -0.0428791, 1.0438186
+    ),
+)
+_APPROACH = Tolerance(2e-2, "second-order model, strains of 5 to 10 %: differs by up to 1.3 %")
+_WIDTH = Tolerance(2.5e-2, "second-order model, strains of 5 to 10 %: differs by up to 1.7 %")
+_PEAK = Tolerance(3e-2, "second-order model, strains of 5 to 10 %: differs by up to 2.1 %")
+_CREEP = Tolerance(
+    4e-2, "creepage is itself of second order: differs by up to 3.1 % of that of free rolling"
+)
+
+
+def finite_strain() -> tuple[VerificationCase, ...]:
+    """All of the finite-element table."""
+    return tuple(case for reference in REFERENCES for case in _figures(reference))
+
+
+def _figures(reference: Reference) -> tuple[VerificationCase, ...]:
+    figure = Experiment(
+        f"Finite strain, {reference.name}", _SOURCE, partial(_solve, reference)
+    ).figure
+    trailing, leading = reference.edges
+    cases = [
+        figure("approach", "mm", reference.approach, approach, _APPROACH),
+        figure("half-width", "mm", 0.5 * (leading - trailing), half_width, _WIDTH),
+        figure("peak pressure", "MPa", reference.peak_pressure, peak_pressure, _PEAK),
+    ]
+    if reference.creepage is not None and reference.stretch is not None:
+        free = 0.0413343 if reference.coating is _ONE else 0.0428791
+        cases += [
+            figure("creepage", "", reference.creepage, creepage, _CREEP, scale=free),
+            figure(
+                "strain in stick", "", reference.stretch - 1.0, _stick_strain, _CREEP, scale=free
+            ),
+        ]
+    return tuple(cases)
+
+
+def _stick_strain(solution: Solution) -> float:
+    profiles = solution.profiles
+    return float(np.interp(0.0, profiles.x, profiles.strain_upper))
+
+
+def _solve(reference: Reference) -> Solution:
+    coating = reference.coating
+    rubber = Elastic(modulus=coating.modulus, poisson=0.5)
+    nip = Nip(
+        upper=coated(coating.radius, coating.thickness, rubber),
+        lower=Roller(radius=coating.lower_radius),
+        normal=LineLoad(coating.load),
+        tangential=Traction(reference.traction),
+        friction=reference.friction,
+    )
+    return solved(nip, _CURVED)

@@ -42,11 +42,11 @@ def mean_of_neighbours(values: Array) -> Array:
 
 
 def linear_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
-    """int (du_x/dx - u_z/R) dx over each interval: first-order stretch of an arc [mm]."""
+    """First-order stretch of an arc over each interval, int (du_x/dx - u_z/R) dx [mm]."""
     return np.diff(u_x) - curvature * dx * mean_of_neighbours(u_z)
 
 
 def rotation_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
-    """int (rotation^2)/2 dx over each interval, rotation = du_z/dx + u_x/R [mm]."""
+    """Stretch by rotation over each interval, int (du_z/dx + u_x/R)^2/2 dx [mm]."""
     rotation = np.diff(u_z) / dx + curvature * mean_of_neighbours(u_x)
     return 0.5 * rotation**2 * dx

@@ -171,10 +171,13 @@ class Nip:
                 "`torque_lower` must not be prescribed on a plane (radius inf); "
                 "prescribe `traction` or `creepage`."
             )
-        if self.friction == 0.0 and isinstance(tangential, Traction) and tangential.traction:
+        if self.friction > 0.0 or isinstance(tangential, Creepage):
+            return
+        name = "traction" if isinstance(tangential, Traction) else "torque_lower"
+        value = getattr(tangential, name)
+        if value != 0.0:
             raise InvalidInputError(
-                "`traction` must be 0 without friction, "
-                f"got {tangential.traction!r} with `friction` 0."
+                f"`{name}` must be 0 without friction, got {value!r} with `friction` 0."
             )
 
     def _check_approach(self, approach: float) -> None:

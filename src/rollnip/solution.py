@@ -22,82 +22,26 @@ from rollnip.interior import (
 from rollnip.model import Model
 from rollnip.nip import Approach, Nip
 from rollnip.rolling import (
+    DeformedSurfaces,
     Fields,
     PairKernels,
+    Profiles,
     Round,
+    SolverInfo,
+    Zone,
     fields_at,
     fields_on_mesh,
     fine_points,
     peak_pressure,
     pressure_work,
     slip_velocity,
+    surface_depths,
     surface_strain,
 )
 
+__all__ = ["DeformedSurfaces", "Profiles", "Solution", "SolverInfo", "Zone"]
+
 Array = NDArray[np.float64]
-
-
-@dataclass(frozen=True, slots=True)
-class Zone:
-    """A piece of the contact in one state.
-
-    Attributes
-    ----------
-    start, stop : trailing and leading end [mm].
-    state : "stick" or "slip".
-    direction : sign of the slip velocity of the upper surface, along +x; None in stick.
-    """
-
-    start: float
-    stop: float
-    state: Literal["stick", "slip"]
-    direction: int | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Profiles:
-    """Distributions over x, from trailing to leading, to one nip width outside the contact.
-
-    Attributes
-    ----------
-    x : (n,) [mm], towards the leading edge.
-    pressure, shear : (n,) [MPa]; shear on the upper roller, along +x.
-    gap : (n,) distance of the surfaces [mm].
-    slip_velocity : (n,) of the upper surface relative to the lower, along +x [mm/s]; nan outside
-        the contact; None without speed or creepage.
-    strain_upper, strain_lower : (n,) du_x/dx of each surface ("curved": stretch less 1).
-    speed_upper, speed_lower : (n,) V_roller (1 + strain) [mm/s]; None without speed or creepage.
-    """
-
-    x: Array
-    pressure: Array
-    shear: Array
-    gap: Array
-    slip_velocity: Array | None
-    strain_upper: Array
-    strain_lower: Array
-    speed_upper: Array | None
-    speed_lower: Array | None
-
-
-@dataclass(frozen=True, slots=True)
-class SolverInfo:
-    """How the solution was reached.
-
-    Attributes
-    ----------
-    elements : of the last mesh.
-    iterations : linear systems solved in all.
-    residual : largest violation of the contact conditions, evaluated afresh, relative.
-    seconds : wall time.
-    version : of rollnip.
-    """
-
-    elements: int
-    iterations: int
-    residual: float
-    seconds: float
-    version: str
 
 
 @dataclass(frozen=True)
@@ -278,6 +222,18 @@ class Solution:
             speed_upper=None if speeds is None else speeds[0] * (1.0 + strains[0]),
             speed_lower=None if speeds is None else speeds[1] * (1.0 + strains[1]),
         )
+
+    @cached_property
+    def deformed_surfaces(self) -> DeformedSurfaces:
+        """Heights of both surfaces in and outside the nip, with the gap of the geometry model.
+
+        Half-space cores have no finite approach: heights are then relative to a displacement
+        that is left out.
+        """
+        x = fine_points(self.final)
+        fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
+        depths = surface_depths(x, self.nip, self.model.geometry, fields.displacements)
+        return DeformedSurfaces(x, depths[0] - self.final.state.approach, -depths[1])
 
     @property
     def nodes(self) -> Array:

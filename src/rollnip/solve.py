@@ -24,6 +24,7 @@ from rollnip.rolling import (
     refine,
 )
 from rollnip.solution import Solution, SolverInfo
+from rollnip.validity import validity_warnings
 
 
 def solve(
@@ -74,11 +75,12 @@ def solve(
         model=model,
         converged=converged,
         status=status,
-        warnings=(),
+        warnings=validity_warnings(nip, model, final),
         solver=SolverInfo(
             elements=int(final.problem.x.size + 1),
             iterations=final.steps,
             residual=final.residual,
+            geometry_change=final.geometry_change,
             seconds=perf_counter() - start,
             version=_version(),
         ),
@@ -107,10 +109,13 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Whether the solution stands, and a sentence that says so or what to do."""
     too_large = excess(nip, final, model.tolerance)
     if not final.settled:
-        return False, (
-            "The contact did not settle; the load may be too large for this geometry model. "
-            'Try `geometry = "linear"`, a smaller load or another tolerance.'
+        geometry = final.geometry_change > 0.1 * model.tolerance
+        what = (
+            f"The geometry correction did not converge (last change {final.geometry_change:.1e})"
+            if geometry
+            else "Contact, stick and slip did not settle"
         )
+        return False, f'{what}; try `geometry = "linear"`, a smaller load or another tolerance.'
     left = final.residual
     if not left <= model.tolerance:
         return False, (

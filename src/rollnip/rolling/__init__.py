@@ -13,18 +13,24 @@ from rollnip.rolling.check import (
     fields_on_mesh,
     fine_points,
     slip_velocity,
+    surface_depths,
     surface_strain,
 )
+from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_grip, peak_pressure
 from rollnip.rolling.start import half_width_guess
 
 __all__ = [
+    "DeformedSurfaces",
     "Displacements",
     "Fields",
     "Figures",
     "PairKernels",
+    "Profiles",
     "Round",
+    "SolverInfo",
+    "Zone",
     "creepage_scale",
     "excess",
     "fields_at",
@@ -38,5 +44,6 @@ __all__ = [
     "pressure_work",
     "refine",
     "slip_velocity",
+    "surface_depths",
     "surface_strain",
 ]

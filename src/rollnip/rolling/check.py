@@ -89,12 +89,23 @@ def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacemen
     )
 
 
+def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
+    """How far each surface lies from the tangent at first touch, before the approach [mm]."""
+    sides = (
+        (nip.upper.curvature, u.x_upper, u.z_upper),
+        (nip.lower.curvature, u.x_lower, u.z_lower),
+    )
+    if geometry == "corrected":
+        upper, lower = (sagitta(x, curvature, u_x, u_z) for curvature, u_x, u_z in sides)
+    else:
+        upper, lower = (0.5 * curvature * x * x + u_z for curvature, _, u_z in sides)
+    return upper, lower
+
+
 def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
     """Distance of the deformed surfaces, before the approach is taken off."""
-    if geometry == "corrected":
-        upper = sagitta(x, nip.upper.curvature, u.x_upper, u.z_upper)
-        return upper + sagitta(x, nip.lower.curvature, u.x_lower, u.z_lower)
-    return 0.5 * nip.curvature * x * x + u.z_upper + u.z_lower
+    upper, lower = surface_depths(x, nip, geometry, u)
+    return upper + lower
 
 
 def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:

@@ -152,7 +152,7 @@ def _solve_on(
     unknown = Figures(inf, inf, inf, inf, inf)
     figures = _figures(problem, state, zones)
     settled = state.settled and change <= allowed
-    return Round(mesh, problem, state, zones, figures, unknown, steps, settled)
+    return Round(mesh, problem, state, zones, figures, unknown, steps, settled, change)
 
 
 def _carried(before: Round, mesh: Mesh) -> ContactState:

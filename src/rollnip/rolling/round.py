@@ -41,6 +41,8 @@ class Round:
     error : estimated discretisation error of each figure, in its own unit; inf where unknown.
     steps : linear systems solved in all rounds so far.
     settled : whether states and second-order terms stand still.
+    geometry_change : last change of the second-order terms (e(x) of "corrected", the stretch of
+        "curved", the traction for a torque), relative to approach and strain.
     residual : largest relative violation of the contact conditions, evaluated afresh; inf where
         it was not evaluated.
     """
@@ -53,6 +55,7 @@ class Round:
     error: Figures
     steps: int
     settled: bool
+    geometry_change: float
     residual: float = inf
 
 
@@ -102,4 +105,4 @@ def has_grip(latest: Round) -> bool:
     """Whether friction can carry the wanted traction: |T| < mu F."""
     wanted = latest.problem.control.traction
     limit = latest.problem.friction * latest.figures.load
-    return wanted is None or latest.problem.friction == 0.0 or abs(wanted) < limit
+    return wanted is None or abs(wanted) < max(limit, 1e-9 * latest.figures.load)

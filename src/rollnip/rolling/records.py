@@ -1,0 +1,92 @@
+"""What a solution reports beside its figures: zones, profiles, surfaces, how it was reached."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Zone:
+    """A piece of the contact in one state.
+
+    Attributes
+    ----------
+    start, stop : trailing and leading end [mm].
+    state : "stick" or "slip".
+    direction : sign of the slip velocity of the upper surface, along +x; None in stick.
+    """
+
+    start: float
+    stop: float
+    state: Literal["stick", "slip"]
+    direction: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Profiles:
+    """Distributions over x, from trailing to leading, to one nip width outside the contact.
+
+    Attributes
+    ----------
+    x : (n,) [mm], towards the leading edge.
+    pressure, shear : (n,) [MPa]; shear on the upper roller, along +x.
+    gap : (n,) distance of the surfaces [mm].
+    slip_velocity : (n,) of the upper surface relative to the lower, along +x [mm/s]; nan outside
+        the contact; None without speed or creepage.
+    strain_upper, strain_lower : (n,) du_x/dx of each surface ("curved": stretch less 1).
+    speed_upper, speed_lower : (n,) V_roller (1 + strain) [mm/s]; None without speed or creepage.
+    """
+
+    x: Array
+    pressure: Array
+    shear: Array
+    gap: Array
+    slip_velocity: Array | None
+    strain_upper: Array
+    strain_lower: Array
+    speed_upper: Array | None
+    speed_lower: Array | None
+
+
+@dataclass(frozen=True, slots=True)
+class DeformedSurfaces:
+    """Both deformed surfaces in one frame: the lower axle below, heights above first touch.
+
+    Attributes
+    ----------
+    x : (n,) [mm], towards the leading edge.
+    upper, lower : (n,) heights of the surfaces [mm], relative to the top of the undeformed lower
+        roller; their difference is the gap.
+    """
+
+    x: Array
+    upper: Array
+    lower: Array
+
+
+@dataclass(frozen=True, slots=True)
+class SolverInfo:
+    """How the solution was reached.
+
+    Attributes
+    ----------
+    elements : of the last mesh.
+    iterations : linear systems solved in all.
+    residual : largest violation of the contact conditions, evaluated afresh, relative.
+    geometry_change : last change of the geometry correction, relative; 0 for "linear".
+    seconds : wall time.
+    version : of rollnip.
+    """
+
+    elements: int
+    iterations: int
+    residual: float
+    geometry_change: float
+    seconds: float
+    version: str

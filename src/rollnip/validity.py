@@ -1,0 +1,142 @@
+"""Where the model is used outside the range it was judged in: a fixed list of warnings.
+
+The thresholds come from the comparison with finite-strain finite elements (docs/geometry.md); the
+list with its reasons is in docs/validity.md. A warning never changes a result.
+"""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+
+from rollnip.influence import is_ring
+from rollnip.materials import LossFactor, Prony, Viscoelastic
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rollers import Roller
+from rollnip.rolling import Round
+
+NIP_STRAIN = 0.15
+"""Approach over the thickness of the coverings."""
+THICKNESS_RATIO = 0.15
+"""Thickness of a covering over the radius of its roller."""
+CONTACT_ANGLE = 0.25
+"""Half the nip width over the smaller radius [rad]."""
+TEMPERATURE_SPAN = 60.0
+"""Distance of a temperature from the reference of its shift [K]."""
+TIME_SPAN = 10.0
+"""Factor by which the time in the nip may leave the relaxation times of a Prony series."""
+
+
+def validity_warnings(nip: Nip, model: Model, final: Round) -> tuple[str, ...]:
+    """Reservations on a solution, each a sentence that says what is exceeded and what it costs."""
+    found = [
+        _nip_strain(nip, final),
+        *(_thickness_ratio(name, roller) for name, roller in _rollers(nip)),
+        _contact_angle(nip, final),
+        *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),
+        *(_thin_top_layer(name, roller, final) for name, roller in _rollers(nip)),
+        *(line for name, roller in _rollers(nip) for line in _materials(name, roller, nip, final)),
+    ]
+    return tuple(line for line in found if line)
+
+
+def _rollers(nip: Nip) -> tuple[tuple[str, Roller], tuple[str, Roller]]:
+    return ("upper", nip.upper), ("lower", nip.lower)
+
+
+def _nip_strain(nip: Nip, final: Round) -> str:
+    covering = nip.upper.coating_thickness + nip.lower.coating_thickness
+    if nip.has_half_space or covering == 0.0:
+        return ""
+    strain = final.state.approach / covering
+    if strain <= NIP_STRAIN:
+        return ""
+    return (
+        f"The coverings are pressed in by {100.0 * strain:.0f} % of their thickness; the "
+        f"small-strain model was compared with finite elements up to {100.0 * NIP_STRAIN:.0f} %."
+    )
+
+
+def _thickness_ratio(name: str, roller: Roller) -> str:
+    if roller.radius == inf or roller.coating_thickness <= THICKNESS_RATIO * roller.radius:
+        return ""
+    ratio = roller.coating_thickness / roller.radius
+    return (
+        f"The covering of the {name} roller is {ratio:.2f} of its radius; beyond "
+        f"{THICKNESS_RATIO:g} the error of the creepage grows to some 20 % (at 0.4)."
+    )
+
+
+def _contact_angle(nip: Nip, final: Round) -> str:
+    radius = min(nip.upper.radius, nip.lower.radius)
+    angle = 0.5 * final.figures.nip_width / radius
+    if angle <= CONTACT_ANGLE:
+        return ""
+    return (
+        f"The nip spans {2.0 * np.degrees(angle):.0f} degrees of the smaller roller; the parabolic "
+        f"gap was compared with finite elements up to {2.0 * np.degrees(CONTACT_ANGLE):.0f}."
+    )
+
+
+def _flat_half_space(name: str, roller: Roller, model: Model) -> str:
+    curved = model.geometry == "curved" and roller.radius < inf and bool(roller.layers)
+    if not curved or roller.core is None or is_ring(roller, model.geometry):
+        return ""
+    return (
+        f"The {name} roller has a half-space core: its layers are taken as flat and its "
+        "hoop strain is left out."
+    )
+
+
+def _thin_top_layer(name: str, roller: Roller, final: Round) -> str:
+    if not roller.layers:
+        return ""
+    largest = float(np.max(np.diff(final.mesh.nodes[4:-4]), initial=0.0))
+    thickness = roller.layers[0].thickness
+    if thickness >= 0.5 * largest:
+        return ""
+    return (
+        f"The top layer of the {name} roller ({thickness:g} mm) is thinner than half an element "
+        f"({largest:.2g} mm); stresses within it vary faster than the solution shows."
+    )
+
+
+def _materials(name: str, roller: Roller, nip: Nip, final: Round) -> list[str]:
+    lines = []
+    for number, material in enumerate(roller.materials, start=1):
+        where = f"Material {number} (from the surface) of the {name} roller"
+        if isinstance(material, LossFactor):
+            lines.append(
+                f"{where} has a constant loss factor: no real material has it at all "
+                "frequencies, so trust trends in load, not in speed."
+            )
+        if isinstance(material, Prony) and len(material.terms) > 1:
+            lines.append(_outside_times(where, material, nip, final))
+        if isinstance(material, Viscoelastic) and material.shift is not None:
+            lines.append(_far_temperature(where, material))
+    return lines
+
+
+def _outside_times(where: str, material: Prony, nip: Nip, final: Round) -> str:
+    time = final.figures.nip_width / (nip.speed or inf)
+    shortest, longest = min(material.relaxation_times), max(material.relaxation_times)
+    if shortest / TIME_SPAN <= time <= longest * TIME_SPAN:
+        return ""
+    return (
+        f"{where} is used beyond its data: the dwell time {time:.2g} s lies outside its "
+        f"relaxation times {shortest:.2g} to {longest:.2g} s."
+    )
+
+
+def _far_temperature(where: str, material: Viscoelastic) -> str:
+    assert material.shift is not None
+    assert material.temperature is not None
+    distance = abs(material.temperature - material.shift.reference)
+    if distance <= TEMPERATURE_SPAN:
+        return ""
+    return (
+        f"{where} is shifted over {distance:.0f} K from the reference temperature; a shift is "
+        f"seldom measured over more than {TEMPERATURE_SPAN:.0f} K."
+    )

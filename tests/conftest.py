@@ -105,6 +105,13 @@ def solution() -> HandMade:
             speed_upper=100.0 + zero,
             speed_lower=100.0 + zero,
         ),
-        solver=SolverInfo(elements=240, iterations=9, residual=3e-5, seconds=0.21, version="0"),
+        solver=SolverInfo(
+                elements=240,
+                iterations=9,
+                residual=3e-5,
+                geometry_change=0.0,
+                seconds=0.21,
+                version="0",
+            ),
         warnings=("A reservation.",),
     )

@@ -48,9 +48,9 @@ def result_dict(solution: Solution) -> dict[str, Any]:
         "elements": int(solution.solver.elements),
         "iterations": int(solution.solver.iterations),
         "residual": _number(solution.solver.residual),
-        "geometry_change": _number(solution.solver.geometry_change),
         "seconds": _number(solution.solver.seconds),
         "version": solution.solver.version,
+        "geometry_change": _number(solution.solver.geometry_change),
         "status": solution.status,
     }
     tree["warnings"] = list(solution.warnings)

@@ -150,7 +150,7 @@ def _wrapped(medium: Medium, z: Array, x: Array, fields: Transformed) -> Interio
         moduli = np.array([m.relaxed_modulus for m in medium.roller.materials])[layer]
         strain = strain_of(stress, poisson, moduli[:, None])
         power = np.zeros_like(stress[0])
-    speed = np.nan if medium.speed is None else medium.speed
+    speed = medium.speed or 0.0  # None only where nothing is lost
     return InteriorField(
         x=x,
         z=z,

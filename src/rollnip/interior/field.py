@@ -49,7 +49,7 @@ class InteriorField:
     e_xx, e_zz, e_xz : (nz, nx) strains, e_xz half the shear angle.
     loss_density :
         (nz, nx) -V s_ij d(e_ij)/dx [MPa/s = mW/mm3]: the power that stress puts into a passing
-        volume, stored and given back or lost; nan without speed. Its integral over x is the heat.
+        volume, stored and given back or lost; its integral over x is the heat. Zero where elastic.
         Within a few elements of the surface of a viscoelastic layer it has the logarithmic
         spikes of a traction that is linear between nodes.
     loss_per_depth :

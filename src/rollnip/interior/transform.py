@@ -91,7 +91,8 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
     """Fields at depths ``z`` and places ``x`` [mm]."""
     places = x - tractions.centre
     reach = float(np.max(np.abs(places))) + tractions.half_width
-    waves = Waves.resolving(reach, medium.slowest)
+    deepest = Depth(float(np.max(z)), medium.curvature).logarithmic
+    waves = Waves.resolving(reach, max(medium.slowest, deepest))
     rows = Rows.of(medium, z, waves)
     parts = 11 if medium.is_viscoelastic else 5
     values = np.zeros((parts, z.size, x.size))

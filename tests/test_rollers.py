@@ -1,0 +1,108 @@
+"""Layers and rollers: data and its validation."""
+
+from dataclasses import FrozenInstanceError, replace
+from math import inf, nan
+
+import pytest
+
+from rollnip import Elastic, InvalidInputError, Layer, Roller, StandardLinearSolid
+
+RUBBER = Elastic(modulus=2.0, poisson=0.5)
+BLACK = StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=7e-3, poisson=0.5)
+
+
+def refusal(call, *arguments, **keywords):
+    """The message of an InvalidInputError."""
+    with pytest.raises(InvalidInputError) as caught:
+        call(*arguments, **keywords)
+    return str(caught.value)
+
+
+@pytest.mark.parametrize("thickness", [0.0, -1, nan, inf, "2 mm", None, True, [1.0]])
+def test_thickness_is_positive(thickness):
+    assert refusal(Layer, thickness, RUBBER) == (
+        f"`thickness` must be positive and finite, got {thickness!r}."
+    )
+
+
+def test_thickness_is_not_absurd():
+    message = refusal(Layer, 1e30, RUBBER)
+    assert message == "`thickness` must be at most 1e7 mm, got 1e+30."
+
+
+@pytest.mark.parametrize("material", [None, 2.0, "rubber", Elastic])
+def test_a_layer_is_of_a_material(material):
+    assert refusal(Layer, 1.0, material) == (
+        f"`material` must be a material such as Elastic, got {material!r}."
+    )
+
+
+@pytest.mark.parametrize("radius", [0.0, -5.0, nan, -inf, "50 mm", None, False])
+def test_radius_is_positive(radius):
+    assert refusal(Roller, radius=radius) == (
+        f"`radius` must be positive and finite, got {radius!r}."
+    )
+
+
+def test_radius_is_not_absurd():
+    message = refusal(Roller, radius=1e30)
+    assert message == "`radius` must be at most 1e7 mm (or inf, a plane), got 1e+30."
+
+
+@pytest.mark.parametrize("thickness", [5.0, 6.0])
+def test_coating_is_thinner_than_the_radius(thickness):
+    layers = (Layer(thickness - 1.0, RUBBER), Layer(1.0, BLACK))
+    message = refusal(Roller, radius=5.0, layers=layers)
+    assert message == (
+        f"`layers` must be thinner in all than the radius 5 mm, got {thickness:g} mm."
+    )
+
+
+def test_layers_are_layers():
+    message = refusal(Roller, radius=5.0, layers=(RUBBER,))
+    assert message == f"`layers` must hold Layer objects, got {RUBBER!r}."
+
+
+@pytest.mark.parametrize("layers", [3, Layer(1.0, RUBBER)])
+@pytest.mark.xfail(strict=True, raises=TypeError, reason="not iterable: a bare TypeError")
+def test_layers_are_a_sequence(layers):
+    assert "`layers` must" in refusal(Roller, radius=5.0, layers=layers)
+
+
+def test_core_is_a_material():
+    message = refusal(Roller, radius=5.0, core="steel")
+    assert message == "`core` must be a material such as Elastic, got 'steel'."
+
+
+def test_plane():
+    plane = Roller(radius=inf, layers=(Layer(2.0, RUBBER),))
+    assert plane.curvature == 0.0
+    assert Roller(radius=50).curvature == 0.02
+
+
+def test_layers_from_a_list_become_a_tuple():
+    roller = Roller(radius=9.0, layers=[Layer(0.5, RUBBER), Layer(1.5, BLACK)])
+    assert roller.layers == (Layer(0.5, RUBBER), Layer(1.5, BLACK))
+    assert roller.coating_thickness == 2.0
+    assert roller.interfaces == (0.5, 2.0)
+    assert hash(roller) == hash(replace(roller))
+
+
+def test_what_it_is_made_of():
+    bare = Roller(radius=9.0)
+    assert bare.is_rigid
+    assert not bare.is_viscoelastic
+    assert bare.materials == bare.interfaces == ()
+    assert bare.coating_thickness == 0.0
+    coated = Roller(radius=9.0, layers=(Layer(1.0, RUBBER),), core=BLACK)
+    assert not coated.is_rigid
+    assert coated.is_viscoelastic
+    assert coated.materials == (RUBBER, BLACK)
+    assert not Roller(radius=9.0, core=RUBBER).is_rigid
+
+
+def test_frozen():
+    with pytest.raises(FrozenInstanceError):
+        Roller(radius=9.0).radius = 3.0
+    with pytest.raises(FrozenInstanceError):
+        Layer(1.0, RUBBER).thickness = 3.0

@@ -10,7 +10,11 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 
 _SMALLEST_ZONE = 6  # elements in a zone, however short
-_ASKED = 0.3  # share of the nodes placed by the demand of a former solution
+# Share of the nodes placed by the demand of a former solution. What this many elements at cosine
+# places do not resolve bends inside the zones rather than at their ends.
+_ASKED = 0.15
+_ASKED_OF_MANY = 0.4
+_MANY = 150
 _MARGIN = np.array([1.0, 2.0, 4.0, 8.0])  # nodes outside the contact, in edge elements
 
 
@@ -73,17 +77,23 @@ def graded_nodes(breaks: Array, count: int, demand: Demand | None = None) -> Arr
     if demand is not None:
         asked = np.diff(demand.up_to(breaks))
         if asked.sum() > 0.0:
-            shares += _ASKED * (asked / asked.sum() - shares)
+            shares += _asked_share(count) * (asked / asked.sum() - shares)
     counts = np.maximum(np.rint(count * shares), _SMALLEST_ZONE).astype(int)
     parts = [breaks[:1]]
     for start, stop, n in zip(breaks[:-1], breaks[1:], counts, strict=True):
-        parts.append(_zone_nodes(float(start), float(stop), int(n), demand))
+        parts.append(_zone_nodes(float(start), float(stop), int(n), demand, _asked_share(count)))
     inner = np.concatenate(parts)
     first, last = inner[1] - inner[0], inner[-1] - inner[-2]
     return np.concatenate([inner[0] - first * _MARGIN[::-1], inner, inner[-1] + last * _MARGIN])
 
 
-def _zone_nodes(start: float, stop: float, count: int, demand: Demand | None) -> Array:
+def _asked_share(count: int) -> float:
+    return _ASKED if count < _MANY else _ASKED_OF_MANY
+
+
+def _zone_nodes(
+    start: float, stop: float, count: int, demand: Demand | None, share: float
+) -> Array:
     """Nodes of one zone, without its first."""
     cosine = 0.5 * (1.0 - np.cos(np.pi * np.arange(count + 1) / count))
     if demand is None:
@@ -93,7 +103,7 @@ def _zone_nodes(start: float, stop: float, count: int, demand: Demand | None) ->
     asked = demand.up_to(places) - demand.up_to(np.array([start]))
     if not asked[-1] > 0.0:
         return start + (stop - start) * cosine[1:]
-    rank = fine + _ASKED * (asked / asked[-1] - fine)
+    rank = fine + share * (asked / asked[-1] - fine)
     nodes = np.interp(np.arange(1, count + 1) / count, rank, places)
     nodes[-1] = stop
     return nodes

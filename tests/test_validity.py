@@ -1,0 +1,79 @@
+"""The list of validity warnings: each appears beyond its threshold and not before."""
+
+from dataclasses import replace
+
+import pytest
+
+import rollnip as rn
+from rollnip.model import Model
+from rollnip.solve import solve
+
+RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
+
+
+def nip(thickness=2.0, radius=50.0, load=0.74, material=RUBBER, **changes):
+    upper = rn.Roller(radius=radius, layers=[rn.Layer(thickness, material)])
+    return rn.Nip(
+        upper=upper,
+        lower=rn.Roller(radius=25.0),
+        normal=rn.LineLoad(load),
+        friction=2.7,
+        speed=100.0,
+        **changes,
+    )
+
+
+def warnings_of(problem):
+    return " ".join(solve(problem, Model(tolerance=1e-2)).warnings)
+
+
+def test_a_nip_like_those_compared_has_no_warning():
+    assert warnings_of(nip()) == ""
+
+
+def test_deep_indentation():
+    assert "of their thickness" in warnings_of(nip(load=6.0))
+
+
+def test_thick_covering():
+    assert "of its radius" in warnings_of(nip(thickness=10.0, load=0.2))
+
+
+def test_wide_nip():
+    assert "degrees of the smaller roller" in warnings_of(nip(thickness=7.0, load=9.0))
+
+
+def test_layers_on_a_half_space_are_flat_in_curved_geometry():
+    core = rn.Roller(radius=50.0, layers=[rn.Layer(2.0, RUBBER)], core=rn.Elastic(modulus=100.0, poisson=0.3))
+    assert "half-space core" in warnings_of(replace(nip(), upper=core))
+    flat = solve(replace(nip(), upper=core), Model(geometry="linear", tolerance=1e-2))
+    assert not any("half-space" in line for line in flat.warnings)
+
+
+def test_a_film_thinner_than_the_elements():
+    film = rn.Layer(0.001, rn.Elastic(modulus=2.0, poisson=0.5))
+    upper = rn.Roller(radius=50.0, layers=[film, rn.Layer(2.0, RUBBER)])
+    assert "thinner than half an element" in warnings_of(replace(nip(), upper=upper))
+
+
+@pytest.mark.parametrize(("time", "expected"), [(1e-2, False), (1e-6, True), (10.0, True)])
+def test_prony_series_beyond_its_relaxation_times(time, expected):
+    terms = ((0.5, time), (0.5, 3.0 * time))  # the dwell time is about 0.05 s
+    material = rn.Prony(modulus=0.9, terms=terms, poisson=0.5)
+    text = warnings_of(nip(material=material, thickness=3.0))
+    assert ("beyond its data" in text) == expected
+
+
+def test_far_temperature_and_constant_loss_factor():
+    shift = rn.Arrhenius(activation_energy=60.0, reference=23.0)
+    hot = rn.StandardLinearSolid(
+        modulus=0.9,
+        stiffening=0.5,
+        relaxation_time=1e-2,
+        poisson=0.5,
+        temperature=100.0,
+        shift=shift,
+    )
+    assert "shifted over 77 K" in warnings_of(nip(material=hot))
+    lossy = rn.LossFactor(modulus=0.9, loss_factor=0.1, poisson=0.5)
+    assert "constant loss factor" in warnings_of(nip(material=lossy))

@@ -1,0 +1,261 @@
+"""Files of the fields inside both rollers: netCDF, and ParaView's .vtr in one global frame."""
+
+from __future__ import annotations
+
+import base64
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+from xml.sax.saxutils import quoteattr
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._files import check_target, write_whole
+from rollnip.io.netcdf import require_netcdf, write_netcdf
+from rollnip.io.result import result_dict
+from rollnip.rollers import Roller
+from rollnip.solution import Solution
+
+Array = NDArray[np.float64]
+
+SUFFIXES = (".nc", ".vtr")
+_ROWS = 33  # depths in each layer, both faces included
+_CORE_ROWS = 65
+_CORE_DEPTH = 2.0  # nip widths below the layers that are shown of a half-space core
+_QUANTITIES = {
+    "u_x": ("mm", "displacement along x"),
+    "u_z": ("mm", "displacement along z"),
+    "s_xx": ("MPa", "stress along x, tension positive"),
+    "s_yy": ("MPa", "axial stress of plane strain"),
+    "s_zz": ("MPa", "stress along z, tension positive"),
+    "s_xz": ("MPa", "shear stress"),
+    "s_1": ("MPa", "larger principal stress in the plane"),
+    "s_2": ("MPa", "smaller principal stress in the plane"),
+    "principal_angle": ("rad", "direction of s_1 from x towards z"),
+    "max_shear": ("MPa", "maximum shear stress"),
+    "von_mises": ("MPa", "von Mises stress"),
+    "pressure": ("MPa", "hydrostatic pressure"),
+    "e_xx": ("1", "strain along x"),
+    "e_zz": ("1", "strain along z"),
+    "e_xz": ("1", "shear strain, half the angle"),
+    "energy_density": ("mJ mm-3", "half of stress times strain"),
+    "loss_density": ("mW mm-3", "stress power of the passing material"),
+}
+_POINT_DATA = (
+    "s_xx", "s_yy", "s_zz", "s_xz", "max_shear", "von_mises", "pressure", "energy_density",
+    "loss_density",
+)  # fmt: skip
+Name = Literal["upper", "lower"]
+
+
+def write_fields(solution: Solution, path: str | Path) -> None:
+    """Write the fields inside both rollers to a file, all or nothing.
+
+    ``.nc``: netCDF by the extra ``rollnip[netcdf]``; the root holds the result with the surface
+    profiles, the groups ``upper`` and ``lower`` the fields of each roller that deforms, in its own
+    frame, with units. ``.vtr``: one rectilinear grid for ParaView in one global frame, x along
+    the nip and z upwards, the upper roller above z = 0 and the lower below, both unrolled and
+    undeformed; with the displacement vector, stresses in that frame, the number of the layer
+    (0 at the surface) and the roller (1 upper, -1 lower). At an interface stand two depths, one
+    of each layer. A half-space core is shown to two nip widths below the layers.
+
+    Parameters
+    ----------
+    solution : what ``solve`` returned.
+    path : ends in .nc or .vtr.
+
+    Raises
+    ------
+    RollnipError
+        where the ending is another, the extra is missing, or the file cannot be written; a file
+        of that name stays as it was.
+    """
+    target = Path(path)
+    check_fields_target(target)
+    sections = _sections(solution)
+    if target.suffix.lower() == ".nc":
+        write_whole(target, lambda file: _write_netcdf(solution, sections, file))
+    else:
+        text = _vtr(solution.nip.title, sections)
+        write_whole(target, lambda file: file.write_text(text, encoding="ascii", newline="\n"))
+
+
+def check_fields_target(path: Path) -> None:
+    """Raise RollnipError where fields could not be written to ``path``; costs next to nothing."""
+    check_target(path, SUFFIXES)
+    if path.suffix.lower() == ".nc":
+        require_netcdf()
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """The fields of one roller at rows of depths, two where layers meet.
+
+    Attributes
+    ----------
+    name : "upper" or "lower".
+    x : (nx,) [mm].
+    z : (nz,) strictly increasing depths [mm]; the upper face of a layer the next number up.
+    layer : (nz,) number of the layer.
+    values : name of a quantity -> (nz, nx).
+    loss_per_depth : (nz,) [N/(mm s)].
+    """
+
+    name: Name
+    x: Array
+    z: Array
+    layer: NDArray[np.intp]
+    values: dict[str, Array]
+    loss_per_depth: Array
+
+
+def _sections(solution: Solution) -> list[Section]:
+    """Sections of the rollers that deform, the upper first."""
+    names: tuple[Name, Name] = ("upper", "lower")
+    rollers = {"upper": solution.nip.upper, "lower": solution.nip.lower}
+    return [_section(solution, name) for name in names if not rollers[name].is_rigid]
+
+
+def _section(solution: Solution, name: Name) -> Section:
+    roller = solution.nip.upper if name == "upper" else solution.nip.lower
+    z, is_top = _depths(roller, solution.nip_width)
+    above = solution.interior(name, z[~is_top])
+    parts = [(~is_top, above)]
+    if np.any(is_top):
+        parts.append((is_top, solution.interior(name, z[is_top], side="below")))
+
+    def merged(attribute: str) -> NDArray[Any]:
+        first = getattr(above, attribute)
+        out = np.empty((z.size, *first.shape[1:]), dtype=first.dtype)
+        for rows, field in parts:
+            out[rows] = getattr(field, attribute)
+        return out
+
+    return Section(
+        name=name,
+        x=above.x,
+        z=z,
+        layer=merged("layer"),
+        values={quantity: merged(quantity) for quantity in _QUANTITIES},
+        loss_per_depth=merged("loss_per_depth"),
+    )
+
+
+def _depths(roller: Roller, width: float) -> tuple[Array, NDArray[np.bool_]]:
+    """Depths of a section, and which of them are upper faces below an interface."""
+    faces = [0.0, *roller.interfaces]
+    rows = [_ROWS] * len(roller.layers)
+    if roller.core is not None:
+        faces.append(faces[-1] + _CORE_DEPTH * width)
+        rows.append(_CORE_ROWS)
+    pieces, tops = [], []
+    for i, count in enumerate(rows):
+        piece = np.linspace(faces[i], faces[i + 1], count)
+        top = np.zeros(count, dtype=bool)
+        if i > 0:
+            piece[0], top[0] = np.nextafter(faces[i], np.inf), True
+        pieces.append(piece)
+        tops.append(top)
+    return np.concatenate(pieces), np.concatenate(tops)
+
+
+def _write_netcdf(solution: Solution, sections: list[Section], path: Path) -> None:
+    import xarray as xr
+
+    write_netcdf(result_dict(solution), path)
+    for section in sections:
+        variables: dict[str, Any] = {
+            name: (("z", "x"), section.values[name], {"units": unit, "long_name": text})
+            for name, (unit, text) in _QUANTITIES.items()
+        }
+        text = "number of the layer, 0 at the surface; the number of layers: the core"
+        variables["layer"] = ("z", section.layer, {"units": "1", "long_name": text})
+        text = "heat per depth and axial length"
+        loss = ("z", section.loss_per_depth, {"units": "mW mm-2", "long_name": text})
+        variables["loss_per_depth"] = loss
+        along = {"units": "mm", "long_name": "place along the nip, towards the leading edge"}
+        depth = {"units": "mm", "long_name": "depth below the surface", "positive": "down"}
+        dataset = xr.Dataset(
+            variables,
+            coords={"x": ("x", section.x, along), "z": ("z", section.z, depth)},
+            attrs={
+                "Conventions": "CF-1.11",
+                "title": f"{solution.nip.title} ({section.name} roller)".strip(),
+                "comment": "the roller's own frame: x along the nip, z into its body",
+                "geometry": solution.model.geometry,
+            },
+        )
+        dataset.to_netcdf(path, mode="a", group=section.name, engine="h5netcdf")
+
+
+def _vtr(title: str, sections: list[Section]) -> str:
+    """The text of a .vtr file: rows from the bottom of the lower roller upwards."""
+    heights = np.concatenate([_upwards(s, _sign(s) * s.z) for s in reversed(sections)])
+    x = sections[0].x
+    data: dict[str, NDArray[Any]] = {name: _stacked(sections, name) for name in _POINT_DATA}
+    u_x, u_z = _stacked(sections, "u_x"), _stacked(sections, "u_z")
+    displacement = np.stack([u_x, np.zeros_like(u_x), u_z], axis=-1)
+    rows = [(s, np.ones((s.z.size, x.size), dtype=np.int32)) for s in reversed(sections)]
+    data["layer"] = np.concatenate(
+        [_upwards(s, ones * s.layer[:, None].astype(np.int32)) for s, ones in rows]
+    )
+    data["roller"] = np.concatenate([ones * np.int32(_sign(s)) for s, ones in rows])
+    extent = f'"0 {x.size - 1} 0 0 0 {heights.size - 1}"'
+    lines = [
+        '<?xml version="1.0"?>',
+        f"<!-- {_comment(title)} units: mm, MPa, s -->",
+        '<VTKFile type="RectilinearGrid" version="1.0" byte_order="LittleEndian" '
+        'header_type="UInt64">',
+        f"<RectilinearGrid WholeExtent={extent}>",
+        f"<Piece Extent={extent}>",
+        '<PointData Scalars="von_mises" Vectors="displacement">',
+        *(_data_array(name, values) for name, values in data.items()),
+        _data_array("displacement", displacement, components=3),
+        "</PointData>",
+        "<Coordinates>",
+        _data_array("x", x),
+        _data_array("y", np.zeros(1)),
+        _data_array("z", heights),
+        "</Coordinates>",
+        "</Piece>",
+        "</RectilinearGrid>",
+        "</VTKFile>",
+    ]
+    return "\n".join(lines) + "\n"
+
+
+def _sign(section: Section) -> float:
+    """Direction of the roller's own z in the global frame, where z points upwards."""
+    return 1.0 if section.name == "upper" else -1.0
+
+
+def _upwards(section: Section, rows: NDArray[Any]) -> NDArray[Any]:
+    """Rows in the order of the global z."""
+    return rows if section.name == "upper" else rows[::-1]
+
+
+def _stacked(sections: list[Section], name: str) -> Array:
+    """One quantity of all rollers in the global frame: z alone is mirrored in the lower one."""
+    odd = name in ("u_z", "s_xz")
+    return np.concatenate(
+        [_upwards(s, s.values[name] * (_sign(s) if odd else 1.0)) for s in reversed(sections)]
+    )
+
+
+def _data_array(name: str, values: NDArray[Any], components: int = 1) -> str:
+    """One array, base64 of its length in bytes and itself, little-endian."""
+    integer = values.dtype.kind == "i"
+    raw = np.ascontiguousarray(values).astype("<i4" if integer else "<f8").tobytes()
+    encoded = base64.b64encode(len(raw).to_bytes(8, "little") + raw).decode("ascii")
+    kind = "Int32" if integer else "Float64"
+    return (
+        f'<DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{components}" '
+        f'format="binary">{encoded}</DataArray>'
+    )
+
+
+def _comment(title: str) -> str:
+    """A title that may stand in an XML comment of an ASCII file."""
+    plain = title.encode("ascii", "replace").decode("ascii")
+    return " ".join(plain.replace("-", " ").split())

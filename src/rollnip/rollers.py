@@ -69,6 +69,10 @@ class Roller:
                 raise InvalidInputError(
                     f"`radius` must be at most 1e7 mm (or inf, a plane), got {self.radius!r}."
                 )
+        if not isinstance(self.layers, list | tuple):
+            raise InvalidInputError(
+                f"`layers` must be a list of Layer objects, got {self.layers!r}."
+            )
         object.__setattr__(self, "layers", tuple(self.layers))
         for layer in self.layers:
             if not isinstance(layer, Layer):

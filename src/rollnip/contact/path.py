@@ -51,6 +51,8 @@ class CreepagePath:
         start = _sliding(problem, states, sign)
         if not start.settled or _beyond_sliding(problem, start, sign):
             return replace(start, settled=False)
+        if _within_sliding(problem, start, sign):
+            return replace(solve_states(problem, start.states), steps=start.steps + 1, settled=True)
         creepage, heading = start.creepage, -sign
         current = start.states
         for step in range(1, self.most_events * problem.x.size + 1):
@@ -107,6 +109,12 @@ def _beyond_sliding(problem: ContactProblem, sliding: ContactState, sign: int) -
     """Whether more traction is wanted than full sliding gives."""
     wanted = problem.control.traction
     return wanted is not None and sign * (wanted - float(problem.weights @ sliding.shear)) >= 0.0
+
+
+def _within_sliding(problem: ContactProblem, sliding: ContactState, sign: int) -> bool:
+    """Whether a creepage is prescribed at which all nodes slide."""
+    wanted = problem.control.creepage
+    return wanted is not None and sign * (wanted - sliding.creepage) >= 0.0
 
 
 def _pair(
@@ -201,4 +209,5 @@ def _distance_to_goal(
     if now == then:
         return None
     distance = float((goal - now) / (then - now))
-    return distance if distance >= 0.0 else None
+    # A goal at the very place of an event lies behind by rounding.
+    return max(distance, 0.0) if distance >= -1e-9 else None

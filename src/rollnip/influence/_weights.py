@@ -18,6 +18,7 @@ F_1 x and F_2 x^2/2 are the first and the second integral of G.
 from __future__ import annotations
 
 from functools import lru_cache
+from math import factorial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,9 +27,7 @@ from scipy.special import sici, spherical_jn
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-# Below this product of panel start and x, Gauss quadrature of the oscillation itself is exact to
-# rounding: (y/2)^(2m)/(2m)! < 1e-13 for m >= 8 nodes.
-_LOW_PHASE = 2.0
+_ROUNDING = 1e-12  # what may be lost where two exact expressions meet
 
 
 def multipliers(phase: Array) -> ComplexArray:
@@ -105,7 +104,7 @@ def unit_panel_weights(
     half = 0.5 * (2.0 ** (1.0 / panels_per_octave) - 1.0)
     w = 1.0 + half * (1.0 + t)
     out = np.empty((3, x.size, nodes), dtype=complex)
-    low = x * half < _LOW_PHASE
+    low = x * half < _lowest_filon_phase(nodes)
     out[:, low] = half * gauss * multipliers(np.multiply.outer(x[low], w))
     # Filon: int_-1^1 P_m(t) e^{i y t} dt = 2 i^m j_m(y).
     y = x[~low] * half
@@ -117,6 +116,14 @@ def unit_panel_weights(
     out[1, ~low] = (filon - half * gauss) / phase
     out[2, ~low] = 2.0 * (filon - half * gauss * (1.0 + phase)) / phase**2
     return out
+
+
+def _lowest_filon_phase(nodes: int) -> float:
+    """Phase y below which Gauss quadrature of the oscillation itself is exact to rounding.
+
+    Its error is about y^(2m)/(2m)! for m nodes; Filon's formulas for m_1 and m_2 divide by y.
+    """
+    return float((_ROUNDING * factorial(2 * nodes)) ** (0.5 / nodes))
 
 
 @lru_cache(maxsize=8)

@@ -12,14 +12,14 @@ from numpy.typing import NDArray
 from rollnip.compliance import LayerFields, flat_fields, ring_fields
 from rollnip.influence import is_ring
 from rollnip.interior.tractions import Array, ComplexArray
-from rollnip.materials import Material
+from rollnip.materials import FractionalZener, Material
 from rollnip.rollers import Roller
 
 IntArray = NDArray[np.intp]
 Side = Literal["above", "below"]
 
-_MEMORY = 8.0
-"""Panels end this many times below the inverse of the longest memory length."""
+_FRACTIONAL = 256.0
+"""Panels end this many times lower for a material whose modulus has a root, no pole, at w = 0."""
 _SAME_DEPTH = 1e-12
 
 
@@ -58,12 +58,13 @@ class Medium:
     @cached_property
     def memory(self) -> float:
         """Longest length over which a material recovers, V tau E_glassy/E_relaxed [mm]."""
-        lengths = [
-            tau * (self.speed or 0.0) * material.glassy_modulus / material.relaxed_modulus
-            for material in self.roller.materials
-            for tau in material.relaxation_times
-        ]
-        return max([0.0, *(_MEMORY * length for length in lengths)])
+        lengths = [0.0]
+        for material in self.roller.materials:
+            ratio = material.glassy_modulus / material.relaxed_modulus
+            if isinstance(material, FractionalZener):
+                ratio *= _FRACTIONAL
+            lengths += [tau * ratio * (self.speed or 0.0) for tau in material.relaxation_times]
+        return max(lengths)
 
     @cached_property
     def slowest(self) -> float:

@@ -34,7 +34,7 @@ import numpy as np
 from rollnip.interior.tractions import Array, ComplexArray, SurfaceTractions
 
 _NEAREST = 1e-12
-"""Smallest distance from a node in ln y, over the half-width: keeps k t finite at the node."""
+"""Smallest depth in ln y, over the half-width: keeps k t finite at the nodes of the surface."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,35 +56,40 @@ class Powers:
 
 @dataclass(frozen=True, slots=True)
 class Depth:
-    """A depth z under the surface of a roller of curvature 1/R; 0 where flat."""
+    """Depths z, (nz, 1) [mm], under the surface of a roller of curvature 1/R; 0 where flat."""
 
-    z: float
+    z: Array
     curvature: float
 
+    @classmethod
+    def of(cls, z: Array, curvature: float) -> Depth:
+        """Depths (nz,) as a column."""
+        return cls(np.asarray(z)[:, None], curvature)
+
     @property
-    def rho(self) -> float:
+    def rho(self) -> Array:
         """r/R; 1 where flat."""
         return 1.0 - self.z * self.curvature
 
     @property
-    def delta(self) -> float:
+    def delta(self) -> Array:
         """Z (1 - z/(2R)) [mm]."""
         return self.z * (1.0 - 0.5 * self.z * self.curvature)
 
     @property
-    def logarithmic(self) -> float:
+    def logarithmic(self) -> Array:
         """-R ln(1 - z/R) [mm]; z where flat."""
         if self.curvature == 0.0:
             return self.z
-        return -float(np.log1p(-self.z * self.curvature)) / self.curvature
+        return -np.log1p(-self.z * self.curvature) / self.curvature
 
     def decay(self, k: Array) -> Array:
-        """e^{-k z'}."""
+        """e^{-k z'}, (nz, n)."""
         return np.exp(-k * self.logarithmic)
 
 
 def half_space_stress(t: Powers, depth: Depth) -> ComplexArray:
-    """s_xx, s_zz, s_xz of a half-space or disc, (3, ...)."""
+    """s_xx, s_zz, s_xz of a half-space or disc, (3, nz, n), without the decay."""
     s0, s1 = -t.zero[1], -t.one[1]
     t0, t1 = -1j * t.zero[0], -1j * t.one[0]
     d, square = depth.delta, depth.rho**2
@@ -97,7 +102,7 @@ def half_space_stress(t: Powers, depth: Depth) -> ComplexArray:
 def half_space_displacement(
     t: Powers, depth: Depth, compliance: complex, poisson: float
 ) -> ComplexArray:
-    """u_x, u_z of a half-space with 1/(2G) = ``compliance``, (2, ...)."""
+    """u_x, u_z of a half-space with 1/(2G) = ``compliance``, (2, nz, n), without the decay."""
     a, b = 2.0 * (1.0 - poisson), 1.0 - 2.0 * poisson
     d = depth.delta
     u_x = a * t.minus[0] + 1j * b * t.minus[1] - d * (t.zero[0] + 1j * t.zero[1])
@@ -119,22 +124,29 @@ def spectral_powers(transforms: ComplexArray, k: Array) -> Powers:
     return Powers(transforms / k, transforms, once, once * k)
 
 
-def potentials(tractions: SurfaceTractions, depth: Depth, x: Array) -> Powers:
-    """Phi_-1, Phi_0, Phi_1, Phi_2 of t_x and t_z at places ``x`` from their centre, (2, x)."""
+def potentials(tractions: SurfaceTractions, depth: Depth, x: Array, *, two: bool) -> Powers:
+    """Phi_-1, Phi_0, Phi_1 and, where ``two``, Phi_2 of t_x and t_z at one depth, (2, x).
+
+    ``x`` are places from the centre of the tractions.
+    """
     places, kinks = tractions.places, tractions.kinks
-    zeta = x + 1j * depth.logarithmic
-    y = zeta[:, None] - places[None, :]
-    y[np.abs(y) < _NEAREST * tractions.half_width] = _NEAREST * tractions.half_width
-    log = np.log(y)
-    weights = np.concatenate([kinks, kinks * places, kinks * places**2])
-    sums = (log @ weights.T.astype(complex)).T.reshape(3, 2, -1)
+    down = float(depth.logarithmic[0, 0])
+    height = max(down, _NEAREST * tractions.half_width)
+    across = x[:, None] - places[None, :]
+    square = across * across + height * height
+    weights = np.concatenate([kinks, kinks * places, kinks * places**2]).T
+    level, angle = np.log(square) @ weights, np.arctan2(height, across) @ weights
+    sums = (0.5 * level + 1j * angle).T.reshape(3, 2, -1)
+    zeta = x + 1j * down
     first = zeta * sums[0] - sums[1]
     second = 0.5 * (zeta * (first - sums[1]) + sums[2])
-    force = tractions.resultants[:, None]
-    constant = force * (1.5 + 0.5j * pi - np.euler_gamma)
+    constant = tractions.resultants[:, None] * (1.5 + 0.5j * pi - np.euler_gamma)
+    inverse = np.zeros_like(first)
+    if two:
+        inverse = ((across / square) @ kinks.T - 1j * ((height / square) @ kinks.T)).T
     return Powers(
         minus=(constant - second) / pi,
         zero=1j * first / pi,
         one=sums[0] / pi,
-        two=-1j / pi * ((1.0 / y) @ kinks.T).T,
+        two=-1j / pi * inverse,
     )

@@ -30,7 +30,7 @@ from rollnip.interior.waves import Waves
 _FADED = 16.0
 """k z at which a transform has fallen to e^-16; what is left out is 1e-8 of the peak."""
 _MOST_PANELS = 40
-"""Panels of full width that rows near the surface are worth; below their reach: closed form."""
+"""Widths P of panels that rows near the surface are worth; below their reach: closed form."""
 AnyArray = NDArray[Any]
 
 _STRESS, _STRAIN, _RATE = slice(2, 5), slice(5, 8), slice(8, 11)
@@ -91,7 +91,7 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
     """Fields at depths ``z`` and places ``x`` [mm]."""
     places = x - tractions.centre
     reach = float(np.max(np.abs(places))) + tractions.half_width
-    deepest = Depth(float(np.max(z)), medium.curvature).logarithmic
+    deepest = float(np.max(Depth.of(z, medium.curvature).logarithmic))
     waves = Waves.resolving(reach, max(medium.slowest, deepest))
     rows = Rows.of(medium, z, waves)
     parts = 11 if medium.is_viscoelastic else 5
@@ -110,8 +110,9 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
     sinking = _constants(half_space, medium, rows, tractions.resultants, 1e-9 * waves.lowest)
     values[:2] += waves.logarithm() * sinking
     for row in np.flatnonzero(rows.near):
-        depth = Depth(float(z[row]), medium.curvature)
-        values[:, row] += half_space.fields(potentials(tractions, depth, places), depth).real
+        depth = Depth.of(z[[row]], medium.curvature)
+        powers = potentials(tractions, depth, places, two=medium.is_viscoelastic)
+        values[:, [row]] += half_space.fields(powers, depth).real
     return Transformed(values, loss)
 
 
@@ -170,14 +171,13 @@ class HalfSpace:
         self.curvature = medium.curvature
 
     def fields(self, powers: Powers, depth: Depth) -> ComplexArray:
-        """All quantities at one depth, (parts, n)."""
+        """All quantities, (parts, nz, n); in the Fourier domain without the decay."""
         nu = self.material.poisson
         stress = half_space_stress(powers, depth)
         parts = [half_space_displacement(powers, depth, self.compliance, nu), stress]
         if self.viscoelastic:
             for some in (stress, half_space_stress(powers.raised(), depth)):
-                strain = strain_of(some[:, None], np.array([nu]), self.modulus[:, None])
-                parts.append(strain[:, 0])
+                parts.append(strain_of(some, np.array([nu]), self.modulus[:, None]))
         return np.concatenate(parts)
 
 
@@ -193,10 +193,9 @@ def _take_out(
     inside = np.flatnonzero(rows.near[active])
     if inside.size == 0:
         return
-    powers = spectral_powers(transforms, k)
-    for row in inside:
-        depth = Depth(float(rows.z[active[row]]), half_space.curvature)
-        spectrum[:, row] -= half_space.fields(powers, depth) * depth.decay(k)
+    depth = Depth.of(rows.z[active[inside]], half_space.curvature)
+    part = half_space.fields(spectral_powers(transforms, k), depth)
+    spectrum[:, inside] -= part * depth.decay(k)
 
 
 def _constants(half_space: HalfSpace, medium: Medium, rows: Rows, loads: Array, k: float) -> Array:

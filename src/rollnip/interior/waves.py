@@ -1,10 +1,11 @@
 """Wave numbers of the inverse transform: panels that resolve the oscillation and the layers.
 
 (1/pi) int_0^W Re[f(w) e^{iwx}] dw by Gauss-Legendre panels: in octaves from w_0 up, where the
-layers and their memory change over each octave, and of one width P above, where w (x - s) of the
-farthest point x and traction s turns by not more than a panel can follow. The wave numbers are
-non-equidistant as in the paper (Braat & Kalker 1993, figure 2); a long memory V tau or a
-half-space, which an equidistant mesh pays with its window, costs a few panels at the low end.
+layers and their memory change over each octave, and of widths P, 2P and 4P above, where w (x - s)
+of the farthest point x and traction s turns by not more than the nodes of a panel can follow. The
+wave numbers are non-equidistant as in the paper (Braat & Kalker 1993, figure 2); a long memory
+V tau or a half-space, which an equidistant mesh pays with its window, costs a few panels at the
+low end.
 """
 
 from __future__ import annotations
@@ -20,17 +21,17 @@ from numpy.typing import NDArray
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-NODES = 24
-_NODES_LOW = 16
-"""On octaves panels are at most half as wide: (e y/(4 m))^(2m) = 1e-12 for y = 10."""
 _HALF_TURN = 20.0
-"""Largest half-width of a panel times distance: (e y/(4 m))^(2m) = 1e-12 for m = 24 nodes."""
-_BLOCK = 1536
-"""Most wave numbers dealt with at once."""
+"""Half the width P times the reach: the phase y from the middle to the end of a panel."""
+_NODES_LOW = 16
+_NODES = (24, 38, 66)
+"""On panels of at most P/2, and of P, 2P and 4P: (e y/(4 m))^(2m) < 1e-11 for m nodes."""
+_MOST_AT_ONCE = 24
+"""Panels of 4P dealt with at once."""
 _MOST_OCTAVES = 60
 
 
-@lru_cache(maxsize=2)
+@lru_cache(maxsize=4)
 def _gauss(nodes: int) -> tuple[Array, Array]:
     t, weight = np.polynomial.legendre.leggauss(nodes)
     return np.asarray(t), np.asarray(weight)
@@ -79,7 +80,7 @@ class Waves:
 
     Attributes
     ----------
-    width : P of the panels of one width [1/mm].
+    width : P, of the narrowest panel above the octaves [1/mm].
     lowest : w_0, the first panel is [0, w_0] [1/mm].
     """
 
@@ -99,11 +100,14 @@ class Waves:
         edges = np.zeros(octaves + 2)
         edges[1:] = np.ldexp(self.lowest, np.arange(octaves + 1))
         blocks = [_block(edges, _NODES_LOW)]
-        count = max(0, ceil(last / self.width) - 1)
-        done = 0
+        for octave, nodes in enumerate(_NODES):
+            if last > self.width * 2.0**octave:
+                blocks.append(_block(self.width * np.array([1.0, 2.0]) * 2.0**octave, nodes))
+        wide, done = 4.0 * self.width, 2
+        count = ceil(last / wide)
         while done < count:
-            size = min(max(2, done + 1), _BLOCK // NODES, count - done)
-            blocks.append(_block(self.width * np.arange(1 + done, 2 + done + size), NODES))
+            size = min(done, _MOST_AT_ONCE, count - done)
+            blocks.append(_block(wide * np.arange(done, done + size + 1), _NODES[-1]))
             done += size
         return blocks
 

@@ -38,6 +38,7 @@ _FIRST_COUNT = 24
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
 _MOST_STEPS = 4000  # linear systems, after which what has not settled is given up
+_DIVERGED = 1e3  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
 _MOST_TRIES = 3  # meshes of one size that look for edges and transitions
 _MOST_TURNS = 40
@@ -46,7 +47,7 @@ _STILL = 0.1
 _SAFETY = 1.5  # on the estimate of the error from two meshes
 # Least relative error of each of Figures, times the square of the number of elements.
 _LEAST = np.array([0.1, 0.0, 2.0, 0.1, 0.5])
-_CREEPAGE = 2  # its place among Figures
+_CREEPAGE, _PEAK = 2, 4  # their places among Figures
 
 
 def refine(
@@ -89,7 +90,7 @@ def refine(
             continue
         ratio = inf
         if coarser is not None:
-            latest = replace(latest, error=_error(nip, latest.figures, count, *coarser))
+            latest = replace(latest, error=_error(nip, latest, count, *coarser))
             ratio = excess(nip, latest, model.tolerance)
         best = latest if latest.settled or best is None else best
         if ratio <= 1.0 or count >= _MOST_ELEMENTS:
@@ -109,7 +110,7 @@ def _is_hopeless(latest: Round, count: int) -> bool:
     if latest.settled:
         return False
     spent = latest.steps > _MOST_STEPS or count > 4 * _FIRST_COUNT
-    spent = spent or len(latest.zones) > _MOST_ZONES
+    spent = spent or len(latest.zones) > _MOST_ZONES or not latest.geometry_change < _DIVERGED
     return spent or not latest.zones or not has_grip(latest)
 
 
@@ -220,16 +221,19 @@ def _well_placed(breaks: Array, found: Array, count: int) -> bool:
     )
 
 
-def _error(nip: Nip, figures: Figures, count: int, coarse_count: int, coarse: Figures) -> Figures:
+def _error(nip: Nip, latest: Round, count: int, coarse_count: int, coarse: Figures) -> Figures:
     """Estimated error of each figure from its change between two meshes (second order).
 
     Two meshes may agree by chance, so no error is claimed below what interpolation leaves on a
-    mesh of this size in problems whose exact solution is known (Hertz, Carter).
+    mesh of this size in problems whose exact solution is known (Hertz, Carter), and none of the
+    peak below what lies between the highest node and the parabola through it.
     """
+    figures = latest.figures
     gain = (count / coarse_count) ** 2 - 1.0
     change = _SAFETY * np.abs(figures.array() - coarse.array()) / gain
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     least = _LEAST * scales / count**2
+    least[_PEAK] = max(least[_PEAK], figures.peak_pressure - float(np.max(latest.state.pressure)))
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, least))))

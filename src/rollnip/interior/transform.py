@@ -29,7 +29,7 @@ from rollnip.interior.waves import Waves
 
 _FADED = 16.0
 """k z at which a transform has fallen to e^-16; what is left out is 1e-8 of the peak."""
-_MOST_PANELS = 40
+_MOST_PANELS = 32
 """Widths P of panels that rows near the surface are worth; below their reach: closed form."""
 AnyArray = NDArray[Any]
 
@@ -65,10 +65,11 @@ class Rows:
         layers = medium.layers_of(z)
         most = _MOST_PANELS * waves.width
         near = (layers == 0) & (z * most < _FADED)
-        top = np.inf if not medium.roller.layers else medium.roller.layers[0].thickness
+        top = medium.roller.layers[0].thickness if medium.roller.layers else np.inf
         # Half-space and layer differ by what the bottom of the top layer sends back.
-        back = max(most, _FADED / top)
-        last = np.where(near, back, _FADED / np.maximum(z, _FADED / back))
+        echo = np.maximum(most, _FADED / np.maximum(2.0 * top - z, top))
+        direct = _FADED / np.maximum(z, _FADED / (most + _FADED / top))
+        last = np.where(near, echo, direct)
         return cls(z, layers, medium.poisson_of(layers), near, last)
 
 

@@ -102,10 +102,6 @@ def test_tang_with_given_creepage(random_problem, seed, creepage):
     assert found.creepage == pytest.approx(creepage, abs=1e-12)
 
 
-@pytest.mark.xfail(
-    strict=True,
-    reason="a creepage beyond full sliding lies behind the start of the path, which runs away",
-)
 @pytest.mark.parametrize("seed", [2, 3, 5])
 def test_tang_in_full_sliding(random_problem, seed):
     control = Control(1.0, None, None, -3.0)

@@ -44,7 +44,9 @@ def test_wide_nip():
 
 
 def test_layers_on_a_half_space_are_flat_in_curved_geometry():
-    core = rn.Roller(radius=50.0, layers=[rn.Layer(2.0, RUBBER)], core=rn.Elastic(modulus=100.0, poisson=0.3))
+    core = rn.Roller(
+        radius=50.0, layers=[rn.Layer(2.0, RUBBER)], core=rn.Elastic(modulus=100.0, poisson=0.3)
+    )
     assert "half-space core" in warnings_of(replace(nip(), upper=core))
     flat = solve(replace(nip(), upper=core), Model(geometry="linear", tolerance=1e-2))
     assert not any("half-space" in line for line in flat.warnings)

@@ -1,11 +1,12 @@
 """Fields inside the layers of a roller under given surface tractions."""
 
-from rollnip.interior.bonds import InterfaceStress, interface_stresses
+from rollnip.interior.bonds import INTERFACE_FIGURES, InterfaceStress, interface_stresses
 from rollnip.interior.evaluate import interior_field
 from rollnip.interior.field import InteriorField, StressRanges
 from rollnip.interior.tractions import SurfaceTractions
 
 __all__ = [
+    "INTERFACE_FIGURES",
     "InterfaceStress",
     "InteriorField",
     "StressRanges",

@@ -13,7 +13,7 @@ from rollnip.interior.transform import Transformed, fields_in_space, strain_of
 from rollnip.rollers import Roller
 
 _ROUNDING = 1e-12
-_ROWS, _COLUMNS = 256, 2048  # points at once: bounds the memory
+_ROWS, _COLUMNS = 128, 2048  # points at once: bounds the memory
 
 
 def interior_field(

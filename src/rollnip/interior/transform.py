@@ -3,7 +3,8 @@
 f(x, z) = (1/pi) int_0^inf Re[f^(k, z) e^{ikx}] dk. At the depth z the transform falls as e^{-kz}:
 a row of points needs wave numbers up to about 16/z only. Rows too close to the surface for that,
 in the top layer, have their half-space part taken out of the transform and added in closed form;
-what is left falls as e^{-k(2d-z)}, d the thickness of the top layer.
+what is left falls as e^{-k(2d-z)}, d the thickness of the top layer. Measured against an FFT at
+equal error this is two to five times as fast (docs/decisions/0004-interior.md).
 """
 
 from __future__ import annotations

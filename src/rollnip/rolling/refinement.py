@@ -142,15 +142,17 @@ def _solve_on(
     if before is not None:
         second = second_order(nip, model.geometry, mesh, _carried(before, mesh))
     steps = 0 if before is None else before.steps
-    allowed = _STILL * model.tolerance
+    allowed, change = _STILL * model.tolerance, 0.0
     for _ in range(_MOST_TURNS):
         problem = contact_problem(nip, model.geometry, mesh, second)
         state = method.solve(problem, states)
         steps += state.steps
+        if not state.settled:
+            break
         updated = second_order(nip, model.geometry, mesh, state)
         change = _change(updated, second, mesh, nip, state)
         second, states = updated, state.states
-        if not change > allowed or not state.settled:
+        if not change > allowed:
             break
     zones = contact_zones(problem.x, state, nip.friction)
     unknown = Figures(inf, inf, inf, inf, inf)

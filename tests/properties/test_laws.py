@@ -116,7 +116,11 @@ def stretched(roller, length, modulus):
 
 
 def check_scaling(nip, geometry, length, modulus):
-    """F, T ~ E L; xi, x/L, p/E stay: by powers of two so that rounding is the same too."""
+    """F, T ~ E L; xi, x/L, p/E stay: by powers of two so that rounding is the same too.
+
+    A half-space core has a length of its own, the one its infinite approach is counted from:
+    what depends on its size by rounding may tip a node over, and only the tolerance is left.
+    """
     scaled = replace(
         nip,
         upper=stretched(nip.upper, length, modulus),
@@ -126,14 +130,17 @@ def check_scaling(nip, geometry, length, modulus):
         speed=length * nip.speed,
     )
     one, other = solve(nip, geometry), solve(scaled, geometry)
-    assert one.converged == other.converged
-    strain = strain_scale(one)
-    assert other.creepage == pytest.approx(one.creepage, rel=1e-6, abs=1e-6 * strain)
-    assert other.nip_width == pytest.approx(length * one.nip_width, rel=1e-6)
-    assert other.peak_pressure == pytest.approx(modulus * one.peak_pressure, rel=1e-6)
-    assert other.solver.elements == one.solver.elements
-    if one.approach is not None:
-        assert other.approach == pytest.approx(length * one.approach, rel=1e-6)
+    exact = not nip.has_half_space
+    assert one.converged == other.converged or not exact
+    if not (one.converged and other.converged):
+        return
+    strain, limit = strain_scale(one), 1e-6 if exact else 3.0 * TOLERANCE
+    assert other.creepage == pytest.approx(one.creepage, rel=limit, abs=limit * strain)
+    assert other.nip_width == pytest.approx(length * one.nip_width, rel=limit)
+    assert other.peak_pressure == pytest.approx(modulus * one.peak_pressure, rel=limit)
+    if exact:
+        assert other.solver.elements == one.solver.elements
+        assert other.approach == pytest.approx(length * one.approach, rel=limit)
 
 
 def test_scaling(for_all, nips, geometries):

@@ -11,6 +11,7 @@ import pytest  # noqa: E402
 from hypothesis import settings  # noqa: E402
 
 import rollnip as rn  # noqa: E402
+from rollnip.interior import InterfaceStress  # noqa: E402
 from rollnip.solution import Profiles, SolverInfo, Zone  # noqa: E402
 
 # a slow machine is no error of the code under test
@@ -47,6 +48,7 @@ class HandMade:
     profiles: Profiles
     solver: SolverInfo
     warnings: tuple[str, ...]
+    interfaces: tuple[InterfaceStress, ...] = ()
 
 
 @pytest.fixture

@@ -201,3 +201,16 @@ def test_what_only_the_solver_can_refuse_names_the_file(case):
     Path(case).write_text(CASE.replace("1.78", "1e6"))
     message = refused("solve", case)
     assert message.startswith(f"rollnip: {case}: `load` must be small enough")
+
+
+def test_fields_inside_the_layers(tmp_path):
+    target = tmp_path / "fields.vtr"
+    result = run("solve", str(EXAMPLE), "--fields", str(target), "-q")
+    assert result.exit_code == 0
+    assert result.stdout == ""
+    assert target.read_text().startswith("<?xml")
+
+
+def test_fields_in_a_format_unknown(tmp_path):
+    case = str(EXAMPLE)
+    assert ".vtr" in refused("solve", case, "--fields", str(tmp_path / "fields.csv"))

@@ -18,7 +18,7 @@ KEYS = [
     "contact", "nip_width", "dwell_time",
     "peak_pressure", "peak_pressure_x", "mean_pressure",
     "zones", "torque_upper", "torque_lower", "rolling_resistance",
-    "dissipation", "error", "profiles", "solver", "warnings",
+    "dissipation", "error", "profiles", "solver", "warnings", "interfaces",
 ]  # fmt: skip
 PROFILES = [
     "x", "pressure", "shear", "gap", "slip_velocity",

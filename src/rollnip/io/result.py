@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rollnip._files import check_target, write_whole
+from rollnip.interior import INTERFACE_FIGURES
 from rollnip.io.netcdf import PROFILE_UNITS, require_netcdf, write_netcdf
 from rollnip.solution import Solution, Zone
 
@@ -54,6 +55,11 @@ def result_dict(solution: Solution) -> dict[str, Any]:
         "status": solution.status,
     }
     tree["warnings"] = list(solution.warnings)
+    tree["interfaces"] = [
+        {"roller": interface.roller, "bond": interface.is_bond}
+        | {name: _number(getattr(interface, name)) for name in INTERFACE_FIGURES}
+        for interface in solution.interfaces
+    ]
     return tree
 
 

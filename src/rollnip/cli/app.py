@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO, cast
 import typer
 
 from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
+from rollnip.cli.lda import lda
 from rollnip.cli.verify import verify
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ app = typer.Typer(
     no_args_is_help=True,
 )
 app.command()(verify)
+app.add_typer(lda)
 
 
 @app.callback(invoke_without_command=True)

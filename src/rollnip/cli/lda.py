@@ -1,0 +1,312 @@
+"""The commands ``lda``: simulate a measurement, estimate velocities, compare with a solution."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
+
+import typer
+
+from rollnip._errors import InvalidInputError, RollnipError
+
+if TYPE_CHECKING:
+    from rollnip.io.velocities import Settings
+    from rollnip.lda import Comparison, Instrument, Scan
+    from rollnip.solution import Solution
+
+lda = typer.Typer(
+    name="lda",
+    help="Laser-Doppler anemometry: simulate, estimate, compare.",
+    add_completion=False,
+    rich_markup_mode=None,
+    no_args_is_help=True,
+)
+
+_CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
+_FILE = typer.Argument(help="CSV: x [mm] and velocity [mm/s] or frequency [Hz], a row per burst.")
+_WAVELENGTH = typer.Option(help='Of the light, such as "632.8 nm".')
+_ANGLE = typer.Option(help='Full angle between the beams, such as "10 deg".')
+_HALF_WIDTH = typer.Option(help='1/e2 half-width of the volume along x, such as "0.05 mm".')
+_RATE = typer.Option(help='Of the detector, such as "250 kHz".')
+_SHIFT = typer.Option(help='Frequency shift of one beam, such as "40 kHz".')
+_ROLLER = typer.Option(help="upper or lower: whose surface is measured.")
+_GEOMETRY = typer.Option(help="linear, corrected or curved; overrides the case file.")
+_CONFIDENCE = typer.Option(help='Of bands and intervals, such as "95 %".')
+
+
+@lda.command()
+def simulate(
+    case: Annotated[str, _CASE],
+    out: Annotated[Path, typer.Option(help="name.csv, or a folder for data, truth and picture.")],
+    positions: Annotated[int, typer.Option(help="Places along the nip.")] = 41,
+    bursts: Annotated[int, typer.Option(help="Mean number at each place.")] = 50,
+    snr: Annotated[float, typer.Option(help="Power of a burst at its peak over noise.")] = 30.0,
+    spread: Annotated[str, typer.Option(help="Of the rollers' speed in time.")] = "0.5 %",
+    seed: Annotated[int, typer.Option(help="Of the random numbers.")] = 0,
+    wavelength: Annotated[str, _WAVELENGTH] = "632.8 nm",
+    beam_angle: Annotated[str, _ANGLE] = "10 deg",
+    half_width: Annotated[str, _HALF_WIDTH] = "0.05 mm",
+    sample_rate: Annotated[str, _RATE] = "250 kHz",
+    shift: Annotated[str, _SHIFT] = "0 Hz",
+    roller: Annotated[str, _ROLLER] = "upper",
+    geometry: Annotated[str | None, _GEOMETRY] = None,
+) -> None:
+    """Simulate a measurement of a computed nip: bursts, noise, detection, frequencies.
+
+    Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
+    """
+    from rollnip.cli.app import _clear_failures, _named
+
+    with _clear_failures():
+        from rollnip._units import parse_quantity
+        from rollnip.lda import Instrument, Seeding, simulate_scan
+
+        known = _settings(wavelength, beam_angle, half_width, sample_rate, shift, None, roller)
+        instrument = _instrument(known, Instrument)
+        with _named("--spread"):
+            fraction = parse_quantity(spread, "ratio")
+        seeding = Seeding(bursts=bursts, snr=snr, spread=fraction)
+        if seed < 0:
+            raise InvalidInputError(f"`--seed` must be zero or positive, got {seed}.")
+        _check_out(out)
+        solution, source = _solved(case, geometry)
+        with _named(source):
+            scan = simulate_scan(
+                solution, instrument, seeding, side=_side(known), positions=positions, seed=seed
+            )
+        _write_scan(scan, solution, out)
+    _leave(solution)
+
+
+@lda.command()
+def estimate(
+    file: Annotated[Path, _FILE],
+    speed: Annotated[
+        str | None, typer.Option(help='Circumferential speed, such as "100 mm/s": gives strain.')
+    ] = None,
+    out: Annotated[Path | None, typer.Option(help="Write the table: name.csv.")] = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
+    confidence: Annotated[str, _CONFIDENCE] = "95 %",
+    wavelength: Annotated[str | None, _WAVELENGTH] = None,
+    beam_angle: Annotated[str | None, _ANGLE] = None,
+    shift: Annotated[str | None, _SHIFT] = None,
+    sample_rate: Annotated[str | None, _RATE] = None,
+) -> None:
+    """Velocity and strain at each position, with confidence bands, as CSV."""
+    from rollnip.cli.app import _clear_failures
+
+    with _clear_failures():
+        from rollnip.io.velocities import profile_csv, read_velocities
+
+        known = _settings(wavelength, beam_angle, None, sample_rate, shift, speed, None)
+        level = _confidence(confidence)
+        _check_targets(out, plot)
+        readings = read_velocities(file)
+        profile = readings.profile(known.over(readings.settings), confidence=level)
+        text = profile_csv(profile)
+        if readings.simulated:
+            text = "# simulated: no measurement\n" + text
+        if out is not None:
+            _write_text(out, text)
+        else:
+            sys.stdout.write(text)
+            sys.stdout.flush()
+        if plot is not None:
+            from rollnip.plots.lda import save_velocity
+
+            save_velocity(profile, plot)
+
+
+@lda.command()
+def compare(
+    case: Annotated[str, _CASE],
+    file: Annotated[Path, _FILE],
+    plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    confidence: Annotated[str, _CONFIDENCE] = "95 %",
+    roller: Annotated[str | None, _ROLLER] = None,
+    wavelength: Annotated[str | None, _WAVELENGTH] = None,
+    beam_angle: Annotated[str | None, _ANGLE] = None,
+    half_width: Annotated[str | None, _HALF_WIDTH] = None,
+    shift: Annotated[str | None, _SHIFT] = None,
+    sample_rate: Annotated[str | None, _RATE] = None,
+    geometry: Annotated[str | None, _GEOMETRY] = None,
+) -> None:
+    """Align measured velocities with the computed ones in x and V, and compare them.
+
+    Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
+    """
+    from rollnip.cli.app import _clear_failures, _named
+
+    with _clear_failures():
+        from rollnip.io.velocities import read_velocities
+        from rollnip.lda import compare as align
+
+        known = _settings(wavelength, beam_angle, half_width, sample_rate, shift, None, roller)
+        level = _confidence(confidence)
+        _check_targets(None, plot)
+        readings = read_velocities(file)
+        known = known.over(readings.settings)
+        profile = readings.profile(known, confidence=level)
+        solution, _ = _solved(case, geometry)
+        with _named(str(file)):
+            result = align(
+                profile, solution, side=_side(known), width=known.averaging_width, confidence=level
+            )
+        if plot is not None:
+            from rollnip.plots.lda import save_comparison
+
+            save_comparison(result, plot, simulated=readings.simulated)
+        sys.stdout.write(_text(result, simulated=readings.simulated, as_json=json))
+        sys.stdout.flush()
+    _leave(solution)
+
+
+def _settings(
+    wavelength: str | None,
+    beam_angle: str | None,
+    half_width: str | None,
+    sample_rate: str | None,
+    shift: str | None,
+    speed: str | None,
+    roller: str | None,
+) -> Settings:
+    """What the options say; a message names the option."""
+    from rollnip._units import parse_quantity
+    from rollnip.cli.app import _named
+    from rollnip.io.velocities import Settings, parse_angle, parse_frequency
+
+    def positive(option: str, text: str | None, read: Any, *, zero: bool = False) -> float | None:
+        if text is None:
+            return None
+        with _named(option):
+            value = float(read(text))
+            if not (zero or value > 0.0):
+                raise InvalidInputError(f"must be positive, got {text}.")
+        return value
+
+    def length(text: str) -> float:
+        return parse_quantity(text, "length")
+
+    if roller not in (None, "upper", "lower"):
+        raise InvalidInputError(f'`--roller` must be "upper" or "lower", got "{roller}".')
+    return Settings(
+        wavelength=positive("--wavelength", wavelength, length),
+        beam_angle=positive("--beam-angle", beam_angle, parse_angle),
+        half_width=positive("--half-width", half_width, length),
+        sample_rate=positive("--sample-rate", sample_rate, parse_frequency),
+        shift=positive("--shift", shift, parse_frequency, zero=True),
+        roller_speed=positive("--speed", speed, lambda text: parse_quantity(text, "speed")),
+        roller=roller,
+    )
+
+
+def _instrument(known: Settings, make: type[Instrument]) -> Instrument:
+    names = ("wavelength", "beam_angle", "half_width", "sample_rate", "shift")
+    return make(**{name: getattr(known, name) for name in names})
+
+
+def _side(known: Settings) -> Literal["upper", "lower"]:
+    return cast('Literal["upper", "lower"]', known.roller or "upper")
+
+
+def _confidence(text: str) -> float:
+    from rollnip._units import parse_quantity
+    from rollnip.cli.app import _named
+
+    with _named("--confidence"):
+        return parse_quantity(text, "ratio")
+
+
+def _solved(case: str, geometry: str | None) -> tuple[Solution, str]:
+    from rollnip.cli.app import _named, _overridden
+    from rollnip.io import read_case
+
+    problem = read_case(case)
+    model = _overridden(problem.model, geometry, None)
+    from rollnip.solve import solve
+
+    with _named(problem.source):
+        return solve(problem.nip, model, on_failure="return"), problem.source
+
+
+def _leave(solution: Solution) -> None:
+    if not solution.converged:
+        sys.stderr.write(f"rollnip: {solution.status}\n")
+        raise typer.Exit(1)
+
+
+def _check_targets(out: Path | None, plot: Path | None) -> None:
+    from rollnip._files import check_target
+
+    if out is not None:
+        check_target(out, (".csv",))
+    if plot is not None:
+        check_target(plot, (".png", ".svg", ".pdf"))
+
+
+def _check_out(out: Path) -> None:
+    """Raise RollnipError unless ``out`` is a possible file name.csv or folder."""
+    from rollnip._files import check_target
+
+    if out.suffix.lower() == ".csv":
+        check_target(out, (".csv",))
+    elif out.exists() and not out.is_dir():
+        raise RollnipError(f"{out}: must be a folder or a name that ends in .csv.")
+
+
+def _write_text(path: Path, text: str) -> None:
+    from rollnip._files import write_whole
+
+    write_whole(path, lambda file: file.write_text(text, "utf-8"))
+
+
+def _write_scan(scan: Scan, solution: Solution, out: Path) -> None:
+    from rollnip.io.velocities import scan_csv, truth_csv
+
+    if out.suffix.lower() == ".csv":
+        _write_text(out, scan_csv(scan))
+        return
+    try:
+        out.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise RollnipError(f"{out}: cannot make the folder: {error.strerror or error}.") from error
+    from rollnip.plots.lda import save_record
+
+    _write_text(out / "bursts.csv", scan_csv(scan))
+    _write_text(out / "truth.csv", truth_csv(scan, solution))
+    save_record(scan, out / "bursts.png")
+
+
+def _text(result: Comparison, *, simulated: bool, as_json: bool) -> str:
+    tree: dict[str, Any] = {
+        "simulated": simulated,
+        "positions": result.x.size,
+        "confidence": result.confidence,
+        **{
+            name: {"value": fit.value, "low": fit.low, "high": fit.high}
+            for name, fit in (("shift", result.shift), ("speed", result.speed))
+        },
+        "rms_strain": result.rms,
+        "noise_strain": result.noise,
+        "chi_square": result.chi_square,
+        "degrees_of_freedom": result.degrees,
+        "probability": result.probability,
+    }
+    if as_json:
+        from json import dumps
+
+        return dumps(tree, indent=2, allow_nan=False) + "\n"
+    level = f"{100.0 * result.confidence:g} %"
+    lines = [
+        f"{result.x.size} positions{', SIMULATED' if simulated else ''}",
+        f"shift        {result.shift.value:10.4f} mm    {level} from {result.shift.low:.4f} "
+        f"to {result.shift.high:.4f}",
+        f"V            {result.speed.value:10.4f} mm/s  {level} from {result.speed.low:.4f} "
+        f"to {result.speed.high:.4f}",
+        f"rms strain   {result.rms:10.2e}       standard errors alone {result.noise:.2e}",
+        f"chi-square   {result.chi_square:10.4g}       {result.degrees} degrees of freedom, "
+        f"probability {result.probability:.3g}",
+    ]
+    return "\n".join(lines) + "\n"

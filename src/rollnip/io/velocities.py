@@ -1,0 +1,374 @@
+"""Measured velocities as CSV: units in the column heads, the instrument in comment lines.
+
+    # wavelength: 632.8 nm
+    # beam angle: 10 deg
+    x [mm], frequency [kHz]
+    -9.41, 28.53
+
+A column is ``x`` and one of ``velocity`` and ``frequency``, and may be ``stay`` (of the scatterer
+in the volume), ``error`` (a standard error, in the column's own unit; each row is then a mean)
+and ``snr``. Rows are single bursts unless ``error`` is there.
+"""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from difflib import get_close_matches
+from math import degrees, isfinite, radians
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import Dimension, parse_quantity
+from rollnip.lda import (
+    Instrument,
+    Scan,
+    VelocityProfile,
+    estimate_profile,
+    profile_from_means,
+    surface_speed,
+)
+from rollnip.solution import Solution
+
+Array = NDArray[np.float64]
+
+_FREQUENCY = {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "1/s": 1.0}
+_ANGLE = {"rad": 1.0, "mrad": 1e-3, "deg": radians(1.0), "°": radians(1.0)}
+_COLUMNS = {
+    "x": "length",
+    "position": "length",
+    "velocity": "speed",
+    "frequency": "frequency",
+    "stay": "time",
+    "error": "",
+    "snr": "ratio",
+}
+_LARGEST = 64 * 2**20  # bytes
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Settings:
+    """What is known of the instrument and the roller; None where it is not.
+
+    Attributes
+    ----------
+    wavelength [mm], beam_angle [rad], half_width [mm], sample_rate [Hz], shift [Hz] :
+        as in `rollnip.lda.Instrument`.
+    roller_speed : circumferential speed of the measured roller [mm/s].
+    roller : "upper" or "lower".
+    """
+
+    wavelength: float | None = None
+    beam_angle: float | None = None
+    half_width: float | None = None
+    sample_rate: float | None = None
+    shift: float | None = None
+    roller_speed: float | None = None
+    roller: str | None = None
+
+    def over(self, below: Settings) -> Settings:
+        """These settings, and those of ``below`` where these are not known."""
+        known = {f.name: getattr(self, f.name) for f in fields(self)}
+        return replace(below, **{name: v for name, v in known.items() if v is not None})
+
+    @property
+    def averaging_width(self) -> float:
+        """Standard deviation of the averaging along x [mm]; 0 where the volume is not known."""
+        return 0.0 if self.half_width is None else self.half_width / 8.0**0.5
+
+
+@dataclass(frozen=True, slots=True)
+class Readings:
+    """A file of velocities or frequencies.
+
+    Attributes
+    ----------
+    source : where they come from, for messages.
+    settings : what the file says of the instrument.
+    simulated : whether the file says that it was simulated.
+    x : (n,) [mm].
+    velocity : (n,) [mm/s], or None.
+    frequency : (n,) [Hz], or None.
+    stay : (n,) [s], or None.
+    error : (n,) standard error, in mm/s or Hz, or None.
+    """
+
+    source: str
+    settings: Settings
+    simulated: bool
+    x: Array
+    velocity: Array | None
+    frequency: Array | None
+    stay: Array | None
+    error: Array | None
+
+    def profile(self, settings: Settings, *, confidence: float = 0.95) -> VelocityProfile:
+        """Velocity at each position; ``settings`` as far as they are known beyond the file.
+
+        Raises InvalidInputError where frequencies cannot be converted or bursts are too few.
+        """
+        try:
+            velocity, error = self._velocities(settings)
+            speed = settings.roller_speed
+            if error is not None:
+                return profile_from_means(
+                    self.x, velocity, error, speed=speed, confidence=confidence
+                )
+            return estimate_profile(
+                self.x, velocity, weight=self.stay, speed=speed, confidence=confidence
+            )
+        except InvalidInputError as problem:
+            raise InvalidInputError(f"{self.source}: {problem}") from None
+
+    def _velocities(self, settings: Settings) -> tuple[Array, Array | None]:
+        if self.velocity is not None:
+            return self.velocity, self.error
+        if settings.wavelength is None or settings.beam_angle is None:
+            raise InvalidInputError(
+                "`wavelength` and `beam angle` must be known to turn frequencies into velocities; "
+                "give --wavelength and --beam-angle, or say them in comment lines of the file."
+            )
+        assert self.frequency is not None
+        rate = settings.sample_rate
+        if rate is not None and float(np.max(self.frequency)) >= 0.5 * rate:
+            raise InvalidInputError(
+                f"`frequency` must be below the Nyquist frequency {0.5 * rate:.6g} Hz of the "
+                f"sample rate, got {np.max(self.frequency):.6g} Hz."
+            )
+        instrument = Instrument(
+            wavelength=settings.wavelength,
+            beam_angle=settings.beam_angle,
+            half_width=settings.half_width or 1e3 * settings.wavelength / settings.beam_angle,
+            shift=settings.shift or 0.0,
+        )
+        spacing = instrument.fringe_spacing
+        error = None if self.error is None else self.error * spacing
+        return np.asarray(instrument.velocity(self.frequency)), error
+
+
+def read_velocities(path: str | Path) -> Readings:
+    """Read a CSV file of positions and velocities or frequencies, one row per burst or mean.
+
+    Parts are separated by commas, semicolons or tabs; a decimal comma needs one of the latter.
+
+    Raises
+    ------
+    InvalidInputError
+        naming file, line and column: it cannot be read, columns are wrong or twice there, a unit
+        is missing or of the wrong kind, a cell is empty or no number.
+    """
+    source = str(path)
+    text = _text(Path(path))
+    comments, body = [], []
+    for number, line in enumerate(text.splitlines(), start=1):
+        if line.lstrip().startswith("#"):
+            comments.append((number, line.lstrip().lstrip("#").strip()))
+        elif line.strip():
+            body.append((number, line))
+    if not body:
+        raise InvalidInputError(f"{source}: must hold a line of column names and rows, has none.")
+    head = body[0][1]
+    delimiter = next((mark for mark in (";", "\t") if mark in head), ",")
+    names, scales = _columns(next(csv.reader([head], delimiter=delimiter)), source)
+    if len(body) == 1:
+        raise InvalidInputError(f"{source}: must hold rows below the column names, has none.")
+    rows = [_row(line, number, delimiter, names, source) for number, line in body[1:]]
+    table = dict(zip(names, np.array(rows, dtype=float).T * np.array(scales)[:, None], strict=True))
+    return Readings(
+        source=source,
+        settings=_settings(comments, source),
+        simulated=any(said.lower().startswith("simulated") for _, said in comments),
+        x=table["x"],
+        **{name: table.get(name) for name in ("velocity", "frequency", "stay", "error")},
+    )
+
+
+def scan_csv(scan: Scan) -> str:
+    """A simulated scan as such a file; it says in its first line that it was simulated."""
+    at = scan.instrument
+    lines = [
+        "# simulated: no measurement; bursts synthesised from a computed solution",
+        f"# wavelength: {at.wavelength * 1e6:.10g} nm",
+        f"# beam angle: {degrees(at.beam_angle):.10g} deg",
+        f"# half width: {at.half_width:.10g} mm",
+        f"# sample rate: {at.sample_rate:.10g} Hz",
+        f"# shift: {at.shift:.10g} Hz",
+        f"# roller: {scan.side}",
+        f"# roller speed: {scan.roller_speed:.10g} mm/s",
+        "x [mm],frequency [Hz],snr",
+    ]
+    rows = zip(scan.x, scan.frequency, scan.snr, strict=True)
+    return "\n".join([*lines, *(f"{x:.6f},{f:.3f},{snr:.4g}" for x, f, snr in rows)]) + "\n"
+
+
+def truth_csv(scan: Scan, solution: Solution) -> str:
+    """What a simulated scan should find: speed at a point, and averaged over the volume."""
+    profile, roller_speed = surface_speed(solution, scan.side)
+    x = np.unique(scan.x)
+    averaged = profile.averaged(x, scan.instrument.averaging_width)
+    lines = [
+        "# simulated: the solution itself",
+        "x [mm],velocity [mm/s],averaged velocity [mm/s],strain,averaged strain",
+    ]
+    for row in zip(x, profile.at(x), averaged, strict=True):
+        strains = (v / roller_speed - 1.0 for v in row[1:])
+        lines.append(",".join(f"{value:.8g}" for value in (*row, *strains)))
+    return "\n".join(lines) + "\n"
+
+
+def profile_csv(profile: VelocityProfile) -> str:
+    """A velocity profile with its bands; strains are there where the roller's speed is known."""
+    columns = {
+        "x [mm]": profile.x,
+        "velocity [mm/s]": profile.velocity,
+        "error [mm/s]": profile.error,
+        "band [mm/s]": profile.band,
+        "joint band [mm/s]": profile.joint_band,
+        "bursts": profile.count,
+        "outliers": profile.rejected,
+    }
+    if profile.strain is not None and profile.speed is not None:
+        columns["strain"] = profile.strain
+        columns["strain band"] = profile.band / profile.speed
+    rows = zip(*columns.values(), strict=True)
+    lines = [f"# confidence: {profile.confidence:g}", ",".join(columns)]
+    return "\n".join([*lines, *(",".join(f"{v:.8g}" for v in row) for row in rows)]) + "\n"
+
+
+def parse_frequency(text: str) -> float:
+    """Read "40 kHz" as 40000 [Hz]. Raises InvalidInputError."""
+    return _scaled(text, _FREQUENCY, "a frequency such as 40 kHz")
+
+
+def parse_angle(text: str) -> float:
+    """Read "10 deg" as 0.1745 [rad]. Raises InvalidInputError."""
+    return _scaled(text, _ANGLE, "an angle such as 10 deg")
+
+
+def _scaled(text: str, units: dict[str, float], what: str) -> float:
+    cleaned = text.strip()
+    for unit in sorted(units, key=len, reverse=True):
+        if cleaned.endswith(unit):
+            try:
+                return parse_quantity(cleaned.removesuffix(unit).strip(), "ratio") * units[unit]
+            except InvalidInputError:
+                break
+    raise InvalidInputError(f'must be {what}, got "{text[:60]}".')
+
+
+def _roller(text: str) -> str:
+    if text not in ("upper", "lower"):
+        raise InvalidInputError(f'must be "upper" or "lower", got "{text[:60]}".')
+    return text
+
+
+def _length(text: str) -> float:
+    return parse_quantity(text, "length")
+
+
+def _speed(text: str) -> float:
+    return parse_quantity(text, "speed")
+
+
+_SAID: dict[str, Callable[[str], float | str]] = {
+    "wavelength": _length,
+    "beam angle": parse_angle,
+    "half width": _length,
+    "sample rate": parse_frequency,
+    "shift": parse_frequency,
+    "roller speed": _speed,
+    "roller": _roller,
+}
+
+
+def _settings(comments: list[tuple[int, str]], source: str) -> Settings:
+    """What comment lines of the form ``key: value`` say; others are only comments."""
+    said: dict[str, float | str] = {}
+    for number, line in comments:
+        key, colon, value = line.partition(":")
+        key = key.strip().lower()
+        if not colon or key not in _SAID:
+            continue
+        try:
+            said[key.replace(" ", "_")] = _SAID[key](value.strip())
+        except InvalidInputError as problem:
+            raise InvalidInputError(f"{source}, line {number}: `{key}` {problem}") from None
+    return Settings(**said)  # type: ignore[arg-type]
+
+
+def _text(path: Path) -> str:
+    try:
+        if path.stat().st_size > _LARGEST:
+            raise InvalidInputError(f"{path}: must be at most {_LARGEST >> 20} MiB large.")
+        return path.read_text("utf-8-sig")
+    except OSError as problem:
+        raise InvalidInputError(f"{path}: cannot read: {problem.strerror or problem}.") from None
+    except UnicodeDecodeError:
+        raise InvalidInputError(f"{path}: must be a text file in UTF-8.") from None
+
+
+def _columns(heads: list[str], source: str) -> tuple[list[str], list[float]]:
+    """Names of the columns, and what their numbers are multiplied with."""
+    names: list[str] = []
+    units: dict[str, str] = {}
+    for head in heads:
+        name, _, rest = head.strip().partition("[")
+        name = name.strip().lower()
+        if name not in _COLUMNS:
+            near = get_close_matches(name, _COLUMNS, n=1)
+            hint = f"did you mean `{near[0]}`?" if near else f"known are {', '.join(_COLUMNS)}."
+            raise InvalidInputError(f"{source}: `{name or head}` is no known column; {hint}")
+        name = "x" if name == "position" else name
+        if name in names:
+            raise InvalidInputError(f"{source}: column `{name}` must not be there twice.")
+        names.append(name)
+        units[name] = rest.strip().removesuffix("]").strip()
+    if "x" not in names or ("velocity" in names) == ("frequency" in names):
+        raise InvalidInputError(
+            f"{source}: must have the columns `x` and either `velocity` or `frequency`, has "
+            f"{', '.join(names)}."
+        )
+    kind = "velocity" if "velocity" in names else "frequency"
+    scales = []
+    for name in names:
+        dimension = _COLUMNS[kind if name == "error" else name]
+        try:
+            scales.append(_scale(units[name], dimension))
+        except InvalidInputError as problem:
+            raise InvalidInputError(f"{source}: unit of column `{name}` {problem}") from None
+    return names, scales
+
+
+def _scale(unit: str, dimension: str) -> float:
+    if dimension == "frequency":
+        return parse_frequency(f"1 {unit}")
+    known: dict[str, Dimension] = {
+        "length": "length", "speed": "speed", "time": "time", "ratio": "ratio"
+    }  # fmt: skip
+    return parse_quantity(f"1 {unit}".strip(), known[dimension])
+
+
+def _row(line: str, number: int, delimiter: str, names: list[str], source: str) -> list[float]:
+    cells = [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))]
+    if len(cells) != len(names):
+        raise InvalidInputError(
+            f"{source}, line {number}: must have {len(names)} cells, has {len(cells)}."
+        )
+    values = []
+    for name, cell in zip(names, cells, strict=True):
+        if not cell:
+            raise InvalidInputError(f"{source}, line {number}: `{name}` must not be empty.")
+        try:
+            value = float(cell.replace(",", ".") if delimiter != "," else cell)
+        except ValueError:
+            value = float("nan")
+        if not isfinite(value):
+            raise InvalidInputError(
+                f'{source}, line {number}: `{name}` must be a finite number, got "{cell[:60]}".'
+            )
+        values.append(value)
+    return values

@@ -1,0 +1,40 @@
+"""Laser-Doppler anemometry of a rolling surface: bursts, frequencies, velocities, comparison."""
+
+from rollnip.lda.bursts import Record, synthesise
+from rollnip.lda.comparison import Comparison, Fit, compare
+from rollnip.lda.detection import Burst, detect_bursts
+from rollnip.lda.frequency import (
+    Tone,
+    estimate_tone,
+    frequency_bound,
+    frequency_scatter,
+    window_penalty,
+)
+from rollnip.lda.instrument import Instrument
+from rollnip.lda.scan import Scan, Seeding, simulate_scan, surface_speed
+from rollnip.lda.statistics import VelocityProfile, estimate_profile, profile_from_means
+from rollnip.lda.volume import SpeedProfile
+
+__all__ = [
+    "Burst",
+    "Comparison",
+    "Fit",
+    "Instrument",
+    "Record",
+    "Scan",
+    "Seeding",
+    "SpeedProfile",
+    "Tone",
+    "VelocityProfile",
+    "compare",
+    "detect_bursts",
+    "estimate_profile",
+    "estimate_tone",
+    "frequency_bound",
+    "frequency_scatter",
+    "profile_from_means",
+    "simulate_scan",
+    "surface_speed",
+    "synthesise",
+    "window_penalty",
+]

@@ -1,0 +1,201 @@
+"""A measured velocity against a computed one: aligned by least squares, then compared."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import minimize_scalar
+from scipy.stats import chi2, t
+
+from rollnip._errors import InvalidInputError, require_not_negative, require_positive
+from rollnip.lda.scan import Side
+from rollnip.lda.statistics import VelocityProfile
+from rollnip.lda.volume import SpeedProfile
+from rollnip.solution import Solution
+
+Array = NDArray[np.float64]
+
+_STARTS = 81  # shifts tried before the best is refined
+_SHIFT = 0.5  # largest shift, in nip widths
+_LEAST_ROOM = 0.02  # shift that must be possible either way, in nip widths
+
+
+@dataclass(frozen=True, slots=True)
+class Fit:
+    """A fitted number.
+
+    Attributes
+    ----------
+    value : of least squares.
+    error : its standard error.
+    low, high : confidence interval.
+    """
+
+    value: float
+    error: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """A measured velocity v_i beside V (1 + eps(x_i - shift)), eps averaged over the volume.
+
+    Attributes
+    ----------
+    x : (m,) measured positions less the shift: in the solution's frame [mm].
+    strain : (m,) v_i/V - 1 with the fitted V.
+    strain_error : (m,) its standard error, that of V left out (it moves all points together).
+    computed : (m,) averaged strain of the solution there.
+    curve : the solution's strain over x, averaged over the volume.
+    shift : by which measured positions are too large [mm].
+    speed : circumferential speed of the roller [mm/s].
+    rms : root mean square of measured less computed strain.
+    noise : root mean square that the standard errors alone explain.
+    chi_square : sum of squared deviations over variances.
+    degrees : points less 2.
+    probability : of a chi-square this large or larger where the model is right.
+    confidence : of the intervals.
+    contact : trailing and leading edge of the solution [mm].
+    """
+
+    x: Array
+    strain: Array
+    strain_error: Array
+    computed: Array
+    curve: SpeedProfile
+    shift: Fit
+    speed: Fit
+    rms: float
+    noise: float
+    chi_square: float
+    degrees: int
+    probability: float
+    confidence: float
+    contact: tuple[float, float]
+
+
+def compare(
+    measured: VelocityProfile,
+    solution: Solution,
+    *,
+    side: Side = "upper",
+    width: float = 0.0,
+    confidence: float = 0.95,
+) -> Comparison:
+    """Align a measured velocity profile with a computed one and compare them.
+
+    The solution is averaged over the measuring volume (the measurement is not sharpened, which
+    would multiply its noise). Shift and speed minimise the sum of squares; their intervals come
+    from the curvature of that sum, widened by sqrt(chi-square/degrees) where that exceeds 1: an
+    interval cannot know more than the model that it rests on explains.
+
+    Parameters
+    ----------
+    measured : at least 4 positions.
+    side : the roller whose surface was measured.
+    width : standard deviation of the averaging, ``instrument.averaging_width`` [mm].
+
+    Raises
+    ------
+    InvalidInputError
+        where there are too few positions, they lie outside the solution, or the shift cannot be
+        told: the positions leave no room, or the best lies at the end of what was tried.
+    """
+    require_not_negative("width", width)
+    if not 0.5 <= confidence < 1.0:
+        raise InvalidInputError(f"`confidence` must lie in [0.5, 1), got {confidence!r}.")
+    if measured.x.size < 4:
+        raise InvalidInputError(f"`x` must hold at least 4 positions, got {measured.x.size}.")
+    profiles = solution.profiles
+    strain = profiles.strain_upper if side == "upper" else profiles.strain_lower
+    if not np.any(strain):
+        raise InvalidInputError(f"`{side}` must be a coated roller: a rigid one has no strain.")
+    model = SpeedProfile(profiles.x, strain)
+    model.check_inside(measured.x, width)
+    shift = _best_shift(measured, model, width, solution.nip_width)
+    speed = _speed(measured, model.averaged(measured.x - shift, width))
+    require_positive("velocity", speed)
+    return _compared(measured, model, width, (shift, speed), confidence, solution)
+
+
+def _speed(measured: VelocityProfile, strain: Array) -> float:
+    """V of least squares for a given shift: the model is linear in it."""
+    stretch, weight = 1.0 + strain, 1.0 / measured.variance
+    return float(np.sum(weight * stretch * measured.velocity) / np.sum(weight * stretch**2))
+
+
+def _best_shift(
+    measured: VelocityProfile, model: SpeedProfile, width: float, nip_width: float
+) -> float:
+    first, last = model.span(width)
+    low = max(float(measured.x[-1]) - last, -_SHIFT * nip_width)
+    high = min(float(measured.x[0]) - first, _SHIFT * nip_width)
+    room = _LEAST_ROOM * nip_width
+    if low > -room or high < room:
+        raise InvalidInputError(
+            f"`x` must stay {room:.2g} mm from the ends of the solution ({first:.4g} to "
+            f"{last:.4g} mm) so that it can be aligned, got {measured.x[0]:.6g} to "
+            f"{measured.x[-1]:.6g} mm."
+        )
+
+    def misfit(shift: float) -> float:
+        strain = model.averaged(measured.x - shift, width)
+        away = measured.velocity - _speed(measured, strain) * (1.0 + strain)
+        return float(np.sum(away**2 / measured.variance))
+
+    tried = np.linspace(low, high, _STARTS)
+    best = int(np.argmin([misfit(shift) for shift in tried]))
+    if best in (0, _STARTS - 1):
+        raise InvalidInputError(
+            f"`x` must be within a shift of {low:.3g} to {high:.3g} mm of the solution's frame: "
+            "the best alignment lies at the end of that range."
+        )
+    bounds = (tried[best - 1], tried[best + 1])
+    found = minimize_scalar(misfit, bounds=bounds, method="bounded", options={"xatol": 1e-9})
+    return float(found.x)
+
+
+def _compared(
+    measured: VelocityProfile,
+    model: SpeedProfile,
+    width: float,
+    fitted: tuple[float, float],
+    confidence: float,
+    solution: Solution,
+) -> Comparison:
+    shift, speed = fitted
+    x = measured.x - shift
+    computed = model.averaged(x, width)
+    away = measured.velocity - speed * (1.0 + computed)
+    degrees = x.size - 2
+    chi_square = float(np.sum(away**2 / measured.variance))
+    step = 1e-4 * solution.nip_width
+    slope = (model.averaged(x + step, width) - model.averaged(x - step, width)) / (2.0 * step)
+    jacobian = np.stack([-speed * slope, 1.0 + computed], axis=1)
+    root = jacobian / np.sqrt(measured.variance)[:, None]
+    covariance = np.linalg.inv(root.T @ root) * max(1.0, chi_square / degrees)
+    quantile = float(t.ppf(0.5 * (1.0 + confidence), degrees))
+    fits = []
+    for value, variance in zip(fitted, np.diag(covariance), strict=True):
+        error = float(np.sqrt(variance))
+        fits.append(Fit(value, error, value - quantile * error, value + quantile * error))
+    grid = np.linspace(*model.span(width), 801)
+    return Comparison(
+        x=x,
+        strain=measured.velocity / speed - 1.0,
+        strain_error=measured.error / speed,
+        computed=computed,
+        curve=SpeedProfile(grid, model.averaged(grid, width)),
+        shift=fits[0],
+        speed=fits[1],
+        rms=float(np.sqrt(np.mean((away / speed) ** 2))),
+        noise=float(np.sqrt(np.mean(measured.error**2)) / speed),
+        chi_square=chi_square,
+        degrees=degrees,
+        probability=float(chi2.sf(chi_square, degrees)),
+        confidence=confidence,
+        contact=(solution.contact[0][0], solution.contact[-1][1]),
+    )

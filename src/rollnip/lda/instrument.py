@@ -1,0 +1,125 @@
+"""The velocimeter: two crossing beams, a Gaussian measuring volume, a sampled detector."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, radians, sin, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError, require_finite, require_positive
+
+Array = NDArray[np.float64]
+
+_LEAST_CYCLES = 1.0  # within one envelope width: below, positive and negative frequency meet
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Instrument:
+    """Laser-Doppler velocimeter in the dual-beam arrangement.
+
+    A scatterer at the distance s from the centre of the volume gives the signal
+    A exp(-s^2/(2 w^2)) cos(2 pi (s/d_f + f_shift t) + phase): it crosses fringes d_f apart whose
+    contrast is Gaussian, w = half_width/2. Durst, Melling & Whitelaw (1981).
+
+    Parameters
+    ----------
+    wavelength : of the light [mm].
+    beam_angle : full angle between the beams [rad], in (0, pi].
+    half_width : of the volume along x, where the light has fallen to 1/e^2 [mm].
+    sample_rate : of the detector [Hz].
+    shift : frequency added to one beam [Hz]; tells the direction. 0: none.
+
+    Raises
+    ------
+    InvalidInputError
+        where a value is out of its range.
+    """
+
+    wavelength: float = 632.8e-6
+    beam_angle: float = radians(10.0)
+    half_width: float = 0.05
+    sample_rate: float = 250e3
+    shift: float = 0.0
+
+    def __post_init__(self) -> None:
+        for name in ("wavelength", "beam_angle", "half_width", "sample_rate"):
+            require_positive(name, getattr(self, name))
+        require_finite("shift", self.shift)
+        if self.beam_angle > pi:
+            raise InvalidInputError(
+                f"`beam_angle` must be at most pi rad, got {self.beam_angle!r}."
+            )
+        if self.half_width < self.fringe_spacing:
+            raise InvalidInputError(
+                f"`half_width` must be at least one fringe ({self.fringe_spacing:.3g} mm), "
+                f"got {self.half_width!r}."
+            )
+
+    @property
+    def fringe_spacing(self) -> float:
+        """d_f = wavelength/(2 sin(beam_angle/2)) [mm]."""
+        return self.wavelength / (2.0 * sin(0.5 * self.beam_angle))
+
+    @property
+    def fringes(self) -> float:
+        """Fringes between the 1/e^2 points."""
+        return 2.0 * self.half_width / self.fringe_spacing
+
+    @property
+    def envelope_width(self) -> float:
+        """Standard deviation w = half_width/2 of the burst's envelope along x [mm]."""
+        return 0.5 * self.half_width
+
+    @property
+    def averaging_width(self) -> float:
+        """Standard deviation of the weight that a measured velocity is averaged with [mm].
+
+        The peak of the spectrum of envelope times window is, to first order in the change of
+        velocity, the mean of v weighted with that product; under the matched window it is
+        exp(-s^2/w^2): w/sqrt(2). A curved profile is biased by v'' w^2/4.
+        """
+        return self.envelope_width / sqrt(2.0)
+
+    def frequency(self, velocity: float | Array) -> float | Array:
+        """Frequency of the signal, shift + v/d_f [Hz]; velocity in the sense of the fringes."""
+        return self.shift + velocity / self.fringe_spacing
+
+    def velocity(self, frequency: float | Array) -> float | Array:
+        """Velocity (f - shift) d_f [mm/s]."""
+        return (frequency - self.shift) * self.fringe_spacing
+
+    def envelope_time(self, velocity: float) -> float:
+        """Standard deviation w/|v| of the burst's envelope in time [s]."""
+        return self.envelope_width / abs(velocity)
+
+    def broadening(self, velocity: float) -> float:
+        """Transit-time broadening: standard deviation of a burst's power spectrum [Hz].
+
+        |v|/(2 sqrt(2) pi w), from the transform of the Gaussian envelope. It widens each burst's
+        spectrum, and does not move it.
+        """
+        return abs(velocity) / (2.0 * sqrt(2.0) * pi * self.envelope_width)
+
+    def check_velocities(self, lowest: float, highest: float) -> None:
+        """Raise InvalidInputError where a velocity of that range cannot be measured.
+
+        Above the Nyquist frequency it is aliased; below zero, or with less than a cycle per
+        envelope width, its sign is lost.
+        """
+        nyquist = 0.5 * self.sample_rate
+        top = float(self.frequency(highest))
+        if top >= nyquist:
+            raise InvalidInputError(
+                f"`sample_rate` must be more than twice the Doppler frequency: {highest:g} mm/s "
+                f"gives {top:.4g} Hz, the Nyquist frequency is {nyquist:.4g} Hz."
+            )
+        bottom = float(self.frequency(lowest))
+        fastest = max(abs(lowest), abs(highest))
+        least = _LEAST_CYCLES * fastest / self.envelope_width
+        if bottom < least:
+            raise InvalidInputError(
+                f"`shift` must keep the signal above {least:.4g} Hz so that its direction is "
+                f"known: {lowest:g} mm/s gives {bottom:.4g} Hz."
+            )

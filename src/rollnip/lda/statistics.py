@@ -1,0 +1,185 @@
+"""From the bursts at each position to velocity and strain with confidence bands."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import norm, t
+
+from rollnip._errors import InvalidInputError, require_positive
+
+Array = NDArray[np.float64]
+
+_SAME_PLACE = 1e-6  # mm
+_OUTLIER = 4.5  # robust standard deviations; of normal values 7 in a million lie beyond
+_MAD = 1.482602218505602  # standard deviation over median absolute deviation, normal values
+LEAST = 5  # bursts at a position: the variance of its mean is finite with 4 or more
+
+
+@dataclass(frozen=True, slots=True)
+class VelocityProfile:
+    """Mean velocity at each position.
+
+    Attributes
+    ----------
+    x : (m,) increasing [mm].
+    velocity : (m,) in the sense of motion [mm/s], corrected for the velocity bias.
+    error : (m,) standard error of it [mm/s].
+    count : (m,) bursts kept; 0 where the error was given.
+    rejected : (m,) outliers left out.
+    confidence : of the bands, in (0, 1).
+    speed : circumferential speed of the roller [mm/s]; None where not known.
+    """
+
+    x: Array
+    velocity: Array
+    error: Array
+    count: NDArray[np.int64]
+    rejected: NDArray[np.int64]
+    confidence: float
+    speed: float | None = None
+
+    @property
+    def strain(self) -> Array | None:
+        """v/V - 1, (m,); None without the roller's speed. Holds in steady rolling only."""
+        return None if self.speed is None else self.velocity / self.speed - 1.0
+
+    @property
+    def band(self) -> Array:
+        """Half-width of the confidence interval at each position by itself, (m,) [mm/s]."""
+        return self.error * self._quantile(self.confidence)
+
+    @property
+    def joint_band(self) -> Array:
+        """Half-width of the band that holds at all positions together, (m,) [mm/s].
+
+        Sidak: each interval has the confidence to the power 1/m; positions are independent.
+        """
+        return self.error * self._quantile(self.confidence ** (1.0 / self.x.size))
+
+    @property
+    def variance(self) -> Array:
+        """Variance of what `error` estimates, over the distribution of t, (m,) [mm2/s2].
+
+        n bursts give error^2 (n - 1)/(n - 3).
+        """
+        n = np.where(self.count > 0, self.count, 10**9)
+        return np.asarray(self.error**2 * (n - 1.0) / (n - 3.0))
+
+    def _quantile(self, confidence: float) -> Array:
+        tail = 0.5 * (1.0 + confidence)
+        degrees = np.maximum(self.count - 1, 1)
+        return np.asarray(np.where(self.count > 0, t.ppf(tail, degrees), norm.ppf(tail)))
+
+
+def estimate_profile(
+    x: Array,
+    velocity: Array,
+    *,
+    weight: Array | None = None,
+    speed: float | None = None,
+    confidence: float = 0.95,
+    least: int = LEAST,
+) -> VelocityProfile:
+    """Velocity at each position from single bursts.
+
+    Outliers, more than 4.5 robust standard deviations from the median of their position, are left
+    out. The mean is weighted with the time each scatterer stays in the volume: fast ones arrive
+    more often, in proportion to their speed, and the plain mean would be too high by the variance
+    over the mean.
+
+    Parameters
+    ----------
+    x : (n,) position of each burst [mm].
+    velocity : (n,) [mm/s].
+    weight : (n,) stay [s]; None: 1/velocity, as every scatterer crosses the whole volume.
+    speed : circumferential speed of the roller [mm/s].
+    confidence : of the bands.
+    least : bursts needed at each position, 5 or more.
+
+    Raises
+    ------
+    InvalidInputError
+        where values are missing or not finite, or a position has too few bursts.
+    """
+    _check(x, velocity, confidence)
+    if speed is not None:
+        require_positive("speed", speed)
+    if least < LEAST:
+        raise InvalidInputError(f"`least` must be {LEAST} or more, got {least}.")
+    if weight is None:
+        if np.any(velocity == 0.0):
+            raise InvalidInputError("`velocity` must not be zero: such a scatterer never leaves.")
+        weight = 1.0 / np.abs(velocity)
+    elif weight.shape != x.shape or not np.all((weight > 0.0) & np.isfinite(weight)):
+        raise InvalidInputError("`weight` must be positive and finite, one for each burst.")
+    order = np.argsort(x, kind="stable")
+    x, velocity, weight = x[order], velocity[order], weight[order]
+    starts = np.flatnonzero(np.diff(x, prepend=-np.inf) > _SAME_PLACE)
+    rows = []
+    for start, stop in zip(starts, [*starts[1:], x.size], strict=True):
+        v, w = velocity[start:stop], weight[start:stop]
+        kept = _kept(v)
+        if np.count_nonzero(kept) < least:
+            raise InvalidInputError(
+                f"`x` must have at least {least} valid bursts at each position, got "
+                f"{np.count_nonzero(kept)} at {x[start]:.6g} mm; measure longer, or give means "
+                "with their standard errors."
+            )
+        rows.append((x[start], *_mean(v[kept], w[kept]), kept.sum(), np.sum(~kept)))
+    place, mean, error, count, rejected = np.array(rows, dtype=float).T
+    counts = (count.astype(np.int64), rejected.astype(np.int64))
+    return VelocityProfile(place, mean, error, *counts, confidence, speed)
+
+
+def profile_from_means(
+    x: Array,
+    velocity: Array,
+    error: Array,
+    *,
+    speed: float | None = None,
+    confidence: float = 0.95,
+) -> VelocityProfile:
+    """Velocities whose standard errors [mm/s] are known, as they are.
+
+    Raises InvalidInputError where a value is not finite, an error not positive, or a position
+    comes twice.
+    """
+    _check(x, velocity, confidence)
+    if speed is not None:
+        require_positive("speed", speed)
+    if error.shape != x.shape or not np.all((error > 0.0) & np.isfinite(error)):
+        raise InvalidInputError("`error` must be positive and finite, one for each velocity.")
+    order = np.argsort(x)
+    if np.any(np.diff(x[order]) <= _SAME_PLACE):
+        raise InvalidInputError("`x` must not hold a position twice where errors are given.")
+    none = np.zeros(x.size, dtype=np.int64)
+    return VelocityProfile(x[order], velocity[order], error[order], none, none, confidence, speed)
+
+
+def _check(x: Array, velocity: Array, confidence: float) -> None:
+    if x.ndim != 1 or x.size == 0 or x.shape != velocity.shape:
+        raise InvalidInputError("`x` and `velocity` must be two lists of equal length, not empty.")
+    for name, values in (("x", x), ("velocity", velocity)):
+        if not np.all(np.isfinite(values)):
+            raise InvalidInputError(f"`{name}` must be finite, without gaps.")
+    if not 0.5 <= confidence < 1.0:
+        raise InvalidInputError(f"`confidence` must lie in [0.5, 1), got {confidence!r}.")
+
+
+def _kept(velocity: Array) -> NDArray[np.bool_]:
+    """Which values are no outliers; all, where half of them are equal."""
+    away = np.abs(velocity - np.median(velocity))
+    scale = _MAD * float(np.median(away))
+    return np.asarray(away <= _OUTLIER * scale) if scale > 0.0 else np.ones(away.size, dtype=bool)
+
+
+def _mean(velocity: Array, weight: Array) -> tuple[float, float]:
+    """Weighted mean and its standard error."""
+    total = float(np.sum(weight))
+    mean = float(weight @ velocity) / total
+    n = velocity.size
+    spread = float(np.sum((weight * (velocity - mean)) ** 2)) * n / (n - 1)
+    return mean, max(spread**0.5 / total, 1e-15 * abs(mean))

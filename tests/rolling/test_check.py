@@ -110,7 +110,7 @@ def test_strain_is_the_slope_of_the_displacement(case, solved):
     nip, geometry = solution.nip, solution.model.geometry
     nodes = solution.nodes[:: max(1, solution.nodes.size // 25)]
     middle = np.setdiff1d(0.5 * (nodes[1:] + nodes[:-1]), solution.nodes)
-    step = 1e-4 * np.min(np.diff(solution.nodes))
+    step = max(1e-4 * np.min(np.diff(solution.nodes)), 1e-6 * solution.nip_width)
     for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
         found = surface_strain(middle, nip, geometry, solution.kernels, solution.final, side=side)
         ends = []

@@ -140,10 +140,11 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     # tells a slipping node apart that should stick from one that should slip the other way.
     own = np.minimum(np.diag(problem.creep_shear), -np.finfo(float).tiny)
     sought = solution.shear - creep(problem, solution) / own
+    # Within rounding a node keeps its state.
     slack = rounding * problem.friction * largest
     out[kept] = STICK
-    out[kept & (sought > bound + slack)] = SLIP_PLUS
-    out[kept & (sought < -bound - slack)] = SLIP_MINUS
+    out[kept & (sought > bound + np.where(states == SLIP_PLUS, -slack, slack))] = SLIP_PLUS
+    out[kept & (sought < -bound - np.where(states == SLIP_MINUS, -slack, slack))] = SLIP_MINUS
     new = kept & ~in_contact
     if np.any(new):
         out[new] = _nearest_state(states, in_contact)[new]

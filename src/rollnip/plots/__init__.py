@@ -1,5 +1,22 @@
 """Pictures of a solution: ``plot_x(solution, ax=None) -> ax``."""
 
-from rollnip.plots.pressure import check_figure_target, plot_pressure, save_pressure
+from rollnip.plots.field import plot_field
+from rollnip.plots.files import check_figure_target, save_figure, save_pressure
+from rollnip.plots.overview import plot_overview
+from rollnip.plots.pressure import plot_pressure
+from rollnip.plots.style import new_axes
+from rollnip.plots.surfaces import plot_deformed_surfaces, plot_gap, plot_speed, plot_strain
 
-__all__ = ["check_figure_target", "plot_pressure", "save_pressure"]
+__all__ = [
+    "check_figure_target",
+    "new_axes",
+    "plot_deformed_surfaces",
+    "plot_field",
+    "plot_gap",
+    "plot_overview",
+    "plot_pressure",
+    "plot_speed",
+    "plot_strain",
+    "save_figure",
+    "save_pressure",
+]

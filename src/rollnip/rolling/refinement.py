@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import inf, sqrt
 
 import numpy as np
@@ -34,7 +34,10 @@ from rollnip.rolling.assemble import (
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_grip, peak_pressure
 
-_FIRST_COUNT = 24
+_FIRST_COUNT = 16
+_FEWEST_SIZES = 3  # of meshes before an error is believed
+_COARSE = 96  # elements up to which an unsettled mesh may still place edges
+_MOST_FAILURES = 3  # fine meshes that do not settle
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
 _MOST_STEPS = 4000  # linear systems, after which what has not settled is given up
@@ -48,6 +51,15 @@ _SAFETY = 1.5  # on the estimate of the error from two meshes
 # Least relative error of each of Figures, times the square of the number of elements.
 _LEAST = np.array([0.1, 0.0, 2.0, 0.1, 0.5])
 _CREEPAGE, _PEAK = 2, 4  # their places among Figures
+
+
+@dataclass(frozen=True, slots=True)
+class _Size:
+    """What one size of mesh gave: number of elements, figures, edges and transitions."""
+
+    count: int
+    figures: Figures
+    breaks: Array
 
 
 def refine(
@@ -68,56 +80,59 @@ def refine(
     -------
     The last round that settled; its error may exceed the tolerance where the rounds ran out.
     """
-    count, tries = _FIRST_COUNT, 0
+    count, tries, failures = _FIRST_COUNT, 0, 0
     breaks = np.array([-1.3 * half_width, 1.3 * half_width])
     zones: tuple[Zone, ...] = (Zone(-0.8 * half_width, 0.8 * half_width, State.STICK),)
     demand: Demand | None = None
     latest: Round | None = None
     best: Round | None = None
-    coarser: tuple[int, Figures] | None = None
+    history: list[_Size] = []
     for _ in range(_MOST_ROUNDS):
         mesh = mesh_on(graded_nodes(breaks, count, demand), kernels)
-        latest = _solve_on(nip, model, mesh, zones, latest, method)
-        if _is_hopeless(latest, count):
+        latest = _solve_on(nip, model, mesh, zones, latest if best is None else best, method)
+        if _is_hopeless(latest) or failures > _MOST_FAILURES:
             break
+        if not latest.settled and count > _COARSE:
+            # Another mesh of about this size may settle: what cycles hangs on single nodes.
+            count, failures = _next_count(count, 0.0), failures + 1
+            continue
         zones = latest.zones
         found = _next_breaks(latest)
         placed = _well_placed(breaks, found, count) and latest.settled
         breaks = found
         demand = Demand.of(latest.problem.x, latest.state.pressure, latest.state.shear)
         tries += 1
-        if not placed and tries < (2 if coarser is None else 1) * _MOST_TRIES:
+        if not placed and tries < (1 if history else 2) * _MOST_TRIES:
             continue
-        ratio = inf
-        if coarser is not None:
-            latest = replace(latest, error=_error(nip, latest, count, *coarser))
-            ratio = excess(nip, latest, model.tolerance)
+        history.append(_Size(count, latest.figures, found))
+        latest = replace(latest, error=_error(nip, latest, history))
         best = latest if latest.settled or best is None else best
-        if ratio <= 1.0 or count >= _MOST_ELEMENTS:
+        ratio = excess(nip, latest, model.tolerance)
+        ratio = max(ratio, _zone_excess(history, model.tolerance))
+        if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
             latest = _checked(nip, model, kernels, latest)
             if latest.residual <= model.tolerance or count >= _MOST_ELEMENTS:
                 return latest
             ratio = latest.residual / model.tolerance
-        coarser = (count, latest.figures)
         count, tries = _next_count(count, ratio), 0
     last = best or latest
     assert last is not None
     return _checked(nip, model, kernels, last) if last.zones else last
 
 
-def _is_hopeless(latest: Round, count: int) -> bool:
-    """Whether to give up: unsettled after much work, on a fine mesh or for want of friction."""
+def _is_hopeless(latest: Round) -> bool:
+    """Whether to give up: unsettled after much work, in pieces, or for want of friction."""
     if latest.settled:
         return False
-    spent = latest.steps > _MOST_STEPS or count > 4 * _FIRST_COUNT
-    spent = spent or len(latest.zones) > _MOST_ZONES or not latest.geometry_change < _DIVERGED
+    spent = latest.steps > _MOST_STEPS or len(latest.zones) > _MOST_ZONES
+    spent = spent or not latest.geometry_change < _DIVERGED
     return spent or not latest.zones or not has_grip(latest)
 
 
 def _next_count(count: int, ratio: float) -> int:
     """Elements that would bring the error, ``ratio`` times too large now, below the tolerance."""
-    growth = min(max(1.1 * sqrt(ratio), 1.3), 2.0)
-    return min(int(count * growth), _MOST_ELEMENTS)
+    growth = 1.06 if ratio == 0.0 else min(max(1.1 * sqrt(ratio), 1.35), 2.0)
+    return min(int(count * growth) + 1, _MOST_ELEMENTS)
 
 
 def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
@@ -219,23 +234,49 @@ def _well_placed(breaks: Array, found: Array, count: int) -> bool:
         abs(found[0] - breaks[0]) < allowed
         and abs(found[-1] - breaks[-1]) < allowed
         and found.size == breaks.size
-        and np.all(np.abs(found - breaks) < 2.0 * allowed)
+        and np.all(np.abs(found - breaks) < 0.5 * allowed)
     )
 
 
-def _error(nip: Nip, latest: Round, count: int, coarse_count: int, coarse: Figures) -> Figures:
-    """Estimated error of each figure from its change between two meshes (second order).
+def _error(nip: Nip, latest: Round, history: list[_Size]) -> Figures:
+    """Estimated error of each figure from its changes between meshes (second order).
 
-    Two meshes may agree by chance, so no error is claimed below what interpolation leaves on a
-    mesh of this size in problems whose exact solution is known (Hertz, Carter), and none of the
-    peak below what lies between the highest node and the parabola through it.
+    Two meshes may agree by chance. So the change before the last one counts too, shrunk as the
+    order promises and halved; no error is claimed below what interpolation leaves on a mesh of
+    this size in problems whose exact solution is known (Hertz, Carter), and none of the peak
+    below what lies between the highest node and the parabola through it.
     """
-    figures = latest.figures
-    gain = (count / coarse_count) ** 2 - 1.0
-    change = _SAFETY * np.abs(figures.array() - coarse.array()) / gain
+    figures, count = latest.figures, history[-1].count
+    if len(history) < 2:
+        return Figures(inf, inf, inf, inf, inf)
+    change = _change_over(history[-2], history[-1])
+    if len(history) > 2:
+        earlier = _change_over(history[-3], history[-2]) * (history[-2].count / count) ** 2
+        change = np.maximum(change, 0.5 * earlier)
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     least = _LEAST * scales / count**2
     least[_PEAK] = max(least[_PEAK], figures.peak_pressure - float(np.max(latest.state.pressure)))
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, least))))
+
+
+def _change_over(coarse: _Size, fine: _Size) -> Array:
+    """Error of the finer of two meshes of second order, from their difference."""
+    gain = (fine.count / coarse.count) ** 2 - 1.0
+    return np.asarray(_SAFETY * np.abs(fine.figures.array() - coarse.figures.array()) / gain)
+
+
+def _zone_excess(history: list[_Size], tolerance: float) -> float:
+    """Largest estimated error of a zone's length, over what is allowed.
+
+    Three times the tolerance of the length, or of a twentieth of the nip for shorter zones.
+    """
+    if len(history) < 2 or history[-1].breaks.size != history[-2].breaks.size:
+        return 0.0
+    coarse, fine = history[-2:]
+    lengths = np.diff(fine.breaks)
+    gain = (fine.count / coarse.count) ** 2 - 1.0
+    change = _SAFETY * np.abs(lengths - np.diff(coarse.breaks)) / gain
+    allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
+    return float(np.max(change / allowed))

@@ -115,7 +115,8 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
             if geometry
             else "Contact, stick and slip did not settle"
         )
-        return False, f'{what}; try `geometry = "linear"`, a smaller load or another tolerance.'
+        simpler = "" if model.geometry == "linear" else '`geometry = "linear"`, '
+        return False, f"{what}; try {simpler}a smaller load or another tolerance."
     left = final.residual
     if not left <= model.tolerance:
         return False, (

@@ -40,7 +40,7 @@ class CoupledActiveSet:
         count as met.
     """
 
-    max_steps: int = 25
+    max_steps: int = 40
     rounding: float = 1e-11
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:

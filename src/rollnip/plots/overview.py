@@ -1,0 +1,213 @@
+"""One page about a solution: pictures and a table of its key figures."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from textwrap import wrap
+from typing import Any, NamedTuple
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.layout_engine import PlaceHolderLayoutEngine
+
+from rollnip._units import format_quantity
+from rollnip.plots.field import plot_field
+from rollnip.plots.pressure import plot_pressure
+from rollnip.plots.section import Name, layer_texts, roller_of
+from rollnip.plots.style import LETTER, MM, Look, Style, axes_inches, palette_of
+from rollnip.plots.surfaces import plot_deformed_surfaces, plot_strain
+from rollnip.rollers import Roller
+from rollnip.solution import Solution
+
+_WIDTH, _HEIGHT = 297.0, 186.0  # mm, 16:10, as wide as a sheet of A4
+_PLACES = {
+    "pressure": (0.055, 0.62, 0.3, 0.295),
+    "field": (0.415, 0.62, 0.285, 0.295),
+    "surfaces": (0.055, 0.19, 0.3, 0.245),
+    "strain": (0.415, 0.19, 0.285, 0.245),
+    "table": (0.79, 0.03, 0.205, 0.92),
+}  # left, bottom, width, height
+_DIGITS = 4
+_ROUNDING = 1e-9
+_MOST_LAYERS = 4  # listed of each roller
+_REMARKS = 3  # lines
+_SIGNS = (
+    "x points to the inlet",
+    "traction, creepage > 0: the upper roller drives",
+    "torque > 0: that axle puts power in",
+)
+
+
+def plot_overview(solution: Solution, *, style: Style = "light") -> Figure:
+    """Draw one page: pressure, normal stress inside, deformed surfaces, strain, key figures.
+
+    Parameters
+    ----------
+    solution :
+        what `solve` returned.
+    style :
+        "light" or "dark".
+
+    Returns
+    -------
+    Figure
+        297 mm by 186 mm, outside pyplot; `save_figure` writes it.
+
+    Raises
+    ------
+    InvalidInputError
+        where the style is unknown.
+    """
+    palette = palette_of(style)
+    figure = Figure(figsize=(_WIDTH * MM, _HEIGHT * MM), facecolor=palette.ground)
+    # places are fixed: legends and the colour bar have their room, and laying out takes no time
+    figure.set_layout_engine(PlaceHolderLayoutEngine(True, False))
+    axes = {name: figure.add_axes(place) for name, place in _PLACES.items()}
+    pressure = plot_pressure(solution, axes["pressure"], style=style)
+    plot_field(solution, "s_zz", ax=axes["field"], style=style)
+    plot_deformed_surfaces(solution, axes["surfaces"], style=style)
+    plot_strain(solution, axes["strain"], style=style)
+    look = Look(palette, pressure.xaxis.label.get_size())  # type: ignore[attr-defined]
+    headings = {
+        "pressure": "Pressure and shear",
+        "field": "Normal stress inside",
+        "surfaces": "Deformed surfaces",
+        "strain": "Strain of the surfaces",
+    }
+    for name, text in headings.items():
+        axes[name].set_title(text, loc="left", fontsize=1.05 * look.size, color=palette.ink)
+    _table(axes["table"], look, solution)
+    _head_and_foot(figure, look, solution)
+    return figure
+
+
+class _Row(NamedTuple):
+    """A line of the table; a heading where there is no value."""
+
+    name: str
+    value: str | None = None
+    unit: str = ""
+
+
+def _number(
+    name: str, value: float | None, unit: str = "", scale: float = 1.0, size: float = 0.0
+) -> _Row:
+    """A number; nought where it is a rounding error of ``size``, a dash where not defined."""
+    if value is None:
+        return _Row(name, "–")
+    rounded = 0.0 if abs(value) < _ROUNDING * size else scale * value
+    return _Row(name, format_quantity(rounded, digits=_DIGITS).replace("-", "−"), unit)
+
+
+def _rows(solution: Solution) -> Iterator[_Row]:
+    load, moment = solution.load, solution.load * solution.nip_width
+    yield _Row("Nip")
+    yield _number("line load", load, "N/mm")
+    yield _number("approach", solution.approach, "mm")
+    yield _number("nip width", solution.nip_width, "mm")
+    yield _number("dwell time", solution.dwell_time, "ms", 1e3)
+    yield _number("peak pressure", solution.peak_pressure, "MPa")
+    yield _number("mean pressure", solution.mean_pressure, "MPa")
+    yield _Row("Drive")
+    yield _number("traction", solution.traction, "N/mm", size=load)
+    yield _number("creepage", solution.creepage, "%", 100.0)
+    yield _number("torque, upper axle", solution.torque_upper, "N mm/mm", size=moment)
+    yield _number("torque, lower axle", solution.torque_lower, "N mm/mm", size=moment)
+    yield _Row("Losses")
+    yield _number("rolling resistance", solution.rolling_resistance)
+    yield _number("friction", solution.dissipation_friction, "mW/mm")
+    yield _number("viscous", solution.dissipation_viscous, "mW/mm")
+    yield from _bond_rows(solution)
+    yield from _roller_rows("Upper roller", solution.nip.upper)
+    yield from _roller_rows("Lower roller", solution.nip.lower)
+    yield _Row("Signs")
+    yield from (_Row(text, "") for text in _SIGNS)
+
+
+def _bond_rows(solution: Solution) -> Iterator[_Row]:
+    """Largest shear and tension on the bond of each coating."""
+    yield _Row("Bond to the core")
+    names: tuple[Name, ...] = ("upper", "lower")
+    for name in names:
+        depth = roller_of(solution, name).coating_thickness
+        if depth > 0.0:
+            field = solution.interior(name, depth)
+            shear, peel = float(np.max(np.abs(field.s_xz))), float(np.max(field.s_zz))
+            size = float(np.ptp(field.s_zz))
+            yield _number(f"shear, {name}", shear, "MPa", size=size)
+            yield _number(f"peel, {name}", max(peel, 0.0), "MPa", size=size)
+
+
+def _roller_rows(name: str, roller: Roller) -> Iterator[_Row]:
+    yield _Row(name)
+    yield _number("radius", roller.radius, "mm")
+    if roller.is_rigid:
+        yield _Row("rigid", "")
+    texts = [text.replace("\n", ", ") for text in layer_texts(roller)]
+    for text in texts[:_MOST_LAYERS]:
+        yield _Row(text, "")
+    if len(texts) > _MOST_LAYERS:
+        yield _Row(f"and {len(texts) - _MOST_LAYERS} more", "")
+
+
+def _table(ax: Axes, look: Look, solution: Solution) -> None:
+    """Key figures as lines of text: name, number, unit."""
+    ax.set_axis_off()
+    colours = look.palette
+    rows = list(_rows(solution))
+    if solution.converged:
+        status, colour = f"verified; geometry {solution.model.geometry}", colours.muted
+    else:
+        status, colour = "NOT CONVERGED", colours.alert
+    heights = [0.0]
+    for row in rows:
+        heights.append(heights[-1] + (1.6 if row.value is None else 1.0))
+    step = min(1.45 * look.small / (72.0 * axes_inches(ax)[1]), 0.97 / (heights[-1] + 1.0))
+    size = min(look.small, step * 72.0 * axes_inches(ax)[1] / 1.3)
+    common: dict[str, Any] = {
+        "transform": ax.transAxes,
+        "fontsize": size,
+        "va": "baseline",
+        "in_layout": False,
+    }
+    ax.text(0.0, 1.0 - step, status, color=colour, **common)
+    for row, below in zip(rows, heights[1:], strict=True):
+        y = 1.0 - (below + 1.0) * step
+        if row.value is None:
+            ax.text(0.0, y, row.name, color=colours.ink, weight="bold", **common)
+            continue
+        ax.text(0.03, y, row.name, color=colours.ink, **common)
+        ax.text(0.72, y, row.value, color=colours.ink, ha="right", **common)
+        ax.text(0.75, y, row.unit, color=colours.muted, **common)
+
+
+def _head_and_foot(figure: Figure, look: Look, solution: Solution) -> None:
+    """Title above; warnings and signs below."""
+    letters = 72.0 * figure.get_figwidth() / LETTER
+    size = 1.5 * look.size
+    name = wrap(
+        solution.nip.title or "Nip", int(0.95 * letters / size), max_lines=1, placeholder=" ..."
+    )
+    common: dict[str, Any] = {"x": 0.012, "ha": "left", "parse_math": False}
+    figure.text(
+        y=0.985,
+        s=name[0] if name else "Nip",
+        va="top",
+        fontsize=size,
+        weight="bold",
+        color=look.palette.ink,
+        **common,
+    )
+    warnings = [] if solution.converged else [solution.status]
+    warnings += [f"Note: {warning}" for warning in solution.warnings]
+    width = int(0.97 * letters / look.small)
+    lines = wrap(" ".join(warnings), width, max_lines=_REMARKS, placeholder=" ...")
+    figure.text(
+        y=0.012,
+        s="\n".join(lines),
+        va="bottom",
+        fontsize=look.small,
+        color=look.palette.muted,
+        **common,
+    )

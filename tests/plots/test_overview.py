@@ -1,0 +1,70 @@
+import time
+from dataclasses import replace
+
+import pytest
+from matplotlib.text import Text
+
+import rollnip as rn
+from rollnip.plots import plot_overview, save_figure
+
+
+def words(figure) -> str:
+    return "\n".join(text.get_text() for text in figure.findobj(Text))
+
+
+def test_pictures_and_key_figures(driven):
+    text = words(plot_overview(driven))
+    for wanted in (
+        "Configuration II, driven",
+        "Pressure and shear",
+        "Normal stress inside",
+        "Deformed surfaces",
+        "Strain of the surfaces",
+        "nip width",
+        "7.318",
+        "creepage",
+        "−13.62",
+        "N mm/mm",
+        "2.7 mm, 2.04 MPa",
+        "verified; geometry curved",
+    ):
+        assert wanted in text
+
+
+def test_what_is_not_defined_is_a_dash(skin):
+    assert "–" in words(plot_overview(skin))
+
+
+def test_a_solution_that_did_not_converge_says_so(driven):
+    failed = replace(driven, converged=False, status="The mesh ran out.", warnings=("One." * 200,))
+    text = words(plot_overview(failed))
+    assert "NOT CONVERGED" in text
+    assert "The mesh ran out." in text
+
+
+def test_nothing_is_rigid(plane, tmp_path):
+    save_figure(plot_overview(plane, style="dark"), tmp_path / "a.png")
+
+
+def test_a_wrong_style(driven):
+    with pytest.raises(rn.InvalidInputError, match="`style` must be one of light, dark"):
+        plot_overview(driven, style="sepia")
+
+
+def test_many_layers_still_fit():
+    rubber = rn.Elastic(modulus=2.0, poisson=0.5)
+    plies = rn.Roller(radius=50.0, layers=tuple(rn.Layer(0.5, rubber) for _ in range(8)))
+    nip = rn.Nip(upper=plies, lower=plies, normal=rn.LineLoad(2.0), friction=0.5)
+    figure = plot_overview(rn.solve(nip))
+    assert "and 4 more" in words(figure)
+
+
+def test_it_takes_little_time(viscoelastic, tmp_path):
+    """1.5 s on a slow core; the best of three, as other work may go on beside."""
+
+    def seconds() -> float:
+        start = time.perf_counter()
+        save_figure(plot_overview(viscoelastic), tmp_path / "a.png")
+        return time.perf_counter() - start
+
+    assert min(seconds() for _ in range(3)) < 1.5

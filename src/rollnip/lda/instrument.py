@@ -78,7 +78,8 @@ class Instrument:
 
         The peak of the spectrum of envelope times window is, to first order in the change of
         velocity, the mean of v weighted with that product; under the matched window it is
-        exp(-s^2/w^2): w/sqrt(2). A curved profile is biased by v'' w^2/4.
+        exp(-s^2/w^2): w/sqrt(2). A curved profile is biased by v'' w^2/4. First order means that
+        the change turns the phase by less than a cycle's part: v'' w^3 << d_f v.
         """
         return self.envelope_width / sqrt(2.0)
 

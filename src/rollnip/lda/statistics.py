@@ -85,8 +85,8 @@ def estimate_profile(
 ) -> VelocityProfile:
     """Velocity at each position from single bursts.
 
-    Outliers, more than 4.5 robust standard deviations from the median of their position, are left
-    out. The mean is weighted with the time each scatterer stays in the volume: fast ones arrive
+    Outliers, more than 4.5 robust standard deviations (of their position, or of most positions
+    where that is larger) from the median of their position, are left out. The mean is weighted with the time each scatterer stays in the volume: fast ones arrive
     more often, in proportion to their speed, and the plain mean would be too high by the variance
     over the mean.
 
@@ -118,17 +118,19 @@ def estimate_profile(
     order = np.argsort(x, kind="stable")
     x, velocity, weight = x[order], velocity[order], weight[order]
     starts = np.flatnonzero(np.diff(x, prepend=-np.inf) > _SAME_PLACE)
+    parts = [slice(*ends) for ends in zip(starts, [*starts[1:], x.size], strict=True)]
+    common = float(np.median([_scale(velocity[part]) for part in parts]))
     rows = []
-    for start, stop in zip(starts, [*starts[1:], x.size], strict=True):
-        v, w = velocity[start:stop], weight[start:stop]
-        kept = _kept(v)
+    for part in parts:
+        v, w = velocity[part], weight[part]
+        kept = _kept(v, common)
         if np.count_nonzero(kept) < least:
             raise InvalidInputError(
                 f"`x` must have at least {least} valid bursts at each position, got "
-                f"{np.count_nonzero(kept)} at {x[start]:.6g} mm; measure longer, or give means "
+                f"{np.count_nonzero(kept)} at {x[part.start]:.6g} mm; measure longer, or give means "
                 "with their standard errors."
             )
-        rows.append((x[start], *_mean(v[kept], w[kept]), kept.sum(), np.sum(~kept)))
+        rows.append((x[part.start], *_mean(v[kept], w[kept]), kept.sum(), np.sum(~kept)))
     place, mean, error, count, rejected = np.array(rows, dtype=float).T
     counts = (count.astype(np.int64), rejected.astype(np.int64))
     return VelocityProfile(place, mean, error, *counts, confidence, speed)
@@ -169,10 +171,18 @@ def _check(x: Array, velocity: Array, confidence: float) -> None:
         raise InvalidInputError(f"`confidence` must lie in [0.5, 1), got {confidence!r}.")
 
 
-def _kept(velocity: Array) -> NDArray[np.bool_]:
-    """Which values are no outliers; all, where half of them are equal."""
+def _scale(velocity: Array) -> float:
+    """Robust standard deviation."""
+    return _MAD * float(np.median(np.abs(velocity - np.median(velocity))))
+
+
+def _kept(velocity: Array, common: float) -> NDArray[np.bool_]:
+    """Which values are no outliers; all, where half of them are equal at most positions.
+
+    The scale of few values may come out far too small: it is that of most positions at least.
+    """
+    scale = max(_scale(velocity), common)
     away = np.abs(velocity - np.median(velocity))
-    scale = _MAD * float(np.median(away))
     return np.asarray(away <= _OUTLIER * scale) if scale > 0.0 else np.ones(away.size, dtype=bool)
 
 

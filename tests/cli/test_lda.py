@@ -1,0 +1,115 @@
+"""The commands lda: what they write and print, and how they leave."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from rollnip.cli.app import app
+
+CASE = str(Path(__file__).parents[2] / "examples" / "configuration-1-free.toml")
+RIGID_LOWER = ("--roller", "lower")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["lda", *map(str, arguments)])
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    out = tmp_path_factory.mktemp("lda") / "scan"
+    result = run("simulate", CASE, "--out", out, "--positions", 21, "--bursts", 25, "--seed", 2)
+    assert result.exit_code == 0, result.stderr
+    return out
+
+
+def test_a_folder_holds_data_truth_and_picture(folder):
+    assert {p.name for p in folder.iterdir()} == {"bursts.csv", "truth.csv", "bursts.png"}
+    assert (folder / "bursts.csv").read_text("utf-8").startswith("# simulated")
+    assert (folder / "bursts.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_file_is_the_same_bursts(folder, tmp_path):
+    path = tmp_path / "a.csv"
+    options = ("--positions", 21, "--bursts", 25, "--seed", 2)
+    assert run("simulate", CASE, "--out", path, *options).exit_code == 0
+    assert path.read_bytes() == (folder / "bursts.csv").read_bytes()
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_estimate_prints_a_table(folder, tmp_path):
+    result = run("estimate", folder / "bursts.csv", "--plot", tmp_path / "v.png")
+    assert result.exit_code == 0
+    lines = result.stdout.splitlines()
+    assert "simulated" in lines[0]
+    assert len(lines) == 3 + 21
+    assert (tmp_path / "v.png").read_bytes().startswith(b"\x89PNG")
+    to_file = run("estimate", folder / "bursts.csv", "--out", tmp_path / "v.csv")
+    assert to_file.stdout == ""
+    assert (tmp_path / "v.csv").read_text("utf-8") == result.stdout
+
+
+def test_compare_finds_itself(folder, tmp_path):
+    picture = tmp_path / "c.png"
+    result = run("compare", CASE, folder / "bursts.csv", "--plot", picture, "--json")
+    assert result.exit_code == 0
+    tree = json.loads(result.stdout)
+    assert tree["simulated"] is True
+    assert abs(tree["shift"]["value"]) < 0.1
+    assert tree["speed"]["low"] < 97.906 < tree["speed"]["high"]
+    assert tree["probability"] > 1e-3
+    assert picture.read_bytes().startswith(b"\x89PNG")
+    shown = run("compare", CASE, folder / "bursts.csv").stdout
+    for text in ("SIMULATED", "shift", "chi-square", "95 % from"):
+        assert text in shown
+
+
+@pytest.mark.parametrize(
+    ("arguments", "hint"),
+    [
+        (("simulate", CASE, "--out", "a.csv", "--sample-rate", "40 kHz"), "Nyquist"),
+        (("simulate", CASE, "--out", "a.csv", "--beam-angle", "10"), "an angle such as"),
+        (("simulate", CASE, "--out", "a.csv", "--wavelength", "1 N"), "--wavelength"),
+        (("simulate", CASE, "--out", "a.csv", "--half-width", "-1 mm"), "--half-width"),
+        (("simulate", CASE, "--out", "a.csv", "--positions", "1"), "positions"),
+        (("simulate", CASE, "--out", "a.csv", "--bursts", "0"), "bursts"),
+        (("simulate", CASE, "--out", "a.csv", "--spread", "300 %"), "spread"),
+        (("simulate", CASE, "--out", "a.csv", "--seed", "-1"), "--seed"),
+        (("simulate", CASE, "--out", "a.csv", "--roller", "left"), "--roller"),
+        (("simulate", CASE, "--out", "a.csv", "--geometry", "flat"), "--geometry"),
+        (("simulate", CASE, "--out", "no/such/a.csv"), "there is no directory"),
+        (("simulate", "none.toml", "--out", "a.csv"), "none.toml"),
+        (("estimate", "none.csv"), "cannot read"),
+        (("estimate", "wrong.csv"), "no known column"),
+        (("estimate", "few.csv"), "at least 5 valid bursts"),
+        (("estimate", "few.csv", "--plot", "a.exe"), "must end in"),
+        (("estimate", "few.csv", "--out", "a.txt"), "must end in .csv"),
+        (("compare", CASE, "outside.csv"), "inside the solution"),
+        (("compare", CASE, "outside.csv", *RIGID_LOWER), "rigid"),
+        (("compare", CASE, "outside.csv", "--confidence", "2"), "confidence"),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_2(tmp_path, monkeypatch, arguments, hint):
+    monkeypatch.chdir(tmp_path)
+    Path("wrong.csv").write_text("x [mm],speed [mm/s]\n1,2\n", "utf-8")
+    Path("few.csv").write_text("x [mm],velocity [mm/s]\n1,2\n", "utf-8")
+    far = "".join(f"{x},100,1\n" for x in range(50, 60))
+    Path("outside.csv").write_text("x [mm],velocity [mm/s],error [mm/s]\n" + far, "utf-8")
+    before = set(Path().iterdir())
+    result = run(*arguments)
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    assert hint in result.stderr
+    assert result.stderr.count("\n") == 1
+    assert set(Path().iterdir()) == before
+
+
+def test_numerics_are_loaded_late():
+    code = (
+        "import sys; from rollnip.cli.app import app; "
+        "sys.exit(any(n in sys.modules for n in ('numpy', 'scipy', 'rollnip.lda')))"
+    )
+    assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -77,7 +77,10 @@ def test_json(quick, case):
     assert json.loads(result.stdout)["nip_width"] == 7.22
 
 
-def test_quiet_prints_nothing(quick, case, tmp_path):
+def test_quiet_prints_nothing(quick, case, tmp_path, monkeypatch):
+    # a solution made by hand has nothing inside; the whole page is drawn in test_the_real_thing
+    pictures = import_module("rollnip.plots")
+    monkeypatch.setattr(pictures, "plot_overview", lambda solution: pictures.new_axes().figure)
     out, plot = tmp_path / "r.json", tmp_path / "p.png"
     result = run("solve", case, "--quiet", "--out", str(out), "--plot", str(plot))
     assert (result.exit_code, result.stdout, result.stderr) == (0, "", "")

@@ -55,7 +55,7 @@ def solve(
         typer.Option(help="Write stresses inside the layers: name.nc, or name.vtr for ParaView."),
     ] = None,
     plot: Annotated[
-        Path | None, typer.Option(help="Draw pressure and shear: name.png, .svg or .pdf.")
+        Path | None, typer.Option(help="Draw an overview on one page: name.png, .svg or .pdf.")
     ] = None,
     geometry: Annotated[
         str | None, typer.Option(help="linear, corrected or curved; overrides the case file.")
@@ -77,7 +77,7 @@ def solve(
         if out is not None:
             check_result_target(out)
         if plot is not None:
-            from rollnip.plots import check_figure_target, save_pressure
+            from rollnip.plots import check_figure_target, plot_overview, save_figure
 
             check_figure_target(plot)
         if fields is not None:
@@ -93,7 +93,7 @@ def solve(
         if fields is not None:
             write_fields(solution, fields)
         if plot is not None:
-            save_pressure(solution, plot)
+            save_figure(plot_overview(solution), plot)
         if json:
             _print(result_text(solution))
         elif not quiet:

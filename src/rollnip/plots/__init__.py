@@ -1,7 +1,7 @@
 """Pictures of a solution: ``plot_x(solution, ax=None) -> ax``."""
 
 from rollnip.plots.field import plot_field
-from rollnip.plots.files import check_figure_target, save_figure, save_pressure
+from rollnip.plots.files import check_figure_target, save_figure
 from rollnip.plots.overview import plot_overview
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.style import new_axes
@@ -18,5 +18,4 @@ __all__ = [
     "plot_speed",
     "plot_strain",
     "save_figure",
-    "save_pressure",
 ]

@@ -7,9 +7,6 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from rollnip._files import check_target, write_whole
-from rollnip.plots.pressure import plot_pressure
-from rollnip.plots.style import figure_of
-from rollnip.solution import Solution
 
 SUFFIXES = (".png", ".svg", ".pdf")
 DPI = 150
@@ -40,8 +37,3 @@ def save_figure(figure: Figure, path: str | Path, *, dpi: float = DPI) -> None:
 def check_figure_target(path: Path) -> None:
     """Raise RollnipError where a picture could not be written to ``path``."""
     check_target(path, SUFFIXES)
-
-
-def save_pressure(solution: Solution, path: str | Path) -> None:
-    """Draw `plot_pressure` into a file."""
-    save_figure(figure_of(plot_pressure(solution)), path)

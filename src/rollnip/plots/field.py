@@ -34,6 +34,7 @@ _WINDOW = {"stretched": 0.35, "equal": 0.35}  # shown on either side, in nip wid
 _LEVELS = 14
 _TAIL = 0.97  # part of the area whose values the colours cover where the rest is far larger
 _FAR = 2.5
+_NOISE = 1e-6
 _MIXED = 0.02  # a quantity that should be positive and is less than this below zero counts as such
 
 
@@ -86,7 +87,11 @@ def plot_field(
     ax, look = prepare(ax, style)
     pieces = section_pieces(solution, names, component, scale, _WINDOW[scale])
     shades = _shades(pieces, component, limit, look)
-    drawn = [_fill(ax, piece, shades, look) for piece in pieces if piece.values is not None]
+    drawn = [
+        _fill(ax, piece, _settled(piece.values, shades.high), shades, look)
+        for piece in pieces
+        if piece.values is not None
+    ]
     for piece in pieces:
         _outline(ax, piece, look)
     _frame(ax, look, pieces, scale)
@@ -185,10 +190,16 @@ def _bound(pieces: list[Piece]) -> float:
     return most if largest > _FAR * most > 0.0 else largest
 
 
-def _fill(ax: Axes, piece: Piece, shades: _Shades, look: Look) -> QuadContourSet:
+def _settled(values: Array, size: float) -> Array:
+    """Rounding errors on a free surface take the sign of what is below: no contours of noise."""
+    noise = np.abs(values[0]) < _NOISE * size
+    out = values.copy()
+    out[0, noise] = _NOISE * size * np.sign(values[1, noise])
+    return out
+
+
+def _fill(ax: Axes, piece: Piece, values: Array, shades: _Shades, look: Look) -> QuadContourSet:
     """Filled contours and thin lines between them."""
-    values = piece.values
-    assert values is not None
     filled = ax.contourf(
         piece.x,
         piece.y,

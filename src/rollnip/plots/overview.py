@@ -21,17 +21,19 @@ from rollnip.rollers import Roller
 from rollnip.solution import Solution
 
 _WIDTH, _HEIGHT = 297.0, 186.0  # mm, 16:10, as wide as a sheet of A4
+_LOWER = 0.135
 _PLACES = {
     "pressure": (0.055, 0.62, 0.3, 0.295),
     "field": (0.415, 0.62, 0.285, 0.295),
-    "surfaces": (0.055, 0.19, 0.3, 0.245),
-    "strain": (0.415, 0.19, 0.285, 0.245),
+    "surfaces": (0.055, _LOWER, 0.3, 0.3),
+    "strain": (0.415, _LOWER, 0.285, 0.3),
     "table": (0.79, 0.03, 0.205, 0.92),
 }  # left, bottom, width, height
+_REMARK = 0.02  # height of a line below; the lower pictures make room
 _DIGITS = 4
 _ROUNDING = 1e-9
 _MOST_LAYERS = 4  # listed of each roller
-_REMARKS = 3  # lines
+_REMARKS, _LETTERS = 3, 190  # lines, and how many letters each
 _SIGNS = (
     "x points to the inlet",
     "traction, creepage > 0: the upper roller drives",
@@ -63,7 +65,16 @@ def plot_overview(solution: Solution, *, style: Style = "light") -> Figure:
     figure = Figure(figsize=(_WIDTH * MM, _HEIGHT * MM), facecolor=palette.ground)
     # places are fixed: legends and the colour bar have their room, and laying out takes no time
     figure.set_layout_engine(PlaceHolderLayoutEngine(True, False))
-    axes = {name: figure.add_axes(place) for name, place in _PLACES.items()}
+    remarks = _remarks(solution)
+    room = _REMARK * len(remarks)
+    axes = {
+        name: figure.add_axes(
+            (left, low + room, width, height - room)
+            if low == _LOWER
+            else (left, low, width, height)
+        )
+        for name, (left, low, width, height) in _PLACES.items()
+    }
     pressure = plot_pressure(solution, axes["pressure"], style=style)
     plot_field(solution, "s_zz", ax=axes["field"], style=style)
     plot_deformed_surfaces(solution, axes["surfaces"], style=style)
@@ -78,7 +89,7 @@ def plot_overview(solution: Solution, *, style: Style = "light") -> Figure:
     for name, text in headings.items():
         axes[name].set_title(text, loc="left", fontsize=1.05 * look.size, color=palette.ink)
     _table(axes["table"], look, solution)
-    _head_and_foot(figure, look, solution)
+    _head_and_foot(figure, look, solution, remarks)
     return figure
 
 
@@ -182,13 +193,18 @@ def _table(ax: Axes, look: Look, solution: Solution) -> None:
         ax.text(0.75, y, row.unit, color=colours.muted, **common)
 
 
-def _head_and_foot(figure: Figure, look: Look, solution: Solution) -> None:
-    """Title above; warnings and signs below."""
-    letters = 72.0 * figure.get_figwidth() / LETTER
+def _remarks(solution: Solution) -> list[str]:
+    """What is wrong and the warnings, as a few lines."""
+    warnings = [] if solution.converged else [solution.status]
+    warnings += [f"Note: {warning}" for warning in solution.warnings]
+    return wrap(" ".join(warnings), _LETTERS, max_lines=_REMARKS, placeholder=" ...")
+
+
+def _head_and_foot(figure: Figure, look: Look, solution: Solution, remarks: list[str]) -> None:
+    """Title above; remarks below."""
     size = 1.5 * look.size
-    name = wrap(
-        solution.nip.title or "Nip", int(0.95 * letters / size), max_lines=1, placeholder=" ..."
-    )
+    letters = int(0.9 * 72.0 * figure.get_figwidth() / (LETTER * size))
+    name = wrap(solution.nip.title or "Nip", letters, max_lines=1, placeholder=" ...")
     common: dict[str, Any] = {"x": 0.012, "ha": "left", "parse_math": False}
     figure.text(
         y=0.985,
@@ -199,13 +215,9 @@ def _head_and_foot(figure: Figure, look: Look, solution: Solution) -> None:
         color=look.palette.ink,
         **common,
     )
-    warnings = [] if solution.converged else [solution.status]
-    warnings += [f"Note: {warning}" for warning in solution.warnings]
-    width = int(0.97 * letters / look.small)
-    lines = wrap(" ".join(warnings), width, max_lines=_REMARKS, placeholder=" ...")
     figure.text(
         y=0.012,
-        s="\n".join(lines),
+        s="\n".join(remarks),
         va="bottom",
         fontsize=look.small,
         color=look.palette.muted,

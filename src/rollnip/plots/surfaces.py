@@ -131,7 +131,7 @@ def plot_gap(solution: Solution, ax: Axes | None = None, *, style: Style | None 
     """
     ax, look = prepare(ax, style)
     zones = shade(ax, look, solution)
-    profiles, near = solution.profiles, _inside(solution, _NEAR)
+    profiles = solution.profiles
     colours = look.palette
     ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
     curves: list[Artist] = [
@@ -146,7 +146,7 @@ def plot_gap(solution: Solution, ax: Axes | None = None, *, style: Style | None 
         _finish(ax, look, solution, (profiles.gap, apart), _NEAR)
     else:
         _finish(ax, look, solution, (profiles.gap,), _NEAR)
-    ax.set_ylim(top=1.18 * float(np.max(profiles.gap[near])))
+    ax.set_ylim(top=1.18 * float(np.max(_within(solution, profiles.gap, _NEAR))))
     label(ax, look, "x [mm]", "gap [mm]")
     title(ax, look, solution, "Gap between the surfaces")
     legend(ax, look, curves + zones)
@@ -182,17 +182,18 @@ def plot_deformed_surfaces(
     if exaggeration is not None:
         require_positive("exaggeration", exaggeration)
     ax, look = prepare(ax, style)
-    x, near = solution.deformed_surfaces.x, _inside(solution, _NEAR)
+    x = solution.deformed_surfaces.x
     upper, lower = solution.deformed_surfaces.upper, solution.deformed_surfaces.lower
     curves = _pair(ax, look, solution, upper, lower, x)
-    shown = [upper[near], lower[near]]
+    shown = [upper, lower]
     if solution.approach is not None:  # a half-space sinks by an unknown amount
         outlines = _outlines(solution, x)
         thin = [ax.plot(x, line, **_thin(look))[0] for line in outlines]
         thin[0].set_label("undeformed")
         curves.append(thin[0])
-        shown += [line[near] for line in outlines]
-    low, high = (float(f([f(line) for line in shown])) for f in (np.min, np.max))
+        shown += outlines
+    seen = np.concatenate([_within(solution, line, _NEAR) for line in shown])
+    low, high = float(np.min(seen)), float(np.max(seen))
     far = 20.0 * (high - low)
     for line, edge, colour in (
         (upper, high + far, look.palette.upper),
@@ -234,20 +235,20 @@ def _thin(look: Look) -> dict[str, Any]:
     return {"color": look.palette.ink, "linewidth": look.thin, "linestyle": (0, (6, 3))}
 
 
-def _inside(solution: Solution, side: float) -> NDArray[np.bool_]:
-    """Which points of the profiles are shown."""
+def _within(solution: Solution, curve: Array, side: float) -> Array:
+    """Values of a profile that are shown, those at the edges of the window interpolated."""
     first, last = view(solution, side)
     x = solution.profiles.x
-    return np.asarray((x >= first) & (x <= last))
+    edges = np.interp([first, last], x, curve)
+    return np.concatenate([curve[(x > first) & (x < last)], edges])
 
 
 def _finish(
     ax: Axes, look: Look, solution: Solution, curves: tuple[Array, ...], side: float
 ) -> None:
     """Limits around what is shown, and the direction of motion."""
-    near = _inside(solution, side)
     ax.set_xlim(*view(solution, side))
-    shown = np.concatenate([curve[near] for curve in curves])
+    shown = np.concatenate([_within(solution, curve, side) for curve in curves])
     heights(ax, float(np.min(shown)), float(np.max(shown)))
     mark_direction(ax, look, solution)
 

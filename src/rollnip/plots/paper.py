@@ -1,0 +1,179 @@
+"""Figures 4 to 8 of Braat & Kalker (1993), computed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rollnip._files import write_whole
+from rollnip.interior import InteriorField
+from rollnip.model import Geometry
+from rollnip.paper import (
+    ContourFigure,
+    PressureFigure,
+    StrainFigure,
+    StrainPanel,
+    contour_figure,
+    pressure_figure,
+    strain_figure,
+)
+from rollnip.solution import Solution
+
+_GREY, _NIP, _POINT = "#595959", "#e3edf4", "#000000"
+_COLORS = ("#000000", "#0072b2", "#009e73", "#d55e00")  # Okabe & Ito
+_STYLES: dict[Geometry, tuple[str, str]] = {
+    "linear": ("#d55e00", "--"),
+    "corrected": ("#009e73", "-."),
+    "curved": ("#0072b2", "-"),
+}
+_LEVELS = 12
+_WIDE = (11.0, 4.6)  # inches
+_BESIDE = 0.75  # shown on either side of the contact, in nip widths
+_ROMAN = {1: "I", 2: "II", 3: "III"}
+PICTURES = tuple(f"figure_{number}.png" for number in (4, 5, 6, 7, 8))
+
+
+def save_paper(folder: Path, *, prefix: str = "") -> list[Path]:
+    """Compute and draw figures 4 to 8 into an existing folder, each all or nothing.
+
+    Parameters
+    ----------
+    prefix : before the names figure_4.png to figure_8.png.
+
+    Returns
+    -------
+    The files written.
+
+    Raises
+    ------
+    RollnipError
+        where a file cannot be written or a solution could not be verified.
+    """
+    figures: list[Callable[[], Figure]] = [
+        lambda: draw_pressure(pressure_figure()),
+        lambda: draw_contours(contour_figure()),
+        lambda: draw_strain(strain_figure(1)),
+        lambda: draw_strain(strain_figure(2)),
+        lambda: draw_strain(strain_figure(3)),
+    ]
+    written = []
+    for name, draw in zip(PICTURES, figures, strict=True):
+        path, figure = folder / f"{prefix}{name}", draw()
+        write_whole(path, lambda file, f=figure: f.savefig(file, format="png", dpi=150))
+        written.append(path)
+    return written
+
+
+def draw_pressure(data: PressureFigure) -> Figure:
+    """Figure 4: pressure for each thickness of the top layer."""
+    figure = Figure(figsize=(8.0, 5.0), layout="constrained")
+    ax = figure.subplots()
+    for thickness, solution, color in zip(data.thicknesses, data.solutions, _COLORS, strict=True):
+        x = solution.final.mesh.nodes
+        pressure = np.concatenate([[0.0], solution.pressure, [0.0]])
+        label = f"d = {thickness:g} mm, peak {solution.peak_pressure:.2f} MPa"
+        ax.plot(x, pressure, color=color, linewidth=1.6, label=label)
+    ax.axhline(0.0, color=_GREY, linewidth=0.8)
+    ax.set_ylabel("pressure p [MPa]")
+    ax.set_title(
+        "Figure 4: a hard top layer on a soft one (load and radii assumed)", loc="left", size=11
+    )
+    ax.legend(frameon=False, loc="upper center")
+    return _placed(ax, figure)
+
+
+def draw_contours(data: ContourFigure) -> Figure:
+    """Figure 5: lines of equal normal stress s_zz in the coating, the surface at the top."""
+    figure = Figure(figsize=_WIDE, layout="constrained")
+    axes = figure.subplots(1, 2, sharey=True)
+    titles = ("A  elastic, T = 1.0 N/mm", "B  viscoelastic, T = 0")
+    for ax, solution, field, title in zip(axes, data.solutions, data.fields, titles, strict=True):
+        _contours(ax, solution, field)
+        ax.set_title(title, loc="left", size=11)
+    axes[0].set_ylabel("depth z [mm]")
+    axes[0].invert_yaxis()
+    figure.suptitle("Figure 5: normal stress $s_{zz}$ [MPa]; dashed: centre of the stress", size=11)
+    return figure
+
+
+def draw_strain(data: StrainFigure) -> Figure:
+    """Figures 6 to 8: strain of the glass roller's surface, three geometries, simulated points."""
+    figure = Figure(figsize=_WIDE, layout="constrained")
+    axes = figure.subplots(1, 2)
+    for ax, panel, name in zip(axes, (data.free, data.driven), "AB", strict=True):
+        traction = panel.solutions["curved"].traction
+        _strain(ax, panel)
+        ax.set_title(f"{name}  T = {abs(traction):.2g} N/mm", loc="left", size=11)
+        _placed(ax, figure)
+    axes[0].legend(frameon=False, fontsize="small", loc="best")
+    _enlarged(axes[1], data.driven)
+    load = data.free.solutions["curved"].load
+    figure.suptitle(
+        f"Figure {data.number + 5}: configuration {_ROMAN[data.number]}, F = {load:g} N/mm. "
+        "The points are SIMULATED from the curved model, not measured.",
+        size=11,
+    )
+    return figure
+
+
+def _contours(ax: Axes, solution: Solution, field: InteriorField) -> None:
+    levels = np.linspace(float(np.min(field.s_zz)), 0.0, _LEVELS + 1)[:-1]
+    # an even step, so that both panels read alike
+    drawn = ax.contour(field.x, field.z, field.s_zz, levels=levels, colors=_COLORS[1])
+    ax.clabel(drawn, drawn.levels[::3], fontsize=7, fmt="%.2f")
+    centre = np.trapezoid(field.x * field.s_zz, field.x) / np.trapezoid(field.s_zz, field.x)
+    ax.plot(centre, field.z, color=_COLORS[3], linestyle="--", linewidth=1.6)
+    for edge in (solution.contact[0][0], solution.contact[-1][1]):
+        ax.plot([edge], [0.0], marker="v", color=_GREY, markersize=7, clip_on=False)
+    ax.axvline(0.0, color=_GREY, linewidth=0.6)
+    ax.set_xlabel("x [mm]  (← outlet, inlet →)")
+
+
+def _strain(ax: Axes, panel: StrainPanel) -> None:
+    curved = panel.solutions["curved"]
+    first, last = curved.contact[0][0], curved.contact[-1][1]
+    ax.axvspan(first, last, facecolor=_NIP, linewidth=0.0)
+    ax.axhline(0.0, color=_GREY, linewidth=0.8)
+    _curves(ax, panel)
+    side = _BESIDE * curved.nip_width
+    ax.set_xlim(first - side, last + side)
+    ax.set_ylabel("strain $\\epsilon_x = v/V - 1$")
+
+
+def _curves(ax: Axes, panel: StrainPanel) -> None:
+    for geometry, solution in panel.solutions.items():
+        color, line = _STYLES[geometry]
+        profiles = solution.profiles
+        ax.plot(
+            profiles.x, profiles.strain_upper, color=color, linestyle=line, linewidth=1.4,
+            label=geometry,
+        )  # fmt: skip
+    points = panel.points
+    ax.errorbar(
+        points.x, points.strain, yerr=2.0 * points.strain_error, fmt="o", color=_POINT,
+        markersize=3.0, markerfacecolor="none", linewidth=0.8, label="SIMULATED LDA",
+    )  # fmt: skip
+
+
+def _enlarged(ax: Axes, panel: StrainPanel) -> None:
+    """The strain about the slip zone, in a corner of the panel."""
+    curved = panel.solutions["curved"]
+    slip = [zone for zone in curved.zones if zone.state == "slip"]
+    if not slip:
+        return
+    width = slip[0].stop - slip[0].start
+    inset = ax.inset_axes((0.45, 0.45, 0.53, 0.5))
+    _curves(inset, panel)
+    inset.set_xlim(slip[0].start - 1.5 * width, slip[0].stop + 1.5 * width)
+    inset.axvspan(slip[0].start, slip[0].stop, facecolor="#f9e6d3", linewidth=0.0)
+    inset.tick_params(labelsize=7)
+    inset.set_title("slip zone, enlarged", size=8, loc="left")
+
+
+def _placed(ax: Axes, figure: Figure) -> Figure:
+    ax.set_xlabel("x [mm]  (← outlet, inlet →)")
+    return figure

@@ -11,7 +11,7 @@ from rollnip.lda.frequency import (
     window_penalty,
 )
 from rollnip.lda.instrument import Instrument
-from rollnip.lda.scan import Scan, Seeding, simulate_scan, surface_speed
+from rollnip.lda.scan import Scan, Seeding, Side, simulate_scan, surface_speed
 from rollnip.lda.statistics import VelocityProfile, estimate_profile, profile_from_means
 from rollnip.lda.volume import SpeedProfile
 
@@ -23,6 +23,7 @@ __all__ = [
     "Record",
     "Scan",
     "Seeding",
+    "Side",
     "SpeedProfile",
     "Tone",
     "VelocityProfile",

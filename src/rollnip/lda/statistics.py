@@ -86,9 +86,9 @@ def estimate_profile(
     """Velocity at each position from single bursts.
 
     Outliers, more than 4.5 robust standard deviations (of their position, or of most positions
-    where that is larger) from the median of their position, are left out. The mean is weighted with the time each scatterer stays in the volume: fast ones arrive
-    more often, in proportion to their speed, and the plain mean would be too high by the variance
-    over the mean.
+    where that is larger) from the median of their position, are left out. The mean is weighted
+    with the time each scatterer stays in the volume: fast ones arrive more often, in proportion
+    to their speed, and the plain mean would be too high by the variance over the mean.
 
     Parameters
     ----------
@@ -127,8 +127,8 @@ def estimate_profile(
         if np.count_nonzero(kept) < least:
             raise InvalidInputError(
                 f"`x` must have at least {least} valid bursts at each position, got "
-                f"{np.count_nonzero(kept)} at {x[part.start]:.6g} mm; measure longer, or give means "
-                "with their standard errors."
+                f"{np.count_nonzero(kept)} at {x[part.start]:.6g} mm; measure longer, or give "
+                "means with their standard errors."
             )
         rows.append((x[part.start], *_mean(v[kept], w[kept]), kept.sum(), np.sum(~kept)))
     place, mean, error, count, rejected = np.array(rows, dtype=float).T

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -63,7 +64,7 @@ def save_paper(folder: Path, *, prefix: str = "") -> list[Path]:
     written = []
     for name, draw in zip(PICTURES, figures, strict=True):
         path, figure = folder / f"{prefix}{name}", draw()
-        write_whole(path, lambda file, f=figure: f.savefig(file, format="png", dpi=150))
+        write_whole(path, partial(figure.savefig, format="png", dpi=150))
         written.append(path)
     return written
 
@@ -105,9 +106,9 @@ def draw_strain(data: StrainFigure) -> Figure:
     figure = Figure(figsize=_WIDE, layout="constrained")
     axes = figure.subplots(1, 2)
     for ax, panel, name in zip(axes, (data.free, data.driven), "AB", strict=True):
-        traction = panel.solutions["curved"].traction
+        traction = round(panel.solutions["curved"].traction, 6)
         _strain(ax, panel)
-        ax.set_title(f"{name}  T = {abs(traction):.2g} N/mm", loc="left", size=11)
+        ax.set_title(f"{name}  T = {traction:g} N/mm".replace("= -0", "= 0"), loc="left", size=11)
         _placed(ax, figure)
     axes[0].legend(frameon=False, fontsize="small", loc="best")
     _enlarged(axes[1], data.driven)
@@ -122,9 +123,10 @@ def draw_strain(data: StrainFigure) -> Figure:
 
 def _contours(ax: Axes, solution: Solution, field: InteriorField) -> None:
     levels = np.linspace(float(np.min(field.s_zz)), 0.0, _LEVELS + 1)[:-1]
-    # an even step, so that both panels read alike
-    drawn = ax.contour(field.x, field.z, field.s_zz, levels=levels, colors=_COLORS[1])
-    ax.clabel(drawn, drawn.levels[::3], fontsize=7, fmt="%.2f")
+    drawn = ax.contour(
+        field.x, field.z, field.s_zz, levels=levels, colors=_COLORS[1], linestyles="-"
+    )
+    ax.clabel(drawn, levels[::3], fontsize=7, fmt="%.2f")
     centre = np.trapezoid(field.x * field.s_zz, field.x) / np.trapezoid(field.s_zz, field.x)
     ax.plot(centre, field.z, color=_COLORS[3], linestyle="--", linewidth=1.6)
     for edge in (solution.contact[0][0], solution.contact[-1][1]):

@@ -1,0 +1,51 @@
+"""The command ``paper``: figures 4 to 8 of Braat & Kalker (1993), computed."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from rollnip._errors import RollnipError
+
+
+def paper(
+    out: Annotated[Path, typer.Option(help="Folder for the pictures; made where there is none.")],
+    table: Annotated[
+        bool,
+        typer.Option("--table", help="Also assumptions.md: what is not said, and how it matters."),
+    ] = False,
+) -> None:
+    """Compute and draw figures 4 to 8 of Braat & Kalker (1993).
+
+    The points in figures 6 to 8 are simulated, not measured, and say so.
+    """
+    from rollnip.cli.app import _clear_failures
+
+    with _clear_failures():
+        _make(out)
+        from rollnip.plots.paper import save_paper
+
+        written = save_paper(out)
+        if table:
+            from rollnip._files import write_whole
+            from rollnip.paper import effects, effects_table
+
+            text, path = effects_table(list(effects())), out / "assumptions.md"
+            write_whole(path, lambda file: file.write_text(text, "utf-8"))
+            written.append(path)
+        sys.stdout.write("".join(f"{path}\n" for path in written))
+        sys.stdout.flush()
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise RollnipError(f"{folder}: must be a folder, it is a file.") from None
+    except OSError as error:
+        raise RollnipError(
+            f"{folder}: cannot make the folder: {error.strerror or error}."
+        ) from error

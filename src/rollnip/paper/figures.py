@@ -1,0 +1,121 @@
+"""What figures 4 to 8 show, as numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import get_args
+
+import numpy as np
+
+from rollnip.interior import InteriorField
+from rollnip.lda import (
+    Comparison,
+    Instrument,
+    Seeding,
+    compare,
+    estimate_profile,
+    simulate_scan,
+)
+from rollnip.model import Geometry, Model
+from rollnip.nip import Nip
+from rollnip.paper.cases import (
+    FIGURE_4_THICKNESSES,
+    Number,
+    configuration,
+    figure_4,
+    figure_5_elastic,
+    figure_5_viscoelastic,
+)
+from rollnip.solution import Solution
+from rollnip.solve import solve
+
+GEOMETRIES: tuple[Geometry, ...] = get_args(Geometry)
+_SEEDING = Seeding(bursts=40, snr=30.0, spread=0.01)
+_DEPTHS, _PLACES = 81, 301
+
+
+@dataclass(frozen=True, slots=True)
+class PressureFigure:
+    """Figure 4: thicknesses of the top layer [mm] and their solutions."""
+
+    thicknesses: tuple[float, ...]
+    solutions: tuple[Solution, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ContourFigure:
+    """Figure 5: two nips and the field inside the coating of their upper roller."""
+
+    solutions: tuple[Solution, Solution]
+    fields: tuple[InteriorField, InteriorField]
+
+
+@dataclass(frozen=True, slots=True)
+class StrainPanel:
+    """Half of a figure 6 to 8.
+
+    Attributes
+    ----------
+    solutions : of "linear", "corrected" and "curved".
+    points : simulated bursts of the "curved" one, aligned with it.
+    """
+
+    solutions: dict[Geometry, Solution]
+    points: Comparison
+
+
+@dataclass(frozen=True, slots=True)
+class StrainFigure:
+    """Figures 6 to 8: strain of the glass roller's surface, free (A) and driven (B)."""
+
+    number: Number
+    free: StrainPanel
+    driven: StrainPanel
+
+
+def pressure_figure(model: Model | None = None) -> PressureFigure:
+    """Figure 4: pressure for the four thicknesses of the top layer.
+
+    Raises ConvergenceError where a solution could not be verified.
+    """
+    solutions = tuple(_solved(figure_4(d), model) for d in FIGURE_4_THICKNESSES)
+    return PressureFigure(FIGURE_4_THICKNESSES, solutions)
+
+
+def contour_figure(model: Model | None = None) -> ContourFigure:
+    """Figure 5: stress in the coating, elastic and driven (A), viscoelastic and free (B)."""
+    elastic, viscous = (_solved(n, model) for n in (figure_5_elastic(), figure_5_viscoelastic()))
+    return ContourFigure((elastic, viscous), (_field(elastic), _field(viscous)))
+
+
+def strain_figure(number: Number, *, seed: int = 1993, positions: int = 41) -> StrainFigure:
+    """Figures 6, 7, 8 for configurations 1, 2, 3, with simulated points.
+
+    The points are bursts synthesised from the "curved" solution, not a measurement: the paper's
+    own are not available. ``seed`` fixes them.
+    """
+    return StrainFigure(
+        number,
+        _panel(configuration(number, driven=False), seed, positions),
+        _panel(configuration(number, driven=True), seed + 1, positions),
+    )
+
+
+def _panel(nip: Nip, seed: int, positions: int) -> StrainPanel:
+    solutions = {geometry: _solved(nip, Model(geometry=geometry)) for geometry in GEOMETRIES}
+    curved, instrument = solutions["curved"], Instrument()
+    scan = simulate_scan(curved, instrument, _SEEDING, positions=positions, seed=seed)
+    measured = estimate_profile(scan.x, scan.velocity)
+    return StrainPanel(solutions, compare(measured, curved, width=instrument.averaging_width))
+
+
+def _solved(nip: Nip, model: Model | None) -> Solution:
+    return solve(nip, model, on_failure="raise")
+
+
+def _field(solution: Solution) -> InteriorField:
+    depth = solution.nip.upper.coating_thickness
+    reach = 0.9 * solution.nip_width
+    return solution.interior(
+        "upper", np.linspace(0.0, depth, _DEPTHS), np.linspace(-reach, reach, _PLACES)
+    )

@@ -1,6 +1,7 @@
 """How much the missing numbers matter: the changes come out as they must."""
 
 import math
+from pathlib import Path
 
 import pytest
 
@@ -61,3 +62,10 @@ def test_every_choice_is_solved():
     rows = list(effects())
     assert len(rows) > 100
     assert not any(math.isnan(row.after) for row in rows)
+
+
+@pytest.mark.slow
+def test_the_page_lists_every_choice():
+    page = (Path(__file__).parents[2] / "docs" / "paper.md").read_text("utf-8")
+    for row in effects():
+        assert f"| {row.figure} | {row.missing} | {row.assumed} | {row.instead} |" in page

@@ -251,7 +251,7 @@ def test_half_spaces_do_not_describe_these_layers():
     """The introduction: only where the layer is thick beside the contact."""
     thin = configuration(1, driven=False)
     contact = hertz_line(load=0.74, radius=50.0 / 3.0, contact_modulus=0.91 / 0.75)
-    assert solved(thin).nip_width < 0.8 * 2.0 * contact.half_width
+    assert 2.0 * contact.half_width > 1.4 * solved(thin).nip_width
 
 
 def test_configuration_three_is_near_two(rolled):

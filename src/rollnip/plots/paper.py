@@ -31,7 +31,7 @@ _STYLES: dict[Geometry, tuple[str, str]] = {
     "corrected": ("#009e73", "-."),
     "curved": ("#0072b2", "-"),
 }
-_LEVELS = 12
+_STEP = 0.1  # MPa between contour lines
 _WIDE = (11.0, 4.6)  # inches
 _BESIDE = 0.75  # shown on either side of the contact, in nip widths
 _ROMAN = {1: "I", 2: "II", 3: "III"}
@@ -90,14 +90,17 @@ def draw_pressure(data: PressureFigure) -> Figure:
 def draw_contours(data: ContourFigure) -> Figure:
     """Figure 5: lines of equal normal stress s_zz in the coating, the surface at the top."""
     figure = Figure(figsize=_WIDE, layout="constrained")
-    axes = figure.subplots(1, 2, sharey=True)
+    axes = figure.subplots(1, 2, sharey=True, sharex=True)
     titles = ("A  elastic, T = 1.0 N/mm", "B  viscoelastic, T = 0")
     for ax, solution, field, title in zip(axes, data.solutions, data.fields, titles, strict=True):
         _contours(ax, solution, field)
         ax.set_title(title, loc="left", size=11)
     axes[0].set_ylabel("depth z [mm]")
     axes[0].invert_yaxis()
-    figure.suptitle("Figure 5: normal stress $s_{zz}$ [MPa]; dashed: centre of the stress", size=11)
+    figure.suptitle(
+        "Figure 5: normal stress $s_{zz}$ [MPa]; dashed: its centre, dotted: middle of the contact",
+        size=11,
+    )
     return figure
 
 
@@ -122,16 +125,18 @@ def draw_strain(data: StrainFigure) -> Figure:
 
 
 def _contours(ax: Axes, solution: Solution, field: InteriorField) -> None:
-    levels = np.linspace(float(np.min(field.s_zz)), 0.0, _LEVELS + 1)[:-1]
+    count = int(-np.min(field.s_zz) / _STEP)
+    levels = -_STEP * np.arange(count, 0, -1)
     drawn = ax.contour(
         field.x, field.z, field.s_zz, levels=levels, colors=_COLORS[1], linestyles="-"
     )
-    ax.clabel(drawn, levels[::3], fontsize=7, fmt="%.2f")
+    ax.clabel(drawn, levels[::2], fontsize=7, fmt="%.1f")
     centre = np.trapezoid(field.x * field.s_zz, field.x) / np.trapezoid(field.s_zz, field.x)
     ax.plot(centre, field.z, color=_COLORS[3], linestyle="--", linewidth=1.6)
     for edge in (solution.contact[0][0], solution.contact[-1][1]):
         ax.plot([edge], [0.0], marker="v", color=_GREY, markersize=7, clip_on=False)
-    ax.axvline(0.0, color=_GREY, linewidth=0.6)
+    middle = 0.5 * (solution.contact[0][0] + solution.contact[-1][1])
+    ax.axvline(middle, color=_GREY, linewidth=0.8, linestyle=":")
     ax.set_xlabel("x [mm]  (← outlet, inlet →)")
 
 

@@ -25,10 +25,10 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension, parse_quantity
 from rollnip.lda import (
-    Instrument,
     Scan,
     VelocityProfile,
     estimate_profile,
+    fringe_spacing,
     profile_from_means,
     surface_speed,
 )
@@ -139,15 +139,9 @@ class Readings:
                 f"`frequency` must be below the Nyquist frequency {0.5 * rate:.6g} Hz of the "
                 f"sample rate, got {np.max(self.frequency):.6g} Hz."
             )
-        instrument = Instrument(
-            wavelength=settings.wavelength,
-            beam_angle=settings.beam_angle,
-            half_width=settings.half_width or 1e3 * settings.wavelength / settings.beam_angle,
-            shift=settings.shift or 0.0,
-        )
-        spacing = instrument.fringe_spacing
-        error = None if self.error is None else self.error * spacing
-        return np.asarray(instrument.velocity(self.frequency)), error
+        spacing = fringe_spacing(settings.wavelength, settings.beam_angle)
+        velocity = (self.frequency - (settings.shift or 0.0)) * spacing
+        return velocity, None if self.error is None else self.error * spacing
 
 
 def read_velocities(path: str | Path) -> Readings:

@@ -10,7 +10,7 @@ from rollnip.lda.frequency import (
     frequency_scatter,
     window_penalty,
 )
-from rollnip.lda.instrument import Instrument
+from rollnip.lda.instrument import Instrument, fringe_spacing
 from rollnip.lda.scan import Scan, Seeding, Side, simulate_scan, surface_speed
 from rollnip.lda.statistics import VelocityProfile, estimate_profile, profile_from_means
 from rollnip.lda.volume import SpeedProfile
@@ -33,6 +33,7 @@ __all__ = [
     "estimate_tone",
     "frequency_bound",
     "frequency_scatter",
+    "fringe_spacing",
     "profile_from_means",
     "simulate_scan",
     "surface_speed",

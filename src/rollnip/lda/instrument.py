@@ -15,6 +15,15 @@ Array = NDArray[np.float64]
 _LEAST_CYCLES = 1.0  # within one envelope width: below, positive and negative frequency meet
 
 
+def fringe_spacing(wavelength: float, beam_angle: float) -> float:
+    """d_f = wavelength/(2 sin(beam_angle/2)), in the unit of the wavelength; angle in rad."""
+    require_positive("wavelength", wavelength)
+    require_positive("beam_angle", beam_angle)
+    if beam_angle > pi:
+        raise InvalidInputError(f"`beam_angle` must be at most pi rad, got {beam_angle!r}.")
+    return wavelength / (2.0 * sin(0.5 * beam_angle))
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Instrument:
     """Laser-Doppler velocimeter in the dual-beam arrangement.
@@ -44,13 +53,9 @@ class Instrument:
     shift: float = 0.0
 
     def __post_init__(self) -> None:
-        for name in ("wavelength", "beam_angle", "half_width", "sample_rate"):
+        for name in ("half_width", "sample_rate"):
             require_positive(name, getattr(self, name))
         require_finite("shift", self.shift)
-        if self.beam_angle > pi:
-            raise InvalidInputError(
-                f"`beam_angle` must be at most pi rad, got {self.beam_angle!r}."
-            )
         if self.half_width < self.fringe_spacing:
             raise InvalidInputError(
                 f"`half_width` must be at least one fringe ({self.fringe_spacing:.3g} mm), "
@@ -60,7 +65,7 @@ class Instrument:
     @property
     def fringe_spacing(self) -> float:
         """d_f = wavelength/(2 sin(beam_angle/2)) [mm]."""
-        return self.wavelength / (2.0 * sin(0.5 * self.beam_angle))
+        return fringe_spacing(self.wavelength, self.beam_angle)
 
     @property
     def fringes(self) -> float:

@@ -18,6 +18,8 @@ from rollnip.solution import Solution
 Array = NDArray[np.float64]
 Side = Literal["upper", "lower"]
 
+_MOST = 2000  # positions
+_LONGEST = 20_000_000  # samples in a record
 _SHOWN = 0.8  # scanned on either side of the contact, in nip widths
 
 
@@ -120,6 +122,7 @@ def simulate_scan(
     if isinstance(positions, int):
         positions = _evenly(solution, profile, instrument, positions)
     profile.check_inside(positions, instrument.envelope_width)
+    _check_length(instrument, seeding, float(np.min(profile.speed)))
     rng = np.random.default_rng(seed)
     records = [
         synthesise(
@@ -139,15 +142,29 @@ def simulate_scan(
         for x, record in zip(positions, records, strict=True)
         for burst in detect_bursts(record.samples, instrument, roller_speed)
     ]
-    table = np.array(found, dtype=float).reshape(-1, 3)
+    if not found:
+        raise InvalidInputError(
+            f"`snr` must be high enough for a burst to be found and validated, got {seeding.snr!r}."
+        )
+    table = np.array(found, dtype=float)
     example = records[len(records) // 2]
     x, frequency, ratio = table.T
     return Scan(instrument, side, roller_speed, x, frequency, ratio, example)
 
 
+def _check_length(instrument: Instrument, seeding: Seeding, slowest: float) -> None:
+    stay = instrument.envelope_time(slowest) * instrument.sample_rate
+    samples = seeding.bursts * seeding.spacing * stay
+    if samples > _LONGEST:
+        raise InvalidInputError(
+            f"`bursts` must leave a record of at most {_LONGEST} samples, got {seeding.bursts} "
+            f"with {samples:.3g} of them."
+        )
+
+
 def _evenly(solution: Solution, profile: SpeedProfile, at: Instrument, count: int) -> Array:
-    if count < 2:
-        raise InvalidInputError(f"`positions` must be at least 2, got {count}.")
+    if not 2 <= count <= _MOST:
+        raise InvalidInputError(f"`positions` must lie between 2 and {_MOST}, got {count}.")
     first, last = profile.span(at.envelope_width)
     side = _SHOWN * solution.nip_width
     contact = solution.contact

@@ -1,0 +1,132 @@
+"""Configuration of the documentation; `make docs` builds it, without a network."""
+
+from __future__ import annotations
+
+import os
+import sys
+from importlib.metadata import version as installed
+from pathlib import Path
+
+from rollnip.model import Model
+
+HERE = Path(__file__).parent
+sys.path.insert(0, str(HERE / "_ext"))
+
+# Small dense systems are many times slower with threaded BLAS; the kernels inherit this.
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+# Kernels start in the folder of their page; the command sits beside the interpreter.
+os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]
+os.environ["ROLLNIP_EXAMPLES"] = str(HERE.parent / "examples")
+os.environ["COLUMNS"] = "80"
+
+project = "rollnip"
+author = "The rollnip developers"
+copyright = "The rollnip developers"
+version = release = installed("rollnip")
+
+extensions = [
+    "myst_nb",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.mathjax",
+    "sphinx.ext.viewcode",
+    "sphinx_gallery.gen_gallery",
+    "docstrings",
+    "reference",
+]
+exclude_patterns = [
+    "_build",
+    "_ext",
+    "_static",
+    "figures",
+    "scripts",
+    "gallery_scripts",
+    "examples/*.ipynb",
+    "examples/*.py",
+    "examples/*.rst.new",
+    "**/README.md",
+]
+source_suffix = {".md": "myst-nb", ".rst": "restructuredtext"}
+nitpicky = True
+nitpick_ignore_regex = [
+    (r"py:.*", r"(numpy|np|scipy|matplotlib|pathlib|collections|typing|os|pydantic|io)\..*"),
+    (r"py:.*", r"(Path|NDArray|ArrayLike|Array|ComplexArray|Axes|Figure|Any|TypeAliasForwardRef)"),
+    (r"py:.*", r"(enum\.IntEnum|abc\.ABC)"),
+    # Types that modules hand to each other and no door offers.
+    (r"py:.*", r"rollnip\.\w+\.\w+\.\w+"),
+    (r"py:.*", r"rollnip\..*\._\w+"),
+]
+default_role = "code"
+
+# MyST
+myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "amsmath", "substitution"]
+myst_substitutions = {
+    "default_geometry": Model().geometry,
+    "default_tolerance": Model().tolerance,
+}
+myst_heading_anchors = 3
+myst_dmath_double_inline = True
+nb_execution_mode = "auto"
+nb_execution_raise_on_error = True
+nb_execution_timeout = 120
+nb_merge_streams = True
+nb_execution_in_temp = True
+
+# Mathematics: one vendored file, no speech (it would ask for more files).
+mathjax_path = "mathjax/tex-svg.js"
+mathjax4_config = {
+    "options": {
+        "enableMenu": False,
+        "menuOptions": {
+            "settings": {"enrich": False, "speech": False, "braille": False, "collapsible": False}
+        },
+    },
+    "output": {"displayOverflow": "scroll", "linebreaks": {"inline": False}},
+}
+
+# Python
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+autodoc_type_aliases = {"Array": "Array", "ArrayLike": "ArrayLike"}
+autodoc_preserve_defaults = True
+add_module_names = False
+python_use_unqualified_type_names = True
+toc_object_entries_show_parents = "hide"
+viewcode_follow_imported_members = True
+
+sphinx_gallery_conf = {
+    "examples_dirs": "gallery_scripts",
+    "gallery_dirs": "examples",
+    "filename_pattern": r"/plot_",
+    "within_subsection_order": "FileNameSortKey",
+    "download_all_examples": False,
+    "show_memory": False,
+    "show_signature": False,
+    "min_reported_time": 1e9,
+    "write_computation_times": False,
+    "image_srcset": ["2x"],
+    "plot_gallery": True,
+    "abort_on_example_error": True,
+}
+
+# HTML
+html_theme = "pydata_sphinx_theme"
+html_title = "rollnip"
+html_static_path = ["_static"]
+html_css_files = ["rollnip.css"]
+html_show_sourcelink = False
+html_copy_source = False
+html_show_sphinx = False
+html_theme_options = {
+    "navbar_start": ["navbar-logo"],
+    "navbar_center": ["navbar-nav"],
+    "navbar_end": ["theme-switcher"],
+    "footer_start": ["copyright"],
+    "footer_end": [],
+    "header_links_before_dropdown": 6,
+    "show_prev_next": True,
+    "show_toc_level": 2,
+    "pygments_light_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+}

@@ -21,7 +21,7 @@ def test_allowed(geometry, tolerance):
 
 @pytest.mark.parametrize("geometry", ["Curved", "", "flat", None, 3, ["linear"]])
 def test_unknown_geometry(geometry):
-    pattern = r'^`geometry` must be one of "linear", "corrected", "curved", got .*\.$'
+    pattern = r'^`geometry` must be one of "linear", "corrected", "curved", "finite", got .*\.$'
     with pytest.raises(InvalidInputError, match=pattern) as caught:
         Model(geometry=geometry)
     assert repr(geometry) in str(caught.value)

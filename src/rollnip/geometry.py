@@ -46,6 +46,16 @@ def linear_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array
     return np.diff(u_x) - curvature * dx * mean_of_neighbours(u_z)
 
 
+def second_stretch(x: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
+    """Stretch less 1 over each interval [mm], of material that is at x now and was at x - u_x.
+
+    Int [sqrt(1 + slope^2)/(1 - du_x/dx) - 1] dx: present length over undeformed arc.
+    """
+    dx = np.diff(x)
+    slope = curvature * mean_of_neighbours(x) + np.diff(u_z) / dx
+    return np.asarray(dx * (np.sqrt(1.0 + slope**2) / (1.0 - np.diff(u_x) / dx) - 1.0))
+
+
 def rotation_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
     """Stretch by rotation over each interval, int (du_z/dx + u_x/R)^2/2 dx [mm]."""
     rotation = np.diff(u_z) / dx + curvature * mean_of_neighbours(u_x)

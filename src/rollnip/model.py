@@ -7,7 +7,7 @@ from typing import Literal, get_args
 
 from rollnip._errors import InvalidInputError, require_positive
 
-Geometry = Literal["linear", "corrected", "curved"]
+Geometry = Literal["linear", "corrected", "curved", "finite"]
 
 _FINEST = 1e-6
 _COARSEST = 0.1
@@ -21,7 +21,8 @@ class Model:
     ----------
     geometry :
         "linear": flat layers, parabolic gap. "corrected": flat layers, true distance of the
-        deformed surfaces. "curved": ring layers and stretch to second order.
+        deformed surfaces. "curved": ring layers and stretch to second order. "finite": ring
+        layers of finite strain, to second order throughout (docs/geometry.md).
     tolerance :
         wanted relative accuracy of creepage, nip width, peak pressure, approach or load, as far
         as the discretisation goes; between 1e-6 and 0.1.

@@ -7,6 +7,7 @@ until the results stand still; and a fresh check of what came out.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError, version
 from time import perf_counter
 from typing import Literal
@@ -16,15 +17,17 @@ from rollnip.contact import Safeguarded
 from rollnip.model import Model
 from rollnip.nip import Nip, Torque
 from rollnip.rolling import (
+    PairKernels,
     Round,
     excess,
     half_width_guess,
     has_grip,
     pair_kernels,
     refine,
+    with_second_order,
 )
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import validity_warnings
+from rollnip.validity import SECOND_MOST, second_share, validity_warnings
 
 
 def solve(
@@ -63,9 +66,16 @@ def solve(
     """
     start = perf_counter()
     model = Model() if model is None else model
-    kernels = pair_kernels(nip, model.geometry)
-    half_width = half_width_guess(nip, kernels)
-    final = refine(nip, model, kernels, half_width, method or Safeguarded())
+    kernels, final = _refined(nip, model, method or Safeguarded())
+    left: tuple[str, ...] = ()
+    believed = final.settled and bool(final.zones) and second_share(nip, final) <= SECOND_MOST
+    if model.geometry == "finite" and not believed:
+        model = replace(model, geometry="curved")
+        kernels, final = _refined(nip, model, method or Safeguarded())
+        left = (
+            "The second order of finite strain is too large or did not converge; solved with "
+            '`geometry = "curved"` instead, which may then be 10 % off and more.',
+        )
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
@@ -75,7 +85,7 @@ def solve(
         model=model,
         converged=converged,
         status=status,
-        warnings=validity_warnings(nip, model, final),
+        warnings=left + validity_warnings(nip, model, final),
         solver=SolverInfo(
             elements=int(final.problem.x.size + 1),
             iterations=final.steps,
@@ -90,6 +100,14 @@ def solve(
     if on_failure == "raise" and not converged:
         raise ConvergenceError(status, solution)
     return solution
+
+
+def _refined(nip: Nip, model: Model, method: Safeguarded) -> tuple[PairKernels, Round]:
+    """Influence functions and the last round of refinement."""
+    kernels = pair_kernels(nip, model.geometry)
+    half_width = half_width_guess(nip, kernels)
+    kernels = with_second_order(kernels, nip, model.geometry, half_width)
+    return kernels, refine(nip, model, kernels, half_width, method)
 
 
 def _require_grip(nip: Nip, final: Round) -> None:

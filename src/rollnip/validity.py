@@ -23,6 +23,10 @@ THICKNESS_RATIO = 0.15
 """Thickness of a covering over the radius of its roller."""
 CONTACT_ANGLE = 0.25
 """Half the nip width over the smaller radius [rad]."""
+SECOND_SHARE = 0.15
+"""Second-order part of the indentation over the approach, geometry "finite"."""
+SECOND_MOST = 0.5
+"""The same beyond which the second order is not believed at all."""
 TEMPERATURE_SPAN = 60.0
 """Distance of a temperature from the reference of its shift [K]."""
 TIME_SPAN = 10.0
@@ -35,6 +39,7 @@ def validity_warnings(nip: Nip, model: Model, final: Round) -> tuple[str, ...]:
         _nip_strain(nip, final),
         *(_thickness_ratio(name, roller) for name, roller in _rollers(nip)),
         _contact_angle(nip, final),
+        _second_order(nip, final),
         *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),
         *(_thin_top_layer(name, roller, final) for name, roller in _rollers(nip)),
         *(line for name, roller in _rollers(nip) for line in _materials(name, roller, nip, final)),
@@ -80,8 +85,31 @@ def _contact_angle(nip: Nip, final: Round) -> str:
     )
 
 
+def second_share(nip: Nip, final: Round) -> float:
+    """Largest second-order indentation in the contact over the approach; 0 where there is none."""
+    mesh, state = final.mesh, final.state
+    inside = mesh.inner[state.pressure > 0.0]
+    second = mesh.kernels.second(mesh.nodes, state, inside)
+    largest = max(np.max(np.abs(u), initial=0.0) for u in (second.z_upper, second.z_lower))
+    if largest == 0.0:
+        return 0.0
+    if nip.has_half_space:
+        return float(largest / (0.125 * nip.curvature * final.figures.nip_width**2))
+    return float(largest / state.approach) if state.approach > 0.0 else inf
+
+
+def _second_order(nip: Nip, final: Round) -> str:
+    share = second_share(nip, final)
+    if share <= SECOND_SHARE:
+        return ""
+    return (
+        f"Finite strain changes the indentation by {100.0 * share:.0f} % of the approach; the "
+        f"second order was compared with finite elements up to {100.0 * SECOND_SHARE:.0f} %."
+    )
+
+
 def _flat_half_space(name: str, roller: Roller, model: Model) -> str:
-    curved = model.geometry == "curved" and roller.radius < inf and bool(roller.layers)
+    curved = model.geometry in ("curved", "finite") and roller.radius < inf and bool(roller.layers)
     if not curved or roller.core is None or is_ring(roller, model.geometry):
         return ""
     return (

@@ -69,7 +69,11 @@ BAD = [
     ((*LAYER, "material"), "rigid", "upper.layers[0].material"),
     (("materials", "rigid"), MATERIAL, "materials.rigid: must have another name"),
     ((*BLACK, "model"), "maxwell", "with `model` one of elastic, standard-linear-solid"),
-    (("model", "geometry"), "curvy", "model.geometry: must be 'linear', 'corrected' or 'curved'"),
+    (
+        ("model", "geometry"),
+        "curvy",
+        "model.geometry: must be 'linear', 'corrected', 'curved' or 'finite'",
+    ),
     # dimensions and units
     (("upper", "radius"), "50 MPa", "upper.radius: must be a length such as"),
     (("nip", "load"), "500 N", "nip.load: must be a force per length"),

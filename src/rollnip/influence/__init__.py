@@ -2,6 +2,7 @@
 
 from rollnip.influence.hats import displacement_matrix, load_weights, strain_matrix
 from rollnip.influence.kernel import Kernel, Window, tabulate
+from rollnip.influence.second import SecondResponse, second_response
 from rollnip.influence.surface import (
     SurfaceKernels,
     covering_window,
@@ -12,12 +13,14 @@ from rollnip.influence.surface import (
 
 __all__ = [
     "Kernel",
+    "SecondResponse",
     "SurfaceKernels",
     "Window",
     "covering_window",
     "displacement_matrix",
     "is_ring",
     "load_weights",
+    "second_response",
     "strain_matrix",
     "surface_compliance",
     "surface_kernels",

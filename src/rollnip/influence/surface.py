@@ -34,8 +34,9 @@ class SurfaceKernels:
 
 
 def is_ring(roller: Roller, geometry: str) -> bool:
-    """Whether the layers are treated as curved: finite radius, rigid core, geometry "curved"."""
-    return geometry == "curved" and not isinf(roller.radius) and roller.core is None
+    """Whether the layers are treated as curved: finite radius, rigid core, "curved" or "finite"."""
+    curved = geometry in ("curved", "finite")
+    return curved and not isinf(roller.radius) and roller.core is None
 
 
 def covering_window(rollers: tuple[Roller, ...], speed: float | None) -> Window:
@@ -75,7 +76,7 @@ def surface_kernels(
     speed :
         rolling speed V [mm/s]; may be None where all materials are elastic.
     geometry :
-        "curved" bends the layers to rings; "linear" and "corrected" keep them flat.
+        "curved" and "finite" bend the layers to rings; the others keep them flat.
     window :
         lengths and wave numbers to tabulate.
     tolerance :
@@ -85,7 +86,7 @@ def surface_kernels(
     low: tuple[complex, complex, complex] = (0.0, 0.0, 0.0)
     if core is not None:
         lowest = np.array([2.0 ** (window.octaves[0] - 60)])
-        modulus = _moduli(core, lowest, speed)
+        modulus = moduli(core, lowest, speed)
         a, b = half_space_limit(modulus, core.poisson)
         low = (complex(a[0]), complex(a[0]), 1j * complex(b[0]))
     xx, zz, xz = tabulate(
@@ -105,21 +106,21 @@ def surface_compliance(
     poisson = np.array([layer.material.poisson for layer in roller.layers])
 
     def compliance(k: Array) -> tuple[ComplexArray, ComplexArray, ComplexArray]:
-        moduli = [_moduli(layer.material, k, speed) for layer in roller.layers]
-        modulus = np.array(moduli).reshape(len(moduli), k.size)
+        young = [moduli(layer.material, k, speed) for layer in roller.layers]
+        modulus = np.array(young).reshape(len(young), k.size)
         if is_ring(roller, geometry):
             c = ring_compliance(k, roller.radius, thickness, modulus, poisson)
         elif roller.core is None:
             c = flat_compliance(k, thickness, modulus, poisson)
         else:
-            core = _moduli(roller.core, k, speed)
+            core = moduli(roller.core, k, speed)
             c = flat_compliance(k, thickness, modulus, poisson, core, roller.core.poisson)
         return c.xx, c.zz, c.xz
 
     return compliance
 
 
-def _moduli(material: Material, k: Array, speed: float | None) -> Array | ComplexArray:
+def moduli(material: Material, k: Array, speed: float | None) -> Array | ComplexArray:
     """Modulus at each wave number: real where the material is elastic."""
     if material.is_elastic:
         return np.full(k.shape, material.relaxed_modulus)

@@ -43,7 +43,7 @@ def interior_field(
     x :
         (nx,) or scalar places [mm], in any order.
     geometry :
-        "curved" bends the layers of a roller on a rigid core to rings; others keep them flat.
+        "curved" and "finite" bend the layers on a rigid core to rings; others keep them flat.
     speed :
         V [mm/s]; needed where a material is viscoelastic.
     side :

@@ -222,7 +222,7 @@ class NipTable(Table):
 class ModelTable(Table):
     """Which model of the geometry is solved."""
 
-    geometry: Literal["linear", "corrected", "curved"] | None = None
+    geometry: Literal["linear", "corrected", "curved", "finite"] | None = None
 
 
 class SolverTable(Table):

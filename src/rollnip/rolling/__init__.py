@@ -6,6 +6,8 @@ from rollnip.rolling.assemble import (
     hoop_curvature,
     pair_kernels,
     pressure_work,
+    surface_depths,
+    with_second_order,
 )
 from rollnip.rolling.check import (
     Fields,
@@ -13,7 +15,6 @@ from rollnip.rolling.check import (
     fields_on_mesh,
     fine_points,
     slip_velocity,
-    surface_depths,
     surface_strain,
 )
 from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
@@ -46,4 +47,5 @@ __all__ = [
     "slip_velocity",
     "surface_depths",
     "surface_strain",
+    "with_second_order",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,13 +13,16 @@ from rollnip.geometry import (
     mean_of_neighbours,
     rotation_stretch,
     sagitta,
+    second_stretch,
 )
 from rollnip.influence import (
+    SecondResponse,
     SurfaceKernels,
     covering_window,
     displacement_matrix,
     is_ring,
     load_weights,
+    second_response,
     surface_kernels,
 )
 from rollnip.model import Geometry
@@ -31,10 +34,30 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class PairKernels:
-    """Influence functions of both surfaces; None for a bare rigid roller."""
+    """Influence functions of both surfaces; None for a bare rigid roller.
+
+    Attributes
+    ----------
+    upper, lower : linear.
+    second_upper, second_lower : to second order; None also where the model leaves it out.
+    """
 
     upper: SurfaceKernels | None
     lower: SurfaceKernels | None
+    second_upper: SecondResponse | None = None
+    second_lower: SecondResponse | None = None
+
+    def second(self, nodes: Array, state: ContactState, x: Array) -> Displacements:
+        """Second-order displacements at ``x`` under the tractions of a solution."""
+        sides = []
+        for response, sign in ((self.second_upper, 1.0), (self.second_lower, -1.0)):
+            if response is None:
+                sides += [np.zeros(x.size)] * 2
+                continue
+            functions = response.displacement(nodes, state.pressure, sign * state.shear)
+            window = np.clip(x, response.x[0], response.x[-1])
+            sides += [np.asarray(u(window)) for u in functions]
+        return Displacements(*sides)
 
 
 def pair_kernels(nip: Nip, geometry: Geometry) -> PairKernels:
@@ -45,6 +68,19 @@ def pair_kernels(nip: Nip, geometry: Geometry) -> PairKernels:
         for roller in (nip.upper, nip.lower)
     )
     return PairKernels(upper, lower)
+
+
+def with_second_order(
+    kernels: PairKernels, nip: Nip, geometry: Geometry, half_width: float
+) -> PairKernels:
+    """Add what the second order of "finite" needs, on grids fit for a contact of that size."""
+    if geometry != "finite":
+        return kernels
+    upper, lower = (
+        None if roller.is_rigid or roller.core else second_response(roller, nip.speed, half_width)
+        for roller in (nip.upper, nip.lower)
+    )
+    return replace(kernels, second_upper=upper, second_lower=lower)
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +104,20 @@ class Displacements:
     x_lower: Array
     z_lower: Array
 
+    def __add__(self, other: Displacements) -> Displacements:
+        return Displacements(
+            self.x_upper + other.x_upper,
+            self.z_upper + other.z_upper,
+            self.x_lower + other.x_lower,
+            self.z_lower + other.z_lower,
+        )
+
+    def but_last(self) -> Displacements:
+        """At all points but the last."""
+        return Displacements(
+            self.x_upper[:-1], self.z_upper[:-1], self.x_lower[:-1], self.z_lower[:-1]
+        )
+
     @classmethod
     def under(
         cls, upper: SurfaceMatrices, lower: SurfaceMatrices, state: ContactState
@@ -89,6 +139,7 @@ class Mesh:
     nodes: Array
     upper: SurfaceMatrices
     lower: SurfaceMatrices
+    kernels: PairKernels
 
     @property
     def inner(self) -> Array:
@@ -100,9 +151,13 @@ class Mesh:
         """Lengths of the intervals between nodes[1:], (N-1,) [mm]."""
         return np.diff(self.nodes[1:])
 
-    def displacements(self, state: ContactState) -> Displacements:
-        """Displacements at nodes[1:]."""
+    def linear(self, state: ContactState) -> Displacements:
+        """Displacements at nodes[1:], linear in the tractions."""
         return Displacements.under(self.upper, self.lower, state)
+
+    def displacements(self, state: ContactState) -> Displacements:
+        """Displacements at nodes[1:], to the order of the model."""
+        return self.linear(state) + self.kernels.second(self.nodes, state, self.nodes[1:])
 
 
 def mesh_on(nodes: Array, kernels: PairKernels) -> Mesh:
@@ -112,6 +167,7 @@ def mesh_on(nodes: Array, kernels: PairKernels) -> Mesh:
         nodes,
         surface_matrices(kernels.upper, points, nodes),
         surface_matrices(kernels.lower, points, nodes),
+        kernels,
     )
 
 
@@ -135,12 +191,14 @@ class SecondOrder:
     creep_length : (n,) added to the interval lengths that multiply xi [mm].
     creep_offset : (n,) added to the creep [mm].
     traction : the traction that gives the wanted torque [N/mm]; None where no torque is wanted.
+    lean : line load that the shear takes from the pressure, int q slope dx [N/mm].
     """
 
     clearance: Array
     creep_length: Array
     creep_offset: Array
     traction: float | None
+    lean: float = 0.0
 
     def change(self, before: SecondOrder, approach: float, strain: Array, traction: float) -> float:
         """Largest change since ``before``, relative to an approach, strains and a traction."""
@@ -197,14 +255,20 @@ def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
     u = mesh.displacements(state)
     guess = first_guess(nip, mesh)
     clearance, length, offset = guess.clearance, guess.creep_length, guess.creep_offset
-    if geometry == "corrected":
-        clearance = _distance_correction(nip, mesh, u)
-    if geometry == "curved":
-        length, offset = _stretch_terms(nip, mesh, u, geometry)
+    lean = 0.0
+    if geometry in ("corrected", "finite"):
+        flat = mesh.linear(state)
+        depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
+        approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
+        clearance = depth - approximate
+    if geometry in ("curved", "finite"):
+        length, offset = _stretch_terms(nip, geometry, mesh, state, u)
+    if geometry == "finite":
+        lean = _lean(nip, mesh, state, u)
     traction = guess.traction
     if isinstance(nip.tangential, Torque):
         traction = _traction_for_torque(nip, geometry, mesh, state, u)
-    return SecondOrder(clearance, length, offset, traction)
+    return SecondOrder(clearance, length, offset, traction, lean)
 
 
 def _control(nip: Nip, second: SecondOrder) -> Control:
@@ -212,40 +276,67 @@ def _control(nip: Nip, second: SecondOrder) -> Control:
     traction = tangential.traction if isinstance(tangential, Traction) else second.traction
     creepage = tangential.creepage if isinstance(tangential, Creepage) else None
     return Control(
-        load=normal.load if isinstance(normal, LineLoad) else None,
+        load=normal.load + second.lean if isinstance(normal, LineLoad) else None,
         approach=normal.approach if isinstance(normal, Approach) else None,
         traction=traction,
         creepage=creepage,
     )
 
 
-def _distance_correction(nip: Nip, mesh: Mesh, u: Displacements) -> Array:
-    """e(x): true distance of the deformed surfaces less its linear approximation."""
-    x = mesh.inner
-    true = sagitta(x, nip.upper.curvature, u.x_upper[:-1], u.z_upper[:-1]) + sagitta(
-        x, nip.lower.curvature, u.x_lower[:-1], u.z_lower[:-1]
+def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
+    """How far each surface lies from the tangent at first touch, before the approach [mm].
+
+    In "finite" u_z is that of the material that is at x now: the radius there is R - u_z.
+    """
+    sides = (
+        (nip.upper, u.x_upper, u.z_upper),
+        (nip.lower, u.x_lower, u.z_lower),
     )
-    return true - (0.5 * nip.curvature * x * x + u.z_upper[:-1] + u.z_lower[:-1])
+    depths = []
+    for roller, u_x, u_z in sides:
+        if geometry == "corrected":
+            depths.append(sagitta(x, roller.curvature, u_x, u_z))
+        elif geometry == "finite" and roller.core is None:
+            depths.append(sagitta(x, roller.curvature, np.zeros_like(x), u_z))
+        else:
+            depths.append(0.5 * roller.curvature * x * x + u_z)
+    return depths[0], depths[1]
+
+
+def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements, *, side: str) -> Array:
+    """Int (stretch - 1) dx of one surface over each interval [mm]."""
+    dx = np.diff(x)
+    roller = nip.upper if side == "upper" else nip.lower
+    u_x, u_z = (u.x_upper, u.z_upper) if side == "upper" else (u.x_lower, u.z_lower)
+    if roller.is_rigid:
+        return np.zeros(dx.size)
+    hoop = hoop_curvature(roller, geometry)
+    if geometry == "finite" and roller.core is None:
+        return second_stretch(x, hoop, u_x, u_z)
+    excess = linear_stretch(dx, hoop, u_x, u_z)
+    if geometry in ("curved", "finite"):
+        excess = excess + rotation_stretch(dx, hoop, u_x, u_z)
+    return excess
 
 
 def _stretch_terms(
-    nip: Nip, mesh: Mesh, u: Displacements, geometry: Geometry
+    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
 ) -> tuple[Array, Array]:
     """What the creep (1 + xi/2) stretch_u - (1 - xi/2) stretch_l has beyond its linear part."""
-    length = np.zeros(mesh.inner.size)
-    offset = np.zeros(mesh.inner.size)
-    sides = (
-        (nip.upper, u.x_upper, u.z_upper, 1.0),
-        (nip.lower, u.x_lower, u.z_lower, -1.0),
-    )
-    for roller, u_x, u_z, sign in sides:
-        if roller.is_rigid:
-            continue
-        hoop = hoop_curvature(roller, geometry)
-        rotation = rotation_stretch(mesh.dx, hoop, u_x, u_z)
-        length += 0.5 * (linear_stretch(mesh.dx, hoop, u_x, u_z) + rotation)
-        offset += sign * rotation
-    return length, offset
+    flat = mesh.linear(state)
+    upper = stretch_excess(mesh.nodes[1:], nip, geometry, u, side="upper")
+    lower = stretch_excess(mesh.nodes[1:], nip, geometry, u, side="lower")
+    hoop_u, hoop_l = (hoop_curvature(roller, geometry) for roller in (nip.upper, nip.lower))
+    linear = linear_stretch(mesh.dx, hoop_u, flat.x_upper, flat.z_upper)
+    linear -= linear_stretch(mesh.dx, hoop_l, flat.x_lower, flat.z_lower)
+    return 0.5 * (upper + lower), upper - lower - linear
+
+
+def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
+    """Int q slope dx, the slope of the interface that of both surfaces on average."""
+    levers = load_weights(mesh.nodes) @ (state.shear * mesh.inner)
+    undeformed = (nip.lower.curvature - nip.upper.curvature) * levers
+    return 0.5 * float(undeformed + pressure_work(state.shear, u.z_lower - u.z_upper))
 
 
 def _traction_for_torque(

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from rollnip.contact import State, Zone
-from rollnip.geometry import linear_stretch, rotation_stretch, sagitta
 from rollnip.influence import strain_matrix
 from rollnip.influence.surface import SurfaceKernels
 from rollnip.model import Geometry
@@ -18,6 +17,8 @@ from rollnip.rolling.assemble import (
     PairKernels,
     SurfaceMatrices,
     hoop_curvature,
+    stretch_excess,
+    surface_depths,
     surface_matrices,
 )
 from rollnip.rolling.round import Round, creepage_scale
@@ -51,7 +52,8 @@ def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, fina
     """Evaluate a solution at points ``x``, with nothing taken over but tractions, delta and xi."""
     nodes = final.mesh.nodes
     upper, lower = (surface_matrices(k, x, nodes) for k in (kernels.upper, kernels.lower))
-    return _fields(x, nip, geometry, final, Displacements.under(upper, lower, final.state))
+    u = Displacements.under(upper, lower, final.state) + kernels.second(nodes, final.state, x)
+    return _fields(x, nip, geometry, final, u)
 
 
 def fields_on_mesh(nip: Nip, geometry: Geometry, final: Round) -> Fields:
@@ -67,7 +69,7 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
     upper, lower = (surface_matrices(k, new, nodes) for k in (kernels.upper, kernels.lower))
     parts = (
-        Displacements.under(upper, lower, final.state),
+        Displacements.under(upper, lower, final.state) + kernels.second(nodes, final.state, new),
         final.mesh.displacements(final.state),
     )
     x = np.concatenate([new, nodes[1:]])
@@ -89,19 +91,6 @@ def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacemen
     )
 
 
-def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
-    """How far each surface lies from the tangent at first touch, before the approach [mm]."""
-    sides = (
-        (nip.upper.curvature, u.x_upper, u.z_upper),
-        (nip.lower.curvature, u.x_lower, u.z_lower),
-    )
-    if geometry == "corrected":
-        upper, lower = (sagitta(x, curvature, u_x, u_z) for curvature, u_x, u_z in sides)
-    else:
-        upper, lower = (0.5 * curvature * x * x + u_z for curvature, _, u_z in sides)
-    return upper, lower
-
-
 def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
     """Distance of the deformed surfaces, before the approach is taken off."""
     upper, lower = surface_depths(x, nip, geometry, u)
@@ -111,26 +100,14 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
 def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
     """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval."""
     dx = np.diff(x)
-    upper = stretch_excess(dx, nip, geometry, u, side="upper")
-    lower = stretch_excess(dx, nip, geometry, u, side="lower")
-    if geometry != "curved":  # small strains: the product of creepage and strain is left out
+    upper = stretch_excess(x, nip, geometry, u, side="upper")
+    lower = stretch_excess(x, nip, geometry, u, side="lower")
+    if geometry not in (
+        "curved",
+        "finite",
+    ):  # small strains: the product of creepage and strain is left out
         return creepage * dx + upper - lower
     return creepage * dx + (1.0 + 0.5 * creepage) * upper - (1.0 - 0.5 * creepage) * lower
-
-
-def stretch_excess(
-    dx: Array, nip: Nip, geometry: Geometry, u: Displacements, *, side: str
-) -> Array:
-    """Int (stretch - 1) dx of one surface over each interval [mm]."""
-    roller = nip.upper if side == "upper" else nip.lower
-    u_x, u_z = (u.x_upper, u.z_upper) if side == "upper" else (u.x_lower, u.z_lower)
-    if roller.is_rigid:
-        return np.zeros(dx.size)
-    hoop = hoop_curvature(roller, geometry)
-    excess = linear_stretch(dx, hoop, u_x, u_z)
-    if geometry == "curved":
-        excess = excess + rotation_stretch(dx, hoop, u_x, u_z)
-    return excess
 
 
 def fine_points(final: Round) -> Array:
@@ -235,12 +212,17 @@ def surface_strain(
     slopes, values = _slopes_and_values(surface, x, final.mesh.nodes)
     p, q = final.state.pressure, final.state.shear * (1.0 if upper else -1.0)
     strain = slopes.xz @ p + slopes.xx @ q
-    if geometry != "curved":
+    if geometry not in ("curved", "finite"):
         return strain
     hoop = hoop_curvature(roller, geometry)
     u_x, u_z = values.xz @ p + values.xx @ q, values.zz @ p - values.xz @ q
-    rotation = slopes.zz @ p - slopes.xz @ q + hoop * u_x
-    return strain - hoop * u_z + 0.5 * rotation**2
+    slope = slopes.zz @ p - slopes.xz @ q
+    response = kernels.second_upper if upper else kernels.second_lower
+    if response is None:
+        return strain - hoop * u_z + 0.5 * (slope + hoop * u_x) ** 2
+    along, inward = response.displacement(final.mesh.nodes, p, q)
+    present = np.hypot(1.0, hoop * x + slope + inward(x, 1))
+    return np.asarray(present / (1.0 - strain - along(x, 1)) - 1.0)
 
 
 def _slopes_and_values(

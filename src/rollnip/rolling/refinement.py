@@ -117,7 +117,7 @@ def refine(
         count, tries = _next_count(count, ratio), 0
     last = best or latest
     assert last is not None
-    return _checked(nip, model, kernels, last) if last.zones else last
+    return _checked(nip, model, kernels, last) if last.figures.peak_pressure > 0.0 else last
 
 
 def _is_hopeless(latest: Round) -> bool:
@@ -125,6 +125,7 @@ def _is_hopeless(latest: Round) -> bool:
     if latest.settled:
         return False
     spent = latest.steps > _MOST_STEPS or len(latest.zones) > _MOST_ZONES
+    spent = spent or not latest.figures.peak_pressure > 0.0
     spent = spent or not latest.geometry_change < _DIVERGED
     return spent or not latest.zones or not has_grip(latest)
 
@@ -171,8 +172,8 @@ def _solve_on(
             break
     zones = contact_zones(problem.x, state, nip.friction)
     unknown = Figures(inf, inf, inf, inf, inf)
-    figures = _figures(problem, state, zones)
-    settled = state.settled and change <= allowed
+    figures = _figures(problem, state, zones, second.lean)
+    settled = state.settled and change <= allowed and figures.peak_pressure > 0.0
     return Round(mesh, problem, state, zones, figures, unknown, steps, settled, change)
 
 
@@ -196,11 +197,13 @@ def _change(new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: Con
     return new.change(old, scale, strain * mesh.dx, strain * load)
 
 
-def _figures(problem: ContactProblem, state: ContactState, zones: tuple[Zone, ...]) -> Figures:
+def _figures(
+    problem: ContactProblem, state: ContactState, zones: tuple[Zone, ...], lean: float
+) -> Figures:
     peak, _ = peak_pressure(problem.x, state.pressure)
     return Figures(
         approach=state.approach,
-        load=float(problem.weights @ state.pressure),
+        load=float(problem.weights @ state.pressure) - lean,
         creepage=state.creepage,
         nip_width=zones[-1].stop - zones[0].start if zones else 0.0,
         peak_pressure=peak,

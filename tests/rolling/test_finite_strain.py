@@ -1,0 +1,60 @@
+"""`finite` against finite-strain finite elements; the notes in tests/data say how made."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+import rollnip as rn
+
+DATA = Path(__file__).parents[1] / "data"
+CASES = [
+    case
+    for name in ("finite_strain_fe.json", "finite_strain_fe_own.json")
+    for case in json.loads((DATA / name).read_text(encoding="utf-8"))["results"]
+]
+
+
+def name_of(case):
+    return f"{case['case']} mu={case['friction']:g} T={case.get('traction', 0.0):+.3g}"
+
+
+def solved(case, geometry):
+    layers = tuple(
+        rn.Layer(layer["thickness"], rn.Elastic(modulus=layer["modulus"], poisson=layer["poisson"]))
+        for layer in case["upper"]["layers"]
+    )
+    nip = rn.Nip(
+        upper=rn.Roller(radius=case["upper"]["radius"], layers=layers),
+        lower=rn.Roller(radius=case["lower"]["radius"]),
+        normal=rn.LineLoad(case["load"]),
+        friction=case["friction"],
+        tangential=rn.Traction(case.get("traction", 0.0)),
+    )
+    return rn.solve(nip, rn.Model(geometry=geometry))
+
+
+@pytest.mark.parametrize("case", CASES, ids=name_of)
+def test_finite(case):
+    solution = solved(case, "finite")
+    assert solution.converged
+    skin = case["case"] == "stiff skin"  # bends and stretches like a sheet: far from second order
+    (trailing, leading), near = solution.contact[0], 0.12 if skin else 0.015
+    assert solution.approach == pytest.approx(case["approach"], rel=0.01)
+    assert trailing == pytest.approx(case["contact_x"][0], rel=near)
+    assert leading == pytest.approx(case["contact_x"][1], rel=near)
+    assert solution.peak_pressure == pytest.approx(case["peak_pressure"], rel=near)
+    if "creepage" in case:
+        assert solution.creepage == pytest.approx(case["creepage"], rel=0.02, abs=3e-4)
+
+
+@pytest.mark.parametrize("case", CASES, ids=name_of)
+def test_is_nearer_than_curved(case):
+    def error(solution):
+        parts = [solution.approach / case["approach"] - 1.0]
+        if "creepage" in case:
+            parts.append((solution.creepage - case["creepage"]) / max(abs(case["creepage"]), 0.01))
+        return sum(part**2 for part in parts)
+
+    found, before = (error(solved(case, geometry)) for geometry in ("finite", "curved"))
+    assert found < before + 5e-5

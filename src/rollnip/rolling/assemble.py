@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -32,6 +33,32 @@ from rollnip.rollers import Roller
 Array = NDArray[np.float64]
 
 
+Field = Callable[[Array], Array]
+
+
+@dataclass(frozen=True, slots=True)
+class SecondFields:
+    """Second-order displacements of both surfaces under given tractions, as functions of x.
+
+    Attributes
+    ----------
+    functions : u_x and u_z of the upper, u_x and u_z of the lower surface; None: zero.
+    ends : the places between which they hold [mm]; beyond they keep their last value.
+    """
+
+    functions: tuple[Field | None, ...]
+    ends: tuple[tuple[float, float], ...]
+
+    def at(self, x: Array) -> Displacements:
+        """Displacements at some places."""
+        return Displacements(
+            *(
+                np.zeros(x.size) if f is None else np.asarray(f(np.clip(x, *ends)))
+                for f, ends in zip(self.functions, self.ends, strict=True)
+            )
+        )
+
+
 @dataclass(frozen=True, slots=True)
 class PairKernels:
     """Influence functions of both surfaces; None for a bare rigid roller.
@@ -40,24 +67,38 @@ class PairKernels:
     ----------
     upper, lower : linear.
     second_upper, second_lower : to second order; None also where the model leaves it out.
+    held : second-order displacements to use whatever the tractions; None: always those of the
+        tractions at hand.
     """
 
     upper: SurfaceKernels | None
     lower: SurfaceKernels | None
     second_upper: SecondResponse | None = None
     second_lower: SecondResponse | None = None
+    held: SecondFields | None = None
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether there is no second order."""
+        return self.second_upper is None and self.second_lower is None
 
     def second(self, nodes: Array, state: ContactState, x: Array) -> Displacements:
         """Second-order displacements at ``x`` under the tractions of a solution."""
-        sides = []
+        held = self.second_fields(nodes, state) if self.held is None else self.held
+        return held.at(x)
+
+    def second_fields(self, nodes: Array, state: ContactState) -> SecondFields:
+        """Second-order displacements under the tractions of a solution, as functions."""
+        functions: list[Field | None] = []
+        ends: list[tuple[float, float]] = []
         for response, sign in ((self.second_upper, 1.0), (self.second_lower, -1.0)):
             if response is None:
-                sides += [np.zeros(x.size)] * 2
+                functions += [None, None]
+                ends += [(0.0, 0.0)] * 2
                 continue
-            functions = response.displacement(nodes, state.pressure, sign * state.shear)
-            window = np.clip(x, response.x[0], response.x[-1])
-            sides += [np.asarray(u(window)) for u in functions]
-        return Displacements(*sides)
+            functions += response.displacement(nodes, state.pressure, sign * state.shear)
+            ends += [(float(response.x[0]), float(response.x[-1]))] * 2
+        return SecondFields(tuple(functions), tuple(ends))
 
 
 def pair_kernels(nip: Nip, geometry: Geometry) -> PairKernels:

@@ -37,6 +37,7 @@ from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_gr
 _FIRST_COUNT = 16
 _FEWEST_SIZES = 3  # of meshes before an error is believed
 _COARSE = 96  # elements up to which an unsettled mesh may still place edges
+_HELD = 32  # nodes from which on the second order of a mesh is good for finer ones
 _MOST_FAILURES = 3  # fine meshes that do not settle
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
@@ -88,7 +89,8 @@ def refine(
     best: Round | None = None
     history: list[_Size] = []
     for _ in range(_MOST_ROUNDS):
-        mesh = mesh_on(graded_nodes(breaks, count, demand), kernels)
+        held = kernels if best is None else _holding(kernels, best)
+        mesh = mesh_on(graded_nodes(breaks, count, demand), held)
         latest = _solve_on(nip, model, mesh, zones, latest if best is None else best, method)
         if _is_hopeless(latest) or failures > _MOST_FAILURES:
             break
@@ -120,6 +122,18 @@ def refine(
     return _checked(nip, model, kernels, last) if last.figures.peak_pressure > 0.0 else last
 
 
+def _holding(kernels: PairKernels, best: Round) -> PairKernels:
+    """Influence functions that take the second order from a solution already settled.
+
+    It is small and smooth; taken anew on each mesh it would cost most of the time, and its
+    rounding at slipping edges would drown the difference of two meshes. The last mesh is
+    checked with its own.
+    """
+    if kernels.is_linear or best.problem.x.size < _HELD:
+        return kernels
+    return replace(kernels, held=kernels.second_fields(best.mesh.nodes, best.state))
+
+
 def _is_hopeless(latest: Round) -> bool:
     """Whether to give up: unsettled after much work, in pieces, or for want of friction."""
     if latest.settled:
@@ -138,6 +152,7 @@ def _next_count(count: int, ratio: float) -> int:
 
 def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
     """The round with its residual, from the contact conditions on more points."""
+    latest = replace(latest, mesh=replace(latest.mesh, kernels=kernels))
     fields = fields_between(nip, model.geometry, kernels, latest)
     return replace(latest, residual=residual(nip, fields, latest))
 

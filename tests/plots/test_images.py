@@ -53,6 +53,8 @@ def seen(drawn):
             ax.get_legend().set_visible(False)
     for text in figure.findobj(Text):
         text.set_visible(False)
+    for _ in range(4):  # until the layout has forgotten the texts
+        figure.draw_without_rendering()
     buffer = io.BytesIO()
     figure.savefig(buffer, format="png", dpi=DPI, facecolor=figure.get_facecolor())
     return blurred(np.asarray(Image.open(buffer).convert("RGB"), dtype=float))

@@ -1,6 +1,7 @@
 """No text touches another or leaves the picture, narrow or wide."""
 
 import pytest
+from matplotlib import rc_context
 from matplotlib.text import Text
 
 from rollnip.plots import (
@@ -83,3 +84,14 @@ def test_wide(picture, driven, monkeypatch):
 @pytest.mark.parametrize("case", CASES)
 def test_overview(case, solution_of, monkeypatch):
     check(plot_overview(solution_of(case)), monkeypatch)
+
+
+def test_the_page_does_not_follow_the_users_size_of_type(driven, monkeypatch):
+    with rc_context({"font.size": 16.0}):
+        check(plot_overview(driven), monkeypatch)
+
+
+def test_large_type_in_a_picture_of_ones_own(driven, monkeypatch):
+    with rc_context({"font.size": 15.0}):
+        check(plot_field(driven).figure, monkeypatch)
+        check(plot_pressure(driven).figure, monkeypatch)

@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap
 from matplotlib.contour import QuadContourSet
+from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 from matplotlib.transforms import Affine2D, ScaledTranslation, blended_transform_factory
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from rollnip._errors import InvalidInputError, require_positive
 from rollnip.plots.section import QUANTITIES, Name, Piece, Scale, roller_of, section_pieces
 from rollnip.plots.style import (
     Look,
+    PageLayout,
     Style,
     axes_inches,
     below_axes,
@@ -35,6 +37,7 @@ _LEVELS = 14
 _TAIL = 0.97  # part of the area whose values the colours cover where the rest is far larger
 _FAR = 2.5
 _NOISE = 1e-6
+_LEAST = 0.6  # of the axes is left to them beside names and colour bar
 _MIXED = 0.02  # a quantity that should be positive and is less than this below zero counts as such
 
 
@@ -98,7 +101,11 @@ def plot_field(
     _name_layers(ax, look, pieces)
     text = QUANTITIES[component].label + ("" if rollers == "both" else f", {rollers} roller")
     _colour_bar(ax, look, drawn[0], shades, text)
-    title(ax, look, solution, "Inside the layers", room=0.75)
+    title(ax, look, solution, "Inside the layers", room=0.5)
+    engine = figure_of(ax).get_layout_engine()
+    if scale == "equal" and isinstance(engine, ConstrainedLayoutEngine):
+        for _ in range(2):  # a fixed shape takes more than the one pass that drawing makes
+            engine.execute(figure_of(ax))
     return ax
 
 
@@ -300,7 +307,13 @@ def _mark_inlet(ax: Axes, look: Look) -> None:
 def _name_layers(ax: Axes, look: Look, pieces: list[Piece]) -> None:
     """What each layer is, on the right; moved apart where layers are thin."""
     low, high = ax.get_ylim()
-    points = 72.0 * axes_inches(ax)[1] * 0.75  # what a colour bar and the names leave
+    # rather too low: texts then stand further apart than they must
+    width, height = axes_inches(ax)
+    part = 1.0 if isinstance(figure_of(ax).get_layout_engine(), PageLayout) else _LEAST
+    points = 72.0 * part * height
+    if ax.get_aspect() == 1.0:
+        first, last = ax.get_xlim()
+        points = min(points, 72.0 * part * width * (high - low) / (last - first))
     sizes = np.array([look.small * 1.25 * (1 + piece.text.count("\n")) for piece in pieces])
     middles = np.array([0.5 * float(p.y[0, -1] + p.y[-1, -1]) for p in pieces])
     order = np.argsort(middles)

@@ -9,13 +9,12 @@ from typing import Any, NamedTuple
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
-from matplotlib.layout_engine import PlaceHolderLayoutEngine
 
 from rollnip._units import format_quantity
 from rollnip.plots.field import plot_field
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.section import Name, layer_texts, roller_of
-from rollnip.plots.style import LETTER, MM, Look, Style, axes_inches, palette_of
+from rollnip.plots.style import LETTER, MM, Look, PageLayout, Style, axes_inches, palette_of
 from rollnip.plots.surfaces import plot_deformed_surfaces, plot_strain
 from rollnip.rollers import Roller
 from rollnip.solution import Solution
@@ -36,8 +35,8 @@ _MOST_LAYERS = 4  # listed of each roller
 _REMARKS, _LETTERS = 3, 190  # lines, and how many letters each
 _SIGNS = (
     "x points to the inlet",
-    "traction, creepage > 0: the upper roller drives",
-    "torque > 0: that axle puts power in",
+    "traction, creepage > 0: upper drives",
+    "torque > 0: axle puts power in",
 )
 
 
@@ -64,7 +63,7 @@ def plot_overview(solution: Solution, *, style: Style = "light") -> Figure:
     palette = palette_of(style)
     figure = Figure(figsize=(_WIDTH * MM, _HEIGHT * MM), facecolor=palette.ground)
     # places are fixed: legends and the colour bar have their room, and laying out takes no time
-    figure.set_layout_engine(PlaceHolderLayoutEngine(True, False))
+    figure.set_layout_engine(PageLayout(adjust_compatible=True, colorbar_gridspec=False))
     remarks = _remarks(solution)
     room = _REMARK * len(remarks)
     axes = {
@@ -138,16 +137,16 @@ def _rows(solution: Solution) -> Iterator[_Row]:
 
 def _bond_rows(solution: Solution) -> Iterator[_Row]:
     """Largest shear and tension on the bond of each coating."""
-    yield _Row("Bond to the core")
-    names: tuple[Name, ...] = ("upper", "lower")
+    both: tuple[Name, ...] = ("upper", "lower")
+    names = [name for name in both if roller_of(solution, name).layers]
+    if names:
+        yield _Row("Bond to the core")
     for name in names:
-        depth = roller_of(solution, name).coating_thickness
-        if depth > 0.0:
-            field = solution.interior(name, depth)
-            shear, peel = float(np.max(np.abs(field.s_xz))), float(np.max(field.s_zz))
-            size = float(np.ptp(field.s_zz))
-            yield _number(f"shear, {name}", shear, "MPa", size=size)
-            yield _number(f"peel, {name}", max(peel, 0.0), "MPa", size=size)
+        field = solution.interior(name, roller_of(solution, name).coating_thickness)
+        shear, peel = float(np.max(np.abs(field.s_xz))), float(np.max(field.s_zz))
+        size = float(np.ptp(field.s_zz))
+        yield _number(f"shear, {name}", shear, "MPa", size=size)
+        yield _number(f"peel, {name}", max(peel, 0.0), "MPa", size=size)
 
 
 def _roller_rows(name: str, roller: Roller) -> Iterator[_Row]:

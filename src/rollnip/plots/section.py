@@ -166,8 +166,13 @@ def _modulus(material: Material) -> str:
     """Relaxed and glassy modulus."""
     relaxed, glassy = material.relaxed_modulus, material.glassy_modulus
     if material.is_elastic or not isfinite(glassy) or not relaxed < glassy:
-        return f"{relaxed:.4g} MPa"
-    return f"{relaxed:.4g} to {glassy:.4g} MPa"
+        return f"{_plain(relaxed)} MPa"
+    return f"{_plain(relaxed)} to {_plain(glassy)} MPa"
+
+
+def _plain(value: float) -> str:
+    """Four digits, without a power of ten as far as a modulus goes."""
+    return f"{value:.0f}" if 1e4 <= value < 1e7 else f"{value:.4g}"
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from difflib import get_close_matches
-from math import ceil
 from textwrap import wrap
 from typing import Any, Literal
 
@@ -14,7 +13,10 @@ from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import Colormap, LinearSegmentedColormap, to_rgba
 from matplotlib.figure import Figure, SubFigure
+from matplotlib.font_manager import FontProperties
+from matplotlib.layout_engine import PlaceHolderLayoutEngine
 from matplotlib.patches import Patch
+from matplotlib.textpath import text_to_path
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.solution import Solution
@@ -25,8 +27,9 @@ MM = 1.0 / 25.4  # inches
 FULL, COLUMN = 180.0, 85.0  # mm, widths of a page and of a column
 _GOLDEN = 0.6
 _NARROW, _WIDE = 2.6, 5.5  # inches of axes at which type is smallest and full-sized
-_MIDDLE = 3.5
+_ROOM = 1.06  # of a legend, in widths of the axes
 _SMALLEST = 0.72
+_TYPE = 10.0  # pt
 LETTER = 0.53  # mean width of a letter, in sizes
 
 
@@ -94,6 +97,10 @@ DARK = Palette(
     ),
 )
 _PALETTES = {"light": LIGHT, "dark": DARK}
+
+
+class PageLayout(PlaceHolderLayoutEngine):
+    """Axes at fixed places that leave room around them for type of our own size."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,6 +216,8 @@ def _size_on(ax: Axes) -> float:
     """Size of type for the width of the axes, around the user's own size."""
     part = (axes_inches(ax)[0] - _NARROW) / (_WIDE - _NARROW)
     factor = _SMALLEST + (1.0 - _SMALLEST) * float(np.clip(part, 0.0, 1.0))
+    if isinstance(figure_of(ax).get_layout_engine(), PageLayout):
+        return factor * _TYPE
     return factor * float(rcParams["font.size"])
 
 
@@ -241,13 +250,12 @@ def legend(ax: Axes, look: Look, handles: list[Artist]) -> None:
 
     Inside them where the figure has no layout engine that would give it room.
     """
-    width = axes_inches(ax)[0]
-    room = 72.0 * width * (1.2 if width < _MIDDLE else 1.05)
-    lengths = [len(str(handle.get_label())) for handle in handles]
+    widths = [text_width(str(handle.get_label()), look.small) for handle in handles]
     columns = len(handles)
-    place: dict[str, Any]
-    while columns > 1 and _legend_width(lengths, columns) * look.small > room:
+    room = _ROOM * 72.0 * axes_inches(ax)[0]
+    while columns > 1 and _legend_width(widths, columns, look.small) > room:
         columns -= 1
+    place: dict[str, Any]
     if figure_of(ax).get_layout_engine() is None:
         # below the arrows
         place = {"loc": "best", "bbox_to_anchor": (0.0, 0.0, 1.0, 0.91), "edgecolor": "none"}
@@ -270,11 +278,15 @@ def below_axes(look: Look) -> float:
     return 14.0 + 1.2 * (look.small + look.size)
 
 
-def _legend_width(lengths: list[int], columns: int) -> float:
-    """Width of a legend filled column by column, in sizes of type."""
-    rows = ceil(len(lengths) / columns)
-    parts = [lengths[i : i + rows] for i in range(0, len(lengths), rows)]
-    return sum(LETTER * max(part) + 4.8 for part in parts)
+def text_width(text: str, size: float) -> float:
+    """Width of a line of text [pt]."""
+    font = FontProperties(size=size)
+    return float(text_to_path.get_text_width_height_descent(text, font, ismath=False)[0])
+
+
+def _legend_width(widths: list[float], columns: int, size: float) -> float:
+    """Width of a legend filled column by column [pt]; 4.8: handle and the spaces beside it."""
+    return sum(float(part.max()) + 4.8 * size for part in np.array_split(widths, columns))
 
 
 def shade(ax: Axes, look: Look, solution: Solution) -> list[Artist]:

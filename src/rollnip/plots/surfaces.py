@@ -34,7 +34,24 @@ Array = NDArray[np.float64]
 _SIDE = 0.8  # shown of strain and speed on either side, in nip widths
 _NEAR = 0.45  # of gap and surfaces
 _LEFT = 0.8
-_FACTORS = (1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 15.0, 20.0, 30.0, 50.0, 100.0, 200.0)
+_FACTORS = (
+    1.0,
+    1.5,
+    2.0,
+    3.0,
+    4.0,
+    5.0,
+    6.0,
+    8.0,
+    10.0,
+    15.0,
+    20.0,
+    30.0,
+    50.0,
+    100.0,
+    200.0,
+    500.0,
+)
 
 
 def plot_strain(solution: Solution, ax: Axes | None = None, *, style: Style | None = None) -> Axes:

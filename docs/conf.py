@@ -61,7 +61,7 @@ default_role = "code"
 # MyST
 myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "amsmath", "substitution"]
 myst_substitutions = {
-    "default_geometry": Model().geometry,
+    "default_geometry": f'`"{Model().geometry}"`',
     "default_tolerance": Model().tolerance,
 }
 myst_heading_anchors = 3
@@ -115,6 +115,20 @@ html_theme = "pydata_sphinx_theme"
 html_title = "rollnip"
 html_static_path = ["_static"]
 html_css_files = ["rollnip.css"]
+# Pages without pages below them need no column for those.
+html_sidebars = {
+    page: []
+    for page in (
+        "index",
+        "getting-started",
+        "tutorial",
+        "theory",
+        "limits",
+        "conventions",
+        "verification",
+        "geometry",
+    )
+}
 html_show_sourcelink = False
 html_copy_source = False
 html_show_sphinx = False
@@ -125,6 +139,7 @@ html_theme_options = {
     "footer_start": ["copyright"],
     "footer_end": [],
     "header_links_before_dropdown": 6,
+    "secondary_sidebar_items": {"**": ["page-toc"], "verification": []},
     "show_prev_next": True,
     "show_toc_level": 2,
     "pygments_light_style": "a11y-high-contrast-light",

@@ -130,7 +130,10 @@ class Command(Markup):
         command = find_command(self.arguments[0] if self.arguments else "")
         help_text = inspect.cleandoc(command.help or "")
         path = f"rollnip {self.arguments[0]}" if self.arguments else "rollnip"
-        rows = [(option_names(one), one.help or "", shown_default(one)) for one in command.params]
+        rows = [
+            (option_names(one, command), one.help or "", shown_default(one))
+            for one in command.params
+        ]
         usage = [usage_of(one) for one in command.params if one.param_type_name == "argument"]
         lines = ["```console", f"$ {' '.join([path, *usage])} [options]", "```", "", help_text, ""]
         return [*"\n".join(lines).split("\n"), *table(("option", "meaning", "default"), rows)]
@@ -148,12 +151,12 @@ def find_command(path: str) -> Any:
     return command
 
 
-def option_names(option: Any) -> str:
-    """As one types it."""
+def option_names(option: Any, command: Any) -> str:
+    """As one types it, with what it takes, as its help says."""
     if option.param_type_name == "argument":
         return f"`{usage_of(option)}`"
-    value = "" if option.is_flag else f" <{option.name.replace('_', '-')}>"
-    return ", ".join(f"`{name}{value if name.startswith('--') else ''}`" for name in option.opts)
+    written = option.get_help_record(command.context_class(command))[0].replace("<str>", "<text>")
+    return ", ".join(f"`{name}`" for name in written.split(", "))
 
 
 def usage_of(argument: Any) -> str:

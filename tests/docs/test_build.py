@@ -79,6 +79,12 @@ def test_every_public_name_is_an_object_of_the_reference(html: Path) -> None:
     assert not missing
 
 
+def test_pictures_of_executed_pages_are_pictures(html: Path) -> None:
+    # A figure that no formatter took is shown as its repr.
+    left = [page.name for page in html.rglob("*.html") if "&lt;Figure size" in page.read_text()]
+    assert not left
+
+
 def test_mathematics_and_pictures_are_there(html: Path) -> None:
     assert (html / "_static" / "mathjax" / "tex-svg.js").is_file()
     assert (html / "_static" / "mathjax" / "LICENSE").is_file()

@@ -26,7 +26,8 @@ def main() -> None:
     scan = simulate_scan(solution, instrument, seed=0)
     save_record(scan, folder / "lda_record.png")
     measured = estimate_profile(scan.x, scan.velocity)
-    found = compare(measured, solution, width=instrument.averaging_width)
+    width, blur = instrument.averaging_width, instrument.largest_blur
+    found = compare(measured, solution, width=width, blur=blur)
     save_comparison(found, folder / "lda_comparison.png", simulated=True)
     if "--table" in sys.argv:
         sys.stdout.write(effects_table(list(effects())))

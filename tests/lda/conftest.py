@@ -26,11 +26,11 @@ def uniform():
 def free():
     """Configuration I, rolling freely."""
     case = rn.read_case(EXAMPLES / "configuration-1-free.toml")
-    return rn.solve(case.nip, case.model)
+    return rn.solve(case.nip, rn.Model(geometry="curved"))
 
 
 @pytest.fixture(scope="session")
 def driven():
     """Configuration II, driven."""
     case = rn.read_case(EXAMPLES / "configuration-2-driven.toml")
-    return rn.solve(case.nip, case.model)
+    return rn.solve(case.nip, rn.Model(geometry="curved"))

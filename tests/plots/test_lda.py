@@ -31,6 +31,7 @@ def comparison():
         probability=0.5,
         confidence=0.95,
         contact=(-1.0, 1.0),
+        left_out=0,
     )
 
 

@@ -152,7 +152,12 @@ def compare(
         solution, _ = _solved(case, geometry)
         with _named(str(file)):
             result = align(
-                profile, solution, side=_side(known), width=known.averaging_width, confidence=level
+                profile,
+                solution,
+                side=_side(known),
+                width=known.averaging_width,
+                blur=known.largest_blur,
+                confidence=level,
             )
         if plot is not None:
             from rollnip.plots.lda import save_comparison
@@ -283,6 +288,7 @@ def _text(result: Comparison, *, simulated: bool, as_json: bool) -> str:
     tree: dict[str, Any] = {
         "simulated": simulated,
         "positions": result.x.size,
+        "left_out": result.left_out,
         "confidence": result.confidence,
         **{
             name: {"value": fit.value, "low": fit.low, "high": fit.high}
@@ -299,8 +305,10 @@ def _text(result: Comparison, *, simulated: bool, as_json: bool) -> str:
 
         return dumps(tree, indent=2, allow_nan=False) + "\n"
     level = f"{100.0 * result.confidence:g} %"
+    blurred = f"; {result.left_out} more left out: too steep for the volume"
     lines = [
-        f"{result.x.size} positions{', SIMULATED' if simulated else ''}",
+        f"{result.x.size} positions{', SIMULATED' if simulated else ''}"
+        f"{blurred if result.left_out else ''}",
         f"shift        {result.shift.value:10.4f} mm    {level} from {result.shift.low:.4f} "
         f"to {result.shift.high:.4f}",
         f"V            {result.speed.value:10.4f} mm/s  {level} from {result.speed.low:.4f} "

@@ -16,7 +16,7 @@ import csv
 from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from difflib import get_close_matches
-from math import degrees, isfinite, radians
+from math import degrees, inf, isfinite, radians
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension, parse_quantity
 from rollnip.lda import (
+    Instrument,
     Scan,
     VelocityProfile,
     estimate_profile,
@@ -79,6 +80,15 @@ class Settings:
     def averaging_width(self) -> float:
         """Standard deviation of the averaging along x [mm]; 0 where the volume is not known."""
         return 0.0 if self.half_width is None else self.half_width / 8.0**0.5
+
+    @property
+    def largest_blur(self) -> float:
+        """As of `rollnip.lda.Instrument`; inf where wavelength, angle or volume is not known."""
+        if self.wavelength is None or self.beam_angle is None or self.half_width is None:
+            return inf
+        return Instrument(
+            wavelength=self.wavelength, beam_angle=self.beam_angle, half_width=self.half_width
+        ).largest_blur
 
 
 @dataclass(frozen=True, slots=True)

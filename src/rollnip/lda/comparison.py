@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -59,6 +60,7 @@ class Comparison:
     probability : of a chi-square this large or larger where the model is right.
     confidence : of the intervals.
     contact : trailing and leading edge of the solution [mm].
+    left_out : positions where the velocity changes too much across the volume, not used.
     """
 
     x: Array
@@ -75,6 +77,7 @@ class Comparison:
     probability: float
     confidence: float
     contact: tuple[float, float]
+    left_out: int
 
 
 def compare(
@@ -83,6 +86,7 @@ def compare(
     *,
     side: Side = "upper",
     width: float = 0.0,
+    blur: float = inf,
     confidence: float = 0.95,
 ) -> Comparison:
     """Align a measured velocity profile with a computed one and compare them.
@@ -97,6 +101,9 @@ def compare(
     measured : at least 4 positions.
     side : the roller whose surface was measured.
     width : standard deviation of the averaging, ``instrument.averaging_width`` [mm].
+    blur :
+        largest change of the computed strain by averaging, ``instrument.largest_blur``; positions
+        where it is more (about the end of a slip zone) are left out and counted.
 
     Raises
     ------
@@ -116,9 +123,20 @@ def compare(
     model = SpeedProfile(profiles.x, strain)
     model.check_inside(measured.x, width)
     shift = _best_shift(measured, model, width, solution.nip_width)
-    speed = _speed(measured, model.averaged(measured.x - shift, width))
+    x = measured.x - shift
+    clear = np.abs(model.averaged(x, width) - model.at(x)) <= blur
+    used = measured if np.all(clear) else measured.at(clear)
+    if used.x.size < 4:
+        raise InvalidInputError(
+            f"`width` must leave at least 4 positions where the velocity changes little across "
+            f"the volume, got {width:.3g} mm, which leaves {used.x.size}."
+        )
+    if used is not measured:
+        shift = _best_shift(used, model, width, solution.nip_width)
+    speed = _speed(used, model.averaged(used.x - shift, width))
     require_positive("velocity", speed)
-    return _compared(measured, model, width, (shift, speed), confidence, solution)
+    result = _compared(used, model, width, (shift, speed), confidence, solution)
+    return replace(result, left_out=int(np.count_nonzero(~clear)))
 
 
 def _speed(measured: VelocityProfile, strain: Array) -> float:
@@ -198,4 +216,5 @@ def _compared(
         probability=float(chi2.sf(chi_square, degrees)),
         confidence=confidence,
         contact=(solution.contact[0][0], solution.contact[-1][1]),
+        left_out=0,
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,6 +67,11 @@ class VelocityProfile:
         """
         n = np.where(self.count > 0, self.count, 10**9)
         return np.asarray(self.error**2 * (n - 1.0) / (n - 3.0))
+
+    def at(self, chosen: NDArray[np.bool_]) -> VelocityProfile:
+        """Only the positions where ``chosen`` (m,) is true."""
+        names = ("x", "velocity", "error", "count", "rejected")
+        return replace(self, **{name: getattr(self, name)[chosen] for name in names})
 
     def _quantile(self, confidence: float) -> Array:
         tail = 0.5 * (1.0 + confidence)

@@ -115,7 +115,7 @@ def effects_table(rows: Sequence[Effect]) -> str:
 
 def _measured(nip: Nip, measures: dict[str, Measure], model: Model | None) -> dict[str, float]:
     try:
-        solution = solve(nip, model, on_failure="raise")
+        solution = solve(nip, model or Model(geometry="curved"), on_failure="raise")
     except RollnipError:
         return dict.fromkeys(measures, float("nan"))
     return {name: measure(solution) for name, measure in measures.items()}

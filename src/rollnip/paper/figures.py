@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import get_args
 
 import numpy as np
 
@@ -29,7 +28,7 @@ from rollnip.paper.cases import (
 from rollnip.solution import Solution
 from rollnip.solve import solve
 
-GEOMETRIES: tuple[Geometry, ...] = get_args(Geometry)
+GEOMETRIES: tuple[Geometry, ...] = ("linear", "corrected", "curved")
 _SEEDING = Seeding(bursts=40, snr=30.0, spread=0.01)
 _DEPTHS, _PLACES = 81, 301
 
@@ -74,7 +73,7 @@ class StrainFigure:
 
 
 def pressure_figure(model: Model | None = None) -> PressureFigure:
-    """Figure 4: pressure for the four thicknesses of the top layer.
+    """Figure 4: pressure for the four thicknesses of the top layer; "curved" by default.
 
     Raises ConvergenceError where a solution could not be verified.
     """
@@ -83,7 +82,10 @@ def pressure_figure(model: Model | None = None) -> PressureFigure:
 
 
 def contour_figure(model: Model | None = None) -> ContourFigure:
-    """Figure 5: stress in the coating, elastic and driven (A), viscoelastic and free (B)."""
+    """Figure 5: stress in the coating, elastic and driven (A), viscoelastic and free (B).
+
+    "curved" by default.
+    """
     elastic, viscous = (_solved(n, model) for n in (figure_5_elastic(), figure_5_viscoelastic()))
     return ContourFigure((elastic, viscous), (_field(elastic), _field(viscous)))
 
@@ -106,11 +108,14 @@ def _panel(nip: Nip, seed: int, positions: int) -> StrainPanel:
     curved, instrument = solutions["curved"], Instrument()
     scan = simulate_scan(curved, instrument, _SEEDING, positions=positions, seed=seed)
     measured = estimate_profile(scan.x, scan.velocity)
-    return StrainPanel(solutions, compare(measured, curved, width=instrument.averaging_width))
+    points = compare(
+        measured, curved, width=instrument.averaging_width, blur=instrument.largest_blur
+    )
+    return StrainPanel(solutions, points)
 
 
 def _solved(nip: Nip, model: Model | None) -> Solution:
-    return solve(nip, model, on_failure="raise")
+    return solve(nip, model or Model(geometry="curved"), on_failure="raise")
 
 
 def _field(solution: Solution) -> InteriorField:

@@ -68,8 +68,7 @@ def solve(
     model = Model() if model is None else model
     kernels, final = _refined(nip, model, method or Safeguarded())
     left: tuple[str, ...] = ()
-    believed = final.settled and bool(final.zones) and second_share(nip, final) <= SECOND_MOST
-    if model.geometry == "finite" and not believed:
+    if model.geometry == "finite" and not _is_believed(nip, model, final):
         model = replace(model, geometry="curved")
         kernels, final = _refined(nip, model, method or Safeguarded())
         left = (
@@ -100,6 +99,13 @@ def solve(
     if on_failure == "raise" and not converged:
         raise ConvergenceError(status, solution)
     return solution
+
+
+def _is_believed(nip: Nip, model: Model, final: Round) -> bool:
+    """Whether the second order of "finite" converged and is small enough for a second order."""
+    if not final.zones or not has_grip(final):
+        return False
+    return _verdict(nip, model, final)[0] and second_share(nip, final) <= SECOND_MOST
 
 
 def _refined(nip: Nip, model: Model, method: Safeguarded) -> tuple[PairKernels, Round]:

@@ -62,12 +62,13 @@ def synthesise(
     speed = float(profile.at(np.array([x]))[0])
     stay = instrument.envelope_time(speed)
     length = bursts * spacing * stay
-    samples = rng.standard_normal(int(length * instrument.sample_rate) + 1)
     count = int(rng.poisson(bursts))
     arrivals = np.sort(rng.uniform(0.0, length, count))
     factors = _waver(count, spread, rng)
     amplitudes = np.sqrt(2.0 * snr) * rng.uniform(0.5, 1.5, count)
     phases = rng.uniform(0.0, 2.0 * np.pi, count)
+    # last: a record longer by one sample is otherwise the same
+    samples = rng.standard_normal(int(length * instrument.sample_rate) + 1)
     distance, time = _path(instrument, profile, x)
     for arrival, factor, amplitude, phase in zip(
         arrivals, factors, amplitudes, phases, strict=True

@@ -123,7 +123,8 @@ def simulate_scan(
         positions = _evenly(solution, profile, instrument, positions)
     profile.check_inside(positions, instrument.envelope_width)
     _check_length(instrument, seeding, float(np.min(profile.speed)))
-    rng = np.random.default_rng(seed)
+    # a stream for each place: what changes at one does not change the others
+    streams = np.random.default_rng(seed).spawn(positions.size)
     records = [
         synthesise(
             instrument,
@@ -135,7 +136,7 @@ def simulate_scan(
             spacing=seeding.spacing,
             rng=rng,
         )
-        for x in positions
+        for x, rng in zip(positions, streams, strict=True)
     ]
     found = [
         (float(x), burst.frequency, burst.snr)

@@ -59,6 +59,9 @@ class SecondFields:
         )
 
 
+NO_SECOND_ORDER = SecondFields((None,) * 4, ((0.0, 0.0),) * 4)
+
+
 @dataclass(frozen=True, slots=True)
 class PairKernels:
     """Influence functions of both surfaces; None for a bare rigid roller.

@@ -118,7 +118,7 @@ def fine_points(final: Round) -> Array:
     ]
     inside = np.append(np.sort(np.concatenate(between)), nodes[-1])
     width = final.figures.nip_width
-    away = np.concatenate([np.geomspace(2e-3, 0.1, 10), np.linspace(0.15, 1.1, 20)]) * width
+    away = np.concatenate([np.geomspace(1e-3, 0.1, 20), np.linspace(0.12, 1.1, 50)]) * width
     edges = final.zones[0].start, final.zones[-1].stop
     trailing = edges[0] - away[::-1]
     leading = edges[1] + away

@@ -22,6 +22,7 @@ from rollnip.influence import load_weights
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import (
+    NO_SECOND_ORDER,
     Array,
     Mesh,
     PairKernels,
@@ -37,7 +38,7 @@ from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_gr
 _FIRST_COUNT = 16
 _FEWEST_SIZES = 3  # of meshes before an error is believed
 _COARSE = 96  # elements up to which an unsettled mesh may still place edges
-_HELD = 32  # nodes from which on the second order of a mesh is good for finer ones
+_ENOUGH_FOR_ZONES = 130  # elements; transitions that still move have no square root at them
 _MOST_FAILURES = 3  # fine meshes that do not settle
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
@@ -89,7 +90,7 @@ def refine(
     best: Round | None = None
     history: list[_Size] = []
     for _ in range(_MOST_ROUNDS):
-        held = kernels if best is None else _holding(kernels, best)
+        held = _holding(kernels, latest)
         mesh = mesh_on(graded_nodes(breaks, count, demand), held)
         latest = _solve_on(nip, model, mesh, zones, latest if best is None else best, method)
         if _is_hopeless(latest) or failures > _MOST_FAILURES:
@@ -110,7 +111,8 @@ def refine(
         latest = replace(latest, error=_error(nip, latest, history))
         best = latest if latest.settled or best is None else best
         ratio = excess(nip, latest, model.tolerance)
-        ratio = max(ratio, _zone_excess(history, model.tolerance))
+        if count < _ENOUGH_FOR_ZONES:
+            ratio = max(ratio, _zone_excess(history, model.tolerance))
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
             latest = _checked(nip, model, kernels, latest)
             if latest.residual <= model.tolerance or count >= _MOST_ELEMENTS:
@@ -122,16 +124,16 @@ def refine(
     return _checked(nip, model, kernels, last) if last.figures.peak_pressure > 0.0 else last
 
 
-def _holding(kernels: PairKernels, best: Round) -> PairKernels:
-    """Influence functions that take the second order from a solution already settled.
+def _holding(kernels: PairKernels, before: Round | None) -> PairKernels:
+    """Influence functions that take the second order from the mesh before; at first none.
 
-    It is small and smooth; taken anew on each mesh it would cost most of the time, and its
-    rounding at slipping edges would drown the difference of two meshes. The last mesh is
-    checked with its own.
+    It is small and smooth: a few updates are enough, and the last mesh is checked with its own.
     """
-    if kernels.is_linear or best.problem.x.size < _HELD:
+    if kernels.is_linear:
         return kernels
-    return replace(kernels, held=kernels.second_fields(best.mesh.nodes, best.state))
+    if before is None or not before.settled:
+        return replace(kernels, held=NO_SECOND_ORDER)
+    return replace(kernels, held=kernels.second_fields(before.mesh.nodes, before.state))
 
 
 def _is_hopeless(latest: Round) -> bool:

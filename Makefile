@@ -54,7 +54,7 @@ docs: $(DOCS_STAMP) ## the documentation, to docs/_build/html; docs/verification
 	@mkdir -p docs/_build
 	$(BIN)/rollnip verify --markdown > docs/_build/verification.md
 	mv docs/_build/verification.md docs/verification.md
-	$(BIN)/sphinx-build -q -W --keep-going -b html docs docs/_build/html
+	$(BIN)/sphinx-build -q -W --keep-going -b html -d docs/_build/doctrees docs docs/_build/html
 
 $(DOCS_STAMP): $(STAMP)
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'

@@ -72,17 +72,9 @@ nb_execution_timeout = 120
 nb_merge_streams = True
 nb_execution_in_temp = True
 
-# Mathematics: one vendored file, no speech (it would ask for more files).
+# Mathematics: one vendored file with all its letters; no menu, which would ask for more files.
 mathjax_path = "mathjax/tex-svg.js"
-mathjax4_config = {
-    "options": {
-        "enableMenu": False,
-        "menuOptions": {
-            "settings": {"enrich": False, "speech": False, "braille": False, "collapsible": False}
-        },
-    },
-    "output": {"displayOverflow": "scroll", "linebreaks": {"inline": False}},
-}
+mathjax3_config = {"options": {"enableMenu": False}}
 
 # Python
 autodoc_member_order = "bysource"

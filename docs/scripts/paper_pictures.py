@@ -21,7 +21,7 @@ def main() -> None:
     folder.mkdir(exist_ok=True)
     save_paper(folder, prefix="paper_")
     case = rn.read_case(DOCS.parent / "examples" / "configuration-2-driven.toml")
-    solution = rn.solve(case.nip, case.model)
+    solution = rn.solve(case.nip, rn.Model(geometry="curved"))
     instrument = Instrument()
     scan = simulate_scan(solution, instrument, seed=0)
     save_record(scan, folder / "lda_record.png")

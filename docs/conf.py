@@ -17,8 +17,12 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 # Kernels start in the folder of their page; the command sits beside the interpreter.
 os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]
-os.environ["ROLLNIP_EXAMPLES"] = str(HERE.parent / "examples")
 os.environ["COLUMNS"] = "80"
+# Kernels read no settings of whoever builds, and say nothing but errors.
+profile = HERE / "_build" / "ipython" / "profile_default"
+profile.mkdir(parents=True, exist_ok=True)
+(profile / "ipython_kernel_config.py").write_text('c.Application.log_level = "ERROR"\n')
+os.environ["IPYTHONDIR"] = str(profile.parent)
 
 project = "rollnip"
 author = "The rollnip developers"

@@ -9,10 +9,10 @@ from rollnip import InvalidInputError, Model
 
 
 def test_defaults():
-    assert Model() == Model(geometry="curved", tolerance=1e-3)
+    assert Model() == Model(geometry="finite", tolerance=1e-3)
 
 
-@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved"])
+@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved", "finite"])
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-3, 0.1])
 def test_allowed(geometry, tolerance):
     model = Model(geometry=geometry, tolerance=tolerance)

@@ -23,8 +23,8 @@ def nip(thickness=2.0, radius=50.0, load=0.74, material=RUBBER, **changes):
     )
 
 
-def warnings_of(problem):
-    return " ".join(solve(problem, Model(tolerance=1e-2)).warnings)
+def warnings_of(problem, geometry="curved"):
+    return " ".join(solve(problem, Model(geometry=geometry, tolerance=1e-2)).warnings)
 
 
 def test_a_nip_like_those_compared_has_no_warning():
@@ -36,7 +36,17 @@ def test_deep_indentation():
 
 
 def test_thick_covering():
-    assert "of its radius" in warnings_of(nip(thickness=10.0, load=0.2))
+    thick = nip(thickness=10.0, load=0.2)
+    assert "of its radius" in warnings_of(thick)
+    assert "of its radius" not in warnings_of(thick, "finite")
+    assert "of its radius" in warnings_of(nip(thickness=22.0, load=0.1), "finite")
+
+
+def test_a_second_order_that_is_large_or_fails():
+    assert "changes the indentation" in warnings_of(nip(load=20.0), "finite")
+    beyond = solve(nip(load=60.0), Model(tolerance=1e-2))
+    assert beyond.model.geometry == "curved"
+    assert "instead" in " ".join(beyond.warnings)
 
 
 def test_wide_nip():

@@ -33,7 +33,7 @@ class Model:
         for another geometry or a tolerance outside its range.
     """
 
-    geometry: Geometry = "curved"
+    geometry: Geometry = "finite"
     tolerance: float = 1e-3
 
     def __post_init__(self) -> None:

@@ -9,7 +9,8 @@ import rollnip as rn
 from rollnip.closed_forms import carter, contact_modulus
 from rollnip.contact import Safeguarded, State, contact_zones, graded_nodes, states_on
 from rollnip.rolling import pair_kernels, peak_pressure
-from rollnip.rolling.assemble import contact_problem, first_guess, mesh_on
+from rollnip.rolling.assemble import contact_problem, first_guess
+from rollnip.rolling.surfaces import mesh_on
 
 COUNTS = (40, 80, 160, 320)
 FIGURES = list(enumerate(["creepage", "nip width", "peak pressure"]))

@@ -20,7 +20,7 @@ def solved():
         tangential=rn.Traction(0.53),
         friction=2.8,
     )
-    return rn.solve(nip)
+    return rn.solve(nip, rn.Model(geometry="curved"))
 
 
 @pytest.fixture(scope="module")

@@ -18,7 +18,7 @@ FILES = {
 @cache
 def solved(name):
     case = rn.read_case(EXAMPLES / f"{FILES[name]}.toml")
-    return rn.solve(case.nip, case.model)
+    return rn.solve(case.nip, rn.Model(geometry="curved"))
 
 
 @cache
@@ -32,7 +32,7 @@ def on_a_plane():
         tangential=rn.Traction(0.4),
         friction=0.6,
     )
-    return rn.solve(nip, on_failure="return")
+    return rn.solve(nip, rn.Model(geometry="curved"), on_failure="return")
 
 
 @pytest.fixture(scope="session")

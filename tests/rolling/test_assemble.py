@@ -8,7 +8,8 @@ import pytest
 import rollnip as rn
 from rollnip.contact import State, creep, gap, graded_nodes
 from rollnip.rolling import fields_at, hoop_curvature, pair_kernels
-from rollnip.rolling.assemble import contact_problem, first_guess, mesh_on, second_order
+from rollnip.rolling.assemble import contact_problem, first_guess, second_order
+from rollnip.rolling.surfaces import mesh_on
 
 FOAM = rn.Elastic(modulus=0.5, poisson=0.1)
 RUBBER = rn.Elastic(modulus=2.0, poisson=0.5)

@@ -1,14 +1,6 @@
 """The rolling contact of two rollers: assembly, rounds of refinement, the check afterwards."""
 
-from rollnip.rolling.assemble import (
-    Displacements,
-    PairKernels,
-    hoop_curvature,
-    pair_kernels,
-    pressure_work,
-    surface_depths,
-    with_second_order,
-)
+from rollnip.rolling.assemble import hoop_curvature, pressure_work, surface_depths
 from rollnip.rolling.check import (
     Fields,
     fields_at,
@@ -21,6 +13,12 @@ from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_grip, peak_pressure
 from rollnip.rolling.start import half_width_guess
+from rollnip.rolling.surfaces import (
+    Displacements,
+    PairKernels,
+    pair_kernels,
+    with_second_order,
+)
 
 __all__ = [
     "DeformedSurfaces",

@@ -11,17 +11,15 @@ from rollnip.influence import strain_matrix
 from rollnip.influence.surface import SurfaceKernels
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import (
+from rollnip.rolling.assemble import hoop_curvature, stretch_excess, surface_depths
+from rollnip.rolling.round import Round, creepage_scale
+from rollnip.rolling.surfaces import (
     Array,
     Displacements,
     PairKernels,
     SurfaceMatrices,
-    hoop_curvature,
-    stretch_excess,
-    surface_depths,
     surface_matrices,
 )
-from rollnip.rolling.round import Round, creepage_scale
 
 _SUBDIVISION = 3
 _OUTSIDE = np.array([0.02, 0.1, 0.3, 1.0])  # of the nip width, where overlap is looked for too

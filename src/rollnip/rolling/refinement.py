@@ -21,19 +21,10 @@ from rollnip.contact import (
 from rollnip.influence import load_weights
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import (
-    NO_SECOND_ORDER,
-    Array,
-    Mesh,
-    PairKernels,
-    SecondOrder,
-    contact_problem,
-    first_guess,
-    mesh_on,
-    second_order,
-)
+from rollnip.rolling.assemble import SecondOrder, contact_problem, first_guess, second_order
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_grip, peak_pressure
+from rollnip.rolling.surfaces import NO_SECOND_ORDER, Array, Mesh, PairKernels, mesh_on
 
 _FIRST_COUNT = 16
 _FEWEST_SIZES = 3  # of meshes before an error is believed

@@ -9,7 +9,7 @@ import numpy as np
 
 from rollnip.contact import ContactProblem, ContactState, Zone
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import Array, Mesh
+from rollnip.rolling.surfaces import Array, Mesh
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,7 +7,7 @@ import numpy as np
 from rollnip._errors import InvalidInputError
 from rollnip.influence import Kernel
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import Array, PairKernels
+from rollnip.rolling.surfaces import Array, PairKernels
 
 _CANDIDATES = 40
 _SMALLEST = 1e-9  # of the smaller radius

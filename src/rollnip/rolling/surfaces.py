@@ -1,0 +1,213 @@
+"""Influence functions of both rollers, and what the surfaces do on a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import ContactState
+from rollnip.influence import (
+    SecondResponse,
+    SurfaceKernels,
+    covering_window,
+    displacement_matrix,
+    second_response,
+    surface_kernels,
+)
+from rollnip.model import Geometry
+from rollnip.nip import Nip
+
+Array = NDArray[np.float64]
+Field = Callable[[Array], Array]
+
+
+@dataclass(frozen=True, slots=True)
+class SecondFields:
+    """Second-order displacements of both surfaces under given tractions, as functions of x.
+
+    Attributes
+    ----------
+    functions : u_x and u_z of the upper, u_x and u_z of the lower surface; None: zero.
+    ends : the places between which they hold [mm]; beyond they keep their last value.
+    """
+
+    functions: tuple[Field | None, ...]
+    ends: tuple[tuple[float, float], ...]
+
+    def at(self, x: Array) -> Displacements:
+        """Displacements at some places."""
+        return Displacements(
+            *(
+                np.zeros(x.size) if f is None else np.asarray(f(np.clip(x, *ends)))
+                for f, ends in zip(self.functions, self.ends, strict=True)
+            )
+        )
+
+
+NO_SECOND_ORDER = SecondFields((None,) * 4, ((0.0, 0.0),) * 4)
+
+
+@dataclass(frozen=True, slots=True)
+class PairKernels:
+    """Influence functions of both surfaces; None for a bare rigid roller.
+
+    Attributes
+    ----------
+    upper, lower : linear.
+    second_upper, second_lower : to second order; None also where the model leaves it out.
+    held : second-order displacements to use whatever the tractions; None: always those of the
+        tractions at hand.
+    """
+
+    upper: SurfaceKernels | None
+    lower: SurfaceKernels | None
+    second_upper: SecondResponse | None = None
+    second_lower: SecondResponse | None = None
+    held: SecondFields | None = None
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether there is no second order."""
+        return self.second_upper is None and self.second_lower is None
+
+    def second(self, nodes: Array, state: ContactState, x: Array) -> Displacements:
+        """Second-order displacements at ``x`` under the tractions of a solution."""
+        held = self.second_fields(nodes, state) if self.held is None else self.held
+        return held.at(x)
+
+    def second_fields(self, nodes: Array, state: ContactState) -> SecondFields:
+        """Second-order displacements under the tractions of a solution, as functions."""
+        functions: list[Field | None] = []
+        ends: list[tuple[float, float]] = []
+        for response, sign in ((self.second_upper, 1.0), (self.second_lower, -1.0)):
+            if response is None:
+                functions += [None, None]
+                ends += [(0.0, 0.0)] * 2
+                continue
+            functions += response.displacement(nodes, state.pressure, sign * state.shear)
+            ends += [(float(response.x[0]), float(response.x[-1]))] * 2
+        return SecondFields(tuple(functions), tuple(ends))
+
+
+def pair_kernels(nip: Nip, geometry: Geometry) -> PairKernels:
+    """Tabulate the influence functions of both rollers on one window."""
+    window = covering_window((nip.upper, nip.lower), nip.speed)
+    upper, lower = (
+        None if roller.is_rigid else surface_kernels(roller, nip.speed, geometry, window)
+        for roller in (nip.upper, nip.lower)
+    )
+    return PairKernels(upper, lower)
+
+
+def with_second_order(
+    kernels: PairKernels, nip: Nip, geometry: Geometry, half_width: float
+) -> PairKernels:
+    """Add what the second order of "finite" needs, on grids fit for a contact of that size."""
+    if geometry != "finite":
+        return kernels
+    upper, lower = (
+        None if roller.is_rigid or roller.core else second_response(roller, nip.speed, half_width)
+        for roller in (nip.upper, nip.lower)
+    )
+    return replace(kernels, second_upper=upper, second_lower=lower)
+
+
+@dataclass(frozen=True, slots=True)
+class SurfaceMatrices:
+    """Displacements of one surface at some points per nodal traction of its own frame.
+
+    u_x = xx t_x + xz t_z and u_z = -xz t_x + zz t_z; each (points, N-1) [mm/MPa].
+    """
+
+    xx: Array
+    zz: Array
+    xz: Array
+
+
+@dataclass(frozen=True, slots=True)
+class Displacements:
+    """Displacements of both surfaces, each in its own frame, at some points [mm]."""
+
+    x_upper: Array
+    z_upper: Array
+    x_lower: Array
+    z_lower: Array
+
+    def __add__(self, other: Displacements) -> Displacements:
+        return Displacements(
+            self.x_upper + other.x_upper,
+            self.z_upper + other.z_upper,
+            self.x_lower + other.x_lower,
+            self.z_lower + other.z_lower,
+        )
+
+    def but_last(self) -> Displacements:
+        """At all points but the last."""
+        return Displacements(
+            self.x_upper[:-1], self.z_upper[:-1], self.x_lower[:-1], self.z_lower[:-1]
+        )
+
+    @classmethod
+    def under(
+        cls, upper: SurfaceMatrices, lower: SurfaceMatrices, state: ContactState
+    ) -> Displacements:
+        """Under the tractions of a solution: (q, p) on the upper surface, (-q, p) on the lower."""
+        p, q = state.pressure, state.shear
+        return cls(
+            x_upper=upper.xz @ p + upper.xx @ q,
+            z_upper=upper.zz @ p - upper.xz @ q,
+            x_lower=lower.xz @ p - lower.xx @ q,
+            z_lower=lower.zz @ p + lower.xz @ q,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class Mesh:
+    """Nodes, and what the surfaces do at nodes[1:] under unit tractions at nodes[1:-1]."""
+
+    nodes: Array
+    upper: SurfaceMatrices
+    lower: SurfaceMatrices
+    kernels: PairKernels
+
+    @property
+    def inner(self) -> Array:
+        """Nodes that carry tractions, (N-1,) [mm]."""
+        return self.nodes[1:-1]
+
+    @property
+    def dx(self) -> Array:
+        """Lengths of the intervals between nodes[1:], (N-1,) [mm]."""
+        return np.diff(self.nodes[1:])
+
+    def linear(self, state: ContactState) -> Displacements:
+        """Displacements at nodes[1:], linear in the tractions."""
+        return Displacements.under(self.upper, self.lower, state)
+
+    def displacements(self, state: ContactState) -> Displacements:
+        """Displacements at nodes[1:], to the order of the model."""
+        return self.linear(state) + self.kernels.second(self.nodes, state, self.nodes[1:])
+
+
+def mesh_on(nodes: Array, kernels: PairKernels) -> Mesh:
+    """Evaluate the influence functions of both surfaces on a mesh."""
+    points = nodes[1:]
+    return Mesh(
+        nodes,
+        surface_matrices(kernels.upper, points, nodes),
+        surface_matrices(kernels.lower, points, nodes),
+        kernels,
+    )
+
+
+def surface_matrices(
+    kernels: SurfaceKernels | None, points: Array, nodes: Array
+) -> SurfaceMatrices:
+    """Displacements at ``points`` per unit traction at nodes[1:-1]; zero for a rigid roller."""
+    if kernels is None:
+        zero = np.zeros((points.size, nodes.size - 2))
+        return SurfaceMatrices(zero, zero, zero)
+    return SurfaceMatrices(*displacement_matrix(kernels.together, points, nodes))

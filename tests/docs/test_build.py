@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
-import os
 import pkgutil
 import re
 import subprocess
@@ -39,7 +38,6 @@ def html() -> Path:
     done = subprocess.run(
         [*command, "docs", str(HTML)],
         cwd=ROOT,
-        env=os.environ | {"PYTHONPATH": ""},
         capture_output=True,
         text=True,
         timeout=600,

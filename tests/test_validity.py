@@ -89,3 +89,10 @@ def test_far_temperature_and_constant_loss_factor():
     assert "shifted over 77 K" in warnings_of(nip(material=hot))
     lossy = rn.LossFactor(modulus=0.9, loss_factor=0.1, poisson=0.5)
     assert "constant loss factor" in warnings_of(nip(material=lossy))
+
+
+def test_surface_strain_beside_a_slipping_edge():
+    black = rn.Roller(radius=25.0, layers=[rn.Layer(2.7, rn.Elastic(modulus=2.04, poisson=0.5))])
+    driven = replace(nip(load=1.78), lower=black, tangential=rn.Traction(0.53))
+    assert "surface is strained" in warnings_of(driven)
+    assert "surface is strained" not in warnings_of(replace(driven, tangential=rn.Traction(0.0)))

@@ -15,7 +15,7 @@ from rollnip.materials import LossFactor, Prony, Viscoelastic
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling import Round
+from rollnip.rolling import Round, stretch_excess
 
 NIP_STRAIN = 0.15
 """Approach over the thickness of the coverings."""
@@ -23,6 +23,8 @@ THICKNESS_RATIO = 0.15
 """Thickness of a covering over the radius of its roller, but in "finite"."""
 THICKNESS_RATIO_FINITE = 0.4
 """The same in geometry "finite"."""
+SURFACE_STRAIN = 0.3
+"""Strain of a surface in the nip, mean over an element."""
 CONTACT_ANGLE = 0.25
 """Half the nip width over the smaller radius [rad]."""
 SECOND_SHARE = 0.15
@@ -41,6 +43,7 @@ def validity_warnings(nip: Nip, model: Model, final: Round) -> tuple[str, ...]:
         _nip_strain(nip, final),
         *(_thickness_ratio(name, roller, model) for name, roller in _rollers(nip)),
         _contact_angle(nip, final),
+        _surface_strain(nip, model, final),
         _second_order(nip, final),
         *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),
         *(_thin_top_layer(name, roller, final) for name, roller in _rollers(nip)),
@@ -88,6 +91,24 @@ def _contact_angle(nip: Nip, final: Round) -> str:
     return (
         f"The nip spans {2.0 * np.degrees(angle):.0f} degrees of the smaller roller; the model was "
         f"compared with finite elements up to {2.0 * np.degrees(CONTACT_ANGLE):.0f}."
+    )
+
+
+def _surface_strain(nip: Nip, model: Model, final: Round) -> str:
+    x = final.mesh.nodes[1:]
+    u = final.mesh.displacements(final.state)
+    touching = final.state.pressure > 0.0
+    largest = max(
+        float(np.max(np.abs(excess / final.mesh.dx)[touching], initial=0.0))
+        for excess in (
+            stretch_excess(x, nip, model.geometry, u, side=side) for side in ("upper", "lower")
+        )
+    )
+    if largest <= SURFACE_STRAIN:
+        return ""
+    return (
+        f"Somewhere in the nip a surface is strained by {100.0 * largest:.0f} %, beside a slipping "
+        "edge as a rule: no model here holds for such a strain; do not read the strain there."
     )
 
 

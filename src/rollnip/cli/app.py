@@ -60,7 +60,7 @@ def solve(
         Path | None, typer.Option(help="Draw an overview on one page: name.png, .svg or .pdf.")
     ] = None,
     geometry: Annotated[
-        str | None, typer.Option(help="linear, corrected or curved; overrides the case file.")
+        str | None, typer.Option(help="linear, corrected, curved or finite; overrides the file.")
     ] = None,
     tolerance: Annotated[
         str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides too.")

@@ -144,11 +144,12 @@ def _total_rows(solution: Solution) -> list[_Row]:
     width = solution.nip.face_width
     if width is None:
         return []
+    moment = solution.load * solution.nip_width
     return [
         _Row("face width", width, "mm"),
         _Row("load", solution.load, "N", width),
-        _Row("torque on the upper axle", solution.torque_upper, "N m", 1e-3 * width),
-        _Row("torque on the lower axle", solution.torque_lower, "N m", 1e-3 * width),
+        _Row("torque on the upper axle", solution.torque_upper, "N m", 1e-3 * width, size=moment),
+        _Row("torque on the lower axle", solution.torque_lower, "N m", 1e-3 * width, size=moment),
     ]
 
 

@@ -1,6 +1,11 @@
 """The rolling contact of two rollers: assembly, rounds of refinement, the check afterwards."""
 
-from rollnip.rolling.assemble import hoop_curvature, pressure_work, surface_depths
+from rollnip.rolling.assemble import (
+    hoop_curvature,
+    pressure_work,
+    stretch_excess,
+    surface_depths,
+)
 from rollnip.rolling.check import (
     Fields,
     fields_at,
@@ -43,6 +48,7 @@ __all__ = [
     "pressure_work",
     "refine",
     "slip_velocity",
+    "stretch_excess",
     "surface_depths",
     "surface_strain",
     "with_second_order",

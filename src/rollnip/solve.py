@@ -27,7 +27,7 @@ from rollnip.rolling import (
     with_second_order,
 )
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import SECOND_MOST, second_share, validity_warnings
+from rollnip.validity import is_small, validity_warnings
 
 
 def solve(
@@ -72,8 +72,8 @@ def solve(
         model = replace(model, geometry="curved")
         kernels, final = _refined(nip, model, method or Safeguarded())
         left = (
-            "The second order of finite strain is too large or did not converge; solved with "
-            '`geometry = "curved"` instead, which may then be 10 % off and more.',
+            "Strains are too large for the second order of finite strain, or it did not converge; "
+            'solved with `geometry = "curved"` instead, which may then be 10 % off and more.',
         )
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
@@ -102,10 +102,10 @@ def solve(
 
 
 def _is_believed(nip: Nip, model: Model, final: Round) -> bool:
-    """Whether the second order of "finite" converged and is small enough for a second order."""
+    """Whether the second order of "finite" converged, and strains are small enough for it."""
     if not final.zones or not has_grip(final):
         return False
-    return _verdict(nip, model, final)[0] and second_share(nip, final) <= SECOND_MOST
+    return _verdict(nip, model, final)[0] and is_small(nip, model, final)
 
 
 def _refined(nip: Nip, model: Model, method: Safeguarded) -> tuple[PairKernels, Round]:

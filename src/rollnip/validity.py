@@ -94,16 +94,24 @@ def _contact_angle(nip: Nip, final: Round) -> str:
     )
 
 
-def _surface_strain(nip: Nip, model: Model, final: Round) -> str:
+def surface_strain_in_nip(nip: Nip, model: Model, final: Round) -> float:
+    """Largest strain of either surface in the contact, mean over an element."""
     x = final.mesh.nodes[1:]
     u = final.mesh.displacements(final.state)
     touching = final.state.pressure > 0.0
-    largest = max(
-        float(np.max(np.abs(excess / final.mesh.dx)[touching], initial=0.0))
-        for excess in (
-            stretch_excess(x, nip, model.geometry, u, side=side) for side in ("upper", "lower")
-        )
-    )
+    sides = (stretch_excess(x, nip, model.geometry, u, side=side) for side in ("upper", "lower"))
+    strains = [np.abs(excess / final.mesh.dx)[touching] for excess in sides]
+    return float(max(np.max(strain, initial=0.0) for strain in strains))
+
+
+def is_small(nip: Nip, model: Model, final: Round) -> bool:
+    """Whether an expansion in strain holds: its second order, and the strains themselves."""
+    small = second_share(nip, final) <= SECOND_MOST
+    return small and surface_strain_in_nip(nip, model, final) <= SURFACE_STRAIN
+
+
+def _surface_strain(nip: Nip, model: Model, final: Round) -> str:
+    largest = surface_strain_in_nip(nip, model, final)
     if largest <= SURFACE_STRAIN:
         return ""
     return (

@@ -178,15 +178,16 @@ def test_energy(for_all, nips):
 
 
 def check_load(nip):
-    """Without friction: a larger load widens the nip, deepens it and raises the pressure."""
-    widths, peaks, approaches = [], [], []
+    """Without friction: a larger load widens the nip and deepens it.
+
+    It need not raise the highest pressure: under a stiff skin that begins to bend it may fall.
+    """
+    widths, approaches = [], []
     for factor in (1.0, 1.5, 4.0):
         solution = solve(replace(nip, normal=rn.LineLoad(factor * nip.normal.load)))
         widths.append(solution.nip_width)
-        peaks.append(solution.peak_pressure)
         approaches.append(solution.approach or factor)
     assert widths == sorted(widths)
-    assert peaks == sorted(peaks)
     assert approaches == sorted(approaches)
 
 

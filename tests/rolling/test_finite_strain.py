@@ -38,6 +38,7 @@ def solved(case, geometry):
 def test_finite(case):
     solution = solved(case, "finite")
     assert solution.converged
+    assert solution.model.geometry == "finite"
     skin = case["case"] == "stiff skin"  # bends and stretches like a sheet: far from second order
     (trailing, leading), near = solution.contact[0], 0.12 if skin else 0.015
     assert solution.approach == pytest.approx(case["approach"], rel=0.01)
@@ -58,3 +59,19 @@ def test_is_nearer_than_curved(case):
 
     found, before = (error(solved(case, geometry)) for geometry in ("finite", "curved"))
     assert found < before + 5e-5
+
+
+SHARED = [case for case in CASES if case["case"] in ("I", "IIb")]
+
+
+@pytest.mark.parametrize("case", SHARED, ids=name_of)
+def test_curved(case):
+    """2.5 % in approach, 3.5 % in edges and peak, 6 % or 0.005 in creepage up to d/R = 0.15."""
+    solution = solved(case, "curved")
+    (trailing, leading), edges = solution.contact[0], case["contact_x"]
+    assert solution.approach == pytest.approx(case["approach"], rel=0.025)
+    assert trailing == pytest.approx(edges[0], rel=0.035)
+    assert leading == pytest.approx(edges[1], rel=0.035)
+    assert solution.peak_pressure == pytest.approx(case["peak_pressure"], rel=0.035)
+    if "creepage" in case:
+        assert solution.creepage == pytest.approx(case["creepage"], rel=0.06, abs=5e-3)

@@ -66,11 +66,12 @@ def solve(
     """
     start = perf_counter()
     model = Model() if model is None else model
-    kernels, final = _refined(nip, model, method or Safeguarded())
+    method = Safeguarded() if method is None else method
+    kernels, final = _refined(nip, model, method)
     left: tuple[str, ...] = ()
     if model.geometry == "finite" and not _is_believed(nip, model, final):
         model = replace(model, geometry="curved")
-        kernels, final = _refined(nip, model, method or Safeguarded())
+        kernels, final = _refined(nip, model, method)
         left = (
             "Strains are too large for the second order of finite strain, or it did not converge; "
             'solved with `geometry = "curved"` instead, which may then be 10 % off and more.',

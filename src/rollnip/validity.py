@@ -1,7 +1,8 @@
 """Where the model is used outside the range it was judged in: a fixed list of warnings.
 
 The thresholds come from the comparison with finite-strain finite elements (docs/geometry.md); the
-list with its reasons is in docs/validity.md. A warning never changes a result.
+list with its reasons is in docs/validity.md. A warning never changes a result; whether strains are
+small enough for geometry "finite" is a question of its own (`is_small`), which `solve` asks.
 """
 
 from __future__ import annotations

@@ -100,10 +100,8 @@ def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: f
     dx = np.diff(x)
     upper = stretch_excess(x, nip, geometry, u, side="upper")
     lower = stretch_excess(x, nip, geometry, u, side="lower")
-    if geometry not in (
-        "curved",
-        "finite",
-    ):  # small strains: the product of creepage and strain is left out
+    if geometry in ("linear", "corrected"):
+        # Small strains: the product of creepage and strain is left out.
         return creepage * dx + upper - lower
     return creepage * dx + (1.0 + 0.5 * creepage) * upper - (1.0 - 0.5 * creepage) * lower
 

@@ -88,7 +88,7 @@ def refine(
             break
         if not latest.settled and count > _COARSE:
             # Another mesh of about this size may settle: what cycles hangs on single nodes.
-            count, failures = _next_count(count, 0.0), failures + 1
+            count, failures = min(int(1.06 * count) + 1, _MOST_ELEMENTS), failures + 1
             continue
         zones = latest.zones
         found = _next_breaks(latest)
@@ -139,7 +139,7 @@ def _is_hopeless(latest: Round) -> bool:
 
 def _next_count(count: int, ratio: float) -> int:
     """Elements that would bring the error, ``ratio`` times too large now, below the tolerance."""
-    growth = 1.06 if ratio == 0.0 else min(max(1.1 * sqrt(ratio), 1.35), 2.0)
+    growth = min(max(1.1 * sqrt(ratio), 1.35), 2.0)
     return min(int(count * growth) + 1, _MOST_ELEMENTS)
 
 
@@ -238,15 +238,9 @@ def _next_breaks(latest: Round) -> Array:
 
 
 def _well_placed(breaks: Array, found: Array, count: int) -> bool:
-    """Whether the edges found lie where the mesh expected them, to about an edge element."""
-    width = found[-1] - found[0]
-    allowed = 4.0 * width / count**2
-    return bool(
-        abs(found[0] - breaks[0]) < allowed
-        and abs(found[-1] - breaks[-1]) < allowed
-        and found.size == breaks.size
-        and np.all(np.abs(found - breaks) < 0.5 * allowed)
-    )
+    """Whether edges and transitions lie where the mesh expected them, to an edge element."""
+    allowed = 2.0 * (found[-1] - found[0]) / count**2
+    return found.size == breaks.size and bool(np.all(np.abs(found - breaks) < allowed))
 
 
 def _error(nip: Nip, latest: Round, history: list[_Size]) -> Figures:
@@ -273,9 +267,13 @@ def _error(nip: Nip, latest: Round, history: list[_Size]) -> Figures:
 
 
 def _change_over(coarse: _Size, fine: _Size) -> Array:
-    """Error of the finer of two meshes of second order, from their difference."""
-    gain = (fine.count / coarse.count) ** 2 - 1.0
-    return np.asarray(_SAFETY * np.abs(fine.figures.array() - coarse.figures.array()) / gain)
+    """Error of each figure on the finer of two meshes, from their difference."""
+    return _share_left(coarse, fine) * np.abs(fine.figures.array() - coarse.figures.array())
+
+
+def _share_left(coarse: _Size, fine: _Size) -> float:
+    """Error of the finer of two meshes of second order over the difference of the two."""
+    return _SAFETY / ((fine.count / coarse.count) ** 2 - 1.0)
 
 
 def _zone_excess(history: list[_Size], tolerance: float) -> float:
@@ -287,7 +285,6 @@ def _zone_excess(history: list[_Size], tolerance: float) -> float:
         return 0.0
     coarse, fine = history[-2:]
     lengths = np.diff(fine.breaks)
-    gain = (fine.count / coarse.count) ** 2 - 1.0
-    change = _SAFETY * np.abs(lengths - np.diff(coarse.breaks)) / gain
+    change = _share_left(coarse, fine) * np.abs(lengths - np.diff(coarse.breaks))
     allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
     return float(np.max(change / allowed))

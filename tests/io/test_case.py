@@ -6,7 +6,7 @@ from math import inf
 import pytest
 
 import rollnip as rn
-from rollnip.io import case_schema, parse_case, read_case
+from rollnip.io import case_hash, case_schema, parse_case, read_case
 
 ELASTIC = {"model": "elastic", "modulus": 2.0, "poisson": 0.5}
 
@@ -164,3 +164,13 @@ def test_schema_describes_every_table():
     assert schema["additionalProperties"] is False
     thickness = schema["$defs"]["LayerTable"]["properties"]["thickness"]
     assert thickness["anyOf"] == [{"type": "number"}, {"type": "string"}]
+
+
+def test_the_hash_is_of_values_not_of_how_they_are_written(tree):
+    def hashed(**root):
+        return case_hash(parse_case(tree | root))
+
+    metric = hashed(upper={"radius": 50.8, "layers": tree["upper"]["layers"]})
+    inches = {"radius": "2 in", "layers": tree["upper"]["layers"]}
+    assert hashed(upper=inches, title="another") == metric
+    assert hashed(upper=inches | {"radius": 50.9}) != metric

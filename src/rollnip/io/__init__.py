@@ -1,18 +1,26 @@
 """Case files in, results out: the only place that knows files, keys and pydantic."""
 
-from rollnip.io.case import Case, case_schema, parse_case, read_case
+from rollnip.io.case import Case, case_hash, case_schema, parse_case, read_case
+from rollnip.io.columns import Columns, read_columns
 from rollnip.io.fields import check_fields_target, write_fields
+from rollnip.io.paths import dimension_at, value_at, with_values
 from rollnip.io.result import check_result_target, result_dict, result_text, write_result
 
 __all__ = [
     "Case",
+    "Columns",
+    "case_hash",
     "case_schema",
     "check_fields_target",
     "check_result_target",
+    "dimension_at",
     "parse_case",
     "read_case",
+    "read_columns",
     "result_dict",
     "result_text",
+    "value_at",
+    "with_values",
     "write_fields",
     "write_result",
 ]

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from hashlib import sha256
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -68,6 +69,16 @@ def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:
     if nip is None or model is None:
         _refuse(source, builder.errors)
     return Case(nip=nip, model=model, source=source)
+
+
+def case_hash(case: Case) -> str:
+    """What tells two cases apart: 16 hexadecimal digits of the problem and the model.
+
+    Of the values in base units, not of how they were written; neither the title nor the name of
+    the file counts. The version of rollnip is not part of it.
+    """
+    problem = replace(case.nip, title="")
+    return sha256(repr((problem, case.model)).encode()).hexdigest()[:16]
 
 
 def case_schema() -> dict[str, Any]:

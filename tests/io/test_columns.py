@@ -1,0 +1,87 @@
+"""Tables with units in their heads."""
+
+import numpy as np
+import pytest
+
+from rollnip._errors import InvalidInputError
+from rollnip.io import read_columns
+
+
+@pytest.fixture
+def table(tmp_path):
+    def write(text, name="data.csv"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        return path
+
+    return write
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "load [kN/m],nip width [in]\n1.5,0.2\n2,1e-1\n",
+        "# measured on a Monday\nload [N/mm]; nip width [mm]\n1,5;5,08\n\n2;2,54\n",
+        "load\tnip width\n1.5\t0.2 in\n2 kN/m\t2.54\n",
+    ],
+)
+def test_units_of_the_head_or_of_the_cell_are_converted(table, text):
+    columns = read_columns(table(text))
+    assert columns.names == ("load", "nip width")
+    np.testing.assert_allclose(columns.numbers("load", "line load"), [1.5, 2.0])
+    np.testing.assert_allclose(columns.numbers("nip width", "length"), [5.08, 2.54])
+
+
+def test_a_path_may_head_a_column(table):
+    columns = read_columns(table("upper.layers[0].thickness [in],upper.layers[0].material\n1,a\n"))
+    assert columns.names == ("upper.layers[0].thickness", "upper.layers[0].material")
+    assert columns.units == ("in", "")
+    assert columns.numbers("upper.layers[0].thickness", "length") == pytest.approx([25.4])
+    assert columns.cells("upper.layers[0].material") == ("a",)
+
+
+def test_comments_are_kept_and_lines_counted(table):
+    columns = read_columns(table("# roller: 7\nx [mm]\n# not this\n1\n2\n"))
+    assert columns.comments == ("roller: 7", "not this")
+    assert columns.lines == (4, 5)
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        ("", "must hold a line of column names and rows"),
+        ("load [N/mm]\n", "must hold a line of column names and rows"),
+        ("load [N/mm],load [N/mm]\n1,2\n", 'column "load" must not be there twice'),
+        ("load [N/mm],\n1,2\n", "line 2: must have 1 cells, has 2"),
+        ("load [N/mm],,x\n1,2,3\n", "every column must have a name"),
+        ("load [N/mm],x\n1\n", "line 2: must have 2 cells, has 1"),
+        ("load [mm]\n1\n", 'unit of column "load"'),
+        ("load [lb/in]\n1\n", "mass or a force"),
+        ("load [N/mm]\nlots\n", 'line 2: "load"'),
+        ("load [N/mm],x\n,1\n", 'line 2: "load" must not be empty'),
+        ("load\nnan\n", 'line 2: "load"'),
+        ("load\n1e999\n", "must be a finite number"),
+        ("lad [N/mm]\n1\n", 'did you mean "lad"'),
+    ],
+)
+def test_what_is_wrong_is_said_with_file_line_and_column(table, text, said):
+    with pytest.raises(InvalidInputError) as error:
+        read_columns(table(text)).numbers("load", "line load")
+    assert said in str(error.value)
+    assert "data.csv" in str(error.value)
+
+
+def test_files_that_are_no_tables(table, tmp_path):
+    for path, said in [
+        (tmp_path, "is a directory"),
+        (tmp_path / "none.csv", "cannot be read"),
+        (table("no workbook", "book.xlsx"), "cannot be read as a workbook"),
+    ]:
+        with pytest.raises(InvalidInputError, match=said):
+            read_columns(path)
+    with pytest.raises(InvalidInputError, match="has no sheets"):
+        read_columns(table("x\n1\n"), sheet="one")
+    binary = tmp_path / "binary.csv"
+    binary.write_bytes(b"\xff\xfe\x00")
+    with pytest.raises(InvalidInputError, match="UTF-8"):
+        read_columns(binary)

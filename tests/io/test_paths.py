@@ -80,7 +80,7 @@ def test_other_values_leave_the_tree_as_it_was():
     changed = with_values(
         CASE, {"upper.layers[0].thickness": 3.0, "materials.rubber.modulus": "9 MPa"}
     )
-    assert CASE == before
+    assert before == CASE
     nip = parse_case(changed).nip
     assert nip.upper.layers[0].thickness == 3.0
     assert nip.upper.layers[1].material.modulus == 9.0

@@ -1,0 +1,120 @@
+"""One case to one row of numbers; whatever goes wrong with it is a message in the row."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import isfinite
+from typing import Any
+
+from rollnip._errors import ConvergenceError, RollnipError
+from rollnip.io import parse_case
+from rollnip.solution import Solution
+from rollnip.solve import solve
+from rollnip.validity import surface_strain_in_nip
+
+Row = dict[str, float | bool | str | None]
+
+SCALARS: Mapping[str, str] = {
+    "load": "N/mm",
+    "approach": "mm",
+    "traction": "N/mm",
+    "creepage": "1",
+    "speed_ratio": "1",
+    "nip_width": "mm",
+    "dwell_time": "s",
+    "peak_pressure": "MPa",
+    "peak_pressure_x": "mm",
+    "mean_pressure": "MPa",
+    "torque_upper": "N",
+    "torque_lower": "N",
+    "rolling_resistance": "1",
+    "dissipation.friction": "N/s",
+    "dissipation.viscous": "N/s",
+    "max_surface_strain": "1",
+    "error.approach": "mm",
+    "error.load": "N/mm",
+    "error.creepage": "1",
+    "error.nip_width": "mm",
+    "error.peak_pressure": "MPa",
+    "solver.elements": "1",
+    "solver.iterations": "1",
+    "solver.residual": "1",
+    "solver.geometry_change": "1",
+}
+"""Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``."""
+
+STATUSES = ("solved", "unverified", "refused", "failed")
+"""What became of a case; only of the first two there are numbers."""
+
+_NAME = "case"
+
+
+def evaluate(tree: Mapping[str, Any]) -> Row:
+    """Solve one case and return its scalars; an error is a message, never an exception.
+
+    Parameters
+    ----------
+    tree :
+        the tree of a case file, such as `rollnip.io.with_values` returns.
+
+    Returns
+    -------
+    A flat dict, always with the same keys in the same order:
+
+    - ``status``: "solved" (and verified), "unverified" (there are numbers, but they were not
+      verified), "refused" (the case is wrong) or "failed" (no solution was found);
+    - ``message``: why, in one line; empty where solved;
+    - ``converged``: whether the status is "solved";
+    - ``geometry``: the geometry solved with, which may be "curved" where "finite" was wanted;
+      None without a solution;
+    - the names of `SCALARS`: numbers in the units given there, per axial length; None where not
+      finite, not defined or not solved. ``max_surface_strain`` is the largest strain of either
+      surface in the contact, mean over an element;
+    - ``warnings``: reservations, parted by blanks.
+    """
+    try:
+        case = parse_case(tree, source=_NAME)
+        solution = solve(case.nip, case.model, on_failure="return")
+        return scalars(solution)
+    except ConvergenceError as error:
+        return _without_solution("failed", str(error))
+    except RollnipError as error:
+        lines = (line.removeprefix(f"{_NAME}: ") for line in str(error).splitlines())
+        return _without_solution("refused", " ".join(lines))
+    except Exception as error:  # noqa: BLE001 - a fault in one case must not end a thousand others
+        said = " ".join(str(error).split())
+        return _without_solution("failed", f"Unforeseen {type(error).__name__}: {said}")
+
+
+def scalars(solution: Solution) -> Row:
+    """The row of a solution, as `evaluate` returns it."""
+    row: Row = {
+        "status": "solved" if solution.converged else "unverified",
+        "message": "" if solution.converged else solution.status,
+        "converged": bool(solution.converged),
+        "geometry": solution.model.geometry,
+    }
+    row |= {name: _number(_value(solution, name)) for name in SCALARS}
+    return row | {"warnings": " ".join(solution.warnings)}
+
+
+def _value(solution: Solution, name: str) -> float | None:
+    table, _, key = name.rpartition(".")
+    if table == "error":
+        return solution.error.get(key)
+    if table == "dissipation":
+        return getattr(solution, f"dissipation_{key}")  # type: ignore[no-any-return]
+    if table == "solver":
+        return getattr(solution.solver, key)  # type: ignore[no-any-return]
+    if name == "max_surface_strain":
+        return surface_strain_in_nip(solution.nip, solution.model, solution.final)
+    return getattr(solution, name)  # type: ignore[no-any-return]
+
+
+def _number(value: float | None) -> float | None:
+    return float(value) if value is not None and isfinite(value) else None
+
+
+def _without_solution(status: str, message: str) -> Row:
+    row: Row = {"status": status, "message": message, "converged": False, "geometry": None}
+    return row | dict.fromkeys(SCALARS) | {"warnings": ""}

@@ -12,7 +12,7 @@ DOCS_STAMP := $(VENV)/.installed-docs
 CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
 
 .DEFAULT_GOAL := help
-.PHONY: help venv demo test test-fast check docs clean
+.PHONY: help venv demo serve test test-fast check docs clean
 
 help: ## list the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
@@ -37,6 +37,9 @@ $(STAMP): pyproject.toml
 demo: venv ## solve the paper's configuration II, print the summary, write a picture to out/
 	@mkdir -p out
 	$(BIN)/rollnip solve examples/configuration-2-driven.toml --plot out/configuration-2-driven.png
+
+serve: venv ## the nip designer at http://127.0.0.1:8000
+	$(BIN)/rollnip serve
 
 test: venv ## all tests
 	$(BIN)/python -m pytest

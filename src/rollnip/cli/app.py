@@ -14,6 +14,7 @@ import typer
 from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
 from rollnip.cli.lda import lda
 from rollnip.cli.paper import paper
+from rollnip.cli.serve import serve
 from rollnip.cli.verify import verify
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ app = typer.Typer(
 app.command()(verify)
 app.add_typer(lda)
 app.command()(paper)
+app.command()(serve)
 
 
 @app.callback(invoke_without_command=True)

@@ -1,0 +1,50 @@
+"""Answers in the one form that errors have: a sentence, and the paths of the keys at fault."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rollnip._errors import RollnipError
+
+_PATH = re.compile(r"(materials\..{1,80}?|[^\s:]{1,120}): (.*)", re.DOTALL)
+SOURCE = "case"
+
+
+@dataclass(frozen=True, slots=True)
+class Reply:
+    """What a worker answers: HTTP status, JSON body, hash of the case where there is one."""
+
+    status: int
+    body: bytes
+    case: str | None = None
+
+
+def json_bytes(tree: Any) -> bytes:
+    """JSON without blanks; a number that is not finite is an error of the program."""
+    return json.dumps(tree, allow_nan=False, separators=(",", ":")).encode()
+
+
+def error_tree(error: str, details: Sequence[tuple[str, str]] = ()) -> dict[str, Any]:
+    """The body of every refusal: {"error", "details": [{"path", "message"}]}."""
+    lines = [{"path": path, "message": message} for path, message in details]
+    return {"error": error, "details": lines}
+
+
+def refusal(error: RollnipError) -> dict[str, Any]:
+    """The body for an error of rollnip: each of its lines is a detail."""
+    details = [_placed(line) for line in str(error).splitlines()]
+    path, message = details[0]
+    first = f"{path}: {message}" if path else message
+    more = f" ({len(details) - 1} more below.)" if len(details) > 1 else ""
+    return error_tree(first + more, details)
+
+
+def _placed(line: str) -> tuple[str, str]:
+    """Path and message of a line "case: upper.radius: must be ..."."""
+    line = line.removeprefix(f"{SOURCE}: ")
+    match = _PATH.fullmatch(line)
+    return (match[1], match[2]) if match else ("", line)

@@ -1,0 +1,54 @@
+"""What a request may ask for: sizes, numbers, times."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass, field
+
+
+def _workers() -> int:
+    """One per core up to four; two at least, so that a long solve never stops the slider."""
+    return min(max(os.cpu_count() or 1, 2), 4)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Limits:
+    """Limits of the server; beyond each of them a request is refused with a clear answer.
+
+    Parameters
+    ----------
+    body :
+        bytes of a request's body.
+    body_seconds :
+        time for the body to arrive [s].
+    workers :
+        processes that solve; so many requests are solved at once.
+    waiting :
+        requests that wait for one of them; beyond it the answer is 429.
+    solve_seconds :
+        time of one solve [s].
+    find_seconds :
+        time of one inverse solve [s].
+    layers :
+        layers of a roller.
+    terms :
+        terms of a Prony series.
+    tolerance :
+        finest relative accuracy; it bounds the number of elements.
+    values :
+        values of a sweep.
+    points :
+        points of an interior field along x, and along z.
+    """
+
+    body: int = 256 * 1024
+    body_seconds: float = 10.0
+    workers: int = field(default_factory=_workers)
+    waiting: int = 16
+    solve_seconds: float = 10.0
+    find_seconds: float = 30.0
+    layers: int = 20
+    terms: int = 60
+    tolerance: float = 1e-4
+    values: int = 41
+    points: int = 240

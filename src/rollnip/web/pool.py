@@ -1,0 +1,193 @@
+"""Worker processes that solve: so many at once, a bounded queue before them, a time for each task.
+
+Processes, not threads: a solve holds the interpreter, so that threads would stall the event loop,
+and only a process can be stopped when a solve takes too long. Their pipes are read by the event
+loop itself; a task costs about half a millisecond over its own time.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import os
+import sys
+from asyncio.subprocess import PIPE, Process
+from collections import deque
+from collections.abc import Mapping
+from typing import Any
+
+from rollnip.web.answers import Reply
+from rollnip.web.worker import HEAD
+
+_START_SECONDS = 60.0
+_RECENT = 4  # as many keys as a worker keeps solutions
+
+
+class OverloadedError(Exception):
+    """More tasks wait than may."""
+
+
+class TimeLimitError(Exception):
+    """A task took longer than it may; its worker was stopped and replaced."""
+
+
+class WorkerError(Exception):
+    """A worker ended by itself or could not be started."""
+
+
+class _Worker:
+    """One process and its pipes."""
+
+    def __init__(self, process: Process) -> None:
+        self.process = process
+        self.recent: deque[str] = deque(maxlen=_RECENT)
+
+    @classmethod
+    async def start(cls) -> _Worker:
+        """Start a process and wait until it is ready."""
+        environment = os.environ | dict.fromkeys(
+            ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"
+        )
+        worker = cls(
+            await asyncio.create_subprocess_exec(
+                *(sys.executable, "-P", "-m", "rollnip.web.worker"),
+                stdin=PIPE,
+                stdout=PIPE,
+                env=environment,
+                start_new_session=True,  # Ctrl-C is for the server, which then ends its workers
+            )
+        )
+        try:
+            async with asyncio.timeout(_START_SECONDS):
+                await worker.receive()
+        except BaseException:
+            await worker.stop()
+            raise
+        return worker
+
+    async def ask(self, task: bytes) -> Reply:
+        """Have one task done."""
+        assert self.process.stdin is not None
+        self.process.stdin.write(HEAD.pack(len(task)) + task)
+        head, _, body = (await self.receive()).partition(b"\n")
+        return Reply(body=body, **json.loads(head))
+
+    async def receive(self) -> bytes:
+        """The next frame."""
+        assert self.process.stdout is not None
+        try:
+            size = HEAD.unpack(await self.process.stdout.readexactly(HEAD.size))[0]
+            return await self.process.stdout.readexactly(size)
+        except (asyncio.IncompleteReadError, ConnectionError):
+            raise WorkerError from None
+
+    async def stop(self) -> None:
+        """End the process, whatever it is doing."""
+        if self.process.returncode is None:
+            self.process.kill()
+        await self.process.wait()
+
+
+class Pool:
+    """A fixed number of workers.
+
+    Parameters
+    ----------
+    workers :
+        how many tasks are done at once.
+    waiting :
+        how many may wait; beyond that `run` raises OverloadedError.
+    """
+
+    def __init__(self, workers: int, waiting: int) -> None:
+        self._size = workers
+        self._waiting = waiting
+        self._idle: list[_Worker] = []
+        self._queue: deque[asyncio.Future[_Worker]] = deque()
+        self._jobs: set[asyncio.Task[Any]] = set()
+        self._all: set[_Worker] = set()
+
+    def start(self) -> None:
+        """Start the workers in the background; tasks wait until one is ready."""
+        for _ in range(self._size):
+            self._spawn(self._add())
+
+    async def stop(self) -> None:
+        """End all workers."""
+        for job in tuple(self._jobs):
+            job.cancel()
+        await asyncio.gather(*self._jobs, return_exceptions=True)
+        await asyncio.gather(*(worker.stop() for worker in self._all))
+
+    async def run(self, name: str, body: Mapping[str, Any], seconds: float) -> Reply:
+        """Have one task done.
+
+        Cancelled while it waits, it is never begun; cancelled later, its answer is dropped.
+
+        Raises
+        ------
+        OverloadedError, TimeLimitError, WorkerError
+        """
+        task = json.dumps({"name": name, "body": body}).encode()
+        key = json.dumps(body.get("case"), sort_keys=True)
+        worker = await self._free(key)
+        return await asyncio.shield(self._spawn(self._done(worker, task, key, seconds)))
+
+    def _spawn(self, work: Any) -> asyncio.Task[Any]:
+        job = asyncio.create_task(work)
+        self._jobs.add(job)
+        job.add_done_callback(self._jobs.discard)
+        return job
+
+    async def _add(self) -> None:
+        """Start one worker and hand it over."""
+        worker = await _Worker.start()
+        self._all.add(worker)
+        self._release(worker)
+
+    async def _free(self, key: str) -> _Worker:
+        """A free worker, the one that knows this case if it can be."""
+        if self._idle:
+            known = [worker for worker in self._idle if key in worker.recent]
+            worker = known[-1] if known else self._idle[0]
+            self._idle.remove(worker)
+            return worker
+        if len(self._queue) >= self._waiting:
+            raise OverloadedError
+        turn: asyncio.Future[_Worker] = asyncio.get_running_loop().create_future()
+        self._queue.append(turn)
+        try:
+            return await turn
+        except asyncio.CancelledError:
+            if turn.done() and not turn.cancelled():
+                self._release(turn.result())
+            elif turn in self._queue:
+                self._queue.remove(turn)
+            raise
+
+    def _release(self, worker: _Worker) -> None:
+        while self._queue:
+            turn = self._queue.popleft()
+            if not turn.done():
+                turn.set_result(worker)
+                return
+        self._idle.append(worker)
+
+    async def _done(self, worker: _Worker, task: bytes, key: str, seconds: float) -> Reply:
+        try:
+            async with asyncio.timeout(seconds):
+                reply = await worker.ask(task)
+        except TimeoutError:
+            self._replace(worker)
+            raise TimeLimitError from None
+        except WorkerError:
+            self._replace(worker)
+            raise
+        worker.recent.append(key)
+        self._release(worker)
+        return reply
+
+    def _replace(self, worker: _Worker) -> None:
+        self._all.discard(worker)
+        self._spawn(worker.stop())
+        self._spawn(self._add())

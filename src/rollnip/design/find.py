@@ -1,0 +1,347 @@
+"""Find the value of a parameter that gives a wanted result."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from rollnip import sweep
+from rollnip._errors import InvalidInputError
+from rollnip._units import base_unit, format_quantity
+from rollnip.design.curve import Curve, Jump, Point, slope_at
+from rollnip.design.quantities import (
+    QUANTITIES,
+    parameter_dimension,
+    read_parameter,
+    read_result,
+    require_quantity,
+    result_error,
+)
+from rollnip.io import with_values
+
+Evaluate = Callable[[Mapping[str, Any]], Mapping[str, Any]]
+
+_DIGITS = 8  # of a value found; what follows is far below the error
+_SHOWN = 5
+_NOISE = 5.0  # errors: results that differ by less say little about a slope
+_LEAST, _MOST = 3, 200
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Found:
+    """What `find` found, in base units (mm, N, MPa, s).
+
+    Attributes
+    ----------
+    path, unit : the parameter.
+    quantity, quantity_unit, wanted : the result, and its wanted value.
+    low, high : limits of the parameter.
+    value : the parameter that gives the wanted result (the lowest of them); None where none does.
+    error : of ``value``: estimated error of the result, and its distance from the wanted value,
+        over the slope; None where the result has no error estimate.
+    reached : the result at ``value``, by a solve of its own.
+    reached_error : its estimated error.
+    others : further values within the limits that give the wanted result.
+    slope : change of the result with the parameter at ``value``.
+    bracket : the nearest two cases on either side of ``value``; None at a limit.
+    points : every case solved on the way, (parameter, result), by parameter; None: not solved.
+    failures : (parameter, message) of those that were not solved.
+    solves : how many cases were solved, that at ``value`` included.
+    scalars : all results at ``value``, as `rollnip.sweep.evaluate` returns them; empty without.
+    case : the case with ``value``; the case as it was where there is none.
+    message : what was found, in one or a few sentences.
+    """
+
+    path: str
+    unit: str
+    quantity: str
+    quantity_unit: str
+    wanted: float
+    low: float
+    high: float
+    value: float | None
+    error: float | None
+    reached: float | None
+    reached_error: float | None
+    others: tuple[float, ...]
+    slope: float | None
+    bracket: tuple[float, float] | None
+    points: tuple[tuple[float, float | None], ...]
+    failures: tuple[tuple[float, str], ...]
+    solves: int
+    scalars: Mapping[str, Any]
+    case: Mapping[str, Any]
+    message: str
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as plain values, for JSON."""
+        tree = {name: getattr(self, name) for name in self.__slots__}
+        lists = {name: [list(pair) for pair in tree[name]] for name in ("points", "failures")} | {
+            "others": list(self.others),
+            "bracket": self.bracket and list(self.bracket),
+        }
+        return tree | lists | {"scalars": dict(self.scalars), "case": dict(self.case)}
+
+
+@dataclass(frozen=True, slots=True)
+class _Question:
+    """The question in base units."""
+
+    tree: Mapping[str, Any]
+    path: str
+    unit: str
+    quantity: str
+    wanted: float
+    low: float
+    high: float
+    near: float
+    evaluate: Evaluate
+
+    def solve(self, x: float) -> Point:
+        row = self.evaluate(with_values(self.tree, {self.path: x}))
+        if not row["converged"]:
+            return Point(x, None, row, str(row["message"]))
+        y = row[self.quantity]
+        said = "" if y is not None else f"`{self.quantity}` is not defined there."
+        return Point(x, y, row, said)
+
+    def said(self, x: float, digits: int = _SHOWN) -> str:
+        """A value of the parameter with its unit."""
+        return format_quantity(x, self.unit, digits=digits)
+
+    def shown(self, y: float | None) -> str:
+        """A value of the result with its unit."""
+        return format_quantity(y or 0.0, QUANTITIES[self.quantity], digits=_SHOWN)
+
+
+def find(
+    case: Mapping[str, Any],
+    path: str,
+    quantity: str,
+    wanted: float | str,
+    low: float | str,
+    high: float | str,
+    *,
+    tolerance: float = 1e-4,
+    points: int = 5,
+    evaluate: Evaluate = sweep.evaluate,
+) -> Found:
+    """Find the value of one parameter, between two limits, that gives a wanted result.
+
+    A few cases are solved from limit to limit; where their results pass the wanted value, it is
+    closed in on by Brent's method, and the value found is solved afresh. The result may rise,
+    fall or bend. Two crossings between neighbouring samples are missed where the samples show no
+    bend: raise ``points``.
+
+    Parameters
+    ----------
+    case : tree of a case file; stays as it was.
+    path : of the parameter, such as ``nip.load`` or ``upper.layers[0].thickness``.
+    quantity : name of the result, such as ``nip_width``; see ``QUANTITIES``.
+    wanted, low, high : numbers in base units (mm, N, MPa, s) or texts with their unit.
+    tolerance : how near the result must come, as a share of the wanted value (where that is 0:
+        of the largest result in between).
+    points : cases from limit to limit, 3 to 200.
+    evaluate : solves one case; for tests, and for programs that keep count.
+
+    Returns
+    -------
+    Found; its ``value`` is None where no value was found, and its ``message`` says why.
+
+    Raises
+    ------
+    InvalidInputError
+        for an unknown path or result, a value that cannot be read, low >= high, or where not one
+        case between the limits could be solved.
+    """
+    question = _question(case, path, quantity, (wanted, low, high), tolerance, evaluate)
+    if not _LEAST <= points <= _MOST:
+        raise InvalidInputError(f"`points` must lie between {_LEAST} and {_MOST}, got {points}.")
+    curve = Curve(question.solve, question.low, question.high)
+    curve.scan(points)
+    _require_some(question, curve.points)
+    near = question.near * _size(question, curve.solved)
+    if _is_flat(curve.solved, near):
+        return _answer(question, curve, None, (), [_no_influence(question, curve)])
+    curve.turn(question.wanted)
+    roots, jumps = curve.crossings(question.wanted, near)
+    final = _fresh(question, roots[0]) if roots else None
+    lines = [_jump(question, jump) for jump in jumps]
+    if final is not None and not _is_reached(question, final, near):
+        lines.insert(0, _unconfirmed(question, final))
+        final = None
+    if final is None:
+        lines.insert(0, _nothing(question, curve))
+    return _answer(question, curve, final, roots, lines)
+
+
+def _question(
+    case: Mapping[str, Any],
+    path: str,
+    quantity: str,
+    values: tuple[float | str, float | str, float | str],
+    tolerance: float,
+    evaluate: Evaluate,
+) -> _Question:
+    require_quantity(quantity)
+    dimension = parameter_dimension(case, path)
+    wanted = read_result("wanted", values[0], quantity)
+    low = read_parameter("low", values[1], dimension)
+    high = read_parameter("high", values[2], dimension)
+    unit = base_unit(dimension)
+    if not low < high:
+        raise InvalidInputError(
+            f"`low` must be below `high`, got {format_quantity(low, unit)} and "
+            f"{format_quantity(high, unit)}."
+        )
+    if not 1e-9 <= tolerance <= 0.1:
+        raise InvalidInputError(f"`tolerance` must lie between 1e-9 and 0.1, got {tolerance!r}.")
+    with_values(case, {path: low})  # refuses a path to nowhere before anything is solved
+    return _Question(case, path, unit, quantity, wanted, low, high, tolerance, evaluate)
+
+
+def _require_some(question: _Question, points: Sequence[Point]) -> None:
+    if any(point.y is not None for point in points):
+        return
+    first = points[0]
+    raise InvalidInputError(
+        f"not one of {len(points)} cases with {question.path} between "
+        f"{question.said(question.low)} and {question.said(question.high)} could be solved; at "
+        f"{question.said(first.x)}: {first.message}"
+    )
+
+
+def _size(question: _Question, points: Sequence[Point]) -> float:
+    return abs(question.wanted) or max(abs(point.y or 0.0) for point in points) or 1.0
+
+
+def _is_flat(points: Sequence[Point], near: float) -> bool:
+    results = [point.y for point in points if point.y is not None]
+    return len(results) > 1 and max(results) - min(results) <= near
+
+
+def _no_influence(question: _Question, curve: Curve) -> str:
+    y = curve.solved[0].y
+    return (
+        f"{question.quantity} does not change with {question.path} between "
+        f"{question.said(question.low)} and {question.said(question.high)}: it is "
+        f"{question.shown(y)} there."
+    )
+
+
+def _fresh(question: _Question, root: Point) -> Point:
+    """The case at the value found, rounded, solved once more."""
+    return question.solve(float(f"{root.x:.{_DIGITS}g}"))
+
+
+def _is_reached(question: _Question, final: Point, near: float) -> bool:
+    if final.y is None:
+        return False
+    allowed = max(2.0 * near, result_error(final.row, question.quantity) or 0.0)
+    return abs(final.y - question.wanted) <= allowed
+
+
+def _unconfirmed(question: _Question, final: Point) -> str:
+    got = final.message if final.y is None else f"{question.quantity} is {question.shown(final.y)}"
+    return f"Not confirmed: solved afresh at {question.said(final.x)}, {got}."
+
+
+def _jump(question: _Question, jump: Jump) -> str:
+    left, right = jump.left, jump.right
+    text = (
+        f"At {question.said(left.x, 8)} {question.quantity} jumps from {question.shown(left.y)} "
+        f"to {question.shown(right.y)}: no value there gives {question.shown(question.wanted)}"
+    )
+    models = left.row.get("geometry"), right.row.get("geometry")
+    if models[0] != models[1]:
+        text += (
+            f"; the model changes there from geometry {models[0]} to {models[1]}, so ask again "
+            "with one geometry throughout"
+        )
+    return f"{text}."
+
+
+def _answer(
+    question: _Question,
+    curve: Curve,
+    final: Point | None,
+    roots: Sequence[Point],
+    lines: Sequence[str],
+) -> Found:
+    points = curve.points
+    failures = tuple((p.x, p.message) for p in points if p.y is None)
+    noise = 0.0 if final is None else result_error(final.row, question.quantity)
+    slope = slope_at(points, final, _NOISE * (noise or 0.0)) if final else None
+    error = _error(question, final, noise, slope)
+    others = tuple(root.x for root in roots[1:]) if final else ()
+    said = _sentences(question, final, error, others) if final else []
+    return Found(
+        path=question.path,
+        unit=question.unit,
+        quantity=question.quantity,
+        quantity_unit=QUANTITIES[question.quantity],
+        wanted=question.wanted,
+        low=question.low,
+        high=question.high,
+        value=final.x if final else None,
+        error=error,
+        reached=final.y if final else None,
+        reached_error=noise if final else None,
+        others=others,
+        slope=slope,
+        bracket=_bracket(points, roots[0].x) if final else None,
+        points=tuple((p.x, p.y) for p in points),
+        failures=failures,
+        solves=len(points) + (final is not None),
+        scalars=dict(final.row) if final else {},
+        case=with_values(question.tree, {question.path: final.x}) if final else question.tree,
+        message=" ".join([*said, *lines, *_failed(question, failures)]),
+    )
+
+
+def _error(
+    question: _Question, final: Point | None, noise: float | None, slope: float | None
+) -> float | None:
+    if final is None or final.y is None or noise is None or slope is None:
+        return None
+    return (noise + abs(final.y - question.wanted)) / abs(slope)
+
+
+def _bracket(points: Sequence[Point], root: float) -> tuple[float, float] | None:
+    below = [point.x for point in points if point.x < root and point.y is not None]
+    above = [point.x for point in points if point.x > root and point.y is not None]
+    return (max(below), min(above)) if below and above else None
+
+
+def _nothing(question: _Question, curve: Curve) -> str:
+    results = sorted(point.y for point in curve.solved if point.y is not None)
+    return (
+        f"No {question.path} between {question.said(question.low)} and "
+        f"{question.said(question.high)} was found that gives {question.quantity} = "
+        f"{question.shown(question.wanted)}: it goes from {question.shown(results[0])} to "
+        f"{question.shown(results[-1])} there."
+    )
+
+
+def _sentences(
+    question: _Question, final: Point, error: float | None, others: Sequence[float]
+) -> list[str]:
+    doubt = "" if error is None else f" ± {format_quantity(error, digits=2)}"
+    wanted = f"{question.quantity} = {question.shown(question.wanted)}"
+    said = [f"{question.path} = {question.said(final.x)}{doubt} gives {wanted}."]
+    if others:
+        also = ", ".join(question.said(x) for x in others)
+        said.append(f"So {'does' if len(others) == 1 else 'do'} {also}.")
+    return said
+
+
+def _failed(question: _Question, failures: Sequence[tuple[float, str]]) -> list[str]:
+    if not failures:
+        return []
+    x, message = failures[0]
+    count = len(failures)
+    return [
+        f"{count} case{'s' if count > 1 else ''} on the way could not be solved; at "
+        f"{question.said(x)}: {message}"
+    ]

@@ -1,0 +1,78 @@
+"""Parameters and results by name: what kind of number each is, read from numbers and texts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from difflib import get_close_matches
+from math import isfinite
+from typing import Any, get_args
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import Dimension, base_unit, parse_quantity
+from rollnip.io import dimension_at
+from rollnip.sweep import SCALARS
+
+# What says how a case was solved is no aim of a design.
+QUANTITIES: Mapping[str, str] = {
+    name: "" if unit == "1" else unit
+    for name, unit in SCALARS.items()
+    if not name.startswith(("error.", "solver."))
+}
+"""The results that can be asked for, with their base units; empty for a ratio."""
+
+# Results whose error follows from that of another by proportion.
+_PROPORTIONAL = {"dwell_time": "nip_width", "mean_pressure": "nip_width"}
+
+
+def require_quantity(name: str, said: str = "quantity") -> None:
+    """Raise InvalidInputError, with the nearest name, unless ``name`` is a result."""
+    if name in QUANTITIES:
+        return
+    near = get_close_matches(str(name), QUANTITIES, n=1, cutoff=0.5)
+    hint = f'did you mean "{near[0]}"?' if near else f"there are {', '.join(QUANTITIES)}."
+    raise InvalidInputError(f'`{said}` must be the name of a result, got "{name}"; {hint}')
+
+
+def parameter_dimension(tree: Mapping[str, Any], path: str) -> Dimension:
+    """What kind of number stands at a path. Raises InvalidInputError where none does."""
+    dimension = dimension_at(tree, path)
+    if dimension is None:
+        raise InvalidInputError(f"`path` must lead to a number of the case, got {path}.")
+    return dimension
+
+
+def read_parameter(said: str, value: object, dimension: Dimension) -> float:
+    """A number in base units, or a text with its unit; ``said`` names it in messages."""
+    try:
+        return parse_quantity(value, dimension)
+    except InvalidInputError as error:
+        raise InvalidInputError(f"`{said}` {error}") from None
+
+
+def read_result(said: str, value: object, quantity: str) -> float:
+    """A wanted value of a result, as `read_parameter` does."""
+    unit = QUANTITIES[quantity]
+    dimension = next((one for one in get_args(Dimension) if base_unit(one) == unit), None)
+    if dimension is not None:
+        return read_parameter(said, value, dimension)
+    if isinstance(value, str):
+        value = _plain(value.strip().removesuffix(unit).strip())
+    if not isinstance(value, int | float) or isinstance(value, bool) or not isfinite(value):
+        raise InvalidInputError(f"`{said}` must be a finite number in {unit}, got {value!r}.")
+    return float(value)
+
+
+def result_error(row: Mapping[str, Any], quantity: str) -> float | None:
+    """Estimated error of a result in its unit; None where there is no estimate."""
+    source = _PROPORTIONAL.get(quantity, quantity)
+    error, value, size = row.get(f"error.{source}"), row.get(quantity), row.get(source)
+    if error is None or value is None or not size:
+        return error if source == quantity else None
+    return float(abs(error * value / size))
+
+
+def _plain(text: str) -> float | str:
+    try:
+        return float(text)
+    except ValueError:
+        return text

@@ -43,7 +43,7 @@ def mean_of_neighbours(values: Array) -> Array:
 
 def linear_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
     """First-order stretch of an arc over each interval, int (du_x/dx - u_z/R) dx [mm]."""
-    return np.diff(u_x) - curvature * dx * mean_of_neighbours(u_z)
+    return u_x[1:] - u_x[:-1] - curvature * dx * mean_of_neighbours(u_z)
 
 
 def second_stretch(x: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
@@ -51,12 +51,13 @@ def second_stretch(x: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
 
     Int [sqrt(1 + slope^2)/(1 - du_x/dx) - 1] dx: present length over undeformed arc.
     """
-    dx = np.diff(x)
-    slope = curvature * mean_of_neighbours(x) + np.diff(u_z) / dx
-    return np.asarray(dx * (np.sqrt(1.0 + slope**2) / (1.0 - np.diff(u_x) / dx) - 1.0))
+    dx = x[1:] - x[:-1]
+    slope = curvature * mean_of_neighbours(x) + (u_z[1:] - u_z[:-1]) / dx
+    along = (u_x[1:] - u_x[:-1]) / dx
+    return np.asarray(dx * (np.sqrt(1.0 + slope**2) / (1.0 - along) - 1.0))
 
 
 def rotation_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
     """Stretch by rotation over each interval, int (du_z/dx + u_x/R)^2/2 dx [mm]."""
-    rotation = np.diff(u_z) / dx + curvature * mean_of_neighbours(u_x)
+    rotation = (u_z[1:] - u_z[:-1]) / dx + curvature * mean_of_neighbours(u_x)
     return 0.5 * rotation**2 * dx

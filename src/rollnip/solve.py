@@ -8,6 +8,7 @@ until the results stand still; and a fresh check of what came out.
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import cache
 from importlib.metadata import PackageNotFoundError, version
 from time import perf_counter
 from typing import Literal
@@ -156,6 +157,7 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     return True, f"Solved and verified: residual {left:.1e}, tolerance {model.tolerance:g}."
 
 
+@cache  # reading it from the installed files takes as long as solving on a mesh
 def _version() -> str:
     try:
         return version("rollnip")

@@ -57,7 +57,9 @@ def test_norm_with_given_load(random_problem, seed):
     problem = random_problem(seed, n, friction=0.0, control=Control(3.0, None, 0.0, None))
     # elastic displacements under one sign of load: a symmetric matrix without negative entries
     matrix = np.abs(problem.normal_pressure + problem.normal_pressure.T) + n * np.eye(n)
-    problem = replace(problem, normal_pressure=matrix)
+    influence = problem.influence.copy()
+    influence[:n, :n] = matrix
+    problem = replace(problem, influence=influence)
     found = Norm().solve(problem, np.zeros(n, np.int8), np.zeros(n))
     assert found.settled
     assert problem.weights @ found.pressure == pytest.approx(3.0, rel=1e-12)

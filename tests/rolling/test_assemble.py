@@ -25,7 +25,7 @@ def pair(upper, lower, geometry="linear", count=30):
     )
     kernels = pair_kernels(nip, geometry)
     mesh = mesh_on(graded_nodes(np.array([-2.0, 2.0]), count), kernels)
-    return nip, mesh, contact_problem(nip, geometry, mesh, first_guess(nip, mesh))
+    return nip, mesh, contact_problem(nip, mesh, first_guess(nip, mesh))
 
 
 def test_clearance_is_the_parabola():
@@ -115,7 +115,7 @@ def test_second_order_terms_stand_still(solved, name):
     solution = solved(name)
     final = solution.final
     again = second_order(solution.nip, "curved", final.mesh, final.state)
-    problem = contact_problem(solution.nip, "curved", final.mesh, again)
+    problem = contact_problem(solution.nip, final.mesh, again)
     strain = 0.5 * solution.nip_width * solution.nip.curvature
     dx = final.mesh.dx
     for attribute in ("creep_length", "creep_offset"):

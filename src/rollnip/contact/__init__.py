@@ -6,7 +6,15 @@ from rollnip.contact.given import Norm, Tang
 from rollnip.contact.mesh import Demand, graded_nodes
 from rollnip.contact.methods import Alternation, Safeguarded
 from rollnip.contact.path import CreepagePath
-from rollnip.contact.problem import ContactProblem, ContactState, Control, State, creep, gap
+from rollnip.contact.problem import (
+    ContactProblem,
+    ContactState,
+    Control,
+    State,
+    creep,
+    gap,
+    influence_of,
+)
 
 __all__ = [
     "Alternation",
@@ -26,5 +34,6 @@ __all__ = [
     "creep",
     "gap",
     "graded_nodes",
+    "influence_of",
     "states_on",
 ]

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.linalg import lapack
 
 from rollnip.contact.problem import (
     FREE,
@@ -21,8 +22,7 @@ from rollnip.contact.problem import (
     Indices,
     Mask,
     States,
-    creep,
-    gap,
+    gap_and_creep,
     shear_signs,
 )
 
@@ -49,15 +49,14 @@ class CoupledActiveSet:
         seen: set[bytes] = set()
         for step in range(1, self.max_steps + 1):
             solution = solve_states(problem, states)
-            solution = replace(solution, steps=step)
             wanted = next_states(problem, solution, self.rounding)
-            if np.array_equal(wanted, states):
-                return replace(solution, settled=True)
+            if wanted.tobytes() == states.tobytes():
+                return replace(solution, steps=step, settled=True)
             seen.add(states.tobytes())
             if wanted.tobytes() in seen:
                 wanted = _gentler(states, wanted, solution)
             states = _ensure_solvable(problem, wanted)
-        return solution
+        return replace(solution, steps=self.max_steps)
 
 
 def solve_states(problem: ContactProblem, states: States) -> ContactState:
@@ -70,41 +69,54 @@ def solve_states(problem: ContactProblem, states: States) -> ContactState:
     """
     contact = np.flatnonzero(states != FREE)
     stick = np.flatnonzero(states == STICK) if problem.friction > 0.0 else contact[:0]
-    matrix, right = _system(problem, states, contact, stick)
-    unknowns = np.linalg.solve(matrix, right)
+    signs = shear_signs(states)
+    unknowns = _solved(*_system(problem, contact, stick, signs))
     n_c, n_s = contact.size, stick.size
     pressure = np.zeros(states.size)
     pressure[contact] = unknowns[:n_c]
-    shear = problem.friction * shear_signs(states) * pressure
+    shear = problem.friction * signs * pressure
     shear[stick] = unknowns[n_c : n_c + n_s]
+    # What is prescribed comes back to rounding; it is taken as it was given.
     control = problem.control
-    approach, creepage = unknowns[n_c + n_s :]
-    if problem.friction == 0.0 and control.creepage is None:
-        creepage = np.nan
-    return ContactState(states, pressure, shear, float(approach), float(creepage), 1, False)
+    approach, creepage = control.approach, control.creepage
+    if approach is None:
+        approach = float(unknowns[-2])
+    if creepage is None:
+        creepage = float(unknowns[-1]) if problem.friction > 0.0 else np.nan
+    return ContactState(states, pressure, shear, approach, creepage, 1, False)
+
+
+def _solved(matrix: Array, right: Array) -> Array:
+    """Solution of a linear system; overwrites the matrix.
+
+    LAPACK wants columns and the matrix lies in rows: the transposed one is factorised where it
+    lies. For such small systems the ways around LAPACK would cost more than LAPACK.
+    """
+    factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
+    if info != 0:
+        raise np.linalg.LinAlgError("Singular matrix")
+    solution, _ = lapack.dgetrs(factors, pivots, right, trans=1)
+    return np.asarray(solution)
 
 
 def _system(
-    problem: ContactProblem, states: States, contact: Indices, stick: Indices
+    problem: ContactProblem, contact: Indices, stick: Indices, signs: Array
 ) -> tuple[Array, Array]:
     """Rows: gap 0 in contact, creep 0 in stick, load or approach, traction or creepage."""
-    n_c, n_s = contact.size, stick.size
-    size = n_c + n_s + 2
-    matrix = np.zeros((size, size))
-    right = np.zeros(size)
-    ratio = problem.friction * shear_signs(states)[contact]
-    normal, tangential = slice(0, n_c), slice(n_c, n_c + n_s)
-    in_contact, stick_contact = np.ix_(contact, contact), np.ix_(stick, contact)
-    matrix[normal, normal] = (
-        problem.normal_pressure[in_contact] + problem.normal_shear[in_contact] * ratio
-    )
-    matrix[normal, tangential] = problem.normal_shear[np.ix_(contact, stick)]
+    n_c, size, n = contact.size, contact.size + stick.size, problem.x.size
+    sticking = n + stick
+    rows = np.concatenate([contact, sticking])
+    influence = problem.influence.take(rows, axis=0)
+    matrix = np.zeros((size + 2, size + 2))
+    matrix[:size, :size] = influence.take(rows, axis=1)
+    ratio = problem.friction * signs[contact]
+    slip = np.flatnonzero(ratio)
+    if slip.size:
+        matrix[:size, slip] += influence.take(n + contact[slip], axis=1) * ratio[slip]
+    normal, tangential = slice(0, n_c), slice(n_c, size)
+    right = np.zeros(size + 2)
     matrix[normal, -2] = -1.0
     right[normal] = -problem.clearance[contact]
-    matrix[tangential, normal] = (
-        problem.creep_pressure[stick_contact] + problem.creep_shear[stick_contact] * ratio
-    )
-    matrix[tangential, tangential] = problem.creep_shear[np.ix_(stick, stick)]
     matrix[tangential, -1] = problem.creep_length[stick]
     right[tangential] = -problem.creep_offset[stick]
     control = problem.control
@@ -127,7 +139,7 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     states = solution.states
     out = states.copy()
     in_contact = states != FREE
-    depth = gap(problem, solution)
+    depth, slip = gap_and_creep(problem, solution)
     scale = np.max(np.abs(problem.clearance)) + abs(solution.approach)
     largest = np.max(np.abs(solution.pressure), initial=0.0)
     out[in_contact & (solution.pressure < -rounding * largest)] = FREE
@@ -138,8 +150,8 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     bound = problem.friction * np.maximum(solution.pressure, 0.0)
     # The shear that would bring the creep to zero, were its own node the only one to change: it
     # tells a slipping node apart that should stick from one that should slip the other way.
-    own = np.minimum(np.diag(problem.creep_shear), -np.finfo(float).tiny)
-    sought = solution.shear - creep(problem, solution) / own
+    own = np.minimum(problem.creep_shear.diagonal(), -np.finfo(float).tiny)
+    sought = solution.shear - slip / own
     # Within rounding a node keeps its state.
     slack = rounding * problem.friction * largest
     out[kept] = STICK

@@ -24,6 +24,7 @@ from rollnip.contact.problem import (
     States,
     creep,
     gap,
+    influence_of,
     shear_signs,
 )
 
@@ -50,8 +51,12 @@ def with_pressure(problem: ContactProblem, pressure: Array) -> ContactProblem:
     return replace(
         problem,
         clearance=-pressure,
-        normal_pressure=np.eye(pressure.size),
-        normal_shear=np.zeros((pressure.size, pressure.size)),
+        influence=influence_of(
+            normal_pressure=np.eye(pressure.size),
+            normal_shear=np.zeros((pressure.size, pressure.size)),
+            creep_pressure=problem.creep_pressure,
+            creep_shear=problem.creep_shear,
+        ),
         control=Control(None, 0.0, control.traction, control.creepage),
     )
 

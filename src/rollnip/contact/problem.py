@@ -58,8 +58,8 @@ class ContactProblem:
     x : (n,) nodes [mm].
     weights : (n,) load of a unit nodal pressure [mm].
     clearance : (n,) gap of the undeformed rollers at touch [mm].
-    normal_pressure, normal_shear : (n, n) [mm/MPa].
-    creep_pressure, creep_shear : (n, n) [mm/MPa].
+    influence : (2 n, 2 n) the four matrices in one, [[normal_pressure, normal_shear],
+        [creep_pressure, creep_shear]] [mm/MPa]; see `influence_of`.
     creep_length, creep_offset : (n,) [mm].
     friction : Coulomb coefficient mu >= 0.
     control : what is prescribed.
@@ -68,14 +68,42 @@ class ContactProblem:
     x: Array
     weights: Array
     clearance: Array
-    normal_pressure: Array
-    normal_shear: Array
-    creep_pressure: Array
-    creep_shear: Array
+    influence: Array
     creep_length: Array
     creep_offset: Array
     friction: float
     control: Control
+
+    @property
+    def normal_pressure(self) -> Array:
+        """Gap per nodal pressure, (n, n) [mm/MPa]."""
+        return self.influence[: self.x.size, : self.x.size]
+
+    @property
+    def normal_shear(self) -> Array:
+        """Gap per nodal shear, (n, n) [mm/MPa]."""
+        return self.influence[: self.x.size, self.x.size :]
+
+    @property
+    def creep_pressure(self) -> Array:
+        """Creep per nodal pressure, (n, n) [mm/MPa]."""
+        return self.influence[self.x.size :, : self.x.size]
+
+    @property
+    def creep_shear(self) -> Array:
+        """Creep per nodal shear, (n, n) [mm/MPa]."""
+        return self.influence[self.x.size :, self.x.size :]
+
+
+def influence_of(
+    *, normal_pressure: Array, normal_shear: Array, creep_pressure: Array, creep_shear: Array
+) -> Array:
+    """The matrix that a `ContactProblem` holds from its four parts, each (n, n) [mm/MPa]."""
+    n = normal_pressure.shape[0]
+    out = np.empty((2 * n, 2 * n))
+    out[:n, :n], out[:n, n:] = normal_pressure, normal_shear
+    out[n:, :n], out[n:, n:] = creep_pressure, creep_shear
+    return out
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,22 +130,20 @@ class ContactState:
 
 def gap(problem: ContactProblem, state: ContactState) -> Array:
     """Gap at each node [mm]."""
-    return (
-        problem.clearance
-        - state.approach
-        + problem.normal_pressure @ state.pressure
-        + problem.normal_shear @ state.shear
-    )
+    return gap_and_creep(problem, state)[0]
 
 
 def creep(problem: ContactProblem, state: ContactState) -> Array:
     """Creep of each interval [mm]; the slip velocity is -V creep/length."""
-    return (
-        problem.creep_offset
-        + state.creepage * problem.creep_length
-        + problem.creep_pressure @ state.pressure
-        + problem.creep_shear @ state.shear
-    )
+    return gap_and_creep(problem, state)[1]
+
+
+def gap_and_creep(problem: ContactProblem, state: ContactState) -> tuple[Array, Array]:
+    """Gap at each node and creep of each interval [mm]."""
+    made = problem.influence @ np.concatenate([state.pressure, state.shear])
+    n = problem.x.size
+    depth = problem.clearance - state.approach + made[:n]
+    return depth, problem.creep_offset + state.creepage * problem.creep_length + made[n:]
 
 
 def shear_signs(states: States) -> Array:

@@ -120,22 +120,20 @@ class Kernel:
         row = cell + 1 + cells * (x < 0.0)
         per_log = self.points_per_octave / log(2.0)
         scales = (1.0, per_log, 2.0 * per_log**2)
-        channels = self.coefficients.reshape(6, -1, 2 * cells)
-        jets = [_horner(channels[:, c], row, fraction, order) for c in range(channels.shape[1])]
-        shape = self.coefficients.shape[1:-1] + x.shape
-        return [
-            scales[m] * np.stack([jet[m] for jet in jets]).reshape(shape) for m in range(order + 1)
-        ]
+        jet = _horner(self.coefficients, row, fraction, order)
+        return [scale * part for scale, part in zip(scales, jet, strict=False)]
 
 
 def _horner(coefficients: Array, row: Indices, fraction: Array, order: int) -> list[Array]:
     """Polynomials of some rows with their first two derivatives (the second halved)."""
-    jet = [coefficients[5].take(row)] + [np.zeros(fraction.shape) for _ in range(order)]
+    top = coefficients[5].take(row, axis=-1)
+    jet = [top] + [np.zeros(top.shape) for _ in range(order)]
     for n in range(4, -1, -1):
         for m in range(order, 0, -1):
-            jet[m] = jet[m] * fraction + jet[m - 1]
+            jet[m] *= fraction
+            jet[m] += jet[m - 1]
         jet[0] *= fraction
-        jet[0] += coefficients[n].take(row)
+        jet[0] += coefficients[n].take(row, axis=-1)
     return jet
 
 

@@ -1,11 +1,6 @@
 """The rolling contact of two rollers: assembly, rounds of refinement, the check afterwards."""
 
-from rollnip.rolling.assemble import (
-    hoop_curvature,
-    pressure_work,
-    stretch_excess,
-    surface_depths,
-)
+from rollnip.rolling.assemble import pressure_work, stretch_excess, surface_depths
 from rollnip.rolling.check import (
     Fields,
     fields_at,
@@ -21,6 +16,7 @@ from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
     Displacements,
     PairKernels,
+    hoop_curvature,
     pair_kernels,
     with_second_order,
 )

@@ -10,16 +10,14 @@ from numpy.typing import NDArray
 from rollnip.contact import ContactProblem, ContactState, Control
 from rollnip.geometry import (
     linear_stretch,
-    mean_of_neighbours,
     rotation_stretch,
     sagitta,
     second_stretch,
 )
-from rollnip.influence import is_ring, load_weights
+from rollnip.influence import load_weights
 from rollnip.model import Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
-from rollnip.rollers import Roller
-from rollnip.rolling.surfaces import Displacements, Mesh
+from rollnip.rolling.surfaces import Displacements, Mesh, hoop_curvature
 
 Array = NDArray[np.float64]
 
@@ -55,31 +53,13 @@ class SecondOrder:
         return float(np.max(changes))
 
 
-def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
-    """1/R in the stretch of the surface; 0 where the layers are taken as flat."""
-    return roller.curvature if is_ring(roller, geometry) else 0.0
-
-
-def contact_problem(
-    nip: Nip, geometry: Geometry, mesh: Mesh, second: SecondOrder
-) -> ContactProblem:
+def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem:
     """Theory sections 5 and 6: gap and creep, linear in the tractions."""
-    upper, lower = mesh.upper, mesh.lower
-    creep_pressure = np.diff(upper.xz - lower.xz, axis=0)
-    creep_shear = np.diff(upper.xx + lower.xx, axis=0)
-    hoop_u, hoop_l = (hoop_curvature(r, geometry) for r in (nip.upper, nip.lower))
-    if hoop_u or hoop_l:
-        dx = mesh.dx[:, None]
-        creep_pressure -= dx * mean_of_neighbours(hoop_u * upper.zz - hoop_l * lower.zz)
-        creep_shear += dx * mean_of_neighbours(hoop_u * upper.xz + hoop_l * lower.xz)
     return ContactProblem(
         x=mesh.inner,
         weights=load_weights(mesh.nodes),
         clearance=0.5 * nip.curvature * mesh.inner**2 + second.clearance,
-        normal_pressure=(upper.zz + lower.zz)[:-1],
-        normal_shear=(lower.xz - upper.xz)[:-1],
-        creep_pressure=creep_pressure,
-        creep_shear=creep_shear,
+        influence=mesh.influence,
         creep_length=mesh.dx + second.creep_length,
         creep_offset=second.creep_offset,
         friction=nip.friction,
@@ -95,17 +75,17 @@ def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
 
 def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:
     """Second-order terms of a solution on a mesh."""
-    u = mesh.displacements(state)
+    flat = mesh.linear(state)
+    u = mesh.with_second(flat, state)
     guess = first_guess(nip, mesh)
     clearance, length, offset = guess.clearance, guess.creep_length, guess.creep_offset
     lean = 0.0
     if geometry in ("corrected", "finite"):
-        flat = mesh.linear(state)
         depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
         approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
         clearance = depth - approximate
     if geometry in ("curved", "finite"):
-        length, offset = _stretch_terms(nip, geometry, mesh, state, u)
+        length, offset = _stretch_terms(nip, geometry, mesh, flat, u)
     if geometry == "finite":
         lean = _lean(nip, mesh, state, u)
     traction = guess.traction
@@ -148,7 +128,7 @@ def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
 
 def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements, *, side: str) -> Array:
     """Int (stretch - 1) dx of one surface over each interval [mm]."""
-    dx = np.diff(x)
+    dx = x[1:] - x[:-1]
     roller = nip.upper if side == "upper" else nip.lower
     u_x, u_z = (u.x_upper, u.z_upper) if side == "upper" else (u.x_lower, u.z_lower)
     if roller.is_rigid:
@@ -163,13 +143,12 @@ def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements, *, 
 
 
 def _stretch_terms(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
+    nip: Nip, geometry: Geometry, mesh: Mesh, flat: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
     """What the creep (1 + xi/2) stretch_u - (1 - xi/2) stretch_l has beyond its linear part."""
-    flat = mesh.linear(state)
     upper = stretch_excess(mesh.nodes[1:], nip, geometry, u, side="upper")
     lower = stretch_excess(mesh.nodes[1:], nip, geometry, u, side="lower")
-    hoop_u, hoop_l = (hoop_curvature(roller, geometry) for roller in (nip.upper, nip.lower))
+    hoop_u, hoop_l = mesh.kernels.hoops
     linear = linear_stretch(mesh.dx, hoop_u, flat.x_upper, flat.z_upper)
     linear -= linear_stretch(mesh.dx, hoop_l, flat.x_lower, flat.z_lower)
     return 0.5 * (upper + lower), upper - lower - linear
@@ -199,4 +178,4 @@ def _traction_for_torque(
 def pressure_work(traction: Array, displacement: Array) -> float:
     """Int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
     means = 0.5 * (traction + np.append(traction[1:], 0.0))
-    return float(means @ np.diff(displacement))
+    return float(means @ (displacement[1:] - displacement[:-1]))

@@ -11,13 +11,14 @@ from rollnip.influence import strain_matrix
 from rollnip.influence.surface import SurfaceKernels
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import hoop_curvature, stretch_excess, surface_depths
+from rollnip.rolling.assemble import stretch_excess, surface_depths
 from rollnip.rolling.round import Round, creepage_scale
 from rollnip.rolling.surfaces import (
     Array,
     Displacements,
     PairKernels,
     SurfaceMatrices,
+    hoop_curvature,
     surface_matrices,
 )
 
@@ -207,12 +208,11 @@ def surface_strain(
         return np.zeros(x.size)
     slopes, values = _slopes_and_values(surface, x, final.mesh.nodes)
     p, q = final.state.pressure, final.state.shear * (1.0 if upper else -1.0)
-    strain = slopes.xz @ p + slopes.xx @ q
+    strain, slope = slopes.under(p, q)
     if geometry not in ("curved", "finite"):
         return strain
     hoop = hoop_curvature(roller, geometry)
-    u_x, u_z = values.xz @ p + values.xx @ q, values.zz @ p - values.xz @ q
-    slope = slopes.zz @ p - slopes.xz @ q
+    u_x, u_z = values.under(p, q)
     response = kernels.second_upper if upper else kernels.second_lower
     if response is None:
         return strain - hoop * u_z + 0.5 * (slope + hoop * u_x) ** 2
@@ -224,5 +224,5 @@ def surface_strain(
 def _slopes_and_values(
     surface: SurfaceKernels, x: Array, nodes: Array
 ) -> tuple[SurfaceMatrices, SurfaceMatrices]:
-    slopes = SurfaceMatrices(*strain_matrix(surface.together, x, nodes))
+    slopes = SurfaceMatrices(strain_matrix(surface.together, x, nodes), x.size)
     return slopes, surface_matrices(surface, x, nodes)

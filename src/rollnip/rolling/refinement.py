@@ -168,7 +168,7 @@ def _solve_on(
     steps = 0 if before is None else before.steps
     allowed, change = _STILL * model.tolerance, 0.0
     for _ in range(_MOST_TURNS):
-        problem = contact_problem(nip, model.geometry, mesh, second)
+        problem = contact_problem(nip, mesh, second)
         state = method.solve(problem, states)
         steps += state.steps
         if not state.settled:

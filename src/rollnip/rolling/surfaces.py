@@ -14,11 +14,13 @@ from rollnip.influence import (
     SurfaceKernels,
     covering_window,
     displacement_matrix,
+    is_ring,
     second_response,
     surface_kernels,
 )
 from rollnip.model import Geometry
 from rollnip.nip import Nip
+from rollnip.rollers import Roller
 
 Array = NDArray[np.float64]
 Field = Callable[[Array], Array]
@@ -60,6 +62,7 @@ class PairKernels:
     second_upper, second_lower : to second order; None also where the model leaves it out.
     held : second-order displacements to use whatever the tractions; None: always those of the
         tractions at hand.
+    hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
     """
 
     upper: SurfaceKernels | None
@@ -67,6 +70,7 @@ class PairKernels:
     second_upper: SecondResponse | None = None
     second_lower: SecondResponse | None = None
     held: SecondFields | None = None
+    hoops: tuple[float, float] = (0.0, 0.0)
 
     @property
     def is_linear(self) -> bool:
@@ -99,7 +103,13 @@ def pair_kernels(nip: Nip, geometry: Geometry) -> PairKernels:
         None if roller.is_rigid else surface_kernels(roller, nip.speed, geometry, window)
         for roller in (nip.upper, nip.lower)
     )
-    return PairKernels(upper, lower)
+    hoops = hoop_curvature(nip.upper, geometry), hoop_curvature(nip.lower, geometry)
+    return PairKernels(upper, lower, hoops=hoops)
+
+
+def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
+    """1/R in the stretch of the surface; 0 where the layers are taken as flat."""
+    return roller.curvature if is_ring(roller, geometry) else 0.0
 
 
 def with_second_order(
@@ -119,12 +129,44 @@ def with_second_order(
 class SurfaceMatrices:
     """Displacements of one surface at some points per nodal traction of its own frame.
 
-    u_x = xx t_x + xz t_z and u_z = -xz t_x + zz t_z; each (points, N-1) [mm/MPa].
+    u_x = xx t_x + xz t_z and u_z = -xz t_x + zz t_z.
+
+    Attributes
+    ----------
+    stack : (3, points, N-1) xx, zz and xz [mm/MPa]; None: a rigid surface.
+    count : points.
     """
 
-    xx: Array
-    zz: Array
-    xz: Array
+    stack: Array | None
+    count: int
+
+    @property
+    def xx(self) -> Array:
+        """(points, N-1) [mm/MPa]; not of a rigid surface."""
+        assert self.stack is not None
+        return np.asarray(self.stack[0])
+
+    @property
+    def zz(self) -> Array:
+        """(points, N-1) [mm/MPa]; not of a rigid surface."""
+        assert self.stack is not None
+        return np.asarray(self.stack[1])
+
+    @property
+    def xz(self) -> Array:
+        """(points, N-1) [mm/MPa]; not of a rigid surface."""
+        assert self.stack is not None
+        return np.asarray(self.stack[2])
+
+    def under(self, pressure: Array, shear: Array) -> tuple[Array, Array]:
+        """u_x and u_z under nodal tractions of the surface's own frame, each (points,) [mm]."""
+        if self.stack is None:
+            return np.zeros(self.count), np.zeros(self.count)
+        tractions = np.empty((pressure.size, 2))
+        tractions[:, 0], tractions[:, 1] = pressure, shear
+        made = self.stack.reshape(-1, pressure.size) @ tractions
+        (_, xx), (zz, _), (xz, zx) = made.reshape(3, self.count, 2).transpose(0, 2, 1)
+        return xz + xx, zz - zx
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,21 +198,25 @@ class Displacements:
     ) -> Displacements:
         """Under the tractions of a solution: (q, p) on the upper surface, (-q, p) on the lower."""
         p, q = state.pressure, state.shear
-        return cls(
-            x_upper=upper.xz @ p + upper.xx @ q,
-            z_upper=upper.zz @ p - upper.xz @ q,
-            x_lower=lower.xz @ p - lower.xx @ q,
-            z_lower=lower.zz @ p + lower.xz @ q,
-        )
+        return cls(*upper.under(p, q), *lower.under(p, -q))
 
 
 @dataclass(frozen=True, slots=True)
 class Mesh:
-    """Nodes, and what the surfaces do at nodes[1:] under unit tractions at nodes[1:-1]."""
+    """Nodes, and what the surfaces do at nodes[1:] under unit tractions at nodes[1:-1].
+
+    Attributes
+    ----------
+    nodes : (N+1,) [mm].
+    upper, lower : displacements of either surface.
+    influence : what a contact problem on these nodes makes of them.
+    kernels : the influence functions they come from.
+    """
 
     nodes: Array
     upper: SurfaceMatrices
     lower: SurfaceMatrices
+    influence: Array
     kernels: PairKernels
 
     @property
@@ -181,7 +227,7 @@ class Mesh:
     @property
     def dx(self) -> Array:
         """Lengths of the intervals between nodes[1:], (N-1,) [mm]."""
-        return np.diff(self.nodes[1:])
+        return self.nodes[2:] - self.nodes[1:-1]
 
     def linear(self, state: ContactState) -> Displacements:
         """Displacements at nodes[1:], linear in the tractions."""
@@ -189,25 +235,52 @@ class Mesh:
 
     def displacements(self, state: ContactState) -> Displacements:
         """Displacements at nodes[1:], to the order of the model."""
-        return self.linear(state) + self.kernels.second(self.nodes, state, self.nodes[1:])
+        return self.with_second(self.linear(state), state)
+
+    def with_second(self, linear: Displacements, state: ContactState) -> Displacements:
+        """The linear displacements of a solution with those of second order, if there are any."""
+        if self.kernels.is_linear:
+            return linear
+        return linear + self.kernels.second(self.nodes, state, self.nodes[1:])
 
 
 def mesh_on(nodes: Array, kernels: PairKernels) -> Mesh:
     """Evaluate the influence functions of both surfaces on a mesh."""
     points = nodes[1:]
-    return Mesh(
-        nodes,
-        surface_matrices(kernels.upper, points, nodes),
-        surface_matrices(kernels.lower, points, nodes),
-        kernels,
-    )
+    upper = surface_matrices(kernels.upper, points, nodes)
+    lower = surface_matrices(kernels.lower, points, nodes)
+    return Mesh(nodes, upper, lower, _influence(nodes, upper, lower, kernels.hoops), kernels)
 
 
 def surface_matrices(
     kernels: SurfaceKernels | None, points: Array, nodes: Array
 ) -> SurfaceMatrices:
-    """Displacements at ``points`` per unit traction at nodes[1:-1]; zero for a rigid roller."""
+    """Displacements at ``points`` per unit traction at nodes[1:-1]."""
     if kernels is None:
-        zero = np.zeros((points.size, nodes.size - 2))
-        return SurfaceMatrices(zero, zero, zero)
-    return SurfaceMatrices(*displacement_matrix(kernels.together, points, nodes))
+        return SurfaceMatrices(None, points.size)
+    return SurfaceMatrices(displacement_matrix(kernels.together, points, nodes), points.size)
+
+
+def _influence(
+    nodes: Array, upper: SurfaceMatrices, lower: SurfaceMatrices, hoops: tuple[float, float]
+) -> Array:
+    """Gap and creep per nodal pressure and shear (theory section 5), `ContactProblem.influence`.
+
+    The creep of an interval is the upper less the lower int (du_x/dx - u_z/R) dx.
+    """
+    n = nodes.size - 2
+    dx = (nodes[2:] - nodes[1:-1])[:, None]
+    out = np.zeros((2 * n, 2 * n))
+    # The pressure is the same on both surfaces, the shear the opposite.
+    for surface, hoop, sign in ((upper, hoops[0], 1.0), (lower, hoops[1], -1.0)):
+        if surface.stack is None:
+            continue
+        xx, zz, xz = surface.stack
+        out[:n, :n] += zz[:-1]
+        out[:n, n:] -= sign * xz[:-1]
+        out[n:, :n] += sign * (xz[1:] - xz[:-1])
+        out[n:, n:] += xx[1:] - xx[:-1]
+        if hoop:
+            out[n:, :n] -= (0.5 * sign * hoop) * dx * (zz[1:] + zz[:-1])
+            out[n:, n:] += (0.5 * hoop) * dx * (xz[1:] + xz[:-1])
+    return out

@@ -21,6 +21,7 @@ from rollnip._errors import (
 )
 
 if TYPE_CHECKING:
+    from rollnip.identify import identify
     from rollnip.io import Case, read_case, write_result
     from rollnip.materials import (
         WLF,
@@ -82,6 +83,7 @@ __all__ = [
     "Torque",
     "Traction",
     "__version__",
+    "identify",
     "read_case",
     "solve",
     "write_result",
@@ -89,7 +91,15 @@ __all__ = [
 
 
 class _Door(ModuleType):
-    """The package as a module whose ``solve`` is the function, not the file solve.py."""
+    """The package as a module whose ``solve`` and ``identify`` are functions, not modules."""
+
+    @property
+    def identify(self) -> Any:
+        return import_module("rollnip.identify").identify
+
+    @identify.setter
+    def identify(self, module: ModuleType) -> None:
+        """As below."""
 
     @property
     def solve(self) -> Any:

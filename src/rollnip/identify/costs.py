@@ -1,0 +1,276 @@
+"""Measurements as costs: each says which nips it needs and what it would have measured there."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any, ClassVar, Literal, Self
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from rollnip._errors import InvalidInputError, require_positive
+from rollnip.solution import Solution
+
+Array = NDArray[np.float64]
+Condition = ArrayLike | str
+Roller = Literal["upper", "lower"]
+
+
+class Cost(ABC):
+    """Something to be made small: a set of measurements, or several; ``a + 2 * b`` is one too."""
+
+    @property
+    @abstractmethod
+    def parts(self) -> tuple[Measurements, ...]:
+        """The sets of measurements."""
+
+    def __add__(self, other: Cost) -> Total:
+        """Both together."""
+        return Total(self.parts + other.parts)
+
+    def __rmul__(self, factor: float) -> Total:
+        """The same with other weights."""
+        require_positive("weight", factor)
+        return Total(tuple(replace(one, weight=factor * one.weight) for one in self.parts))
+
+
+@dataclass(frozen=True, slots=True)
+class Total(Cost):
+    """Several sets of measurements, fitted together."""
+
+    sets: tuple[Measurements, ...]
+
+    @property
+    def parts(self) -> tuple[Measurements, ...]:
+        """The sets of measurements."""
+        return self.sets
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Measurements(Cost):
+    """A set of measurements of one kind.
+
+    Parameters
+    ----------
+    at :
+        values of the case by path under which was measured: arrays of shape (n,), or single
+        values that hold for the whole set, also as texts with units.
+    measured :
+        (n,) what was measured, in base units.
+    standard_error :
+        of each value, or of all; None where it is not known: it is then estimated from how
+        much the measurements scatter about the fit.
+    weight :
+        by which the set's squares count; 1 leaves it to the standard errors.
+    name :
+        for reports; the kind by default.
+
+    Raises
+    ------
+    InvalidInputError
+        where shapes do not fit together, or a value is not finite or not positive as it must be.
+    """
+
+    quantity: ClassVar[str]
+    """What is measured, in words."""
+    unit: ClassVar[str]
+    """Its base unit."""
+    needs_speed: ClassVar[bool] = False
+    nuisances: ClassVar[int] = 0
+    """Numbers fitted within the set, beside the unknowns."""
+
+    at: Mapping[str, Condition]
+    measured: ArrayLike
+    standard_error: ArrayLike | None = None
+    weight: float = 1.0
+    name: str = ""
+
+    def __post_init__(self) -> None:
+        measured = np.atleast_1d(np.asarray(self.measured, dtype=float))
+        if measured.ndim != 1 or measured.size == 0 or not np.all(np.isfinite(measured)):
+            raise InvalidInputError(
+                f"`{self.quantity}` must be a list of finite numbers, got {self.measured!r}."
+            )
+        object.__setattr__(self, "measured", measured)
+        object.__setattr__(self, "standard_error", self._checked_error(measured))
+        require_positive("weight", self.weight)
+        object.__setattr__(self, "at", {path: _condition(path, v) for path, v in self.at.items()})
+        if not self.name:
+            object.__setattr__(self, "name", self.quantity)
+        self._check_conditions()
+
+    @property
+    def parts(self) -> tuple[Measurements, ...]:
+        """The set itself."""
+        return (self,)
+
+    @property
+    def values(self) -> Array:
+        """What was measured, (n,)."""
+        return np.asarray(self.measured, dtype=float)
+
+    @property
+    def errors(self) -> Array | None:
+        """Standard error of each value, (n,); None where not known."""
+        return None if self.standard_error is None else np.asarray(self.standard_error, dtype=float)
+
+    def with_values(self, measured: ArrayLike) -> Self:
+        """The same set with other values measured."""
+        return replace(self, measured=measured)
+
+    @property
+    @abstractmethod
+    def conditions(self) -> list[dict[str, Any]]:
+        """Changes of the case, by path, of each nip that must be solved."""
+
+    @property
+    @abstractmethod
+    def abscissa(self) -> tuple[str, Array]:
+        """What the values are drawn against: a path (or ``x``), and (n,) numbers."""
+
+    @abstractmethod
+    def predict(self, solutions: Sequence[Solution]) -> Array:
+        """What would have been measured, (n,), from the solutions of ``conditions``."""
+
+    def _check_conditions(self) -> None:
+        """Raise where an array of conditions has another length than the values."""
+        for path, value in self.at.items():
+            if isinstance(value, np.ndarray) and value.shape != self.values.shape:
+                raise InvalidInputError(
+                    f"`{path}` must hold one number for each of the {self.values.size} values of "
+                    f"the {self.quantity}, got {value.size}."
+                )
+
+    def _checked_error(self, measured: Array) -> Array | None:
+        if self.standard_error is None:
+            return None
+        given = np.asarray(self.standard_error, dtype=float)
+        if given.shape not in ((), measured.shape):
+            raise InvalidInputError(
+                f"`standard_error` must be one number or one for each of the {measured.size} "
+                f"values, got {given.size}."
+            )
+        errors = np.broadcast_to(given, measured.shape).astype(float)
+        if not np.all((errors > 0.0) & np.isfinite(errors)):
+            raise InvalidInputError(
+                f"`standard_error` must be positive and finite, got {np.min(errors):g}."
+            )
+        return errors
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Scalars(Measurements):
+    """Measurements of one number of the result, a nip for each; see the kinds below."""
+
+    result: ClassVar[str]
+
+    @property
+    def conditions(self) -> list[dict[str, Any]]:
+        """One nip for each value."""
+        return [
+            {path: _entry(value, index) for path, value in self.at.items()}
+            for index in range(self.values.size)
+        ]
+
+    @property
+    def abscissa(self) -> tuple[str, Array]:
+        """The first condition that changes, else the number of the measurement."""
+        for path, value in self.at.items():
+            if isinstance(value, np.ndarray) and np.ptp(value) > 0.0:
+                return path, value
+        return "measurement", np.arange(1.0, self.values.size + 1.0)
+
+    def predict(self, solutions: Sequence[Solution]) -> Array:
+        """The number in each solution; nan where it is not defined."""
+        found = [getattr(solution, self._result) for solution in solutions]
+        return np.array([np.nan if one is None else one for one in found], dtype=float)
+
+    @property
+    def _result(self) -> str:
+        return self.result
+
+
+class NipWidths(Scalars):
+    """Nip widths [mm], mostly at line loads: ``at={"nip.load": [...]}``."""
+
+    quantity, unit, result = "nip width", "mm", "nip_width"
+
+
+class Approaches(Scalars):
+    """Approaches of the axles [mm], mostly at line loads."""
+
+    quantity, unit, result = "approach", "mm", "approach"
+
+
+class Loads(Scalars):
+    """Line loads [N/mm], mostly at approaches: ``at={"nip.approach": [...]}``."""
+
+    quantity, unit, result = "load", "N/mm", "load"
+
+
+class PeakPressures(Scalars):
+    """Peak pressures [MPa], mostly at line loads."""
+
+    quantity, unit, result = "peak pressure", "MPa", "peak_pressure"
+
+
+class Creepages(Scalars):
+    """Creepages, mostly at tractions: ``at={"nip.traction": [...]}``."""
+
+    quantity, unit, result = "creepage", "", "creepage"
+
+
+class RollingResistances(Scalars):
+    """Rolling-resistance coefficients, mostly at speeds: ``at={"nip.speed": [...]}``."""
+
+    quantity, unit, result = "rolling resistance", "", "rolling_resistance"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Torques(Scalars):
+    """Driving torques per length [N] on the axle of one roller, mostly at speeds.
+
+    Parameters
+    ----------
+    roller :
+        "upper" or "lower".
+    at, measured, standard_error, weight, name :
+        see `Measurements`.
+    """
+
+    quantity, unit, result = "torque", "N", "torque"
+    roller: Roller = "upper"
+
+    def __post_init__(self) -> None:
+        check_roller(self.roller)
+        super().__post_init__()
+
+    @property
+    def _result(self) -> str:
+        return f"torque_{self.roller}"
+
+
+def check_roller(roller: str) -> None:
+    """Raise InvalidInputError unless it is "upper" or "lower"."""
+    if roller not in ("upper", "lower"):
+        raise InvalidInputError(f'`roller` must be "upper" or "lower", got {roller!r}.')
+
+
+def _condition(path: str, value: Condition) -> Array | float | str:
+    if isinstance(value, str):
+        return value
+    try:
+        numbers = np.asarray(value, dtype=float)
+    except (TypeError, ValueError):
+        numbers = np.array([np.nan])
+    if numbers.ndim > 1 or not np.all(np.isfinite(numbers)):
+        raise InvalidInputError(
+            f"`{path}` must be a finite number or a list of them, got {value!r}."
+        )
+    return numbers if numbers.ndim else float(numbers)
+
+
+def _entry(value: Any, index: int) -> Any:
+    return float(value[index]) if isinstance(value, np.ndarray) else value

@@ -1,0 +1,118 @@
+"""From values of the unknowns to what would have been measured: one solve for each nip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError, RollnipError
+from rollnip.identify.costs import Measurements
+from rollnip.identify.unknowns import Unknown
+from rollnip.io import case_hash, dimension_at, parse_case, with_values
+from rollnip.model import Model
+from rollnip.solution import Solution
+from rollnip.solve import solve
+
+Array = NDArray[np.float64]
+Predictions = tuple[Array, ...]
+
+
+class Predictor(Protocol):
+    """What the search asks: predictions of every set at values of the unknowns, or None."""
+
+    def predict(self, values: Mapping[str, float]) -> Predictions | None:
+        """Predictions of each set, None where there are none at these values."""
+
+
+class Forward:
+    """Predictions by solving nips.
+
+    Parameters
+    ----------
+    tree :
+        the case.
+    parts :
+        the sets of measurements.
+    overrides :
+        values by path for every nip: geometry and tolerance.
+    on_solve :
+        called after each nip with the number solved so far.
+    """
+
+    def __init__(
+        self,
+        tree: Mapping[str, Any],
+        parts: tuple[Measurements, ...],
+        overrides: Mapping[str, Any],
+        on_solve: Callable[[int], None] | None = None,
+    ) -> None:
+        self.tree = with_values(tree, overrides)
+        self.parts = parts
+        self.solves = 0
+        self.unverified = 0
+        self.refused = ""
+        self._on_solve = on_solve
+
+    def predict(self, values: Mapping[str, float]) -> Predictions | None:
+        """Predictions of each set; None, and why in ``refused``, where a nip has no solution."""
+        known: dict[str, Solution] = {}
+        try:
+            predictions = tuple(self._predict(part, values, known) for part in self.parts)
+        except RollnipError as problem:
+            self.refused = str(problem)
+            return None
+        for part, prediction in zip(self.parts, predictions, strict=True):
+            if not np.all(np.isfinite(prediction)):
+                self.refused = f"{part.quantity} is not defined in this nip."
+                return None
+        return predictions
+
+    def _predict(
+        self, part: Measurements, values: Mapping[str, float], known: dict[str, Solution]
+    ) -> Array:
+        return part.predict([self._solved(values, row, known) for row in part.conditions])
+
+    def _solved(
+        self, values: Mapping[str, float], row: Mapping[str, Any], known: dict[str, Solution]
+    ) -> Solution:
+        """The solution of one nip; those of the same values are solved once."""
+        case = parse_case(with_values(self.tree, {**values, **row}))
+        key = case_hash(case)
+        if key not in known:
+            known[key] = solve(case.nip, case.model, on_failure="return")
+            self.solves += 1
+            self.unverified += not known[key].converged
+            if self._on_solve is not None:
+                self._on_solve(self.solves)
+        return known[key]
+
+
+def check_paths(
+    tree: Mapping[str, Any], unknowns: Sequence[Unknown], parts: Sequence[Measurements]
+) -> None:
+    """Raise InvalidInputError where a path is no number of the case, twice there, or both."""
+    paths = [one.path for one in unknowns]
+    for path in paths:
+        if dimension_at(tree, path) is None:
+            raise InvalidInputError(f"`{path}` must be a number of the case to be an unknown.")
+        if paths.count(path) > 1:
+            raise InvalidInputError(f"`{path}` must be among the unknowns once only.")
+    for part in parts:
+        for path in part.at:
+            dimension_at(tree, path)
+            if path in paths:
+                raise InvalidInputError(
+                    f"`{path}` must not be an unknown: the {part.quantity} was measured at "
+                    "known values of it."
+                )
+
+
+def model_of(tree: Mapping[str, Any], geometry: str | None, tolerance: float | None) -> Model:
+    """The model of the case with what is not None put in its place."""
+    model = parse_case(tree).model
+    changed: dict[str, Any] = {"geometry": geometry, "tolerance": tolerance}
+    return replace(model, **{name: value for name, value in changed.items() if value is not None})

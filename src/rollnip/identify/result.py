@@ -1,0 +1,151 @@
+"""What a fit found: frozen data."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.identify.costs import Measurements
+from rollnip.model import Model
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """One fitted value, in base units.
+
+    Attributes
+    ----------
+    path : where it stands in the case.
+    value : the best fit.
+    standard_error : from the covariance.
+    low, high : interval from the covariance, in the scale of the search, cut at the bounds.
+    profile : interval from the profile of the likelihood; None where none was computed.
+    open_ends : whether the lower, the upper end of ``profile`` is only the bound.
+    bound : "low" or "high" where the best fit lies at that bound, else None.
+    """
+
+    path: str
+    value: float
+    standard_error: float
+    low: float
+    high: float
+    profile: tuple[float, float] | None
+    open_ends: tuple[bool, bool]
+    bound: str | None
+
+
+@dataclass(frozen=True, slots=True)
+class FittedSet:
+    """One set of measurements beside its predictions.
+
+    Attributes
+    ----------
+    name, quantity, unit : of what was measured.
+    against : path of what the values were measured at, or ``x``.
+    at, measured, predicted : (n,).
+    standard_error : (n,) given or estimated.
+    estimated : whether it was estimated.
+    weight : of the set.
+    """
+
+    name: str
+    quantity: str
+    unit: str
+    against: str
+    at: Array
+    measured: Array
+    predicted: Array
+    standard_error: Array
+    estimated: bool
+    weight: float
+
+    @classmethod
+    def of(cls, part: Measurements, predicted: Array, error: Array, estimated: bool) -> FittedSet:
+        """The set ``part`` with its predictions (n,) and standard errors (n,)."""
+        against, at = part.abscissa
+        return cls(
+            part.name,
+            part.quantity,
+            part.unit,
+            against,
+            at,
+            part.values,
+            predicted,
+            error,
+            estimated,
+            part.weight,
+        )
+
+    @property
+    def residuals(self) -> Array:
+        """(n,) measured less predicted, over the standard error."""
+        return np.asarray((self.measured - self.predicted) / self.standard_error)
+
+    @property
+    def rms(self) -> float:
+        """Root mean square of measured less predicted, in the unit of the set."""
+        return float(np.sqrt(np.mean((self.measured - self.predicted) ** 2)))
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """One search: where it began and ended (values by path), and its sum of squares."""
+
+    begun: Mapping[str, float]
+    ended: Mapping[str, float]
+    cost: float
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Fit:
+    """A fit of unknown values to measurements.
+
+    Attributes
+    ----------
+    estimates : the values with their intervals, in the order of the unknowns.
+    correlation : (p, p) of their errors.
+    singular_values : (p,) of the Jacobian scaled with the bounds, largest first.
+    sets : measurements beside predictions.
+    chi_square : sum of squared residuals over squared standard errors, without weights.
+    degrees : of freedom.
+    probability : of so large a chi-square; None where standard errors were estimated.
+    widened : factor on the intervals where chi-square is improbably large, else 1.
+    confidence : of the intervals.
+    starts : the searches, best first.
+    warnings : what the fit does not tell, in plain words.
+    case : the tree of the case with the fitted values.
+    units : base unit of each unknown by its path.
+    model : geometry and tolerance that the nips were solved with; None where no nip was.
+    solves : number of nips solved.
+    """
+
+    estimates: tuple[Estimate, ...]
+    correlation: Array
+    singular_values: Array
+    sets: tuple[FittedSet, ...]
+    chi_square: float
+    degrees: float
+    probability: float | None
+    widened: float
+    confidence: float
+    starts: tuple[Start, ...]
+    warnings: tuple[str, ...]
+    case: Mapping[str, Any] = field(default_factory=dict)
+    units: Mapping[str, str] = field(default_factory=dict)
+    model: Model | None = None
+    solves: int = 0
+
+    @property
+    def values(self) -> dict[str, float]:
+        """The fitted values by path, in base units."""
+        return {one.path: one.value for one in self.estimates}
+
+    def __getitem__(self, path: str) -> Estimate:
+        """The estimate of one path."""
+        return next(one for one in self.estimates if one.path == path)

@@ -239,6 +239,14 @@ def known_units(dimension: Dimension) -> tuple[str, ...]:
     return tuple(name for name in _KINDS[dimension].units if name)
 
 
+def conversions(dimension: Dimension) -> dict[str, tuple[float, float]]:
+    """Scale and offset of each unit: value in the base unit = number * scale + offset."""
+    return {
+        name: (float(scale), float(offset))
+        for name, (scale, offset) in _KINDS[dimension].units.items()
+    }
+
+
 def example(dimension: Dimension) -> str:
     """A quantity of this dimension as one may write it."""
     return _KINDS[dimension].example

@@ -5,12 +5,16 @@ from rollnip.io.columns import Columns, read_columns
 from rollnip.io.fields import check_fields_target, write_fields
 from rollnip.io.paths import dimension_at, value_at, with_values
 from rollnip.io.result import check_result_target, result_dict, result_text, write_result
+from rollnip.io.script import base_tree, case_python, case_toml, units_of
 
 __all__ = [
     "Case",
     "Columns",
+    "base_tree",
     "case_hash",
+    "case_python",
     "case_schema",
+    "case_toml",
     "check_fields_target",
     "check_result_target",
     "dimension_at",
@@ -19,6 +23,7 @@ __all__ = [
     "read_columns",
     "result_dict",
     "result_text",
+    "units_of",
     "value_at",
     "with_values",
     "write_fields",

@@ -81,9 +81,12 @@ def case_hash(case: Case) -> str:
     return sha256(repr((problem, case.model)).encode()).hexdigest()[:16]
 
 
-def case_schema() -> dict[str, Any]:
-    """JSON schema of the case file, for editors and other programs."""
-    return CaseTable.model_json_schema()
+def case_schema(*, ref: str = "#/$defs/{model}") -> dict[str, Any]:
+    """JSON schema of the case file, for editors and other programs.
+
+    ``ref`` says how its parts refer to each other, for a schema that holds it.
+    """
+    return CaseTable.model_json_schema(ref_template=ref)
 
 
 def _checked(tree: dict[str, Any], source: str) -> CaseTable:

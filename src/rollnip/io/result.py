@@ -19,11 +19,12 @@ _CONTROLS = ("load", "approach", "traction", "creepage", "speed_ratio")
 _NIP = ("nip_width", "dwell_time", "peak_pressure", "peak_pressure_x", "mean_pressure")
 
 
-def result_dict(solution: Solution) -> dict[str, Any]:
+def result_dict(solution: Solution, *, interfaces: bool = True) -> dict[str, Any]:
     """The result as a tree of finite numbers, texts and None: what the JSON holds.
 
     Units mm, N, MPa, s; per axial length, save ``totals`` (N, N m, W), which is there where the
-    nip has a face width. What is not finite or not defined is None.
+    nip has a face width. What is not finite or not defined is None. The stresses on interfaces
+    may take longer than the solution itself; without ``interfaces`` their key is not there.
     """
     tree: dict[str, Any] = {
         "schema": SCHEMA,
@@ -55,11 +56,12 @@ def result_dict(solution: Solution) -> dict[str, Any]:
         "status": solution.status,
     }
     tree["warnings"] = list(solution.warnings)
-    tree["interfaces"] = [
-        {"roller": interface.roller, "bond": interface.is_bond}
-        | {name: _number(getattr(interface, name)) for name in INTERFACE_FIGURES}
-        for interface in solution.interfaces
-    ]
+    if interfaces:
+        tree["interfaces"] = [
+            {"roller": interface.roller, "bond": interface.is_bond}
+            | {name: _number(getattr(interface, name)) for name in INTERFACE_FIGURES}
+            for interface in solution.interfaces
+        ]
     return tree
 
 

@@ -23,6 +23,17 @@ class Reply:
     case: str | None = None
 
 
+class RefusedError(Exception):
+    """A request that is not answered as it wished: HTTP status, a sentence, the keys at fault."""
+
+    def __init__(self, status: int, error: str, details: Sequence[tuple[str, str]] = ()) -> None:
+        super().__init__(error)
+        self.status = status
+        self.body = json_bytes(error_tree(error, details))
+        # A second is what the longest queue takes, more or less.
+        self.headers = {"retry-after": "1"} if status == 429 else {}
+
+
 def json_bytes(tree: Any) -> bytes:
     """JSON without blanks; a number that is not finite is an error of the program."""
     return json.dumps(tree, allow_nan=False, separators=(",", ":")).encode()

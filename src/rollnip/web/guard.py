@@ -9,7 +9,9 @@ from ipaddress import ip_address
 from typing import Any
 from urllib.parse import urlsplit
 
-from rollnip.web.answers import error_tree, json_bytes
+from rollnip._errors import CaseFileError
+from rollnip.io.document import parse_document
+from rollnip.web.answers import RefusedError
 from rollnip.web.limits import Limits
 
 Scope = MutableMapping[str, Any]
@@ -33,14 +35,6 @@ HEADERS = {
     "permissions-policy": "camera=(), geolocation=(), microphone=(), payment=(), usb=()",
 }
 _METHODS = ("GET", "HEAD", "POST")
-
-
-class RefusedError(Exception):
-    """A request that is not let in: HTTP status and a sentence."""
-
-    def __init__(self, status: int, error: str) -> None:
-        super().__init__(error)
-        self.status = status
 
 
 class Guard:
@@ -88,10 +82,13 @@ class Guard:
         self._check_host(headers.get("host", ""))
         if scope["method"] not in _METHODS:
             raise RefusedError(405, "Only GET and POST are answered here.")
-        if scope["method"] == "POST":
-            _check_origin(headers, scope["scheme"])
-            _check_type(headers.get("content-type", ""))
-        return await self._body(headers, receive)
+        if scope["method"] != "POST":
+            return await self._body(headers, receive)
+        _check_origin(headers, scope["scheme"])
+        _check_type(headers.get("content-type", ""))
+        body = await self._body(headers, receive)
+        _check_json(body, self._limits.depth)
+        return body
 
     def _check_host(self, host: str) -> None:
         """Another name that leads here (DNS rebinding) would make a foreign page one of ours."""
@@ -175,6 +172,27 @@ def _check_type(content_type: str) -> None:
         raise RefusedError(415, "The body must be JSON, sent with Content-Type: application/json.")
 
 
+def _check_json(body: bytes, depth: int) -> None:
+    """An object without keys given twice, and not nested beyond reason."""
+    try:
+        level: list[Any] = [parse_document(body.decode(), "body.json")]
+    except UnicodeDecodeError:
+        raise RefusedError(400, "The body must be JSON in UTF-8.") from None
+    except CaseFileError as error:
+        raise RefusedError(400, str(error).replace("body.json:", "The body")) from None
+    for _ in range(depth):
+        level = [part for whole in level for part in _parts(whole)]
+        if not level:
+            return
+    raise RefusedError(400, f"The body may be nested at most {depth} deep.")
+
+
+def _parts(value: Any) -> list[Any]:
+    if isinstance(value, dict):
+        return list(value.values())
+    return value if isinstance(value, list) else []
+
+
 def _replayed(body: bytes, receive: Receive) -> Receive:
     """Give the body once, then what else comes: that the client has left."""
     given = False
@@ -204,11 +222,12 @@ def _with_headers(scope: Scope, send: Send) -> Send:
 
 
 async def _refuse(send: Send, error: RefusedError) -> None:
-    body = json_bytes(error_tree(str(error)))
-    headers = [
-        (b"content-type", b"application/json"),
-        (b"content-length", str(len(body)).encode()),
-        (b"connection", b"close"),
-    ]
-    await send({"type": "http.response.start", "status": error.status, "headers": headers})
-    await send({"type": "http.response.body", "body": body})
+    headers = {
+        "content-type": "application/json",
+        "content-length": str(len(error.body)),
+        "connection": "close",  # what is left of the body is not read
+        **error.headers,
+    }
+    raw = [(name.encode(), value.encode()) for name, value in headers.items()]
+    await send({"type": "http.response.start", "status": error.status, "headers": raw})
+    await send({"type": "http.response.body", "body": error.body})

@@ -1,37 +1,118 @@
-"""What the page offers to begin with: examples and materials, each with its source."""
+"""What the page offers to begin with: examples and materials, each with its source; units."""
 
 from __future__ import annotations
 
 import tomllib
+from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
+
+from rollnip._units import Dimension, base_unit, conversions
+from rollnip.materials import shore_a_band, shore_a_modulus
+
+_DATA = Path(str(files("rollnip.web"))) / "data"
+_HARDNESSES = (30, 40, 50, 60, 70, 80, 90)
+# What the metric and the US page show.
+_SHOWN: dict[Dimension, tuple[str, str]] = {
+    "length": ("mm", "in"),
+    "line load": ("N/mm", "pli"),
+    "force": ("N m/m", "lbf in/in"),
+    "pressure": ("MPa", "psi"),
+    "speed": ("m/min", "fpm"),
+    "time": ("ms", "ms"),
+    "temperature": ("degC", "degF"),
+    "temperature difference": ("K", "K"),
+    "ratio": ("", ""),
+    "molar energy": ("kJ/mol", "kcal/mol"),
+}
 
 
-def examples() -> list[dict[str, Any]]:
-    """Cases of the paper: name, title, group, description, case."""
-    return [_example(path, "paper") for path in sorted(_paper_folder().glob("*.toml"))]
+@dataclass(frozen=True, slots=True)
+class Library:
+    """Examples and materials, as the API gives them.
+
+    Attributes
+    ----------
+    examples : {"name", "title", "group": "paper" or "typical", "description", "case"} of each.
+    materials : {"name", "title", "description", "source", "material", "range"} of each.
+    """
+
+    examples: list[dict[str, Any]]
+    materials: list[dict[str, Any]]
+
+    @classmethod
+    def read(cls) -> Library:
+        """Read it from the files of the package."""
+        typical = [_example(path, "typical") for path in sorted((_DATA / "nips").glob("*.toml"))]
+        paper = [_example(path, "paper") for path in sorted(_paper_folder().glob("*.toml"))]
+        others = tomllib.loads((_DATA / "materials.toml").read_text(encoding="utf-8"))["material"]
+        rubbers = [_rubber(hardness) for hardness in _HARDNESSES]
+        return cls(typical + paper, rubbers + [_material(table) for table in others])
+
+
+def units() -> dict[str, Any]:
+    """Units of every dimension: base, what the metric and the US page show, [scale, offset]."""
+    return {
+        dimension: {
+            "base": base_unit(dimension),
+            "metric": _SHOWN[dimension][0],
+            "us": _SHOWN[dimension][1],
+            "units": {name: list(pair) for name, pair in conversions(dimension).items()},
+        }
+        for dimension in get_args(Dimension)
+    }
 
 
 def _example(path: Path, group: str) -> dict[str, Any]:
+    """A case file; the comment lines at its head are the description."""
     text = path.read_text(encoding="utf-8")
-    case = tomllib.loads(text)
-    comments = []
+    head = []
     for line in text.splitlines():
         if not line.startswith("#"):
             break
-        comments.append(line.removeprefix("#").strip())
+        head.append(line.removeprefix("#").strip())
+    case = tomllib.loads(text)
     return {
-        "name": path.stem,
+        "name": path.stem.lstrip("0123456789-") if group == "typical" else path.stem,
         "title": case["title"],
         "group": group,
-        "description": " ".join(comments),
+        "description": " ".join(head),
         "case": case,
     }
 
 
 def _paper_folder() -> Path:
-    """Beside the package in a wheel, at the root of the source tree."""
+    """Inside the package in a wheel, at the root of a source tree."""
     package = Path(str(files("rollnip")))
     inside = package / "examples"
     return inside if inside.is_dir() else package.parents[1] / "examples"
+
+
+def _rubber(hardness: int) -> dict[str, Any]:
+    band = shore_a_band(hardness)
+    return {
+        "name": f"rubber-{hardness}-shore-a",
+        "title": f"Rubber, {hardness} Shore A",
+        "description": (
+            f"Modulus {shore_a_modulus(hardness):.2g} MPa from the hardness alone, which leaves "
+            f"{band.low:.2g} to {band.high:.2g} MPa open (two relations, reading within 4 points)."
+            " At rest and at small strain; a rubber in a fast nip is stiffer. Poisson's ratio 0.5:"
+            " rubber hardly changes its volume. Where it matters, fit it to a measured nip width."
+        ),
+        "source": "Gent (1958), Rubber Chem. Technol. 31, 896-906; band: also the one of Ruess",
+        "material": {"model": "elastic", "shore_a": hardness, "poisson": 0.5},
+        "range": {"modulus": _range(*band)},
+    }
+
+
+def _material(table: dict[str, Any]) -> dict[str, Any]:
+    modulus = table["material"]["modulus"]
+    known = "low" in table
+    band = _range(table["low"], modulus, table["high"]) if known else None
+    kept = {name: table[name] for name in ("name", "title", "description", "source", "material")}
+    return kept | {"range": {"modulus": band} if band else {}}
+
+
+def _range(low: float, likely: float, high: float) -> dict[str, Any]:
+    return {"low": low, "likely": likely, "high": high, "unit": "MPa"}

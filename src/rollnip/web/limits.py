@@ -25,10 +25,16 @@ class Limits:
         processes that solve; so many requests are solved at once.
     waiting :
         requests that wait for one of them; beyond it the answer is 429.
+    waiting_seconds :
+        time that a request waits; beyond it the answer is 429, too [s].
+    long_waiting :
+        sweeps and inverse solves that are under way or wait; beyond it the answer is 429.
     solve_seconds :
         time of one solve [s].
-    find_seconds :
-        time of one inverse solve [s].
+    long_seconds :
+        time of a sweep or an inverse solve, once it is begun [s].
+    depth :
+        nesting of a body.
     layers :
         layers of a roller.
     terms :
@@ -45,8 +51,11 @@ class Limits:
     body_seconds: float = 10.0
     workers: int = field(default_factory=_workers)
     waiting: int = 16
+    waiting_seconds: float = 30.0
+    long_waiting: int = 8
     solve_seconds: float = 10.0
-    find_seconds: float = 30.0
+    long_seconds: float = 60.0
+    depth: int = 32
     layers: int = 20
     terms: int = 60
     tolerance: float = 1e-4

@@ -9,17 +9,24 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 import os
 import sys
 from asyncio.subprocess import PIPE, Process
 from collections import deque
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Coroutine, Mapping
+from dataclasses import asdict
+from typing import Any, TypeVar
 
 from rollnip.web.answers import Reply
+from rollnip.web.limits import Limits
 from rollnip.web.worker import HEAD
 
+T = TypeVar("T")
+
+_log = logging.getLogger(__name__)
 _START_SECONDS = 60.0
+_PAUSE = 2.0  # before a start that failed is tried again [s]
 _RECENT = 4  # as many keys as a worker keeps solutions
 
 
@@ -43,14 +50,14 @@ class _Worker:
         self.recent: deque[str] = deque(maxlen=_RECENT)
 
     @classmethod
-    async def start(cls) -> _Worker:
+    async def start(cls, limits: Limits) -> _Worker:
         """Start a process and wait until it is ready."""
         environment = os.environ | dict.fromkeys(
             ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"
         )
         worker = cls(
             await asyncio.create_subprocess_exec(
-                *(sys.executable, "-P", "-m", "rollnip.web.worker"),
+                *(sys.executable, "-P", "-m", "rollnip.web.worker", json.dumps(asdict(limits))),
                 stdin=PIPE,
                 stdout=PIPE,
                 env=environment,
@@ -93,15 +100,12 @@ class Pool:
 
     Parameters
     ----------
-    workers :
-        how many tasks are done at once.
-    waiting :
-        how many may wait; beyond that `run` raises OverloadedError.
+    limits :
+        how many tasks are done at once, how many may wait, and how long.
     """
 
-    def __init__(self, workers: int, waiting: int) -> None:
-        self._size = workers
-        self._waiting = waiting
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
         self._idle: list[_Worker] = []
         self._queue: deque[asyncio.Future[_Worker]] = deque()
         self._jobs: set[asyncio.Task[Any]] = set()
@@ -109,7 +113,7 @@ class Pool:
 
     def start(self) -> None:
         """Start the workers in the background; tasks wait until one is ready."""
-        for _ in range(self._size):
+        for _ in range(self._limits.workers):
             self._spawn(self._add())
 
     async def stop(self) -> None:
@@ -119,31 +123,55 @@ class Pool:
         await asyncio.gather(*self._jobs, return_exceptions=True)
         await asyncio.gather(*(worker.stop() for worker in self._all))
 
-    async def run(self, name: str, body: Mapping[str, Any], seconds: float) -> Reply:
+    async def run(
+        self, name: str, body: Mapping[str, Any], seconds: float, *, patient: bool = False
+    ) -> Reply:
         """Have one task done.
 
         Cancelled while it waits, it is never begun; cancelled later, its answer is dropped.
+
+        Parameters
+        ----------
+        name, body :
+            of the task, see `rollnip.web.tasks`.
+        seconds :
+            that it may take once it is begun.
+        patient :
+            whether it may wait even where too many do: for a caller that asks for one at a time.
 
         Raises
         ------
         OverloadedError, TimeLimitError, WorkerError
         """
+        if len(self._queue) >= self._limits.waiting and not patient:
+            raise OverloadedError
         task = json.dumps({"name": name, "body": body}).encode()
         key = json.dumps(body.get("case"), sort_keys=True)
-        worker = await self._free(key)
+        try:
+            async with asyncio.timeout(self._limits.waiting_seconds):
+                worker = await self._free(key)
+        except TimeoutError:
+            raise OverloadedError from None
         return await asyncio.shield(self._spawn(self._done(worker, task, key, seconds)))
 
-    def _spawn(self, work: Any) -> asyncio.Task[Any]:
+    def _spawn(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
         job = asyncio.create_task(work)
         self._jobs.add(job)
         job.add_done_callback(self._jobs.discard)
         return job
 
     async def _add(self) -> None:
-        """Start one worker and hand it over."""
-        worker = await _Worker.start()
-        self._all.add(worker)
-        self._release(worker)
+        """Start one worker and hand it over; until it is there, the pool is one smaller."""
+        while True:
+            try:
+                worker = await _Worker.start(self._limits)
+            except (WorkerError, TimeoutError, OSError) as error:
+                _log.error("A solver process could not be started: %r", error)
+                await asyncio.sleep(_PAUSE)
+            else:
+                self._all.add(worker)
+                self._release(worker)
+                return
 
     async def _free(self, key: str) -> _Worker:
         """A free worker, the one that knows this case if it can be."""
@@ -152,8 +180,6 @@ class Pool:
             worker = known[-1] if known else self._idle[0]
             self._idle.remove(worker)
             return worker
-        if len(self._queue) >= self._waiting:
-            raise OverloadedError
         turn: asyncio.Future[_Worker] = asyncio.get_running_loop().create_future()
         self._queue.append(turn)
         try:

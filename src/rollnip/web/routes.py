@@ -3,79 +3,171 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Awaitable, Mapping
-from importlib.metadata import version
-from typing import Annotated, Any, TypeVar
+from collections.abc import Coroutine
+from importlib.metadata import version as version_of
+from typing import Annotated, Any
 
-from fastapi import APIRouter, Body, Request
-from fastapi.responses import JSONResponse, Response
+from fastapi import APIRouter, Body, Query, Request
+from fastapi.responses import Response
 
-from rollnip.web.answers import error_tree
-from rollnip.web.limits import Limits
-from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError
+from rollnip._errors import InvalidInputError
+from rollnip._units import base_unit, parse_quantity
+from rollnip.io import case_schema
+from rollnip.web.answers import RefusedError, Reply, json_bytes
+from rollnip.web.bodies import (
+    Case,
+    FindBody,
+    InteriorBody,
+    Quantity,
+    QuantityBody,
+    Refusal,
+    SweepBody,
+    TomlBody,
+    Version,
+)
+from rollnip.web.desk import Desk
+from rollnip.web.library import Library, units
 
+_STATUSES = {
+    400: "The body is no JSON object.",
+    403: "Not from a page of this server, or the Host header names another.",
+    413: "The body is too large.",
+    415: "The body is not sent as JSON.",
+    422: "The case or the body is wrong, or it took too long; `details` says which key.",
+    429: "Too many requests wait; Retry-After says when to try again.",
+}
+_REFUSALS: dict[int | str, dict[str, Any]] = {
+    status: {"model": Refusal, "description": text} for status, text in _STATUSES.items()
+}
+_GONE = 499  # no client sees it: it has left
+
+CaseBody = Annotated[Case, Body()]
 router = APIRouter(prefix="/api")
-Tree = Annotated[dict[str, Any], Body()]
-T = TypeVar("T")
+posts = APIRouter(responses=_REFUSALS)
 
 
-@router.post("/solve")
-async def solve(request: Request, case: Tree) -> Response:
-    """Solve one nip: the result of `rollnip solve --json`."""
-    return await _answer(request, "solve", {"case": case})
+@posts.post("/solve", response_model=dict[str, Any])
+async def solve(
+    request: Request,
+    case: CaseBody,
+    interfaces: Annotated[
+        bool, Query(description="With stresses on interfaces, which may take longer than the rest.")
+    ] = True,
+) -> Response:
+    """Solve one nip: the tree of `rollnip solve --json`; the case's hash in X-Rollnip-Case."""
+    return await _answer(request, _desk(request).solve(case, interfaces=interfaces))
 
 
-@router.post("/case")
-async def case(request: Request, case: Tree) -> Response:
-    """Check a case; its hash, and the case as TOML and as Python."""
-    return await _answer(request, "case", {"case": case})
+@posts.post("/surfaces", response_model=dict[str, Any])
+async def surfaces(request: Request, case: CaseBody) -> Response:
+    """Deformed surfaces of both rollers [mm], in the frame of the nip."""
+    return await _answer(request, _desk(request).task("surfaces", {"case": case}))
 
 
-@router.get("/examples")
-def examples() -> list[dict[str, Any]]:
-    """Cases to begin with."""
-    from rollnip.web.library import examples
+@posts.post("/interior", response_model=dict[str, Any])
+async def interior(request: Request, body: InteriorBody) -> Response:
+    """Displacements [mm] and stresses [MPa] inside one roller, rows of z over columns of x."""
+    return await _answer(request, _desk(request).interior(body))
 
-    return examples()
+
+@posts.post("/sweep", response_model=dict[str, Any])
+async def sweep(request: Request, body: SweepBody) -> Response:
+    """Every scalar of the result for several sizes of one value of the case."""
+    return await _answer(request, _desk(request).sweep(body))
+
+
+@posts.post("/find", response_model=dict[str, Any])
+async def find(request: Request, body: FindBody) -> Response:
+    """The size of one value of the case that gives a wanted figure of the result."""
+    return await _answer(request, _desk(request).find(body))
+
+
+@posts.post("/case", response_model=dict[str, Any])
+async def case(request: Request, case: CaseBody) -> Response:
+    """Check a case: its hash, the case as TOML, as Python, and in base units."""
+    return await _answer(request, _desk(request).task("case", {"case": case}))
+
+
+@posts.post("/toml", response_model=dict[str, Any])
+async def toml(request: Request, body: TomlBody) -> Response:
+    """The tree of a case file's text, TOML or JSON, as written."""
+    return await _answer(request, _desk(request).task("toml", {"text": body.text}))
+
+
+@posts.post("/quantity")
+async def quantity(body: QuantityBody) -> Quantity:
+    """A number in its base unit, from a text that carries its unit."""
+    try:
+        value = parse_quantity(body.text, body.dimension)
+    except InvalidInputError as error:
+        raise RefusedError(422, f"text: {error}", [("text", str(error))]) from None
+    return Quantity(value=value, unit=base_unit(body.dimension))
+
+
+@router.get("/units", response_model=dict[str, Any])
+async def units_() -> Response:
+    """Units of every dimension as [scale, offset], base = number * scale + offset."""
+    return _json(units())
+
+
+@router.get("/examples", response_model=list[dict[str, Any]])
+async def examples(request: Request) -> Response:
+    """Cases to begin with: those of the paper, and typical nips."""
+    return _json(_library(request).examples)
+
+
+@router.get("/materials", response_model=list[dict[str, Any]])
+async def materials(request: Request) -> Response:
+    """Materials to choose from, each with its source."""
+    return _json(_library(request).materials)
+
+
+@router.get("/schema", response_model=dict[str, Any])
+async def schema() -> Response:
+    """JSON schema of the case file."""
+    return _json(case_schema())
 
 
 @router.get("/version")
-def version_() -> dict[str, str]:
-    """The version."""
-    return {"version": version("rollnip")}
+async def version() -> Version:
+    """The version of rollnip."""
+    return Version(version=version_of("rollnip"))
 
 
-async def _answer(request: Request, name: str, body: Mapping[str, Any]) -> Response:
-    pool: Pool = request.app.state.pool
-    limits: Limits = request.app.state.limits
-    try:
-        reply = await _while_there(request, pool.run(name, body, limits.solve_seconds))
-    except OverloadedError:
-        return JSONResponse(
-            error_tree("The server is busy; try again in a second."), 429, {"retry-after": "1"}
-        )
-    except TimeLimitError:
-        return JSONResponse(
-            error_tree(
-                f"Not solved within {limits.solve_seconds:g} s; try a simpler geometry, "
-                "fewer layers or a larger tolerance."
-            ),
-            422,
-        )
-    except WorkerError:
-        return JSONResponse(error_tree("The solver ended unexpectedly; try again."), 503)
-    headers = {} if reply.case is None else {"x-rollnip-case": reply.case}
-    return Response(reply.body, reply.status, headers, "application/json")
+router.include_router(posts)
 
 
-async def _while_there(request: Request, work: Awaitable[T]) -> T:
+def _desk(request: Request) -> Desk:
+    desk: Desk = request.app.state.desk
+    return desk
+
+
+def _library(request: Request) -> Library:
+    library: Library = request.app.state.library
+    return library
+
+
+def _json(tree: Any) -> Response:
+    return Response(json_bytes(tree), media_type="application/json")
+
+
+async def _answer(request: Request, work: Coroutine[Any, Any, Reply]) -> Response:
     """Do the work, or leave it when the client has gone."""
-    job = asyncio.ensure_future(work)
-    gone = asyncio.ensure_future(request.receive())
+    job = asyncio.create_task(work)
+    gone = asyncio.create_task(_left(request))
     try:
         await asyncio.wait({job, gone}, return_when=asyncio.FIRST_COMPLETED)
         if not job.done():
             job.cancel()
-        return await job
+            return Response(status_code=_GONE)
+        reply = job.result()
     finally:
         gone.cancel()
+    headers = {} if reply.case is None else {"x-rollnip-case": reply.case}
+    return Response(reply.body, reply.status, headers, "application/json")
+
+
+async def _left(request: Request) -> None:
+    """Wait until the client leaves; its body is read already."""
+    while (await request.receive())["type"] != "http.disconnect":
+        pass

@@ -2,51 +2,286 @@
 
 from __future__ import annotations
 
+import logging
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
+from datetime import date, datetime, time
+from itertools import pairwise
+from math import isfinite
 from typing import Any
 
-from rollnip._errors import RollnipError
-from rollnip.io import Case, parse_case, result_text
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
+from rollnip._units import Dimension, base_unit, parse_quantity
+from rollnip.design import find
+from rollnip.io import (
+    Case,
+    base_tree,
+    case_hash,
+    case_python,
+    case_toml,
+    dimension_at,
+    parse_case,
+    result_dict,
+    units_of,
+    with_values,
+)
+from rollnip.io.document import parse_document
+from rollnip.materials import Prony
+from rollnip.rollers import Roller
 from rollnip.solution import Solution
 from rollnip.solve import solve
-from rollnip.web.answers import SOURCE, Reply, json_bytes, refusal
+from rollnip.sweep import scalars
+from rollnip.web.answers import SOURCE, Reply, error_tree, json_bytes, refusal
+from rollnip.web.limits import Limits
 
+Body = Mapping[str, Any]
+Array = NDArray[np.float64]
+
+_log = logging.getLogger(__name__)
 _KEPT = 4  # solutions; the page asks for surfaces and interior of the nip it has just solved
+_FIELDS = {
+    "u_x": "u_x",
+    "u_z": "u_z",
+    "s_xx": "s_xx",
+    "s_zz": "s_zz",
+    "s_xz": "s_xz",
+    "mises": "von_mises",
+    "max_shear": "max_shear",
+}
+_DIGITS = 6  # of the largest value of an interior field
+_CORE_DEPTH = 2.0  # nip widths below the layers that are shown of a half-space core
+_BELOW = 1e-9  # of a layer: how far below its upper face its first row lies
 
 
 class Tasks:
-    """The tasks by name, and the last solutions, so that a second question needs no solve."""
+    """The tasks by name, and the last solutions, so that a second question needs no solve.
 
-    def __init__(self) -> None:
-        self._kept: OrderedDict[Any, Solution] = OrderedDict()
-        self._tasks: dict[str, Callable[[dict[str, Any]], Reply]] = {
+    Parameters
+    ----------
+    limits :
+        of layers, terms and accuracy.
+    """
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+        self._kept: OrderedDict[str, Solution] = OrderedDict()
+        self._tasks: dict[str, Callable[[Body], Reply]] = {
             "solve": self._solve,
+            "surfaces": self._surfaces,
+            "interior": self._interior,
+            "value": self._value,
+            "find": self._find,
             "case": self._case,
+            "toml": self._toml,
         }
 
-    def run(self, name: str, body: dict[str, Any]) -> Reply:
-        """Compute one answer; what a client can cause is a refusal, never an exception."""
+    def run(self, name: str, body: Body) -> Reply:
+        """Compute one answer; an error of the client is a refusal, one of ours goes to the log."""
         try:
             return self._tasks[name](body)
         except RollnipError as error:
             return Reply(422, json_bytes(refusal(error)))
+        except Exception:  # noqa: BLE001 - the next task must find the worker as it was
+            _log.exception("Task %r failed.", name)
+            text = "The solver failed on this case in a way it should not; please report it."
+            return Reply(500, json_bytes(error_tree(text)))
 
-    def _solve(self, body: dict[str, Any]) -> Reply:
-        case = parse_case(body["case"], source=SOURCE)
-        return Reply(200, result_text(self._solution(case)).encode())
+    def _solve(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        tree = result_dict(self._solution(case), interfaces=body["interfaces"])
+        tree["title"] = case.nip.title  # the hash leaves it out, so a kept solution has another
+        return Reply(200, json_bytes(tree), case_hash(case))
 
-    def _case(self, body: dict[str, Any]) -> Reply:
-        parse_case(body["case"], source=SOURCE)
-        return Reply(200, json_bytes({"case": body["case"]}))
+    def _surfaces(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        surfaces = self._solution(case).deformed_surfaces
+        x = surfaces.x.tolist()
+        tree = {
+            "upper": {"x": x, "z": _numbers(surfaces.upper)},
+            "lower": {"x": x, "z": _numbers(surfaces.lower)},
+        }
+        return Reply(200, json_bytes(tree), case_hash(case))
+
+    def _interior(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        solution = self._solution(case)
+        name = body["roller"]
+        roller = case.nip.upper if name == "upper" else case.nip.lower
+        trailing, leading = solution.contact[0][0], solution.contact[-1][1]
+        width = leading - trailing
+        x = np.linspace(trailing - width, leading + width, body["nx"])
+        field = solution.interior(name, _rows(roller, width, body["nz"]), x)
+        tree: dict[str, Any] = {"x": _rounded(field.x), "z": _numbers(field.z)}
+        tree |= {key: _rounded(getattr(field, name)) for key, name in _FIELDS.items()}
+        if roller.is_viscoelastic:
+            tree["loss"] = _rounded(field.loss_density)
+        tree["layer"] = field.layer.tolist()
+        tree["interfaces"] = list(roller.interfaces)
+        return Reply(200, json_bytes(tree), case_hash(case))
+
+    def _value(self, body: Body) -> Reply:
+        """One value of a sweep; a case that cannot be solved is an error in its row."""
+        path, dimension = body["path"], _dimension(body["case"], body["path"])
+        tree: dict[str, Any] = {"unit": base_unit(dimension), "value": None}
+        try:
+            tree["value"] = parse_quantity(body["value"], dimension, infinite=True)
+            tree["result"] = _flat(self._row(with_values(body["case"], {path: tree["value"]})))
+        except RollnipError as error:
+            tree["result"] = {"error": refusal(error)["error"]}
+        if tree["value"] is not None and not isfinite(tree["value"]):
+            tree["value"] = "inf"
+        return Reply(200, json_bytes(tree))
+
+    def _find(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        _dimension(body["case"], body["path"])
+        names = ("case", "path", "quantity", "wanted", "low", "high")
+        found = find(*(body[name] for name in names), evaluate=self._row_or_message)
+        tree = {
+            "found": found.value is not None,
+            "value": found.value,
+            "unit": found.unit,
+            "error": found.error,
+            "others": list(found.others),
+            "quantity": found.quantity,
+            "wanted": found.wanted,
+            "points": [list(point) for point in found.points],
+            "result": _flat(found.scalars),
+            "message": found.message,
+        }
+        return Reply(200, json_bytes(tree), case_hash(case))
+
+    def _case(self, body: Body) -> Reply:
+        tree = body["case"]
+        case = self._read(tree)
+        base = base_tree(tree)
+        answer = {
+            "hash": case_hash(case),
+            "toml": case_toml(tree),
+            "python": case_python(case),
+            "case": base,
+            "units": units_of(base),
+        }
+        return Reply(200, json_bytes(answer), case_hash(case))
+
+    def _toml(self, body: Body) -> Reply:
+        return Reply(200, json_bytes({"case": _as_json(parse_document(body["text"], SOURCE))}))
+
+    def _row(self, tree: Body) -> dict[str, Any]:
+        """The scalars of a case's solution, and its warnings."""
+        solution = self._solution(self._read(tree))
+        return scalars(solution) | {"warnings": list(solution.warnings)}
+
+    def _row_or_message(self, tree: Body) -> dict[str, Any]:
+        try:
+            return self._row(tree)
+        except RollnipError as error:
+            return {"converged": False, "message": refusal(error)["error"]}
+
+    def _read(self, tree: Body) -> Case:
+        """The case, where it keeps to the limits and names no file of this machine."""
+        for name in ("upper", "lower"):
+            roller = tree.get(name)
+            if isinstance(roller, dict) and roller.get("profile") is not None:
+                raise CaseFileError(
+                    f"{SOURCE}: {name}.profile: must be left out here: the server reads no files."
+                )
+        case = parse_case(tree, source=SOURCE)
+        lines = _beyond(case, self._limits)
+        if lines:
+            raise CaseFileError("\n".join(f"{SOURCE}: {line}" for line in lines))
+        return case
 
     def _solution(self, case: Case) -> Solution:
-        key = (case.nip, case.model)
-        if key in self._kept:
-            self._kept.move_to_end(key)
-            return self._kept[key]
-        solution = solve(case.nip, case.model)
-        self._kept[key] = solution
+        key = case_hash(case)
+        kept = self._kept.pop(key, None)
+        self._kept[key] = kept = kept or solve(case.nip, case.model)
         if len(self._kept) > _KEPT:
             self._kept.popitem(last=False)
-        return solution
+        return kept
+
+
+def _dimension(tree: Body, path: str) -> Dimension:
+    """What kind of quantity stands at a path of a case."""
+    try:
+        dimension = dimension_at(tree, path)
+    except InvalidInputError as error:
+        raise CaseFileError(f"{SOURCE}: path: {error}") from None
+    if dimension is None:
+        raise CaseFileError(f"{SOURCE}: path: must lead to a number, got {path!r}.")
+    return dimension
+
+
+def _flat(row: Mapping[str, Any]) -> dict[str, Any]:
+    """The scalars of a result under names without points: ``dissipation_friction``, ..."""
+    return {name.replace(".", "_"): value for name, value in row.items()}
+
+
+def _beyond(case: Case, limits: Limits) -> list[str]:
+    """Lines about what is more than the server solves."""
+    lines = []
+    for name, roller in (("upper", case.nip.upper), ("lower", case.nip.lower)):
+        if len(roller.layers) > limits.layers:
+            lines.append(
+                f"{name}.layers: must be at most {limits.layers} here, got {len(roller.layers)}."
+            )
+        for material in roller.materials:
+            if isinstance(material, Prony) and len(material.terms) > limits.terms:
+                lines.append(
+                    f"{name}.layers: a Prony series must have at most {limits.terms} terms here, "
+                    f"got {len(material.terms)}."
+                )
+    if case.model.tolerance < limits.tolerance:
+        lines.append(
+            f"solver.tolerance: must be at least {limits.tolerance:g} here, "
+            f"got {case.model.tolerance:g}."
+        )
+    return lines
+
+
+def _rows(roller: Roller, width: float, count: int) -> Array:
+    """Depths of an interior field, (about count,): all layers, both sides of every interface."""
+    faces = [0.0, *roller.interfaces]
+    if roller.core is not None:
+        faces.append(faces[-1] + _CORE_DEPTH * width)
+    if len(faces) == 1:
+        return np.zeros(1)  # bare and rigid: `Solution.interior` says so
+    pieces = []
+    for top, bottom in pairwise(faces):
+        share = (bottom - top) / (faces[-1] - faces[0])
+        piece = np.linspace(top, bottom, max(3, round(share * count)))
+        if top > 0.0:
+            piece[0] += _BELOW * (bottom - top)
+        pieces.append(piece)
+    return np.concatenate(pieces)
+
+
+def _rounded(values: Array) -> Any:
+    """Nested lists, to six digits of the largest value: a third of the size."""
+    largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
+    if largest > 0.0:
+        values = np.round(values, int(_DIGITS - np.floor(np.log10(largest)) - 1))
+    return _numbers(values)
+
+
+def _numbers(values: Array) -> Any:
+    """Nested lists; None where a value is not finite."""
+    if np.all(np.isfinite(values)):
+        return values.tolist()
+    out = values.astype(object)
+    out[~np.isfinite(values)] = None
+    return out.tolist()
+
+
+def _as_json(value: Any) -> Any:
+    """A TOML tree as JSON holds it: dates and numbers without end become texts."""
+    if isinstance(value, dict):
+        return {name: _as_json(part) for name, part in value.items()}
+    if isinstance(value, list):
+        return [_as_json(part) for part in value]
+    if isinstance(value, date | datetime | time):
+        return value.isoformat()
+    return str(value) if isinstance(value, float) and not isfinite(value) else value

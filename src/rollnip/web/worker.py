@@ -1,8 +1,9 @@
 """A worker process: reads tasks from its standard input, writes replies to its standard output.
 
-Started by `rollnip.web.pool` as ``python -m rollnip.web.worker``. A frame is its length in four
-bytes, then that many bytes: of a task as JSON {"name", "body"}; of a reply a line of JSON
-{"status", "case"} and the JSON body of the answer. The first frame, empty, says that it is ready.
+Started by `rollnip.web.pool` as ``python -m rollnip.web.worker LIMITS``, the limits as JSON. A
+frame is its length in four bytes, then that many bytes: of a task JSON {"name", "body"}; of a
+reply a line of JSON {"status", "case"} and the JSON body of the answer. The first frame, empty,
+says that it is ready.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ import sys
 import threading
 from typing import BinaryIO
 
+from rollnip.web.limits import Limits
+
 HEAD = struct.Struct(">I")
 
 
@@ -26,10 +29,10 @@ def main() -> None:
     # Whatever prints must not get between the frames.
     os.dup2(2, 1)
     tasks: queue.SimpleQueue[bytes] = queue.SimpleQueue()
+    threading.Thread(target=_listen, args=(sys.stdin.buffer, tasks), daemon=True).start()
     from rollnip.web.tasks import Tasks
 
-    threading.Thread(target=_listen, args=(sys.stdin.buffer, tasks), daemon=True).start()
-    done = Tasks()
+    done = Tasks(Limits(**json.loads(sys.argv[1])))
     _send(replies, b"")
     while True:
         task = json.loads(tasks.get())

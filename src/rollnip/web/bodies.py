@@ -1,0 +1,92 @@
+"""What the bodies of requests and answers are, for checking and for the schema of the API."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema
+
+from rollnip._units import Dimension
+
+CASE = "x-case-file"
+"""Marks where the schema of the API is to refer to that of the case file."""
+
+Case = Annotated[dict[str, Any], WithJsonSchema({CASE: True})]
+Path = Annotated[
+    str, Field(min_length=1, max_length=200, examples=["nip.load", "upper.layers[0].thickness"])
+]
+Value = Annotated[float | str, Field(union_mode="left_to_right", examples=[2.0, "2 mm"])]
+
+
+class Body(BaseModel):
+    """The body of a request; unknown keys are errors."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+
+
+class InteriorBody(Body):
+    """Which field inside which roller."""
+
+    case: Case
+    roller: Literal["upper", "lower"]
+    nx: int = Field(120, ge=2, description="Places along the nip.")
+    nz: int = Field(40, ge=2, description="Depths, three at least in each layer.")
+
+
+class SweepBody(Body):
+    """One value of the case in several sizes."""
+
+    case: Case
+    path: Path
+    values: list[Value] = Field(min_length=1)
+
+
+class FindBody(Body):
+    """Which value of the case gives the wanted figure."""
+
+    case: Case
+    path: Path
+    quantity: str = Field(max_length=60, examples=["nip_width"])
+    wanted: Value
+    low: Value
+    high: Value
+
+
+class TomlBody(Body):
+    """The text of a case file."""
+
+    text: str
+
+
+class QuantityBody(Body):
+    """A number with its unit as text."""
+
+    text: str = Field(max_length=200, examples=["2 in"])
+    dimension: Dimension
+
+
+class Quantity(BaseModel):
+    """A number in its base unit."""
+
+    value: float
+    unit: str
+
+
+class Version(BaseModel):
+    """The version of rollnip."""
+
+    version: str
+
+
+class Detail(BaseModel):
+    """What is wrong with one key."""
+
+    path: str
+    message: str
+
+
+class Refusal(BaseModel):
+    """The body of every answer that is an error."""
+
+    error: str
+    details: list[Detail]

@@ -1,0 +1,124 @@
+"""Hands tasks to the workers, and turns what goes wrong with them into refusals."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+from collections.abc import AsyncIterator, Mapping
+from contextlib import asynccontextmanager
+from typing import Any
+
+from rollnip.web.answers import RefusedError, Reply, json_bytes
+from rollnip.web.bodies import FindBody, InteriorBody, SweepBody
+from rollnip.web.limits import Limits
+from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError
+
+_REMEDY = "try a simpler geometry, fewer layers or a larger tolerance"
+
+
+class Desk:
+    """The tasks of the API over a pool of workers.
+
+    Long tasks, sweeps and inverse solves, together never hold the last worker, so that a slider
+    goes on moving beside them.
+
+    Parameters
+    ----------
+    limits :
+        of the requests.
+    """
+
+    def __init__(self, limits: Limits) -> None:
+        self.pool = Pool(limits)
+        self._limits = limits
+        self._long = 0
+        self._gate = asyncio.Semaphore(max(1, limits.workers - 1))
+
+    async def task(self, name: str, body: Mapping[str, Any]) -> Reply:
+        """Do one task in the time of a solve. Raises RefusedError."""
+        with_time = self._limits.solve_seconds
+        try:
+            return await self.pool.run(name, body, with_time)
+        except (OverloadedError, TimeLimitError, WorkerError) as error:
+            raise _refused(error, with_time) from None
+
+    async def solve(self, case: Mapping[str, Any], *, interfaces: bool) -> Reply:
+        """Solve a case. Raises RefusedError."""
+        return await self.task("solve", {"case": case, "interfaces": interfaces})
+
+    async def interior(self, body: InteriorBody) -> Reply:
+        """The field inside a roller. Raises RefusedError."""
+        for name, count in (("nx", body.nx), ("nz", body.nz)):
+            if count > self._limits.points:
+                message = f"must be at most {self._limits.points}, got {count}."
+                raise RefusedError(422, f"{name}: {message}", [(name, message)])
+        return await self.task("interior", body.model_dump())
+
+    async def sweep(self, body: SweepBody) -> Reply:
+        """One value of a case in several sizes. Raises RefusedError."""
+        most = self._limits.values
+        if len(body.values) > most:
+            message = f"must hold at most {most} values, got {len(body.values)}."
+            raise RefusedError(422, f"values: {message}", [("values", message)])
+        async with self._long_task():
+            # A wrong path is told by the first; one by one leaves the other workers to sliders.
+            first = await self._value(body, body.values[0])
+            if first.status != 200:
+                return first
+            rest = await asyncio.gather(*(self._value(body, v) for v in body.values[1:]))
+        trees = [json.loads(reply.body) for reply in (first, *rest)]
+        return Reply(
+            200,
+            json_bytes(
+                {
+                    "path": body.path,
+                    "unit": trees[0]["unit"],
+                    "values": [tree["value"] for tree in trees],
+                    "results": [tree["result"] for tree in trees],
+                }
+            ),
+        )
+
+    async def find(self, body: FindBody) -> Reply:
+        """The size of one value that gives a wanted figure. Raises RefusedError."""
+        async with self._long_task(), self._gate:
+            seconds = self._limits.long_seconds
+            try:
+                return await self.pool.run("find", body.model_dump(), seconds, patient=True)
+            except (OverloadedError, TimeLimitError, WorkerError) as error:
+                raise _refused(error, seconds) from None
+
+    async def _value(self, body: SweepBody, value: float | str) -> Reply:
+        """One solve of a sweep; one that takes too long is an error of its row."""
+        task = {"case": body.case, "path": body.path, "value": value}
+        async with self._gate:
+            try:
+                return await self.pool.run("value", task, self._limits.solve_seconds, patient=True)
+            except TimeLimitError as error:
+                text = str(_refused(error, self._limits.solve_seconds))
+                tree = {"unit": None, "value": value, "result": {"error": text}}
+                return Reply(200, json_bytes(tree))
+            except (OverloadedError, WorkerError) as error:
+                raise _refused(error, self._limits.solve_seconds) from None
+
+    @asynccontextmanager
+    async def _long_task(self) -> AsyncIterator[None]:
+        """Count long tasks, and end them in time."""
+        if self._long >= self._limits.long_waiting:
+            raise _refused(OverloadedError(), 0.0)
+        self._long += 1
+        try:
+            async with asyncio.timeout(self._limits.long_seconds):
+                yield
+        except TimeoutError:
+            raise _refused(TimeLimitError(), self._limits.long_seconds) from None
+        finally:
+            self._long -= 1
+
+
+def _refused(error: Exception, seconds: float) -> RefusedError:
+    if isinstance(error, OverloadedError):
+        return RefusedError(429, "The server is busy; try again in a second.")
+    if isinstance(error, TimeLimitError):
+        return RefusedError(422, f"Not solved within {seconds:g} s; {_REMEDY}.")
+    return RefusedError(503, "A solver process ended unexpectedly; try again, or another case.")

@@ -1,0 +1,121 @@
+"""A case written out again is the same case."""
+
+import tomllib
+from math import inf
+from pathlib import Path
+
+import pytest
+
+from rollnip._errors import CaseFileError
+from rollnip.io import base_tree, case_hash, case_python, case_toml, parse_case, units_of
+from rollnip.io.document import read_document
+
+ROOT = Path(__file__).parents[2]
+FILES = sorted((ROOT / "examples").glob("*.toml")) + sorted(
+    (ROOT / "src" / "rollnip" / "web" / "data" / "nips").glob("*.toml")
+)
+EVERYTHING = """
+title = 'A "quoted" title'
+[nip]
+approach = "5 mil"
+creepage = "0.5 %"
+friction = 0.6
+speed = "300 fpm"
+face_width = "12 in"
+[model]
+geometry = "corrected"
+[solver]
+tolerance = "0.2 %"
+[upper]
+radius = inf
+[[upper.layers]]
+thickness = "80 mil"
+material = "prony"
+[[upper.layers]]
+thickness = "1 mm"
+material = { model = "elastic", shear_modulus = "1 MPa", poisson = 0.45 }
+[lower]
+radius = "2 in"
+[[lower.layers]]
+thickness = "1 mm"
+material = "zener"
+[[lower.layers]]
+thickness = "1 mm"
+material = { model = "loss-factor", modulus = 1, loss_factor = 0.2, poisson = 0.5 }
+[materials.zener]
+model = "fractional-zener"
+modulus = 1
+stiffening = 2
+relaxation_time = "1 ms"
+order = 0.5
+poisson = 0.5
+[materials.prony]
+model = "prony"
+modulus = "130 psi"
+poisson = 0.5
+terms = [{ modulus = "1 MPa", relaxation_time = "1 ms" }]
+temperature = "104 degF"
+shift = { model = "wlf", c1 = 17.44, c2 = 51.6, reference = "23 degC" }
+"""
+
+
+def trees():
+    yield pytest.param(tomllib.loads(EVERYTHING), id="everything")
+    for path in FILES:
+        yield pytest.param(read_document(path), id=path.stem)
+
+
+def run(text):
+    """What the text defines, without solving."""
+    names = {}
+    exec(text.replace("rn.solve(nip, ", "(").partition("print(")[0], names)
+    return names["nip"], names["solution"]
+
+
+@pytest.mark.parametrize("tree", list(trees()))
+def test_python_builds_the_same_nip_and_model(tree):
+    case = parse_case(tree)
+    assert run(case_python(case)) == (case.nip, case.model)
+
+
+@pytest.mark.parametrize("tree", list(trees()))
+def test_toml_and_base_units_are_the_same_case(tree):
+    wanted = case_hash(parse_case(tree))
+    assert case_hash(parse_case(case_toml(tree))) == wanted
+    assert case_hash(parse_case(base_tree(tree))) == wanted
+    assert base_tree(base_tree(tree)) == base_tree(tree)
+
+
+def test_the_whole_python_text_runs_and_prints(capsys):
+    exec(case_python(parse_case(read_document(ROOT / "examples" / "figure-4-no-top-layer.toml"))))
+    assert capsys.readouterr().out.startswith("nip width ")
+
+
+def test_base_tree_holds_plain_numbers_and_no_empty_keys():
+    tree = base_tree(tomllib.loads(EVERYTHING))
+    assert tree["upper"]["radius"] == "inf"
+    assert tree["upper"]["layers"][0] == {"thickness": pytest.approx(2.032), "material": "prony"}
+    assert tree["materials"]["prony"]["temperature"] == pytest.approx(40.0)
+    assert tree["model"] == {"geometry": "corrected"}
+    assert tree["solver"] == {"tolerance": pytest.approx(2e-3)}
+    assert "load" not in tree["nip"]
+
+
+def test_units_are_said_of_every_quantity_and_of_nothing_else():
+    units = units_of(base_tree(tomllib.loads(EVERYTHING)))
+    assert units["upper.radius"] == "mm"
+    assert units["nip.creepage"] == ""
+    assert units["materials.prony.shift.c2"] == "K"
+    assert units["materials.prony.terms[0].relaxation_time"] == "s"
+    assert units["lower.layers[1].material.modulus"] == "MPa"
+    assert not {"title", "model.geometry", "upper.layers[0].material"} & set(units)
+
+
+def test_toml_leaves_out_what_is_empty_and_keeps_what_was_written():
+    text = case_toml({"nip": {"load": "10 pli", "speed": None}, "upper": {"radius": inf}})
+    assert tomllib.loads(text) == {"nip": {"load": "10 pli"}, "upper": {"radius": inf}}
+
+
+def test_a_wrong_case_has_no_base_tree():
+    with pytest.raises(CaseFileError, match="nip: is missing"):
+        base_tree({})

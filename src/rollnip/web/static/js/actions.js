@@ -1,0 +1,141 @@
+// What the menus do: open, keep, save, copy, export, print. The App is what they act on.
+
+import { post } from "./api.js";
+import { defaultCase, nameOf } from "./design.js";
+import {
+  chartCsv,
+  download,
+  drawingSvg,
+  figuresCsv,
+  fileName,
+  profilesCsv,
+  rasterOf,
+  saveChart,
+} from "./files.js";
+import { MOST_KEPT } from "./compare.js";
+import { textDialog } from "./menus.js";
+import { paletteOf } from "./palette.js";
+import { fillReport } from "./report.js";
+import { saveDesign } from "./saved.js";
+
+const LIGHT = "light"; // of every export
+
+/** Actions on `this.store`, `this.snapshot`, `this.tabs`. */
+export class Actions {
+  /** Open a case from anywhere; the one at hand can be had back with undo. */
+  async open(tree, title = null) {
+    await this.attempt("This design could not be opened", async () => {
+      const design = await this.checked(tree);
+      this.store.design({ case: { ...design, title: design.title || title || "" } });
+    });
+  }
+
+  startAnew() {
+    this.store.design({ case: defaultCase() });
+  }
+
+  async loadFile(file) {
+    await this.attempt(`“${file.name}” could not be opened`, async () => {
+      const { case: tree } = await post("/api/toml", { text: await file.text() });
+      const design = await this.checked(tree);
+      this.store.design({ case: { ...design, title: design.title || file.name.replace(/\.[^.]*$/, "") } });
+      this.say(`“${file.name}” is open.`);
+    });
+  }
+
+  /** Save the design in this browser. */
+  async save() {
+    await this.attempt("The browser keeps no designs", () => {
+      saveDesign(this.name, this.store.state.case);
+      this.say(`“${this.name}” is saved in this browser.`);
+    });
+  }
+
+  keep() {
+    const { kept, case: tree } = this.store.state;
+    if (kept.length >= MOST_KEPT) return this.say("Four designs is the most; remove one first.");
+    const named = { ...tree, title: tree.title || `Design ${"ABC"[kept.length]}` };
+    this.store.design({ kept: [...kept, named] });
+    this.store.view({ tab: "compare" });
+    return this.say(`“${nameOf(named)}” is kept. Change something now, and compare.`);
+  }
+
+  openKept(i) {
+    this.store.design({ case: this.store.state.kept[i] });
+  }
+
+  dropKept(i) {
+    this.store.design({ kept: this.store.state.kept.filter((_one, j) => j !== i) });
+  }
+
+  async copyLink() {
+    await this.copy(await this.link(), "The link");
+  }
+
+  async copyCode(language) {
+    await this.attempt("This design cannot be written down", async () => {
+      const written = await this.written();
+      await this.copy(written[language], language === "toml" ? "The TOML" : "The Python script");
+    });
+  }
+
+  async copy(text, what) {
+    try {
+      await navigator.clipboard.writeText(text);
+      this.say(`${what} is copied.`);
+    } catch {
+      textDialog(what, text);
+    }
+  }
+
+  async saveToml() {
+    await this.attempt("This design cannot be written down", async () => {
+      const { toml } = await this.written();
+      download(fileName(this.store.state.case, "toml"), toml, "application/toml");
+    });
+  }
+
+  saveCsv(what) {
+    const { tree, result } = this.snapshot;
+    const text = what === "curves" ? profilesCsv(result, this.units()) : figuresCsv(result, this.units());
+    download(fileName(tree, `${what}.csv`), text, "text/csv");
+  }
+
+  async saveDrawing(format) {
+    await this.attempt("The drawing could not be saved", async () => {
+      const text = drawingSvg(this.snapshot, { palette: paletteOf(LIGHT), units: this.units() });
+      const content = format === "svg" ? new Blob([text], { type: "image/svg+xml" }) : await rasterOf(text);
+      download(fileName(this.snapshot.tree, `drawing.${format}`), content);
+    });
+  }
+
+  /** The open chart as PNG, SVG or CSV. */
+  async exportChart(format) {
+    await this.attempt("The chart could not be saved", async () => {
+      const view = this.tabs.open;
+      const figure = view.figure(this.snapshot, paletteOf(LIGHT));
+      const name = fileName(this.snapshot.tree, `${view.id}.${format.toLowerCase()}`);
+      if (!figure) throw new Error("there is nothing to save yet.");
+      if (format === "CSV") download(name, chartCsv(figure), "text/csv");
+      else await saveChart(figure, format, name);
+    });
+  }
+
+  async report() {
+    await this.attempt("The report could not be made", async () => {
+      const { hash } = await post("/api/case", this.snapshot.tree);
+      const date = new Date().toISOString().slice(0, 10);
+      await fillReport(this.snapshot, this.units(), paletteOf(LIGHT), { hash, date });
+      print();
+    });
+  }
+
+  /** Do something; say in a sentence where it does not work. */
+  async attempt(failure, act) {
+    try {
+      await act();
+    } catch (error) {
+      this.complain(`${failure}: ${error.message}`);
+    }
+  }
+}

@@ -1,0 +1,122 @@
+// The figures: one big, four beside it, all of them below; alarms and warnings.
+
+import { byId, el, withUnit } from "./dom.js";
+import { ANSWERS, flat, totalsOf } from "./quantities.js";
+import { number } from "./units.js";
+
+const SECONDS = ["peak_pressure", "approach", "dwell_time", "speed_ratio"];
+const SHORT = { approach: "Indentation" };
+const ERRORS = ["approach", "load", "creepage", "nip_width", "peak_pressure"];
+const ROOT = document.documentElement;
+
+/** Show a result. `state` is "preview" while a slider moves, else "settled". */
+export function showAnswers(result, units, state) {
+  const all = flat(result);
+  ROOT.classList.toggle("preview", state === "preview");
+  ROOT.classList.remove("stale");
+  ROOT.classList.toggle("unsound", !result.converged);
+  const nip = units.format(all.nip_width, "length");
+  byId("big").replaceChildren(
+    ...withUnit(nip),
+    el("span", { class: "error", text: errorText(result, units, state) }),
+  );
+  byId("big-hint").textContent = ANSWERS[0].hint(all);
+  byId("seconds").replaceChildren(...SECONDS.map((key) => second(key, all, units)));
+  showMini(result, units);
+  showFigures(all, units);
+  showWarnings(result, state);
+  showSolver(result);
+}
+
+function errorText(result, units, state) {
+  if (state === "preview") return "preview while you move the slider";
+  const error = result.error?.nip_width;
+  return error ? `± ${units.error(error, "length")} (estimated numerical error)` : "";
+}
+
+function second(key, all, units) {
+  const { label, dimension, digits } = ANSWERS.find((one) => one.key === key);
+  const shown = units.format(all[key], dimension, digits);
+  return el(
+    "div",
+    {},
+    el("dt", { text: SHORT[key] ?? label }),
+    el("dd", { "data-key": key }, ...withUnit(shown)),
+  );
+}
+
+function showMini(result, units) {
+  const bar = byId("mini");
+  const text = (key, dimension) => el("b", { text: units.text(result[key], dimension) });
+  if (result.converged)
+    bar.replaceChildren(
+      el("span", {}, "Nip ", text("nip_width", "length")),
+      el("span", {}, "Peak ", text("peak_pressure", "pressure")),
+    );
+  else bar.replaceChildren(el("span", { class: "alarm", text: "NOT CONVERGED" }));
+}
+
+function showFigures(all, units) {
+  const shown = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined);
+  const rows = shown.map(({ key, label, dimension, digits, hint }) => {
+    const error =
+      ERRORS.includes(key) && all.error?.[key] ? `± ${units.error(all.error[key], dimension)}` : "";
+    return figure(label, key, units.format(all[key], dimension, digits), error, hint(all));
+  });
+  const totals = totalsOf(all, units.system).map(({ label, text, unit }) =>
+    figure(label, null, { text, unit }, "", ""),
+  );
+  byId("figures").replaceChildren(...rows, ...totals);
+}
+
+function figure(label, key, shown, error, hint) {
+  return el(
+    "dl",
+    { class: "figure" },
+    el("dt", { text: label }),
+    el(
+      "dd",
+      { "data-figure": key },
+      ...withUnit(shown),
+      error ? el("span", { class: "error", text: error }) : null,
+    ),
+    hint ? el("dd", { class: "note", text: hint }) : null,
+  );
+}
+
+/** Reservations of the model, and above all an unconverged answer. */
+function showWarnings(result, state) {
+  byId("warnings").replaceChildren(...result.warnings.map((text) => el("li", { text })));
+  byId("warnings-card").hidden = result.warnings.length === 0;
+  if (result.converged) byId("alarm").replaceChildren();
+  else if (state !== "preview") alarm("NOT CONVERGED: do not use these numbers", [result.solver.status]);
+}
+
+function showSolver({ solver, geometry }) {
+  const change = `${number(1000 * solver.seconds, 2)} ms, ${solver.elements} elements, residual ${number(solver.residual, 2)}`;
+  byId("solver-line").textContent =
+    `Computed with rollnip ${solver.version}, geometry “${geometry}”: ${change}. Errors shown are numerical; the modulus of a real rubber is usually known far worse.`;
+}
+
+/** An alarm above everything: a title and sentences. */
+export function alarm(title, sentences) {
+  byId("alarm").replaceChildren(
+    el("div", { class: "alarm" }, el("b", { text: title }), ...sentences.map((text) => el("p", { text }))),
+  );
+}
+
+/** There is no answer to the design as it stands: what is shown belongs to an older one. */
+export function showFailure(message, details) {
+  ROOT.classList.add("stale");
+  alarm("No answer for this design", [message, ...details]);
+}
+
+/** What a screen reader hears when an answer settles. */
+export function announce(result, units) {
+  const sound = result.converged ? "" : "Not converged. ";
+  const warned = result.warnings.length
+    ? ` ${result.warnings.length} warning${result.warnings.length > 1 ? "s" : ""}.`
+    : "";
+  byId("live").textContent =
+    `${sound}Nip width ${units.text(result.nip_width, "length")}, peak pressure ${units.text(result.peak_pressure, "pressure")}.${warned}`;
+}

@@ -1,0 +1,56 @@
+// The server's answers; every failure becomes one ApiError with a sentence for people.
+
+/** What went wrong, with the places in the case it belongs to. */
+export class ApiError extends Error {
+  constructor(message, status, details = []) {
+    super(message);
+    this.status = status;
+    this.details = details;
+  }
+}
+
+const RETRIES = 4;
+const WAIT = 400; // ms before asking a busy server again
+
+/** GET a path. */
+export async function get(path) {
+  return answer(await reach(path, { headers: { Accept: "application/json" } }));
+}
+
+/** POST a tree; `signal` gives it up. A busy server (429) is asked again some times. */
+export async function post(path, tree, signal) {
+  const request = {
+    method: "POST",
+    body: JSON.stringify(tree),
+    headers: { "Content-Type": "application/json" },
+    signal,
+  };
+  for (let turn = 0; ; turn += 1) {
+    const response = await reach(path, request);
+    if (response.status !== 429 || turn === RETRIES) return answer(response);
+    await new Promise((resume) => {
+      setTimeout(resume, WAIT * (turn + 1));
+    });
+  }
+}
+
+async function reach(path, request) {
+  try {
+    return await fetch(path, request);
+  } catch (error) {
+    if (error.name === "AbortError") throw error;
+    throw new ApiError("The server does not answer. Is “rollnip serve” still running?", 0);
+  }
+}
+
+async function answer(response) {
+  const tree = await response.json().catch(() => null);
+  if (response.ok && tree !== null) return tree;
+  const said = tree?.error ?? `The server answered ${response.status}.`;
+  throw new ApiError(said, response.status, tree?.details ?? []);
+}
+
+/** Whether an error only says that nobody waits for the answer any more. */
+export function isAbort(error) {
+  return error.name === "AbortError";
+}

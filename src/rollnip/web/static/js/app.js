@@ -1,0 +1,236 @@
+// What the page knows and does; views and menus call it.
+
+import { Actions } from "./actions.js";
+import { announce, showAnswers, showFailure } from "./answers.js";
+import { post } from "./api.js";
+import { CompareView } from "./compare.js";
+import { CurveView } from "./curves.js";
+import { defaultCase, designOf, nameOf } from "./design.js";
+import { byId, toast } from "./dom.js";
+import { Drawings } from "./drawings.js";
+import { FindView } from "./find.js";
+import { icon } from "./icons.js";
+import { Inputs } from "./inputs.js";
+import { InsideView } from "./inside.js";
+import { designItems, examplesDialog, menu, shareItems } from "./menus.js";
+import { paletteOf } from "./palette.js";
+import { same, setAt } from "./paths.js";
+import { linkOf, stateIn } from "./permalink.js";
+import { Runner } from "./runner.js";
+import { Store } from "./store.js";
+import { Tabs } from "./tabs.js";
+import { Theme } from "./theme.js";
+import { Units } from "./units.js";
+import { WhatIfView } from "./whatif.js";
+
+const VIEW = {
+  tab: "pressure",
+  system: "metric",
+  inside: { roller: "upper", field: "mises" },
+  whatif: { path: "nip.load", answer: "nip_width" },
+  find: { path: "nip.load", answer: "nip_width" },
+  compare: { profile: "pressure" },
+};
+
+/** The designer. */
+export class App extends Actions {
+  constructor({ units, materials, examples }) {
+    super();
+    this.table = units;
+    this.library = materials;
+    this.snapshot = null; // {tree, result, state, surfaces} last shown
+    this.store = new Store({ case: defaultCase(), kept: [], view: VIEW });
+    this.theme = new Theme(() => this.recolour());
+    this.runner = new Runner({
+      preview: (tree, result) => this.answered(tree, result, "preview"),
+      settled: (tree, result) => this.answered(tree, result, "settled"),
+      surfaces: (tree, surfaces, result) => this.placed(tree, surfaces, result),
+      failed: (tree, error) => this.failed(error),
+      busy: (yes) => byId("answers").setAttribute("aria-busy", String(yes)),
+    });
+    this.inputs = new Inputs(byId("inputs"), this);
+    this.drawings = new Drawings(byId("drawings"), this);
+    this.tabs = new Tabs(this.views(), this);
+    this.examples = examplesDialog(examples, (example) => this.open(example.case, example.title));
+    this.wire();
+    this.store.listen((state, why) => this.changed(state, why));
+  }
+
+  views() {
+    return [
+      new CurveView("pressure", "Pressure", this),
+      new CurveView("gap", "Gap", this),
+      new CurveView("strain", "Surface strain", this),
+      new CurveView("speed", "Surface speed", this),
+      new InsideView(this),
+      new WhatIfView(this),
+      new FindView(this),
+      new CompareView(this),
+    ];
+  }
+
+  /** Header, shortcuts, links pasted into the address. */
+  wire() {
+    for (const id of ["undo", "redo", "theme"]) byId(id).append(icon(id));
+    byId("undo").addEventListener("click", () => this.store.undo());
+    byId("redo").addEventListener("click", () => this.store.redo());
+    for (const system of ["metric", "us"])
+      byId(system).addEventListener("click", () => this.store.view({ system }));
+    byId("theme").addEventListener("click", () => this.theme.toggle());
+    byId("open-examples").addEventListener("click", () => this.examples.showModal());
+    menu("open-share", "Save and share", shareItems(this));
+    menu("open-designs", "My designs", designItems(this));
+    const title = byId("design-title");
+    title.addEventListener("change", () =>
+      this.store.design({ case: setAt(this.store.state.case, "title", title.value.trim()) }),
+    );
+    addEventListener("keydown", (event) => this.shortcut(event));
+    addEventListener("hashchange", () => this.begin(location.hash));
+    new IntersectionObserver(([entry]) =>
+      byId("mini").classList.toggle("shown", !entry.isIntersecting),
+    ).observe(byId("big"));
+  }
+
+  shortcut(event) {
+    const writes = event.target.matches?.('input[type="text"], textarea');
+    if (writes || !(event.ctrlKey || event.metaKey) || event.altKey) return;
+    const key = event.key.toLowerCase();
+    if (key !== "z" && key !== "y") return;
+    event.preventDefault();
+    if (key === "y" || event.shiftKey) this.store.redo();
+    else this.store.undo();
+  }
+
+  /** Begin with the state of an address, or with the default nip. */
+  async begin(hash) {
+    try {
+      const state = await stateIn(hash);
+      if (state) await this.restore(state);
+    } catch (error) {
+      this.complain(`This link could not be opened: ${error.message}`);
+    }
+    this.changed(this.store.state, "design");
+  }
+
+  /** A state from outside: every case goes through the server's check first. */
+  async restore(state) {
+    const cases = [state.case, ...(state.kept ?? []).slice(0, 3)];
+    const [first, ...kept] = await Promise.all(cases.map((tree) => this.checked(tree)));
+    const view = {
+      ...VIEW,
+      tab: String(state.tab ?? VIEW.tab),
+      system: state.system === "us" ? "us" : "metric",
+    };
+    this.store.state = { case: first, kept, view };
+    this.store.past = [];
+    this.store.future = [];
+  }
+
+  async checked(tree) {
+    return designOf((await post("/api/case", tree)).case);
+  }
+
+  units() {
+    return new Units(this.table, this.store.state.view.system);
+  }
+
+  palette() {
+    return paletteOf(this.theme?.name);
+  }
+
+  last() {
+    return this.snapshot;
+  }
+
+  result() {
+    return this.snapshot?.result;
+  }
+
+  /** The entry of the library that a material is, if any. */
+  libraryEntry(material) {
+    return this.library.find((entry) => same(entry.material, material));
+  }
+
+  /** Something changed: ask for the answer, or only show anew. */
+  changed(state, why) {
+    byId("undo").disabled = this.store.past.length === 0;
+    byId("redo").disabled = this.store.future.length === 0;
+    byId("design-title").value = state.case.title ?? "";
+    for (const system of ["metric", "us"])
+      byId(system).setAttribute("aria-pressed", String(state.view.system === system));
+    this.tabs.refresh();
+    if (why === "live") this.runner.preview(state.case);
+    else if (why === "view") this.showAll();
+    else this.runner.settle(state.case);
+    if (why === "view") this.remember();
+  }
+
+  answered(tree, result, state) {
+    const moved = this.snapshot && state === "preview";
+    this.snapshot = { tree, result, state, surfaces: this.snapshot?.surfaces ?? null };
+    this.inputs.complain([]);
+    showAnswers(result, this.units(), state);
+    this.tabs.open.show(this.snapshot);
+    if (!moved) {
+      announce(result, this.units());
+      this.remember();
+    }
+  }
+
+  placed(tree, surfaces, result) {
+    if (this.snapshot?.result !== result) return;
+    this.snapshot = { ...this.snapshot, surfaces };
+    this.drawings.show(this.snapshot);
+  }
+
+  failed(error) {
+    const left = this.inputs.complain(error.details ?? []);
+    showFailure(
+      error.message,
+      left.map(({ message }) => message).filter((text) => text !== error.message),
+    );
+  }
+
+  showAll() {
+    if (!this.snapshot) return;
+    showAnswers(this.snapshot.result, this.units(), this.snapshot.state);
+    this.drawings.show(this.snapshot);
+    this.tabs.open.show(this.snapshot);
+  }
+
+  recolour() {
+    const isDark = this.theme?.name === "dark" || document.documentElement.dataset.theme === "dark";
+    byId("theme").setAttribute("aria-pressed", String(isDark));
+    if (!this.snapshot) return;
+    this.inputs.rebuild();
+    this.showAll();
+  }
+
+  /** Put the state into the address, once things are quiet. */
+  remember() {
+    clearTimeout(this.timer);
+    this.timer = setTimeout(async () => history.replaceState(null, "", await this.link()), 250);
+  }
+
+  link() {
+    const { case: tree, kept, view } = this.store.state;
+    return linkOf({ case: tree, kept, system: view.system, tab: view.tab });
+  }
+
+  say(text) {
+    toast(text);
+  }
+
+  complain(text) {
+    toast(text);
+  }
+
+  /** Name and normalised texts of the design at hand: {hash, toml, python}. */
+  written() {
+    return post("/api/case", this.store.state.case);
+  }
+
+  get name() {
+    return nameOf(this.store.state.case);
+  }
+}

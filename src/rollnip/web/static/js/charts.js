@@ -1,0 +1,125 @@
+// Plotly: loaded once from the server itself, drawn in the colours of the theme.
+
+const SOURCE = "/static/plotly.min.js";
+const TYPE = "Inter, 'Segoe UI', system-ui, -apple-system, Roboto, sans-serif";
+const CONFIG = { displayModeBar: false, responsive: false, displaylogo: false, doubleClick: "reset" };
+
+let loading = null; // the page has one Plotly
+
+/** Plotly, fetched when it is first needed. */
+export function plotly() {
+  loading ??= new Promise((resolve, reject) => {
+    const script = document.createElement("script");
+    script.src = SOURCE;
+    script.addEventListener("load", () => resolve(globalThis.Plotly));
+    script.addEventListener("error", () => reject(new Error("The charts could not be loaded.")));
+    document.head.append(script);
+  });
+  return loading;
+}
+
+/** A chart in a node of its own; the newest figure wins while Plotly still loads. */
+export class Chart {
+  constructor(node) {
+    this.node = node;
+    this.node.setAttribute("role", "img");
+    this.figure = null;
+    this.drawn = Promise.resolve();
+    new ResizeObserver(() => this.fit()).observe(node);
+  }
+
+  /** Draw {data, layout, label}. */
+  async show(figure) {
+    this.figure = figure;
+    this.node.setAttribute("aria-label", figure.label);
+    const Plotly = await plotly();
+    if (this.figure !== figure || !this.node.isConnected) return;
+    await Plotly.react(this.node, figure.data, sized(figure.layout, this.node), CONFIG);
+    this.node.dispatchEvent(new CustomEvent("drawn"));
+  }
+
+  fit() {
+    const drawn = this.node._fullLayout;
+    const { clientWidth: width, clientHeight: height } = this.node;
+    if (!drawn || !width || (drawn.width === width && drawn.height === height)) return;
+    this.show({ ...this.figure });
+  }
+}
+
+function sized(layout, node) {
+  return { ...layout, width: node.clientWidth, height: node.clientHeight };
+}
+
+/** Layout shared by all charts. */
+export function layoutOf(palette, x, y, more = {}) {
+  const axis = (title) => ({
+    title: { text: title, standoff: 8 },
+    gridcolor: palette.grid,
+    zerolinecolor: palette.bound,
+    zerolinewidth: 1,
+    linecolor: palette.bound,
+    automargin: true,
+    fixedrange: true,
+  });
+  const { xaxis = {}, yaxis = {}, ...rest } = more;
+  return {
+    margin: { l: 62, r: 14, t: 12, b: 48 },
+    font: { family: TYPE, size: 13, color: palette.ink },
+    paper_bgcolor: palette.ground,
+    plot_bgcolor: palette.ground,
+    xaxis: { ...axis(x), ...xaxis },
+    yaxis: { ...axis(y), ...yaxis },
+    legend: {
+      orientation: "h",
+      x: 0,
+      y: 1.02,
+      yanchor: "bottom",
+      font: { size: 12.5 },
+      bgcolor: "rgba(0,0,0,0)",
+      itemclick: false,
+      itemdoubleclick: false,
+    },
+    hovermode: "x unified",
+    hoverlabel: {
+      bgcolor: palette.ground,
+      bordercolor: palette.bound,
+      font: { color: palette.ink, size: 12.5 },
+    },
+    ...rest,
+  };
+}
+
+/** A line of a chart. */
+export function line(name, x, y, colour, more = {}) {
+  const { dash = "solid", width = 2.2, ...rest } = more;
+  return {
+    type: "scatter",
+    mode: "lines",
+    name: plain(name),
+    x,
+    y,
+    line: { color: colour, width, dash },
+    connectgaps: false,
+    ...rest,
+  };
+}
+
+/** Text that Plotly shall not read as markup. */
+export function plain(text) {
+  return text.replace(/&/g, "&amp;").replace(/</g, "&lt;").replace(/>/g, "&gt;");
+}
+
+/** An axis title with its unit. */
+export function titled(text, unit) {
+  return unit ? `${text} [${unit}]` : text;
+}
+
+/** The figure as a data URL, "svg" or "png", whatever is on the page. */
+export async function image(figure, format, { width = 900, height = 500, scale = 2 } = {}) {
+  const Plotly = await plotly();
+  const layout = { ...figure.layout, width, height };
+  return Plotly.toImage(
+    { data: figure.data, layout },
+    { format, width, height, scale: format === "png" ? scale : 1 },
+  );
+}

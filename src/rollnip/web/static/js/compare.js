@@ -1,0 +1,194 @@
+// Up to four designs: curves over each other, figures beside each other.
+
+import { isAbort, post } from "./api.js";
+import { Chart } from "./charts.js";
+import { nameOf } from "./design.js";
+import { button, el, select } from "./dom.js";
+import { letter, overlay } from "./plots.js";
+import { ANSWERS, flat } from "./quantities.js";
+import { number } from "./units.js";
+
+export const MOST_KEPT = 3; // beside the design at hand
+const PROFILES = [
+  { key: "pressure", title: "Pressure", dimension: "pressure" },
+  { key: "shear", title: "Shear", dimension: "pressure" },
+  { key: "gap", title: "Gap", dimension: "length" },
+  { key: "strain_upper", title: "Strain of the upper surface", dimension: "share" },
+  { key: "strain_lower", title: "Strain of the lower surface", dimension: "share" },
+];
+
+/** The view "Compare". */
+export class CompareView {
+  constructor(app) {
+    this.id = "compare";
+    this.title = "Compare";
+    this.app = app;
+    this.results = new Map();
+    const place = el("div", { class: "chart", id: "chart-compare" });
+    this.chart = new Chart(place);
+    this.bar = el("div", { class: "ask" });
+    this.table = el("div", {
+      class: "scroll",
+      tabindex: "0",
+      role: "region",
+      "aria-label": "Table of the designs",
+    });
+    this.empty = el("p", {
+      class: "empty",
+      text: "Keep the design at hand, change it, and both stand here side by side. Up to four designs.",
+    });
+    this.node = el("div", {}, this.bar, this.empty, place, this.table);
+  }
+
+  async show({ tree, result, state }) {
+    const { kept } = this.app.store.state;
+    this.build(kept);
+    this.empty.hidden = kept.length > 0;
+    this.chart.node.hidden = kept.length === 0;
+    this.table.hidden = kept.length === 0;
+    if (kept.length === 0) return;
+    if (state !== "preview") this.results.set(JSON.stringify(tree), result);
+    await this.fill(kept);
+    const others = kept
+      .map((one) => ({ tree: one, result: this.results.get(JSON.stringify(one)) }))
+      .filter((one) => one.result);
+    this.designs = [...others, { tree, result }];
+    this.chart.show(this.plot(this.app.palette()));
+    this.table.replaceChildren(this.rows());
+  }
+
+  /** Solve the kept designs that were not solved yet, such as those of a link. */
+  async fill(kept) {
+    for (const one of kept) {
+      const key = JSON.stringify(one);
+      if (this.results.has(key)) continue;
+      try {
+        this.results.set(key, await post("/api/solve", one));
+      } catch (error) {
+        if (!isAbort(error)) this.app.complain(`“${nameOf(one)}” cannot be solved: ${error.message}`);
+        return;
+      }
+    }
+  }
+
+  build(kept) {
+    const view = this.app.store.state.view.compare;
+    const options = PROFILES.map(({ key, title }) => [key, title]);
+    const full = kept.length >= MOST_KEPT;
+    const key = `${kept.length} ${view.profile}`;
+    if (key === this.key) return;
+    this.key = key;
+    const focused = document.activeElement?.id;
+    const act = (profile) => this.app.store.view({ compare: { profile } });
+    const exports = ["PNG", "SVG"].map((format) =>
+      button(format, () => this.app.exportChart(format), {
+        kind: "small",
+        id: `compare-${format.toLowerCase()}`,
+        label: `Save this chart as ${format}`,
+      }),
+    );
+    this.bar.replaceChildren(
+      button(full ? "Four designs is the most" : "Keep this design for comparison", () => this.app.keep(), {
+        kind: "main",
+        id: "keep",
+        disabled: full,
+      }),
+      ...(kept.length
+        ? [select({ id: "compare-profile", label: "Curve", options, value: view.profile, act }), ...exports]
+        : []),
+    );
+    if (focused) document.getElementById(focused)?.focus();
+  }
+
+  plot(palette) {
+    const { profile } = this.app.store.state.view.compare;
+    return overlay(
+      this.designs,
+      PROFILES.find(({ key }) => key === profile) ?? PROFILES[0],
+      this.app.units(),
+      palette,
+    );
+  }
+
+  figure(_snapshot, palette) {
+    return this.designs ? this.plot(palette) : null;
+  }
+
+  /** The table; every design after the first with its difference to the first. */
+  rows() {
+    const palette = this.app.palette();
+    const all = this.designs.map(({ result }) => flat(result));
+    const keys = ANSWERS.filter(({ key }) =>
+      all.some((one) => one[key] !== null && one[key] !== undefined),
+    );
+    const heads = this.designs.map(({ tree }, i) => this.head(tree, i, palette));
+    const body = keys.map((answer) =>
+      el(
+        "tr",
+        {},
+        el("th", { scope: "row", text: answer.label }),
+        ...all.map((one, i) => this.cell(one, i ? all[0] : null, answer)),
+      ),
+    );
+    const sound = el(
+      "tr",
+      {},
+      el("th", { scope: "row", text: "Converged" }),
+      ...all.map((one) =>
+        el("td", { class: one.converged ? null : "bad", text: one.converged ? "yes" : "NO" }),
+      ),
+    );
+    return el(
+      "table",
+      { class: "compare" },
+      el("thead", {}, el("tr", {}, el("th", { scope: "col", text: "Figure" }), ...heads)),
+      el("tbody", {}, ...body, sound),
+    );
+  }
+
+  head(tree, i, palette) {
+    const key = el("i", { class: "key" });
+    key.style.background = palette.designs[i];
+    const isNow = i === this.designs.length - 1;
+    const name = isNow ? `${nameOf(tree)} (at hand)` : nameOf(tree);
+    const open = button("Open", () => this.app.openKept(i), {
+      kind: "small",
+      id: `kept-open-${i}`,
+      label: `Open ${name}`,
+    });
+    const drop = button("Remove", () => this.app.dropKept(i), {
+      kind: "small",
+      id: `kept-drop-${i}`,
+      label: `Remove ${name}`,
+    });
+    return el(
+      "th",
+      { scope: "col" },
+      el("span", { title: name }, key, letter(i, name)),
+      isNow ? null : el("div", { class: "row" }, open, drop),
+    );
+  }
+
+  cell(one, first, { key, dimension, digits }) {
+    const units = this.app.units();
+    const value = one[key];
+    const text = units.text(value, dimension, digits);
+    return el(
+      "td",
+      {},
+      text,
+      first ? el("span", { class: "change", text: difference(value, first[key], dimension, units) }) : null,
+    );
+  }
+}
+
+/** In per cent where that means something, else plain. */
+function difference(value, first, dimension, units) {
+  if (value === null || value === undefined || first === null || first === undefined) return "";
+  const by = value - first;
+  const sign = by > 0 ? "+" : "";
+  if (dimension === "share") return `${sign}${number(units.shown(by, dimension), 3)} points`;
+  if (Math.abs(first) < 1e-9) return "";
+  const percent = (100 * by) / Math.abs(first);
+  return Math.abs(percent) < 1e-6 ? "same" : `${sign}${number(percent, 3)} %`;
+}

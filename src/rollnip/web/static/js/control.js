@@ -1,0 +1,148 @@
+// One number of a design: a slider and a text box that takes units.
+
+import { post } from "./api.js";
+import { el } from "./dom.js";
+import { getAt, idOf, setAt } from "./paths.js";
+import { inputAt } from "./quantities.js";
+import { joined, number } from "./units.js";
+
+const STEPS = 500; // of a slider
+const DIGITS = 3; // a slider gives round values in the unit shown
+const BOX_DIGITS = 6;
+
+/** A control of the number at `path`. `app` is {store, units()}. */
+export class Control {
+  constructor(path, app) {
+    this.path = path;
+    this.app = app;
+    this.sent = null;
+    this.node = this.build();
+    this.refresh(app.store.state.case);
+  }
+
+  get input() {
+    return inputAt(this.path, this.app.store.state.case);
+  }
+
+  build() {
+    const { label, hint } = this.input;
+    const id = idOf(this.path);
+    const described = `${id}-unit ${id}-wrong${hint ? ` ${id}-hint` : ""}`;
+    this.box = el("input", {
+      id,
+      type: "text",
+      inputmode: "text",
+      autocomplete: "off",
+      spellcheck: "false",
+      "aria-describedby": described,
+    });
+    this.unit = el("span", { class: "unit", id: `${id}-unit` });
+    this.slider = el("input", {
+      id: `${id}-slider`,
+      type: "range",
+      min: 0,
+      max: STEPS,
+      step: 1,
+      "aria-label": `${label}, slider`,
+    });
+    this.wrong = el("p", { class: "wrong", id: `${id}-wrong` });
+    this.slider.addEventListener("input", () => this.slid());
+    this.slider.addEventListener("change", () => this.app.store.rest());
+    this.box.addEventListener("change", () => this.typed());
+    return el(
+      "div",
+      { class: "control", "data-path": this.path },
+      el("label", { for: id, text: label }),
+      el("span", { class: "box" }, this.box, this.unit),
+      this.slider,
+      this.wrong,
+      hint ? el("p", { class: "hint", id: `${id}-hint`, text: hint }) : null,
+    );
+  }
+
+  /** Show the value of a design, in the unit now chosen. */
+  refresh(tree) {
+    const value = getAt(tree, this.path);
+    if (typeof value !== "number") return;
+    const { dimension, factor } = this.input;
+    const units = this.app.units();
+    const text = number(units.shown(value * factor, dimension), BOX_DIGITS);
+    const unit = units.name(dimension);
+    const key = `${value} ${text} ${unit}`;
+    if (key === this.shownKey && this.wrong.textContent === "") return;
+    this.shownKey = key;
+    this.text = text;
+    this.box.value = text;
+    this.unit.textContent = unit;
+    this.slider.setAttribute("aria-valuetext", joined(text, unit));
+    if (value !== this.sent) this.slider.value = String(this.place(value));
+    this.complain("");
+  }
+
+  /** Say what is wrong with the value; "" takes it back. */
+  complain(message) {
+    this.wrong.textContent = message;
+    if (message) this.box.setAttribute("aria-invalid", "true");
+    else this.box.removeAttribute("aria-invalid");
+  }
+
+  /** Where a value stands on the slider. */
+  place(value) {
+    const { low, high, log, factor } = this.input;
+    const at = log
+      ? Math.log((value * factor) / low) / Math.log(high / low)
+      : (value * factor - low) / (high - low);
+    return Math.round(STEPS * Math.min(1, Math.max(0, at)));
+  }
+
+  slid() {
+    const { low, high, log, factor, dimension } = this.input;
+    const at = Number(this.slider.value) / STEPS;
+    const raw = log ? low * (high / low) ** at : low + at * (high - low);
+    const units = this.app.units();
+    const round =
+      Math.abs(raw) < 1e-3 * (high - low) && !log
+        ? 0
+        : rounded(
+            units.shown(raw, dimension),
+            log ? 0 : units.shown(high, dimension) - units.shown(low, dimension),
+          );
+    this.set(units.base(round, dimension) / factor, this.path);
+  }
+
+  /** Read what was typed: a plain number is in the unit shown beside the box. */
+  async typed() {
+    const text = this.box.value.trim();
+    if (text === this.text) return;
+    const { dimension, factor } = this.input;
+    try {
+      const { value } = await post("/api/quantity", this.question(text, dimension));
+      this.set(value / factor, null);
+      this.refresh(this.app.store.state.case);
+    } catch (error) {
+      this.complain(error.message);
+    }
+  }
+
+  question(text, dimension) {
+    const bare = /^[+\-\u2212]?[0-9.,]+(e[+-]?\d+)?$/i.test(text);
+    const unit = bare ? this.app.units().of(dimension).name : "";
+    return {
+      text: unit ? `${text} ${unit}` : text,
+      dimension: dimension === "share" ? "ratio" : dimension,
+    };
+  }
+
+  set(value, gesture) {
+    this.sent = gesture === null ? null : value;
+    const tree = this.app.store.state.case;
+    this.app.store.design({ case: setAt(tree, this.path, value) }, gesture);
+  }
+}
+
+/** A value to three digits; on a linear scale to a round part of the `span`. */
+function rounded(shown, span) {
+  if (span === 0) return Number(shown.toPrecision(DIGITS));
+  const step = 10 ** Math.floor(Math.log10(span / STEPS) + 0.31);
+  return Number((Math.round(shown / step) * step).toPrecision(12));
+}

@@ -1,0 +1,54 @@
+// Tabs that show one curve along the nip.
+
+import { Chart } from "./charts.js";
+import { button, el } from "./dom.js";
+import { PLOTS } from "./plots.js";
+
+const FEET = {
+  pressure:
+    "Shear is the force along the surface. Where it reaches the traction bound, the surfaces slip; elsewhere they stick.",
+  gap: "Distance of the deformed surfaces; zero in the nip.",
+  strain:
+    "How much each surface is stretched (positive) or squeezed along the nip. Steep peaks stand beside slipping edges.",
+  speed: "Speed of a point of each surface as it passes the nip. Where the surfaces stick, both are equal.",
+};
+
+/** The view of a curve: "pressure", "gap", "strain" or "speed". */
+export class CurveView {
+  constructor(id, title, app) {
+    this.id = id;
+    this.title = title;
+    this.app = app;
+    const place = el("div", { class: "chart", id: `chart-${id}` });
+    this.chart = new Chart(place);
+    this.none = el("p", { class: "empty", text: "There is no speed in this design." });
+    this.none.hidden = true;
+    const exports = ["PNG", "SVG", "CSV"].map((format) =>
+      button(format, () => app.exportChart(format), {
+        kind: "small",
+        id: `${id}-${format.toLowerCase()}`,
+        label: `Save this chart as ${format}`,
+      }),
+    );
+    const foot = el(
+      "div",
+      { class: "chart-foot" },
+      el("p", { class: "hint", text: FEET[id] }),
+      el("div", { class: "row" }, ...exports),
+    );
+    this.node = el("div", {}, place, this.none, foot);
+  }
+
+  /** Draw what is known; previews too. */
+  show({ tree, result }) {
+    const figure = PLOTS[this.id](result, this.app.units(), this.app.palette(), tree);
+    this.chart.node.hidden = !figure;
+    this.none.hidden = Boolean(figure);
+    if (figure) this.chart.show(figure);
+  }
+
+  /** The figure in light colours, for files. */
+  figure({ tree, result }, palette) {
+    return PLOTS[this.id](result, this.app.units(), palette, tree);
+  }
+}

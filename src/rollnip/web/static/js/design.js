@@ -1,0 +1,147 @@
+// What a design is: the tree of a case file with plain numbers (mm, N, MPa, s). Pure functions.
+
+import { getAt, setAt } from "./paths.js";
+
+export const RIGID = "rigid";
+export const PLANE = "inf";
+export const RUBBER = { model: "elastic", shore_a: 60, poisson: 0.5 };
+
+/** The nip on the first screen: a press roller of 60 Shore A on a steel roller. */
+export function defaultCase() {
+  return {
+    title: "",
+    nip: { load: 4, friction: 0.5, speed: 1000 },
+    model: { geometry: "finite" },
+    upper: { radius: 100, layers: [{ thickness: 12, material: { ...RUBBER } }] },
+    lower: { radius: 75, layers: [] },
+  };
+}
+
+/** A case as the server normalised it, with the materials where they are used. */
+export function designOf(tree) {
+  const named = tree.materials ?? {};
+  const material = (value) => (typeof value === "string" && value !== RIGID ? named[value] : value);
+  const roller = (side) => {
+    const layers = (side.layers ?? []).map((layer) => ({ ...layer, material: material(layer.material) }));
+    const core = side.core === undefined || side.core === RIGID ? {} : { core: material(side.core) };
+    return { radius: side.radius, ...core, layers };
+  };
+  const { materials: _named, ...rest } = tree;
+  const whole = {
+    model: { geometry: "finite" },
+    title: "",
+    ...rest,
+    upper: roller(tree.upper),
+    lower: roller(tree.lower),
+  };
+  if (!whole.model.geometry) whole.model = { ...whole.model, geometry: "finite" };
+  return bare(whole);
+}
+
+function bare(tree) {
+  if (Array.isArray(tree)) return tree.map(bare);
+  if (!tree || typeof tree !== "object") return tree;
+  const kept = Object.entries(tree).filter(([, value]) => value !== null && value !== undefined);
+  return Object.fromEntries(kept.map(([name, value]) => [name, bare(value)]));
+}
+
+/** The same nip while a slider moves: the finite geometry gives way to the faster curved one. */
+export function quickCase(tree) {
+  return tree.model.geometry === "finite" ? setAt(tree, "model.geometry", "curved") : tree;
+}
+
+/** "load" or "approach". */
+export function pressing(tree) {
+  return tree.nip.approach === undefined ? "load" : "approach";
+}
+
+/** "free", "traction", "creepage" or "idler". */
+export function driving(tree) {
+  const { traction, creepage, torque_lower: torque } = tree.nip;
+  if (creepage !== undefined) return "creepage";
+  if (torque !== undefined) return torque === 0 ? "idler" : "torque";
+  return traction === undefined || traction === 0 ? "free" : "traction";
+}
+
+/** Change the kind of pressing; the new value is what the nip has now, so nothing jumps. */
+export function pressBy(tree, kind, result) {
+  const { load: _load, approach: _approach, ...nip } = tree.nip;
+  const value = result?.[kind] ?? (kind === "load" ? 4 : 0.4);
+  return { ...tree, nip: { ...nip, [kind]: rounded(value) } };
+}
+
+/** Change the kind of driving; traction and creepage start from what the nip has now. */
+export function driveBy(tree, kind, result) {
+  const { traction: _t, creepage: _c, torque_lower: _q, ...nip } = tree.nip;
+  const load = result?.load ?? nip.load ?? 4;
+  const start = {
+    free: {},
+    traction: { traction: rounded(0.2 * nip.friction * load) },
+    creepage: { creepage: rounded(result?.creepage ?? 0) },
+    idler: { torque_lower: 0 },
+    torque: { torque_lower: tree.nip.torque_lower ?? 0 },
+  };
+  return { ...tree, nip: { ...nip, ...start[kind] } };
+}
+
+function rounded(value) {
+  return Number(value.toPrecision(4));
+}
+
+/** A material of another model that starts from what is known of the present one. */
+export function materialAs(model, old) {
+  const modulus = old.modulus ?? 3;
+  const poisson = old.poisson ?? 0.5;
+  const made = {
+    shore: { model: "elastic", shore_a: 60, poisson },
+    elastic: { model: "elastic", modulus, poisson },
+    "standard-linear-solid": {
+      model: "standard-linear-solid",
+      modulus,
+      stiffening: modulus,
+      relaxation_time: 0.005,
+      poisson,
+    },
+    prony: { model: "prony", modulus, terms: [term(modulus / 2, 0.001), term(modulus / 2, 0.01)], poisson },
+    "fractional-zener": {
+      model: "fractional-zener",
+      modulus,
+      stiffening: 5 * modulus,
+      relaxation_time: 0.001,
+      order: 0.4,
+      poisson,
+    },
+    "loss-factor": { model: "loss-factor", modulus, loss_factor: 0.1, poisson },
+  };
+  return made[model];
+}
+
+function term(modulus, time) {
+  return { modulus, relaxation_time: time };
+}
+
+/** Which editor a material needs: its model, or "shore" where hardness is what is given. */
+export function kindOf(material) {
+  return material.shore_a === undefined ? material.model : "shore";
+}
+
+/** Layers changed by `act(list)`, on a roller "upper" or "lower". */
+export function withLayers(tree, side, act) {
+  const layers = [...(getAt(tree, `${side}.layers`) ?? [])];
+  act(layers);
+  return setAt(tree, `${side}.layers`, layers);
+}
+
+/** A name for a design nobody named. */
+export function nameOf(tree) {
+  return tree.title || "Untitled design";
+}
+
+/** A viscoelastic material needs a speed; so does a loss. */
+export function isViscoelastic(tree) {
+  const materials = ["upper", "lower"].flatMap((side) => [
+    tree[side].core,
+    ...tree[side].layers.map((layer) => layer.material),
+  ]);
+  return materials.some((material) => material && material !== RIGID && material.model !== "elastic");
+}

@@ -1,0 +1,46 @@
+// The two drawings beside the big figure.
+
+import { el } from "./dom.js";
+import { pairPicture } from "./drawing.js";
+import { sectionPicture, windowOf } from "./section.js";
+
+const SHAPES = { pair: 1.3, nip: 0.74 }; // height over width
+const TALLEST = 300;
+
+/** Redraws in the size they have. */
+export class Drawings {
+  constructor(place, app) {
+    this.app = app;
+    this.pair = el("div");
+    this.nip = el("div");
+    place.replaceChildren(
+      el("figure", { class: "whole" }, this.pair, el("figcaption", { text: "The pair, to scale" })),
+      el(
+        "figure",
+        { class: "zoom" },
+        this.nip,
+        el("figcaption", { text: "The nip, to scale; surfaces as computed" }),
+      ),
+    );
+    new ResizeObserver(() => this.shown && this.show(this.shown)).observe(place);
+  }
+
+  show(snapshot) {
+    this.shown = snapshot;
+    const { tree, result, surfaces } = snapshot;
+    const look = { palette: this.app.palette(), units: this.app.units() };
+    const half = windowOf(result);
+    this.pair.replaceChildren(
+      pairPicture(tree, result, half, { ...look, ...sizeIn(this.pair, SHAPES.pair) }),
+    );
+    if (surfaces)
+      this.nip.replaceChildren(
+        sectionPicture(tree, result, surfaces, { ...look, ...sizeIn(this.nip, SHAPES.nip) }),
+      );
+  }
+}
+
+function sizeIn(node, shape) {
+  const width = node.clientWidth || 320;
+  return { width, height: Math.round(Math.min(TALLEST, shape * width)) };
+}

@@ -1,0 +1,153 @@
+// Files out of the page and into it.
+
+import { image } from "./charts.js";
+import { nameOf } from "./design.js";
+import { pairPicture, words } from "./drawing.js";
+import { svg } from "./dom.js";
+import { ANSWERS, flat } from "./quantities.js";
+import { sectionPicture, windowOf } from "./section.js";
+
+const PROFILES = [
+  ["x", "x", "length"],
+  ["pressure", "pressure", "pressure"],
+  ["shear", "shear", "pressure"],
+  ["gap", "gap", "length"],
+  ["slip velocity", "slip_velocity", "speed"],
+  ["strain upper", "strain_upper", "share"],
+  ["strain lower", "strain_lower", "share"],
+  ["speed upper", "speed_upper", "speed"],
+  ["speed lower", "speed_lower", "speed"],
+];
+
+/** Give a text or blob to the user as a file. */
+export function download(name, content, type = "text/plain") {
+  const blob = content instanceof Blob ? content : new Blob([content], { type });
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(blob);
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
+/** A file name from the design's name. */
+export function fileName(tree, ending) {
+  const stem = nameOf(tree)
+    .toLowerCase()
+    .replace(/[^a-z0-9]+/g, "-")
+    .replace(/^-+|-+$/g, "");
+  return `${stem || "nip"}.${ending}`;
+}
+
+/** The curves as CSV, units in the header, in the units shown. */
+export function profilesCsv(result, units) {
+  const columns = PROFILES.filter(([, key]) => result.profiles[key]);
+  const head = columns.map(([name, , dimension]) => `${name} [${units.of(dimension).name}]`);
+  const lists = columns.map(([, key, dimension]) => units.list(result.profiles[key], dimension));
+  const rows = lists[0].map((_x, i) => lists.map((list) => plainNumber(list[i])));
+  return table([head, ...rows]);
+}
+
+/** The key figures as CSV. */
+export function figuresCsv(result, units) {
+  const all = flat(result);
+  const rows = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined).map(
+    ({ key, label, dimension }) => {
+      const error = all.error?.[key];
+      const { name, scale } = units.of(dimension);
+      return [
+        label,
+        plainNumber(units.shown(all[key], dimension)),
+        name,
+        error ? plainNumber(error / scale) : "",
+      ];
+    },
+  );
+  return table([
+    ["figure", "value", "unit", "estimated error"],
+    ...rows,
+    ["converged", String(result.converged), "", ""],
+  ]);
+}
+
+/** A curve of a chart as CSV: a column for each line. */
+export function chartCsv(figure) {
+  const lines = figure.data.filter((one) => one.name && one.x);
+  const rows = lines.flatMap((one) =>
+    one.x.map((x, i) => [one.name, plainNumber(x), plainNumber(one.y[i])]),
+  );
+  return table([["curve", figure.layout.xaxis.title.text, figure.layout.yaxis.title.text], ...rows]);
+}
+
+function plainNumber(value) {
+  return value === null || value === undefined ? "" : String(Number(value.toPrecision(9)));
+}
+
+function table(rows) {
+  const cell = (text) => (/[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text);
+  return `${rows.map((row) => row.map(cell).join(",")).join("\r\n")}\r\n`;
+}
+
+/** A chart as a file, "PNG" or "SVG", in light colours on white. */
+export async function saveChart(figure, format, name) {
+  const kind = format.toLowerCase();
+  const address = await image(figure, kind);
+  download(name, await (kind === "svg" ? blobOfSvg(address) : pngOf(address)));
+}
+
+function blobOfSvg(address) {
+  const text = decodeURIComponent(address.slice(address.indexOf(",") + 1));
+  return new Blob([text], { type: "image/svg+xml" });
+}
+
+function pngOf(address) {
+  const bytes = Uint8Array.from(atob(address.slice(address.indexOf(",") + 1)), (letter) =>
+    letter.charCodeAt(0),
+  );
+  return new Blob([bytes], { type: "image/png" });
+}
+
+/** Both drawings and the name of the design in one SVG. */
+export function drawingSvg({ tree, result, surfaces }, look) {
+  const [width, height, top] = [900, 430, 34];
+  const whole = svg("svg", {
+    xmlns: "http://www.w3.org/2000/svg",
+    viewBox: `0 0 ${width} ${height}`,
+    width,
+    height,
+    "font-family": "sans-serif",
+  });
+  whole.append(svg("rect", { width, height, fill: look.palette.ground }));
+  const sound = result.converged ? "" : "NOT CONVERGED: ";
+  whole.append(
+    words(12, 23, sound + nameOf(tree), {
+      anchor: "start",
+      size: 16,
+      weight: 600,
+      fill: result.converged ? look.palette.ink : look.palette.alert,
+    }),
+  );
+  const pair = pairPicture(tree, result, windowOf(result), { ...look, width: 290, height: height - top });
+  const nip = sectionPicture(tree, result, surfaces, { ...look, width: 590, height: height - top });
+  whole.append(placed(pair, 0, top), placed(nip, 310, top));
+  return new XMLSerializer().serializeToString(whole);
+}
+
+function placed(node, x, y) {
+  node.setAttribute("x", x);
+  node.setAttribute("y", y);
+  return node;
+}
+
+/** An SVG text as a PNG blob, twice as fine as the screen. */
+export async function rasterOf(text) {
+  const picture = new Image();
+  picture.src = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(text)}`;
+  await picture.decode();
+  const canvas = document.createElement("canvas");
+  canvas.width = 2 * picture.width;
+  canvas.height = 2 * picture.height;
+  canvas.getContext("2d").drawImage(picture, 0, 0, canvas.width, canvas.height);
+  return new Promise((resolve) => {
+    canvas.toBlob(resolve, "image/png");
+  });
+}

@@ -1,0 +1,208 @@
+// The column of inputs. It is built anew only where the shape of a design changes.
+
+import { driveBy, driving, pressBy, pressing } from "./design.js";
+import { el, select } from "./dom.js";
+import { Control } from "./control.js";
+import { idOf, setAt } from "./paths.js";
+import { coreEditor, rollerGroup } from "./rollers.js";
+
+const GEOMETRIES = [
+  ["finite", "Finite strain (most exact)"],
+  ["curved", "Curved layers"],
+  ["corrected", "Flat layers, true gap"],
+  ["linear", "Linear theory"],
+];
+const DRIVES = [
+  ["free", "Rolls free (no traction)"],
+  ["idler", "Lower roller is an idler"],
+  ["traction", "Given traction"],
+  ["creepage", "Given creepage (gears)"],
+  ["torque", "Given torque on the lower roller"],
+];
+
+/** The panel of inputs inside `place`. */
+export class Inputs {
+  constructor(place, app) {
+    this.place = place;
+    this.app = app;
+    this.open = new Set();
+    this.controls = [];
+    this.parts = []; // what else follows a design: {refresh(tree)}
+    this.rebuild();
+    app.store.listen((state) => this.refresh(state));
+  }
+
+  refresh(state) {
+    if (shapeOf(state.case) !== this.shape) this.rebuild();
+    else for (const part of [...this.controls, ...this.parts]) part.refresh(state.case);
+  }
+
+  /** Everything anew; focus and open folds stay where they are. */
+  rebuild() {
+    const tree = this.app.store.state.case;
+    const focused = document.activeElement?.id;
+    this.controls = [];
+    this.parts = [];
+    this.shape = shapeOf(tree);
+    this.place.replaceChildren(
+      rollerGroup("upper", tree, this),
+      rollerGroup("lower", tree, this),
+      this.pressingGroup(tree),
+      this.runningGroup(tree),
+      this.advancedGroup(tree),
+    );
+    if (focused && document.activeElement?.id !== focused) document.getElementById(focused)?.focus();
+  }
+
+  /** A control of the number at a path. */
+  control(path) {
+    const control = new Control(path, this.app);
+    this.controls.push(control);
+    return control.node;
+  }
+
+  /** A fold that stays open over a rebuild. */
+  fold(id, title, children, kind = "fold") {
+    const inner = el("div", { class: "inner" }, ...children);
+    const node = el(
+      "details",
+      { class: kind, id, open: this.open.has(id) },
+      el("summary", { text: title }),
+      inner,
+    );
+    node.addEventListener("toggle", () => (node.open ? this.open.add(id) : this.open.delete(id)));
+    return node;
+  }
+
+  change(tree) {
+    this.app.store.design({ case: tree });
+  }
+
+  /** Show what the server found wrong, at the controls it belongs to; returns what found no place. */
+  complain(details) {
+    for (const control of this.controls) control.complain("");
+    return details.filter(({ path, message }) => {
+      const control = this.controls.find((one) => one.path === path);
+      control?.complain(message);
+      return !control;
+    });
+  }
+
+  pressingGroup(tree) {
+    const kind = pressing(tree);
+    const choose = (value) => this.change(pressBy(this.app.store.state.case, value, this.app.result()));
+    return group(
+      "Pressed together",
+      choices(
+        "press",
+        "Pressed by",
+        [
+          ["load", "Line load"],
+          ["approach", "Indentation"],
+        ],
+        kind,
+        choose,
+      ),
+      this.control(`nip.${kind}`),
+    );
+  }
+
+  runningGroup(tree) {
+    const kind = driving(tree);
+    const own = { traction: "nip.traction", creepage: "nip.creepage", torque: "nip.torque_lower" }[kind];
+    const options = DRIVES.filter(([value]) => value !== "torque" || kind === "torque");
+    const choose = (value) => this.change(driveBy(this.app.store.state.case, value, this.app.result()));
+    return group(
+      "Running",
+      tree.nip.speed === undefined ? this.addSpeed() : this.control("nip.speed"),
+      select({ id: "in-drive", label: "Drive", options, value: kind, act: choose }),
+      own ? this.control(own) : null,
+      this.control("nip.friction"),
+    );
+  }
+
+  addSpeed() {
+    const act = () => this.change(setAt(this.app.store.state.case, "nip.speed", 1000));
+    return el("button", {
+      type: "button",
+      class: "button",
+      id: "add-speed",
+      text: "Give a speed",
+      on: { click: act },
+    });
+  }
+
+  advancedGroup(tree) {
+    const geometry = (value) => this.change(setAt(this.app.store.state.case, "model.geometry", value));
+    const width = (yes) =>
+      this.change(setAt(this.app.store.state.case, "nip.face_width", yes ? 1000 : undefined));
+    const hasWidth = tree.nip.face_width !== undefined;
+    const note =
+      "How exactly strains and the shape of the gap are taken. While a slider moves, finite strain gives way to the faster curved layers.";
+    return this.fold(
+      "advanced",
+      "Advanced",
+      [
+        select({
+          id: "in-geometry",
+          label: "Model of the geometry",
+          options: GEOMETRIES,
+          value: tree.model.geometry,
+          act: geometry,
+        }),
+        el("p", { class: "note", text: note }),
+        checkbox("in-has-width", "Totals over the face width", hasWidth, width),
+        hasWidth ? this.control("nip.face_width") : null,
+        ...["upper", "lower"].flatMap((side) => [coreEditor(side, tree, this), this.planeBox(side, tree)]),
+      ],
+      "group",
+    );
+  }
+
+  planeBox(side, tree) {
+    const act = (yes) => this.change(setAt(this.app.store.state.case, `${side}.radius`, yes ? "inf" : 100));
+    const other = side === "upper" ? "lower" : "upper";
+    if (tree[other].radius === "inf") return null;
+    return checkbox(
+      `in-${side}-plane`,
+      `The ${side} body is a plane, not a roller`,
+      tree[side].radius === "inf",
+      act,
+    );
+  }
+}
+
+/** What must be the same for the panel to stay as it is: everything but the numbers. */
+function shapeOf(tree) {
+  const shape = JSON.stringify(tree, (key, value) =>
+    key === "title" || typeof value === "number" ? 0 : value,
+  );
+  return `${shape} ${driving(tree)}`;
+}
+
+function group(title, ...children) {
+  return el("fieldset", { class: "group" }, el("legend", { text: title }), ...children);
+}
+
+/** A choice of two or three, as radio buttons. */
+export function choices(name, label, options, value, act) {
+  const buttons = options.map(([key, text]) => {
+    const radio = el("input", {
+      type: "radio",
+      name,
+      id: idOf(`${name}.${key}`),
+      value: key,
+      on: { change: () => act(key) },
+    });
+    radio.checked = key === value;
+    return el("label", {}, radio, text);
+  });
+  return el("div", { class: "choices", role: "radiogroup", "aria-label": label }, ...buttons);
+}
+
+/** A checkbox with its label. */
+export function checkbox(id, text, value, act) {
+  const box = el("input", { type: "checkbox", id, on: { change: () => act(box.checked) } });
+  box.checked = value;
+  return el("label", { class: "row", for: id }, box, text);
+}

@@ -1,0 +1,187 @@
+// Contours of stress inside the layers.
+
+import { isAbort, post } from "./api.js";
+import { Chart, layoutOf, line, titled } from "./charts.js";
+import { button, el, select } from "./dom.js";
+
+const POINTS = { nx: 120, nz: 40 };
+const FIELDS = [
+  { key: "mises", title: "von Mises stress", dimension: "pressure" },
+  { key: "max_shear", title: "largest shear stress", dimension: "pressure" },
+  { key: "s_zz", title: "stress across (radial)", dimension: "pressure", signed: true },
+  { key: "s_xx", title: "stress along (hoop)", dimension: "pressure", signed: true },
+  { key: "s_xz", title: "shear stress", dimension: "pressure", signed: true },
+  { key: "u_x", title: "displacement along", dimension: "length", signed: true },
+  { key: "u_z", title: "displacement inwards", dimension: "length", signed: true },
+  { key: "loss", title: "heat made", dimension: null },
+];
+
+/** The view "Inside". */
+export class InsideView {
+  constructor(app) {
+    this.id = "inside";
+    this.title = "Inside";
+    this.app = app;
+    const place = el("div", { class: "chart", id: "chart-inside" });
+    this.chart = new Chart(place);
+    this.asks = el("div", { class: "ask" });
+    this.said = el("p", { class: "empty" });
+    const exports = ["PNG", "SVG"].map((format) =>
+      button(format, () => app.exportChart(format), {
+        kind: "small",
+        id: `inside-${format.toLowerCase()}`,
+        label: `Save this chart as ${format}`,
+      }),
+    );
+    const hint =
+      "Colours show the inside of one covering, stretched to fill the picture; thin lines are interfaces, the thick one is the nip.";
+    const foot = el(
+      "div",
+      { class: "chart-foot" },
+      el("p", { class: "hint", text: hint }),
+      el("div", { class: "row" }, ...exports),
+    );
+    this.node = el("div", {}, this.asks, place, this.said, foot);
+    this.answer = null;
+  }
+
+  /** Asks for the field of a settled design, once; draws it in the units and colours of now. */
+  async show({ tree, result, state }) {
+    const sides = ["upper", "lower"].filter((side) => tree[side].layers.length || tree[side].core);
+    if (sides.length === 0) return this.say("Both bodies are rigid: there is nothing inside to show.");
+    const view = this.app.store.state.view.inside;
+    const roller = sides.includes(view.roller) ? view.roller : sides[0];
+    if (state === "preview") return undefined;
+    const key = JSON.stringify([tree, roller]);
+    if (this.answer?.key !== key) await this.fetch(key, tree, roller);
+    if (this.answer?.key === key) this.draw(sides, roller, result);
+    return undefined;
+  }
+
+  async fetch(key, tree, roller) {
+    this.abort?.abort();
+    const abort = new AbortController();
+    this.abort = abort;
+    try {
+      this.answer = {
+        key,
+        field: await post("/api/interior", { case: tree, roller, ...POINTS }, abort.signal),
+      };
+    } catch (error) {
+      if (!isAbort(error)) this.say(error.message);
+    }
+  }
+
+  say(text) {
+    this.said.textContent = text;
+    this.said.hidden = !text;
+    this.chart.node.hidden = Boolean(text);
+  }
+
+  draw(sides, roller, result) {
+    const { field } = this.answer;
+    const there = FIELDS.filter(({ key }) => field[key]);
+    const view = this.app.store.state.view.inside;
+    const chosen = there.find(({ key }) => key === view.field) ?? there[0];
+    this.say("");
+    this.shown = { field, chosen, roller, result };
+    this.choose(sides, roller, there, chosen);
+    this.chart.show(contours(this.shown, this.app.units(), this.app.palette()));
+  }
+
+  choose(sides, roller, there, chosen) {
+    const key = `${sides} ${roller} ${there.map((one) => one.key)} ${chosen.key}`;
+    if (key === this.chosenKey) return;
+    this.chosenKey = key;
+    const put = (change) =>
+      this.app.store.view({ inside: { ...this.app.store.state.view.inside, ...change } });
+    const focused = document.activeElement?.id;
+    this.asks.replaceChildren(
+      select({
+        id: "inside-field",
+        label: "Show",
+        options: there.map((one) => [one.key, one.title]),
+        value: chosen.key,
+        act: (value) => put({ field: value }),
+      }),
+      select({
+        id: "inside-roller",
+        label: "Inside of",
+        options: sides.map((side) => [side, `${side} roller`]),
+        value: roller,
+        act: (value) => put({ roller: value }),
+      }),
+    );
+    if (focused) document.getElementById(focused)?.focus();
+  }
+
+  figure(_snapshot, palette) {
+    return this.shown ? contours(this.shown, this.app.units(), palette) : null;
+  }
+}
+
+/** The contour chart of one field. */
+function contours({ field, chosen, roller, result }, units, palette) {
+  const length = units.name("length");
+  const values = chosen.dimension
+    ? field[chosen.key].map((row) => units.list(row, chosen.dimension))
+    : field[chosen.key];
+  const unit = chosen.dimension ? units.name(chosen.dimension) : "mW/mm³";
+  const x = units.list(field.x, "length");
+  const bar = {
+    title: { text: titled(chosen.title, unit), side: "right" },
+    thickness: 13,
+    outlinewidth: 0,
+    tickcolor: palette.bound,
+  };
+  const map = {
+    type: "contour",
+    x,
+    y: units.list(field.z, "length"),
+    z: values,
+    ncontours: 18,
+    colorscale: chosen.signed ? palette.diverging : palette.sequential,
+    ...(chosen.signed ? symmetric(values) : {}),
+    contours: { coloring: "fill", showlines: true },
+    line: { width: 0.5, color: `${palette.ink}55` },
+    colorbar: bar,
+    hovertemplate: `at %{x:.3~g} ${length}, depth %{y:.3~g} ${length}: %{z:.3~g} ${unit}<extra></extra>`,
+  };
+  const edges = units.list([result.contact[0][0], result.contact[result.contact.length - 1][1]], "length");
+  const nip = line("nip", edges, [0, 0], palette.ink, { width: 5, showlegend: false, hoverinfo: "skip" });
+  const layout = layoutOf(
+    palette,
+    titled("Place along the nip, outlet left, inlet right", length),
+    titled("Depth", length),
+    {
+      yaxis: { autorange: roller === "lower" ? "reversed" : true, zeroline: false },
+      shapes: (field.interfaces ?? []).map((depth) => interfaceLine(units.shown(depth, "length"), palette)),
+      hovermode: "closest",
+    },
+  );
+  return {
+    data: [map, nip],
+    layout,
+    label: `Contours of the ${chosen.title} inside the ${roller} roller.`,
+  };
+}
+
+function symmetric(values) {
+  const most = values
+    .flat()
+    .reduce((high, value) => (value === null ? high : Math.max(high, Math.abs(value))), 0);
+  return { zmin: -most, zmax: most, zauto: false };
+}
+
+function interfaceLine(depth, palette) {
+  return {
+    type: "line",
+    xref: "paper",
+    x0: 0,
+    x1: 1,
+    yref: "y",
+    y0: depth,
+    y1: depth,
+    line: { color: palette.ink, width: 1 },
+  };
+}

@@ -1,0 +1,36 @@
+// The page put together: state, inputs, answers, tabs, menus.
+
+import { get } from "./api.js";
+import { App } from "./app.js";
+import { byId, el } from "./dom.js";
+import { alarm } from "./answers.js";
+
+const PICKED = ".toml,.json,application/toml,application/json,text/plain";
+
+async function start() {
+  const [units, materials, examples] = await Promise.all([
+    get("/api/units"),
+    get("/api/materials"),
+    get("/api/examples"),
+  ]);
+  const app = new App({ units, materials, examples });
+  const file = el("input", {
+    type: "file",
+    id: "file",
+    accept: PICKED,
+    hidden: true,
+    "aria-label": "Case file",
+  });
+  file.addEventListener("change", () => {
+    if (file.files[0]) app.loadFile(file.files[0]);
+    file.value = "";
+  });
+  document.body.append(file);
+  await app.begin(location.hash);
+  document.documentElement.dataset.ready = "yes";
+}
+
+start().catch((error) => {
+  byId("big").textContent = "–";
+  alarm("The page could not start", [error.message]);
+});

@@ -1,0 +1,159 @@
+// The material of a layer: from the library, by hardness, or one of the models.
+
+import { kindOf, materialAs } from "./design.js";
+import { button, el, select } from "./dom.js";
+import { icon } from "./icons.js";
+import { getAt, idOf, setAt } from "./paths.js";
+
+const MODELS = [
+  ["shore", "Rubber by hardness (Shore A)"],
+  ["elastic", "Elastic, by modulus"],
+  ["standard-linear-solid", "Viscoelastic: one relaxation time"],
+  ["prony", "Viscoelastic: Prony series"],
+  ["fractional-zener", "Viscoelastic: broad (fractional Zener)"],
+  ["loss-factor", "Constant loss factor"],
+];
+const NUMBERS = {
+  shore: ["shore_a"],
+  elastic: [],
+  "standard-linear-solid": ["modulus", "stiffening", "relaxation_time"],
+  prony: ["modulus"],
+  "fractional-zener": ["modulus", "stiffening", "relaxation_time", "order"],
+  "loss-factor": ["modulus", "loss_factor"],
+};
+const LIBRARY = "library:";
+const SHIFTS = {
+  none: undefined,
+  wlf: { model: "wlf", c1: 17.44, c2: 51.6, reference: 23 },
+  arrhenius: { model: "arrhenius", activation_energy: 60, reference: 23 },
+};
+
+/** The elements that edit the material at `path`. */
+export function materialEditor(path, panel) {
+  const material = getAt(panel.app.store.state.case, path);
+  const kind = kindOf(material);
+  const choice = new Choice(path, panel);
+  panel.parts.push(choice);
+  return [
+    choice.node,
+    ...numbers(kind, material).map((name) => panel.control(`${path}.${name}`)),
+    kind === "prony" ? terms(path, material, panel) : null,
+    panel.fold(`${idOf(path)}-more`, "More about this material", [
+      choice.note,
+      ...more(path, material, panel),
+    ]),
+  ];
+}
+
+function numbers(kind, material) {
+  if (kind !== "elastic") return NUMBERS[kind];
+  return [material.shear_modulus === undefined ? "modulus" : "shear_modulus"];
+}
+
+/** The choice of a material; a slider may turn one of the library into an own one and back. */
+class Choice {
+  constructor(path, panel) {
+    this.path = path;
+    this.app = panel.app;
+    const library = this.app.library.map(({ name, title }) => [LIBRARY + name, title]);
+    const groups = [
+      { group: "Own material", options: MODELS },
+      { group: "Library", options: library },
+    ];
+    const act = (value) => put(panel, path, this.chosen(value));
+    this.node = select({ id: `${idOf(path)}-kind`, label: "Material", options: groups, value: "", act });
+    this.note = el("p", { class: "note" });
+    this.refresh(this.app.store.state.case);
+  }
+
+  refresh(tree) {
+    const material = getAt(tree, this.path);
+    const entry = this.app.libraryEntry(material);
+    const byHardness = material.shore_a !== undefined;
+    this.node.querySelector("select").value =
+      entry && !byHardness ? LIBRARY + entry.name : kindOf(material);
+    this.note.textContent = entry ? `${entry.description} Source: ${entry.source}.` : "";
+    this.note.hidden = !entry;
+  }
+
+  chosen(value) {
+    const entry = this.app.library.find(({ name }) => LIBRARY + name === value);
+    return entry
+      ? structuredClone(entry.material)
+      : materialAs(value, getAt(this.app.store.state.case, this.path));
+  }
+}
+
+function terms(path, material, panel) {
+  const rows = material.terms.map((_term, i) => {
+    const drop = () =>
+      put(
+        panel,
+        `${path}.terms`,
+        material.terms.filter((_one, j) => j !== i),
+      );
+    const label = `Remove term ${i + 1}`;
+    return el(
+      "div",
+      { class: "term", role: "group", "aria-label": `Term ${i + 1}` },
+      panel.control(`${path}.terms[${i}].modulus`),
+      button(icon("remove"), drop, {
+        kind: "icon",
+        label,
+        id: `${idOf(path)}-drop-${i}`,
+        disabled: material.terms.length === 1,
+      }),
+      panel.control(`${path}.terms[${i}].relaxation_time`),
+    );
+  });
+  const add = () =>
+    put(panel, `${path}.terms`, [...material.terms, { ...material.terms[material.terms.length - 1] }]);
+  return el(
+    "div",
+    { class: "inner" },
+    ...rows,
+    button("Add a term", add, { kind: "small", id: `${idOf(path)}-add-term` }),
+  );
+}
+
+function more(path, material, panel) {
+  const isViscous = material.model !== "elastic";
+  return [
+    panel.control(`${path}.poisson`),
+    isViscous ? shiftEditor(path, material, panel) : null,
+    isViscous && material.shift ? panel.control(`${path}.temperature`) : null,
+    ...(isViscous ? shiftNumbers(path, material, panel) : []),
+  ];
+}
+
+function shiftEditor(path, material, panel) {
+  const options = [
+    ["none", "Data hold as they are"],
+    ["wlf", "Shift with temperature: WLF"],
+    ["arrhenius", "Shift with temperature: Arrhenius"],
+  ];
+  const act = (kind) => {
+    const shift = SHIFTS[kind];
+    const temperature = shift ? (material.temperature ?? 23) : undefined;
+    put(panel, path, setAt(setAt(material, "shift", shift), "temperature", temperature));
+  };
+  return select({
+    id: `${idOf(path)}-shift`,
+    label: "Temperature",
+    options,
+    value: material.shift?.model ?? "none",
+    act,
+  });
+}
+
+function shiftNumbers(path, material, panel) {
+  const names =
+    { wlf: ["c1", "c2", "reference"], arrhenius: ["activation_energy", "reference"] }[
+      material.shift?.model
+    ] ?? [];
+  return names.map((name) => panel.control(`${path}.shift.${name}`));
+}
+
+function put(panel, path, value) {
+  panel.change(setAt(panel.app.store.state.case, path, value));
+}

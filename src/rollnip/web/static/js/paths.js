@@ -1,0 +1,46 @@
+// Places in a case: "upper.layers[0].material.shore_a". Trees are never changed, only copied.
+
+/** The steps of a path: ["upper", "layers", 0, "material", "shore_a"]. */
+export function steps(path) {
+  const found = path.match(/[^.[\]]+/g) ?? [];
+  return found.map((step) => (/^\d+$/.test(step) ? Number(step) : step));
+}
+
+/** What stands at a path, or undefined. */
+export function getAt(tree, path) {
+  return steps(path).reduce(
+    (node, step) => (node === null || node === undefined ? undefined : node[step]),
+    tree,
+  );
+}
+
+/** A copy of the tree with a value at the path; `undefined` takes the key away. */
+export function setAt(tree, path, value) {
+  return put(tree, steps(path), value);
+}
+
+function put(node, [step, ...rest], value) {
+  if (step === undefined) return value;
+  const copy = Array.isArray(node) ? [...node] : { ...node };
+  const next = put(copy[step] ?? (typeof rest[0] === "number" ? [] : {}), rest, value);
+  if (rest.length === 0 && value === undefined) delete copy[step];
+  else copy[step] = next;
+  return copy;
+}
+
+/** A path as an id of the page. */
+export function idOf(path) {
+  return `in-${steps(path).join("-")}`;
+}
+
+/** Whether two trees hold the same. */
+export function same(one, two) {
+  return canonical(one) === canonical(two);
+}
+
+function canonical(tree) {
+  return JSON.stringify(tree, (_key, value) => {
+    const isTable = value && typeof value === "object" && !Array.isArray(value);
+    return isTable ? Object.fromEntries(Object.entries(value).sort(([a], [b]) => (a < b ? -1 : 1))) : value;
+  });
+}

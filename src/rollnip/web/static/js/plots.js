@@ -1,0 +1,213 @@
+// The curves along the nip: what each chart shows, as plain data for Plotly.
+
+import { layoutOf, line, titled } from "./charts.js";
+import { nameOf } from "./design.js";
+
+const ALONG = "Place along the nip, outlet left, inlet right";
+const SIDE = 0.75; // nip widths shown outside the contact
+
+/** The charts by tab: each (result, units, palette, tree) -> {data, layout, label}. */
+export const PLOTS = { pressure: pressurePlot, gap: gapPlot, strain: strainPlot, speed: speedPlot };
+
+function pressurePlot(result, units, palette, tree) {
+  const { profiles } = result;
+  const { x, data } = begin(result, units);
+  const name = units.name("pressure");
+  const pressure = units.list(profiles.pressure, "pressure");
+  const shear = units.list(profiles.shear, "pressure");
+  const bound = pressure.map((value) => tree.nip.friction * value);
+  data.push(
+    line("pressure", x, pressure, palette.pressure, {
+      width: 2.6,
+      fill: "tozeroy",
+      fillcolor: `${palette.pressure}14`,
+      hovertemplate: `%{y:.4~g} ${name}`,
+    }),
+  );
+  data.push(line("shear", x, shear, palette.shear, { hovertemplate: `%{y:.4~g} ${name}` }));
+  if (tree.nip.friction > 0) {
+    const style = { dash: "dash", width: 1.3, hoverinfo: "skip", legendgroup: "bound" };
+    data.push(line("traction bound (friction × pressure)", x, bound, palette.bound, style));
+    data.push(
+      line(
+        "",
+        x,
+        bound.map((value) => -value),
+        palette.bound,
+        { ...style, showlegend: false },
+      ),
+    );
+  }
+  const [low, high] = span(pressure, shear);
+  const layout = layoutOf(palette, along(units), titled("Pressure and shear", name), {
+    xaxis: { range: reach(result, units) },
+    yaxis: { range: [low, high] },
+    shapes: zonesOf(result, units, palette),
+  });
+  const label = `Pressure up to ${units.text(result.peak_pressure, "pressure")} over a nip of ${units.text(result.nip_width, "length")}; ${zoneWords(result)}.`;
+  return { data, layout, label };
+}
+
+function gapPlot(result, units, palette) {
+  const { x, data } = begin(result, units);
+  const unit = units.name("length");
+  const gap = units.list(result.profiles.gap, "length");
+  data.push(line("gap", x, gap, palette.upper, { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` }));
+  const layout = layoutOf(palette, along(units), titled("Gap between the surfaces", unit), {
+    xaxis: { range: reach(result, units) },
+    yaxis: { rangemode: "tozero", range: upTo(x, gap, reach(result, units)) },
+    shapes: contactShape(result, units, palette),
+  });
+  return {
+    data,
+    layout,
+    label: `Gap between the deformed surfaces; closed over ${units.text(result.nip_width, "length")}.`,
+  };
+}
+
+function strainPlot(result, units, palette) {
+  const { x, data } = begin(result, units);
+  for (const side of ["upper", "lower"]) {
+    const values = units.list(result.profiles[`strain_${side}`], "share");
+    data.push(
+      line(`${side} surface`, x, values, palette[side], {
+        hovertemplate: "%{y:.3~g} %",
+        dash: side === "lower" ? "longdash" : "solid",
+      }),
+    );
+  }
+  const layout = layoutOf(palette, along(units), "Strain of the surface [%]", {
+    xaxis: { range: reach(result, units) },
+    shapes: zonesOf(result, units, palette),
+  });
+  return { data, layout, label: "Strain of both surfaces along the nip: positive where stretched." };
+}
+
+function speedPlot(result, units, palette) {
+  const { profiles } = result;
+  const { x, data } = begin(result, units);
+  if (!profiles.speed_upper) return null;
+  const unit = units.name("speed");
+  for (const side of ["upper", "lower"]) {
+    const values = units.list(profiles[`speed_${side}`], "speed");
+    data.push(
+      line(`${side} surface`, x, values, palette[side], {
+        hovertemplate: `%{y:.5~g} ${unit}`,
+        dash: side === "lower" ? "longdash" : "solid",
+      }),
+    );
+  }
+  const layout = layoutOf(palette, along(units), titled("Speed of the surface", unit), {
+    xaxis: { range: reach(result, units) },
+    shapes: zonesOf(result, units, palette),
+  });
+  return { data, layout, label: "Speed of both surfaces along the nip; equal where they stick." };
+}
+
+function begin({ profiles }, units) {
+  return { x: units.list(profiles.x, "length"), data: [] };
+}
+
+function along(units) {
+  return titled(ALONG, units.name("length"));
+}
+
+/** What is shown along the nip, in the unit shown. */
+function reach({ contact, nip_width: nip }, units) {
+  const places = [contact[0][0] - SIDE * nip, contact[contact.length - 1][1] + SIDE * nip];
+  return units.list(places, "length");
+}
+
+/** Limits that show pressure and shear whole; the bound may leave them. */
+function span(pressure, shear) {
+  const high = Math.max(...pressure, ...shear);
+  const low = Math.min(0, ...shear);
+  return [Math.min(1.15 * low, -0.05 * high), 1.1 * high];
+}
+
+function upTo(x, values, [from, to]) {
+  const seen = values.filter((value, i) => value !== null && x[i] >= from && x[i] <= to);
+  return [0, 1.06 * Math.max(...seen, 1e-9)];
+}
+
+/** Stick and slip as shaded bands; without friction the contact. */
+function zonesOf(result, units, palette) {
+  if (result.zones.length === 0) return contactShape(result, units, palette);
+  const named = new Set();
+  return result.zones.map((zone) => {
+    const name = zoneName(zone);
+    const first = !named.has(name);
+    named.add(name);
+    return band(
+      units.shown(zone.from, "length"),
+      units.shown(zone.to, "length"),
+      palette[zone.state],
+      name,
+      first,
+    );
+  });
+}
+
+function zoneName({ state, direction }) {
+  if (state === "stick") return "stick";
+  return direction === -1 ? "slip, upper faster" : "slip, lower faster";
+}
+
+function zoneWords({ zones }) {
+  if (zones.length === 0) return "no friction";
+  const slips = zones.filter(({ state }) => state === "slip").length;
+  if (slips === 0) return "the surfaces stick everywhere";
+  return slips === zones.length
+    ? "the surfaces slip everywhere"
+    : `${slips} slip zone${slips > 1 ? "s" : ""}, else stick`;
+}
+
+function contactShape({ contact }, units, palette) {
+  return contact.map(([from, to], i) =>
+    band(units.shown(from, "length"), units.shown(to, "length"), palette.stick, "contact", i === 0),
+  );
+}
+
+function band(x0, x1, fillcolor, name, showlegend) {
+  return {
+    type: "rect",
+    xref: "x",
+    yref: "paper",
+    x0,
+    x1,
+    y0: 0,
+    y1: 1,
+    fillcolor,
+    line: { width: 0 },
+    layer: "below",
+    name,
+    showlegend,
+  };
+}
+
+/** One profile of several designs: [{tree, result}], the first is what others are compared with. */
+export function overlay(designs, { key, title, dimension }, units, palette) {
+  const dashes = ["solid", "dash", "dot", "dashdot"];
+  const unit = units.name(dimension);
+  const data = designs.map(({ tree, result }, i) => {
+    const x = units.list(result.profiles.x, "length");
+    const y = units.list(result.profiles[key] ?? [], dimension);
+    return line(letter(i, nameOf(tree)), x, y, palette.designs[i], {
+      dash: dashes[i],
+      width: 2.4,
+      hovertemplate: `%{y:.4~g} ${unit}`,
+    });
+  });
+  const ranges = designs.map(({ result }) => reach(result, units));
+  const range = [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))];
+  const layout = layoutOf(palette, along(units), titled(title, unit), {
+    xaxis: { range },
+    showlegend: true,
+  });
+  return { data, layout, label: `${title} of ${designs.length} designs.` };
+}
+
+/** "A: name". */
+export function letter(i, name) {
+  return `${"ABCD"[i]}: ${name}`;
+}

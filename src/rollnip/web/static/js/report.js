@@ -1,0 +1,146 @@
+// The printed page: what was put in, assumed and found.
+
+import { image } from "./charts.js";
+import { driving, kindOf, nameOf } from "./design.js";
+import { byId, el } from "./dom.js";
+import { drawingSvg } from "./files.js";
+import { PLOTS } from "./plots.js";
+import { ANSWERS, flat, inputAt, totalsOf } from "./quantities.js";
+import { joined } from "./units.js";
+import { getAt } from "./paths.js";
+
+const DRIVES = {
+  free: "rolls free, no traction",
+  idler: "lower roller is an idler",
+  traction: "given traction",
+  creepage: "given creepage",
+  torque: "given torque on the lower roller",
+};
+const MODELS = {
+  shore: "rubber by hardness",
+  elastic: "elastic",
+  "standard-linear-solid": "standard linear solid",
+  prony: "Prony series",
+  "fractional-zener": "fractional Zener",
+  "loss-factor": "constant loss factor",
+};
+const GEOMETRIES = {
+  finite: "Finite strain: ring layers, to second order in the strain.",
+  curved: "Curved: ring layers, stretch to second order.",
+  corrected: "Flat layers, true distance of the deformed surfaces.",
+  linear: "Linear theory: flat layers, parabolic gap.",
+};
+const ASSUMPTIONS = [
+  "Plane strain: long rollers, straight axles; no bending, crown or ends of the face.",
+  "Steady rolling; Coulomb friction with one coefficient.",
+  "Linear materials: no softening with strain (Payne effect), no heating by the losses.",
+];
+
+/** Fill the page that is printed. `answer` is {tree, result, surfaces}, `about` {hash, link, date}. */
+export async function fillReport(answer, units, palette, about) {
+  const { tree, result } = answer;
+  const chart = await image(PLOTS.pressure(result, units, palette, tree), "svg", {
+    width: 620,
+    height: 350,
+  });
+  const drawing = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(drawingSvg(answer, { palette, units }))}`;
+  const pictures = [
+    picture(drawing, "Drawing of the rollers"),
+    picture(chart, "Pressure and shear in the nip"),
+  ];
+  byId("report").replaceChildren(
+    el("h1", { text: nameOf(tree) }),
+    el("p", {
+      class: "meta",
+      text: `Nip report, rollnip ${result.solver.version}, ${about.date}. Case ${about.hash}`,
+    }),
+    result.converged
+      ? el("span")
+      : el("p", {
+          class: "alarm",
+          text: `NOT CONVERGED: do not use these numbers. ${result.solver.status}`,
+        }),
+    el(
+      "div",
+      { class: "two" },
+      el("div", {}, el("h2", { text: "Inputs" }), inputs(tree, units)),
+      el("div", {}, el("h2", { text: "Figures" }), figures(result, units)),
+    ),
+    el("div", { class: "two" }, ...pictures),
+    el("h2", { text: "Assumptions" }),
+    el("ul", {}, ...[GEOMETRIES[result.geometry], ...ASSUMPTIONS].map((text) => el("li", { text }))),
+    ...warnings(result),
+  );
+  await Promise.all(pictures.map((one) => one.decode()));
+}
+
+function picture(source, alt) {
+  return el("img", { src: source, alt });
+}
+
+function warnings({ warnings: list }) {
+  if (list.length === 0) return [];
+  return [el("h2", { text: "Keep in mind" }), el("ul", {}, ...list.map((text) => el("li", { text })))];
+}
+
+function figures(result, units) {
+  const all = flat(result);
+  const rows = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined).map(
+    ({ key, label, dimension, digits }) => {
+      const error = result.error?.[key] ? ` ± ${units.error(result.error[key], dimension)}` : "";
+      return [label, units.text(all[key], dimension, digits) + error];
+    },
+  );
+  return table([
+    ...rows,
+    ...totalsOf(all, units.system).map(({ label, text, unit }) => [label, joined(text, unit)]),
+  ]);
+}
+
+function inputs(tree, units) {
+  const rows = Object.keys(tree.nip).map((name) => row(tree, `nip.${name}`, units));
+  rows.push(["Drive", DRIVES[driving(tree)]]);
+  for (const side of ["upper", "lower"]) rows.push(...roller(tree, side, units));
+  return table(rows);
+}
+
+function roller(tree, side, units) {
+  const { radius, layers, core } = tree[side];
+  const title = `${side === "upper" ? "Upper" : "Lower"} roller`;
+  const rows = [[title], radius === "inf" ? ["Shape", "a plane"] : row(tree, `${side}.radius`, units)];
+  layers.forEach((layer, i) => {
+    rows.push(row(tree, `${side}.layers[${i}].thickness`, units, `Layer ${i + 1}: thickness`));
+    rows.push(...material(tree, `${side}.layers[${i}].material`, units));
+  });
+  if (core) rows.push(["Core", "half-space"], ...material(tree, `${side}.core`, units));
+  else rows.push(["Core", layers.length ? "rigid" : "bare, rigid"]);
+  return rows;
+}
+
+function material(tree, path, units) {
+  const table = getAt(tree, path);
+  const numbers = Object.keys(table)
+    .filter((name) => typeof table[name] === "number")
+    .map((name) => row(tree, `${path}.${name}`, units));
+  const shift = Object.keys(table.shift ?? {})
+    .filter((name) => name !== "model")
+    .map((name) => row(tree, `${path}.shift.${name}`, units));
+  const terms = (table.terms ?? []).map((term, i) => [
+    `Term ${i + 1}`,
+    `${units.text(term.modulus, "pressure")}, ${units.text(term.relaxation_time, "time")}`,
+  ]);
+  return [["Material", MODELS[kindOf(table)]], ...numbers, ...terms, ...shift];
+}
+
+function row(tree, path, units, label = null) {
+  const input = inputAt(path, tree);
+  return [label ?? input.label, units.text(getAt(tree, path) * input.factor, input.dimension, 6)];
+}
+
+function table(rows) {
+  const cells = ([name, value]) =>
+    value === undefined
+      ? [el("th", { colspan: 2, text: name })]
+      : [el("td", { text: name }), el("td", { text: value })];
+  return el("table", {}, ...rows.map((one) => el("tr", {}, ...cells(one))));
+}

@@ -1,0 +1,119 @@
+// One roller: its diameter, and its layers from the surface to the core.
+
+import { RIGID, RUBBER, withLayers } from "./design.js";
+import { button, el, select } from "./dom.js";
+import { icon } from "./icons.js";
+import { materialEditor } from "./materials.js";
+import { setAt } from "./paths.js";
+import { toneOf } from "./palette.js";
+
+const MOST_LAYERS = 20;
+
+/** The group of a roller; `panel` is the Inputs it stands in. */
+export function rollerGroup(side, tree, panel) {
+  const { layers } = tree[side];
+  const title = side === "upper" ? "Upper roller" : "Lower roller";
+  const isPlane = tree[side].radius === "inf";
+  return el(
+    "fieldset",
+    { class: "group", id: `group-${side}` },
+    el("legend", { text: isPlane ? title.replace("roller", "body (a plane)") : title }),
+    isPlane ? null : panel.control(`${side}.radius`),
+    ...layers.map((layer, i) => layerCard(side, i, tree, panel)),
+    adder(side, layers, panel),
+  );
+}
+
+function adder(side, layers, panel) {
+  const add = () => {
+    const like = layers[layers.length - 1];
+    const layer = like ? structuredClone(like) : { thickness: 10, material: { ...RUBBER } };
+    change(panel, side, (list) => list.push(layer));
+  };
+  const text = layers.length ? "Add a layer below" : "Add a covering";
+  const disabled = layers.length >= MOST_LAYERS;
+  return el(
+    "div",
+    { class: layers.length ? "row" : "row bare" },
+    layers.length ? null : el("span", { text: "Bare steel, no covering." }),
+    button(text, add, { kind: "small", id: `add-${side}`, disabled }),
+  );
+}
+
+function layerCard(side, i, tree, panel) {
+  const { layers } = tree[side];
+  const path = `${side}.layers[${i}]`;
+  const called = layers.length === 1 ? "Covering" : `Layer ${i + 1}${i === 0 ? " (surface)" : ""}`;
+  const swatch = el("span", { class: "swatch", "data-tone": `${side} ${i}` });
+  swatch.style.background = toneOf(side, i, panel.app.palette());
+  return el(
+    "div",
+    { class: "layer", role: "group", "aria-label": `${called} of the ${side} roller` },
+    el("div", { class: "head row" }, el("h4", {}, swatch, called), moves(side, i, layers, panel)),
+    panel.control(`${path}.thickness`),
+    ...materialEditor(`${path}.material`, panel),
+  );
+}
+
+function moves(side, i, layers, panel) {
+  const called = `layer ${i + 1} of the ${side} roller`;
+  const act = (work) => () => change(panel, side, work);
+  const swap = (j) =>
+    act((list) => {
+      [list[i], list[j]] = [list[j], list[i]];
+    });
+  const option = (what, extra = {}) => ({
+    kind: "icon",
+    label: `${what} ${called}`,
+    id: `${what.split(" ")[0].toLowerCase()}-${side}-${i}`,
+    ...extra,
+  });
+  const remove = act((list) => list.splice(i, 1));
+  const drop = () => {
+    remove();
+    document.getElementById(`add-${side}`).focus();
+  };
+  const several = layers.length > 1;
+  return el(
+    "div",
+    { class: "moves" },
+    several ? button(icon("up"), swap(i - 1), option("Raise", { disabled: i === 0 })) : null,
+    several
+      ? button(icon("down"), swap(i + 1), option("Lower", { disabled: i === layers.length - 1 }))
+      : null,
+    button(
+      icon("copy"),
+      act((list) => list.splice(i, 0, structuredClone(list[i]))),
+      option("Duplicate", { disabled: layers.length >= MOST_LAYERS }),
+    ),
+    button(icon("remove"), drop, option("Remove")),
+  );
+}
+
+/** The choice of what lies below the layers of a roller. */
+export function coreEditor(side, tree, panel) {
+  const { core } = tree[side];
+  const put = (value) => panel.change(setAt(panel.app.store.state.case, `${side}.core`, value));
+  const choose = (kind) =>
+    put(kind === RIGID ? undefined : { model: "elastic", modulus: 70000, poisson: 0.33 });
+  const options = [
+    [RIGID, "Rigid (steel under rubber)"],
+    ["soft", "Elastic or viscoelastic body"],
+  ];
+  return el(
+    "div",
+    { class: "inner" },
+    select({
+      id: `in-${side}-core`,
+      label: `Core of the ${side} roller`,
+      options,
+      value: core ? "soft" : RIGID,
+      act: choose,
+    }),
+    core ? el("div", { class: "layer" }, ...materialEditor(`${side}.core`, panel)) : null,
+  );
+}
+
+function change(panel, side, work) {
+  panel.change(withLayers(panel.app.store.state.case, side, work));
+}

@@ -1,0 +1,70 @@
+// The state of the page, who listens to it, and the way back.
+
+const DEEPEST = 200;
+
+/**
+ * Holds {case, kept, view}. `case` and `kept` (designs kept for comparison) can be undone; how they
+ * are looked at cannot. Changes with the same `gesture` (one drag of a slider) are one step.
+ */
+export class Store {
+  constructor(state) {
+    this.state = state;
+    this.past = [];
+    this.future = [];
+    this.gesture = null;
+    this.listeners = [];
+  }
+
+  /** Call `listener(state, why)` after every change; why is "design", "view" or "live". */
+  listen(listener) {
+    this.listeners.push(listener);
+  }
+
+  /** Change the design; `gesture` names a movement that still goes on. */
+  design(change, gesture = null) {
+    if (gesture === null || gesture !== this.gesture) {
+      this.past = [...this.past, this.undoable()].slice(-DEEPEST);
+      this.future = [];
+    }
+    this.gesture = gesture;
+    this.state = { ...this.state, ...change };
+    this.tell(gesture === null ? "design" : "live");
+  }
+
+  /** The movement is over. */
+  rest() {
+    if (this.gesture === null) return;
+    this.gesture = null;
+    this.tell("rest");
+  }
+
+  /** Change how things are looked at. */
+  view(change) {
+    this.state = { ...this.state, view: { ...this.state.view, ...change } };
+    this.tell("view");
+  }
+
+  undo() {
+    this.step(this.past, this.future);
+  }
+
+  redo() {
+    this.step(this.future, this.past);
+  }
+
+  step(from, to) {
+    if (from.length === 0) return;
+    to.push(this.undoable());
+    this.gesture = null;
+    this.state = { ...this.state, ...from.pop() };
+    this.tell("design");
+  }
+
+  undoable() {
+    return { case: this.state.case, kept: this.state.kept };
+  }
+
+  tell(why) {
+    for (const listener of this.listeners) listener(this.state, why);
+  }
+}

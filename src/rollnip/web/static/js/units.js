@@ -1,0 +1,92 @@
+// Values are kept in mm, N, MPa, s for good; units are only a way of showing them.
+
+const DIGITS = 4;
+// What the server's table of inputs does not have: [unit, scale] for metric and US.
+const RESULTS = {
+  "power per length": { metric: ["W/m", 1], us: ["W/ft", 1 / 0.3048] },
+  share: { metric: ["%", 0.01], us: ["%", 0.01] },
+  angle: { metric: ["°", 1], us: ["°", 1] },
+};
+const WRITTEN = { degC: "°C", degF: "°F", "N m/m": "N·m/m", "lbf in/in": "lbf·in/in" };
+
+/** Shows values of the base system in metric or US units. */
+export class Units {
+  constructor(table, system) {
+    this.table = table;
+    this.system = system;
+  }
+
+  /** {name, scale, offset} of a dimension; name "" where it has no unit. */
+  of(dimension) {
+    if (RESULTS[dimension]) {
+      const [name, scale] = RESULTS[dimension][this.system];
+      return { name, scale, offset: 0 };
+    }
+    const kind = this.table[dimension];
+    const name = kind?.[this.system] ?? "";
+    const [scale, offset] = kind?.units?.[name] ?? [1, 0];
+    return { name, scale: Number(scale), offset: Number(offset) };
+  }
+
+  /** The unit as a person writes it. */
+  name(dimension) {
+    const { name } = this.of(dimension);
+    return WRITTEN[name] ?? name;
+  }
+
+  shown(value, dimension) {
+    const { scale, offset } = this.of(dimension);
+    return (value - offset) / scale;
+  }
+
+  base(shown, dimension) {
+    const { scale, offset } = this.of(dimension);
+    return shown * scale + offset;
+  }
+
+  /** {text, unit} of a value of the base system. */
+  format(value, dimension, digits = DIGITS) {
+    const text = value === null || value === undefined ? "–" : number(this.shown(value, dimension), digits);
+    return { text, unit: this.name(dimension) };
+  }
+
+  /** The same as one text. */
+  text(value, dimension, digits = DIGITS) {
+    const { text, unit } = this.format(value, dimension, digits);
+    return joined(text, unit);
+  }
+
+  /** An estimated error, in the unit of its figure: one digit more than none. */
+  error(value, dimension) {
+    const { scale } = this.of(dimension);
+    return joined(number(value / scale, 2), this.name(dimension));
+  }
+
+  /** Values of a curve. */
+  list(values, dimension) {
+    return values.map((value) => (value === null ? null : this.shown(value, dimension)));
+  }
+}
+
+/** "4 mm", "4 %", "4": a number and its unit. */
+export function joined(text, unit) {
+  return unit ? `${text}\u202f${unit}` : text;
+}
+
+/** A number to some significant digits, without trailing noise. */
+export function number(value, digits = DIGITS) {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  if (size >= 1e6 || size < 1e-5) return power(value, digits);
+  const text = String(Number(value.toPrecision(digits)));
+  return text.replace("-", "\u2212");
+}
+
+function power(value, digits) {
+  const [mantissa, exponent] = value.toExponential(Math.max(0, digits - 2)).split("e");
+  const raised = [...String(Number(exponent))]
+    .map((sign) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(sign)])
+    .join("");
+  return `${Number(mantissa)}·10${raised}`.replace("-", "\u2212");
+}

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO, cast
 import typer
 
 from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
+from rollnip.cli.design import find
 from rollnip.cli.lda import lda
 from rollnip.cli.paper import paper
 from rollnip.cli.serve import serve
@@ -31,6 +32,7 @@ app = typer.Typer(
 app.command()(verify)
 app.add_typer(lda)
 app.command()(paper)
+app.command()(find)
 app.command()(serve)
 
 

@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rollnip import sweep
 from rollnip._errors import InvalidInputError
 from rollnip._units import base_unit, format_quantity
 from rollnip.design.curve import Curve, Jump, Point, slope_at
@@ -19,6 +18,7 @@ from rollnip.design.quantities import (
     result_error,
 )
 from rollnip.io import with_values
+from rollnip.sweep import evaluate as evaluated
 
 Evaluate = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 
@@ -125,7 +125,7 @@ def find(
     *,
     tolerance: float = 1e-4,
     points: int = 5,
-    evaluate: Evaluate = sweep.evaluate,
+    evaluate: Evaluate = evaluated,
 ) -> Found:
     """Find the value of one parameter, between two limits, that gives a wanted result.
 

@@ -1,0 +1,130 @@
+"""What a design is to reach: a result made small or large, and limits that results must keep."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import format_quantity
+from rollnip.design.quantities import QUANTITIES, read_result, require_quantity
+
+_DIGITS = 5
+_ACTIVE = 1e-3  # of the limit: nearer than this, a limit decides
+
+
+@dataclass(frozen=True, slots=True)
+class Minimise:
+    """The result that is to be as small as can be."""
+
+    quantity: str
+
+    def __post_init__(self) -> None:
+        require_quantity(self.quantity, "minimise")
+
+
+@dataclass(frozen=True, slots=True)
+class Maximise:
+    """The result that is to be as large as can be."""
+
+    quantity: str
+
+    def __post_init__(self) -> None:
+        require_quantity(self.quantity, "maximise")
+
+
+@dataclass(frozen=True, slots=True)
+class AtLeast:
+    """A result must not be below a limit: a number in base units, or a text with its unit."""
+
+    quantity: str
+    limit: float | str
+
+    def __post_init__(self) -> None:
+        require_quantity(self.quantity, "result")
+        object.__setattr__(self, "limit", read_result("at_least", self.limit, self.quantity))
+
+
+@dataclass(frozen=True, slots=True)
+class AtMost:
+    """A result must not be above a limit: a number in base units, or a text with its unit."""
+
+    quantity: str
+    limit: float | str
+
+    def __post_init__(self) -> None:
+        require_quantity(self.quantity, "result")
+        object.__setattr__(self, "limit", read_result("at_most", self.limit, self.quantity))
+
+
+Objective = Minimise | Maximise
+Limit = AtLeast | AtMost
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class LimitKept:
+    """How a limit stands in a case.
+
+    Attributes
+    ----------
+    quantity, unit : the result.
+    sense : "at least" or "at most".
+    limit, value, error : in that unit; the error is the solver's estimate, None without one.
+    is_kept : whether the value keeps the limit (a share of 1e-4 is forgiven).
+    is_active : whether the value stands at the limit, within a share of 1e-3: it decides.
+    """
+
+    quantity: str
+    unit: str
+    sense: Literal["at least", "at most"]
+    limit: float
+    value: float
+    error: float | None
+    is_kept: bool
+    is_active: bool
+
+
+def sense_of(limit: Limit) -> Literal["at least", "at most"]:
+    """In words."""
+    return "at least" if isinstance(limit, AtLeast) else "at most"
+
+
+def limit_text(limit: Limit) -> str:
+    """Such as "nip_width at least 8.0000 mm"."""
+    bound = format_quantity(float(limit.limit), QUANTITIES[limit.quantity], digits=_DIGITS)
+    return f"{limit.quantity} {sense_of(limit)} {bound}"
+
+
+def excess_over(limit: Limit, value: float) -> float:
+    """How far a value is beyond a limit, as a share of it (of 1 where it is 0); < 0: within."""
+    bound = float(limit.limit)
+    beyond = value - bound if isinstance(limit, AtMost) else bound - value
+    return beyond / (abs(bound) or 1.0)
+
+
+def standing(limit: Limit, row: Mapping[str, Any], error: float | None) -> LimitKept:
+    """A limit in a solved case."""
+    value = float(row[limit.quantity])
+    excess = excess_over(limit, value)
+    return LimitKept(
+        quantity=limit.quantity,
+        unit=QUANTITIES[limit.quantity],
+        sense=sense_of(limit),
+        limit=float(limit.limit),
+        value=value,
+        error=error,
+        is_kept=excess <= 1e-4,
+        is_active=abs(excess) <= _ACTIVE,
+    )
+
+
+def require_consistent(limits: tuple[Limit, ...]) -> None:
+    """Raise InvalidInputError where two limits on one result leave nothing between them."""
+    for low in (one for one in limits if isinstance(one, AtLeast)):
+        for high in (one for one in limits if isinstance(one, AtMost)):
+            if low.quantity == high.quantity and float(low.limit) > float(high.limit):
+                raise InvalidInputError(
+                    f"`at_least` must not be above `at_most`, got {limit_text(low)} and "
+                    f"{limit_text(high)}."
+                )

@@ -1,0 +1,134 @@
+"""Many cases of one tree for a design: parameters in base units, counted, failures kept."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import base_unit, format_quantity
+from rollnip.design.aims import Limit, Maximise, Objective, excess_over, require_consistent
+from rollnip.design.find import Evaluate
+from rollnip.design.quantities import parameter_dimension, read_parameter
+from rollnip.design.search import Array, Trial
+from rollnip.io import value_at, with_values
+
+_SHOWN = 5
+_MOST = 20
+
+
+@dataclass(frozen=True, slots=True)
+class Bounds:
+    """A parameter and its limits: numbers in base units, or texts with their unit."""
+
+    path: str
+    low: float | str
+    high: float | str
+
+
+class Problem:
+    """The question in base units, and every case solved for it."""
+
+    def __init__(
+        self,
+        case: Mapping[str, Any],
+        parameters: tuple[Bounds, ...],
+        objective: Objective,
+        limits: tuple[Limit, ...],
+        evaluate: Evaluate,
+    ) -> None:
+        if not 1 <= len(parameters) <= _MOST:
+            raise InvalidInputError(
+                f"`parameters` must hold 1 to {_MOST} parameters, got {len(parameters)}."
+            )
+        require_consistent(limits)
+        self.case, self.objective, self.limits = case, objective, limits
+        self.evaluate = evaluate
+        self.paths = tuple(one.path for one in parameters)
+        twice = next((path for path in self.paths if self.paths.count(path) > 1), None)
+        if twice is not None:
+            raise InvalidInputError(f"`parameters` must not name {twice} twice.")
+        self.units = tuple(base_unit(parameter_dimension(case, path)) for path in self.paths)
+        bounds = [_interval(case, one) for one in parameters]
+        with_values(case, dict(zip(self.paths, (low for low, _ in bounds), strict=True)))
+        self.low, self.high = (np.array(ends) for ends in zip(*bounds, strict=True))
+        self.failures: list[tuple[Mapping[str, float], str]] = []
+        self.count = 0
+
+    @property
+    def start(self) -> Array | None:
+        """The values the case has, where they lie within the bounds."""
+        try:
+            own = [
+                read_parameter(
+                    "path", value_at(self.case, path), parameter_dimension(self.case, path)
+                )
+                for path in self.paths
+            ]
+        except InvalidInputError:
+            return None
+        place = (np.array(own) - self.low) / (self.high - self.low)
+        return place if np.all((place >= 0.0) & (place <= 1.0)) else None
+
+    def values(self, place: Array) -> dict[str, float]:
+        """From shares of the intervals to values by path."""
+        values = self.low + place * (self.high - self.low)
+        return dict(zip(self.paths, map(float, values), strict=True))
+
+    def solve(self, values: Mapping[str, float]) -> Mapping[str, Any]:
+        """One case; counted, and a failure kept."""
+        self.count += 1
+        row = self.evaluate(with_values(self.case, values))
+        message = self.fault(row)
+        if message:
+            self.failures.append((values, message))
+        return row
+
+    def fault(self, row: Mapping[str, Any]) -> str:
+        """Why a row is of no use; empty where it is."""
+        if not row["converged"]:
+            return str(row["message"])
+        names = [self.objective.quantity, *(limit.quantity for limit in self.limits)]
+        missing = next((name for name in names if row[name] is None), None)
+        return f"`{missing}` is not defined there." if missing else ""
+
+    def judge(self, place: Array) -> Trial:
+        """What a place in the unit cube is worth."""
+        row = self.solve(self.values(place))
+        if self.fault(row):
+            return Trial(place, float("inf"), (float("inf"),) * len(self.limits))
+        sign = -1.0 if isinstance(self.objective, Maximise) else 1.0
+        excess = tuple(excess_over(limit, row[limit.quantity]) for limit in self.limits)
+        return Trial(place, sign * row[self.objective.quantity], excess)
+
+    def require_some(self) -> None:
+        """Raise InvalidInputError where every case failed."""
+        if len(self.failures) < self.count:
+            return
+        values, message = self.failures[0]
+        raise InvalidInputError(
+            f"not one of {self.count} cases could be solved; at {self.said(values)}: {message}"
+        )
+
+    def said(self, values: Mapping[str, float]) -> str:
+        """Values by path, in words."""
+        return ", ".join(
+            f"{path} = {format_quantity(values[path], unit, digits=_SHOWN)}"
+            for path, unit in zip(self.paths, self.units, strict=True)
+        )
+
+
+def _interval(case: Mapping[str, Any], bounds: Bounds) -> tuple[float, float]:
+    dimension = parameter_dimension(case, bounds.path)
+    low = read_parameter("low", bounds.low, dimension)
+    high = read_parameter("high", bounds.high, dimension)
+    if not low < high:
+        unit = base_unit(dimension)
+        raise InvalidInputError(
+            f"`low` of {bounds.path} must be below `high`, got {format_quantity(low, unit)} and "
+            f"{format_quantity(high, unit)}."
+        )
+    return low, high

@@ -13,6 +13,7 @@ import typer
 
 from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
 from rollnip.cli.design import find
+from rollnip.cli.fit import fit
 from rollnip.cli.lda import lda
 from rollnip.cli.paper import paper
 from rollnip.cli.serve import serve
@@ -32,6 +33,7 @@ app = typer.Typer(
 app.command()(verify)
 app.add_typer(lda)
 app.command()(paper)
+app.command()(fit)
 app.command()(find)
 app.command()(serve)
 

@@ -14,7 +14,10 @@ from rollnip.identify.costs import (
     Total,
 )
 from rollnip.identify.fit import LeastSquares, identify
+from rollnip.identify.pictures import plot_fit, plot_residuals, plot_set
+from rollnip.identify.report import fit_case, fit_dict, fit_report
 from rollnip.identify.result import Estimate, Fit, FittedSet, Start
+from rollnip.identify.study import FitStudy, read_fit
 from rollnip.identify.surface import Strains, Surface, Velocities
 from rollnip.identify.unknowns import Prior, Unknown
 
@@ -24,6 +27,7 @@ __all__ = [
     "Creepages",
     "Estimate",
     "Fit",
+    "FitStudy",
     "FittedSet",
     "LeastSquares",
     "Loads",
@@ -40,5 +44,12 @@ __all__ = [
     "Total",
     "Unknown",
     "Velocities",
+    "fit_case",
+    "fit_dict",
+    "fit_report",
     "identify",
+    "plot_fit",
+    "plot_residuals",
+    "plot_set",
+    "read_fit",
 ]

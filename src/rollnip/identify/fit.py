@@ -139,6 +139,7 @@ def identify(
         units={one.path: base_unit(dimension_at(tree, one.path) or "ratio") for one in found},
         model=model,
         solves=forward.solves,
+        verified=forward.is_verified,
         warnings=fit.warnings + ((unverified,) if forward.unverified else ()),
     )
 
@@ -308,6 +309,7 @@ def _estimates(
                 if ends is None
                 else (one.outer(ends[0].coordinate), one.outer(ends[1].coordinate)),
                 open_ends=(False, False) if ends is None else (ends[0].is_bound, ends[1].is_bound),
+                bounds=(one.low, one.high),
                 bound=bounds[index],
             )
         )

@@ -14,7 +14,7 @@ Array = NDArray[np.float64]
 
 _MOST_ENDS = 8  # tries for one end of an interval
 _MOST_STEPS = 6  # of the other unknowns, at one value of this one
-_CLOSE = 0.02  # relative, of the distance at which an end is taken
+_CLOSE = 0.01  # relative, of the distance at which an end is taken
 _LITTLE = 0.01  # of the wanted rise: a smaller gain ends the search of the others
 
 

@@ -27,6 +27,7 @@ class Estimate:
     low, high : interval from the covariance, in the scale of the search, cut at the bounds.
     profile : interval from the profile of the likelihood; None where none was computed.
     open_ends : whether the lower, the upper end of ``profile`` is only the bound.
+    bounds : of the search, lower and upper.
     bound : "low" or "high" where the best fit lies at that bound, else None.
     """
 
@@ -37,6 +38,7 @@ class Estimate:
     high: float
     profile: tuple[float, float] | None
     open_ends: tuple[bool, bool]
+    bounds: tuple[float, float]
     bound: str | None
 
 
@@ -123,6 +125,7 @@ class Fit:
     units : base unit of each unknown by its path.
     model : geometry and tolerance that the nips were solved with; None where no nip was.
     solves : number of nips solved.
+    verified : whether all nips at the fitted values were verified.
     """
 
     estimates: tuple[Estimate, ...]
@@ -140,6 +143,7 @@ class Fit:
     units: Mapping[str, str] = field(default_factory=dict)
     model: Model | None = None
     solves: int = 0
+    verified: bool = True
 
     @property
     def values(self) -> dict[str, float]:

@@ -33,14 +33,21 @@ def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
     return lines
 
 
-def form_error(details: ErrorDetails) -> str:
-    """One error of pydantic as a line of ours."""
+def form_error(
+    details: ErrorDetails,
+    tables: Mapping[str, type[Table]] = TABLES,
+    root: type[Table] = CaseTable,
+) -> str:
+    """One error of pydantic as a line of ours.
+
+    ``root`` is the table of the whole file, ``tables`` those below it by key.
+    """
     kind, context = details["type"], details.get("ctx", {})
     path, got = _path(details["loc"]), shown(details["input"])
     if kind == "missing":
         return f"{path}: is missing."
     if kind == "extra_forbidden":
-        return f"{path}: is not a known key{_suggestion(details['loc'])}"
+        return f"{path}: is not a known key{_suggestion(details['loc'], tables, root)}"
     if kind == "quantity":
         return f"{path}: {details['msg']}"
     if kind == "model":
@@ -89,9 +96,11 @@ def _path(loc: Sequence[str | int]) -> str:
     return path or "case"
 
 
-def _suggestion(loc: Sequence[str | int]) -> str:
-    above = [TABLES[part] for part in loc[:-1] if isinstance(part, str) and part in TABLES]
-    table: type[Table] = above[-1] if above else CaseTable
+def _suggestion(
+    loc: Sequence[str | int], tables: Mapping[str, type[Table]], root: type[Table]
+) -> str:
+    above = [tables[part] for part in loc[:-1] if isinstance(part, str) and part in tables]
+    table = above[-1] if above else root
     names = list(table.model_fields)
     near = get_close_matches(str(loc[-1]), names, n=1, cutoff=0.7)
     return f'; did you mean "{near[0]}"?' if near else f" here (known: {', '.join(names)})."

@@ -1,0 +1,112 @@
+"""The command ``fit``: unknown values of a case from measurements."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, cast
+
+import typer
+
+from rollnip._errors import RollnipError
+
+if TYPE_CHECKING:
+    from rollnip.identify import Fit
+    from rollnip.model import Geometry
+
+
+def fit(
+    file: Annotated[str, typer.Argument(help="Fit file, TOML or JSON: case, unknowns, data.")],
+    out: Annotated[
+        Path | None,
+        typer.Option(help="Folder for report.txt, fit.json, fit.png and the fitted case.toml."),
+    ] = None,
+    geometry: Annotated[
+        str | None, typer.Option(help="linear, corrected, curved or finite; overrides the file.")
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print the fit as JSON.")] = False,
+    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report.")] = False,
+) -> None:
+    """Find unknown values of a case from measurements, with intervals and warnings.
+
+    Leaves with 0 where the nips at the fitted values were verified, 1 where they were not, 2 for
+    wrong input.
+    """
+    from rollnip.cli.app import _clear_failures, _named
+
+    with _clear_failures():
+        from dataclasses import replace
+        from json import dumps
+
+        from rollnip.identify import fit_dict, fit_report, identify, read_fit
+
+        study = read_fit(file)
+        method = study.method
+        if geometry is not None:
+            with _named("--geometry"):
+                method = replace(method, geometry=_geometry(geometry))
+        if out is not None:
+            _make(out)
+        with _progress() as on_solve, _named(file):
+            found = identify(study.case, study.unknowns, study.cost, method, on_solve=on_solve)
+        if out is not None:
+            _write(found, study.title, out)
+        if json:
+            sys.stdout.write(dumps(fit_dict(found), indent=2, allow_nan=False) + "\n")
+        elif not quiet:
+            sys.stdout.write(fit_report(found, study.title))
+        sys.stdout.flush()
+    if not found.verified:
+        raise typer.Exit(1)
+
+
+def _geometry(name: str) -> Geometry:
+    from rollnip.model import Model
+
+    return Model(geometry=cast("Geometry", name)).geometry
+
+
+@contextmanager
+def _progress() -> Iterator[Callable[[int], None] | None]:
+    """Count solved nips on the standard error, where that is a terminal."""
+    if not sys.stderr.isatty():
+        yield None
+        return
+    from rich.console import Console
+    from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn
+
+    columns = (SpinnerColumn(), TextColumn("{task.completed:.0f} nips solved"), TimeElapsedColumn())
+    with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
+        task = progress.add_task("", total=None)
+        yield lambda count: progress.update(task, completed=count)
+
+
+def _make(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise RollnipError(f"{folder}: must be a folder, it is a file.") from None
+    except OSError as error:
+        raise RollnipError(
+            f"{folder}: cannot make the folder: {error.strerror or error}."
+        ) from None
+
+
+def _write(found: Fit, title: str, folder: Path) -> None:
+    from functools import partial
+    from json import dumps
+
+    from rollnip._files import write_whole
+    from rollnip.identify import fit_case, fit_dict, fit_report, plot_fit
+    from rollnip.plots import save_figure
+
+    texts = {
+        "report.txt": fit_report(found, title),
+        "fit.json": dumps(fit_dict(found), indent=2, allow_nan=False) + "\n",
+        "case.toml": fit_case(found),
+    }
+    for name, text in texts.items():
+        write_whole(folder / name, partial(Path.write_text, data=text, encoding="utf-8"))
+    save_figure(plot_fit(found), folder / "fit.png")

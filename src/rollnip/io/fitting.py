@@ -1,0 +1,107 @@
+"""The tables of a file that describes a fit: which keys there are and what form each may have."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pydantic import ConfigDict, Field, ValidationError
+
+from rollnip._errors import CaseFileError
+from rollnip.io.messages import form_error
+from rollnip.io.tables import Length, Ratio, Table
+
+Kind = Literal[
+    "nip-width",
+    "approach",
+    "load",
+    "peak-pressure",
+    "creepage",
+    "torque",
+    "rolling-resistance",
+    "strain",
+    "velocity",
+]
+
+
+class PriorTable(Table):
+    """What is known of an unknown before."""
+
+    value: Any
+    standard_error: Any
+
+
+class UnknownTable(Table):
+    """A value of the case to be found, within bounds."""
+
+    path: str = Field(description="Of the key in the case: materials.cover.modulus.")
+    low: Any = Field(description="Lower bound, with its unit.")
+    high: Any = Field(description="Upper bound.")
+    start: Any = Field(None, description="First guess; none: the middle of the bounds.")
+    scale: Literal["linear", "log"] = "linear"
+    prior: PriorTable | None = None
+
+
+class DataTable(Table):
+    """A set of measurements in a table of its own."""
+
+    kind: Kind
+    file: str = Field(description="CSV or workbook, from the folder of this file.")
+    sheet: str | None = Field(None, description="Of the workbook; none: the first.")
+    name: str = ""
+    column: str | None = Field(None, description="Of what was measured; none: named as the kind.")
+    standard_error: Any = Field(
+        None, description='Of every value; none: the column "standard error", or estimated.'
+    )
+    weight: float = 1.0
+    at: dict[str, Any] = Field({}, description="Values by path that held for the whole set.")
+    ignore: list[str] = Field([], description="Columns of the table to pass over.")
+    roller: Literal["upper", "lower"] = "upper"
+    width: Length = Field(0.0, description="Standard deviation of the averaging along x.")
+
+
+class MethodTable(Table):
+    """How the fit is done."""
+
+    geometry: Literal["linear", "corrected", "curved", "finite"] | None = None
+    tolerance: Ratio | None = None
+    tried: int | None = None
+    followed: int | None = None
+    step: Ratio | None = None
+    confidence: Ratio | None = None
+    profile: bool | None = None
+
+
+class FitTable(Table):
+    """A whole file of a fit."""
+
+    model_config = ConfigDict(title="rollnip fit file")
+
+    title: str = ""
+    case: Any = Field(description="A case file, or the case itself as a table.")
+    unknowns: list[UnknownTable]
+    data: list[DataTable]
+    method: MethodTable = MethodTable()
+
+
+_TABLES: dict[str, type[Table]] = {
+    "unknowns": UnknownTable,
+    "prior": PriorTable,
+    "data": DataTable,
+    "method": MethodTable,
+}
+
+
+def parse_fit(tree: Mapping[str, Any], source: str) -> FitTable:
+    """Check the form of a fit's file.
+
+    Raises
+    ------
+    CaseFileError
+        one line for each error, with the name of the file and the path of the key.
+    """
+    try:
+        return FitTable.model_validate(dict(tree))
+    except ValidationError as error:
+        lines = (form_error(details, _TABLES, FitTable) for details in error.errors())
+        raise CaseFileError("\n".join(f"{source}: {line}" for line in lines)) from None

@@ -2,7 +2,7 @@
 
 from contextlib import suppress
 from fractions import Fraction
-from math import inf, nan
+from math import inf, nan, tau
 
 import pytest
 from hypothesis import given
@@ -43,6 +43,9 @@ DIMENSIONS = sorted(_KINDS)
         ("73 degF", "temperature", float(Fraction(205, 9))),
         ("60 kJ/mol", "molar energy", 60.0),
         ("0 N", "force", 0.0),
+        ("40 kHz", "frequency", 40000.0),
+        ("1 rad/s", "frequency", 1.0 / tau),
+        ("60 1/min", "frequency", 1.0),
         # exact to the last bit: one rounding only
         ("0.1 in", "length", 2.54),
         ("1 ft", "length", 304.8),
@@ -129,6 +132,8 @@ def test_reads_exactly(text, dimension, expected):
         (None, "length", "neither"),
         ([4.5], "length", "neither"),
         ("-inf", "length", "no number"),
+        ("10 1/s", "frequency", "turns or radians"),
+        ("10 s", "frequency", "that is a time"),
     ],
 )
 def test_refuses_what_it_does_not_know(value, dimension, hint):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from fractions import Fraction
-from math import floor, inf, isfinite, log10
+from math import floor, inf, isfinite, log10, tau
 from typing import Literal
 
 from rollnip._errors import InvalidInputError
@@ -25,6 +25,7 @@ Dimension = Literal[
     "temperature difference",
     "ratio",
     "molar energy",
+    "frequency",
 ]
 
 
@@ -161,6 +162,10 @@ _TEMPERATURE = {
     "degF": (Fraction(5, 9), Fraction(-160, 9)),
 }
 _RATIO = _units({"": 1, "1": 1, "%": "1e-2"})
+# A radian a second is 1/(2 pi) Hz: no fraction, so the float nearest to it stands for it.
+_FREQUENCY = _units(
+    {"Hz": 1, "mHz": "1e-3", "kHz": 1000, "MHz": 1_000_000, "GHz": 10**9, "1/min": Fraction(1, 60)}
+) | {"rad/s": (Fraction(1.0 / tau), Fraction(0))}
 _MOLAR = _units({"kJ/mol": 1, "J/mol": "1e-3", "kcal/mol": "4.184", "cal/mol": "4.184e-3"})
 
 _KINDS: dict[Dimension, _Kind] = {
@@ -173,6 +178,7 @@ _KINDS: dict[Dimension, _Kind] = {
     "temperature": _Kind("a temperature", "degC", "23 degC", _TEMPERATURE),
     "temperature difference": _Kind("a temperature difference", "K", "51.6 K", _units({"K": 1})),
     "ratio": _Kind("a plain number", "", "0.5 %", _RATIO),
+    "frequency": _Kind("a frequency", "Hz", "10 Hz", _FREQUENCY),
     "molar energy": _Kind("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
 }
 
@@ -183,6 +189,7 @@ _REFUSED = {
     "rpm": "is not a surface speed; give the circumferential speed, such as 20 m/min",
     "kn/m": 'is not a unit; kilonewtons are written "kN/m"',
     "ShoreA": "is no pressure; give `shore_a` instead of `modulus`",
+    "1/s": 'may be turns or radians a second; write "Hz" or "rad/s"',
     "Shore A": "is no pressure; give `shore_a` instead of `modulus`",
 } | dict.fromkeys(
     ("lb", "lbs", "lb/in", "lbs/in", "lb/ft", "kg", "kg/cm", "kg/m", "kg/mm", "kg/cm2", "g"),
@@ -205,7 +212,7 @@ def parse_quantity(value: object, dimension: Dimension, *, infinite: bool = Fals
     Returns
     -------
     float
-        in mm, N/mm, N, MPa, mm/s, s, degC, 1 or kJ/mol.
+        in mm, N/mm, N, MPa, mm/s, s, degC, 1, kJ/mol or Hz.
 
     Raises
     ------

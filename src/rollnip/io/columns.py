@@ -72,7 +72,7 @@ class Columns:
 
         Returns
         -------
-        (n,) array, in mm, N/mm, N, MPa, mm/s, s, degC or 1.
+        (n,) array, in mm, N/mm, N, MPa, mm/s, s, degC, Hz or 1.
 
         Raises
         ------

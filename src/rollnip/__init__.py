@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from rollnip.rollers import Layer, Roller
     from rollnip.solution import Solution
     from rollnip.solve import solve
+    from rollnip.sweep import sweep
 
     __version__: str
 
@@ -86,6 +87,7 @@ __all__ = [
     "identify",
     "read_case",
     "solve",
+    "sweep",
     "write_result",
 ]
 
@@ -108,6 +110,14 @@ class _Door(ModuleType):
     @solve.setter
     def solve(self, module: ModuleType) -> None:
         """Ignore that the import system hangs the submodule here."""
+
+    @property
+    def sweep(self) -> Any:
+        return import_module("rollnip.sweep").sweep
+
+    @sweep.setter
+    def sweep(self, module: ModuleType) -> None:
+        """As above."""
 
 
 sys.modules[__name__].__class__ = _Door

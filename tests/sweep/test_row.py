@@ -99,7 +99,7 @@ def test_a_fault_of_the_program_is_a_message_too(monkeypatch: pytest.MonkeyPatch
 
 
 def test_what_is_not_verified_says_so() -> None:
-    row = evaluate(CASE | {"solver": {"tolerance": 1e-6}})
+    row = evaluate(CASE | {"model": {"geometry": "linear"}, "solver": {"tolerance": 1e-6}})
     assert row["status"] in STATUSES
     assert row["status"] == "unverified"
     assert row["converged"] is False

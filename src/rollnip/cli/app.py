@@ -17,6 +17,7 @@ from rollnip.cli.fit import fit
 from rollnip.cli.lda import lda
 from rollnip.cli.paper import paper
 from rollnip.cli.serve import serve
+from rollnip.cli.sweep import sweep
 from rollnip.cli.verify import verify
 
 if TYPE_CHECKING:
@@ -32,6 +33,7 @@ app = typer.Typer(
 )
 app.command()(verify)
 app.add_typer(lda)
+app.add_typer(sweep)
 app.command()(paper)
 app.command()(fit)
 app.command()(find)

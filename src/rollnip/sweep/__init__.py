@@ -1,5 +1,21 @@
-"""Many cases: one case to one row of numbers."""
+"""Many cases: studies, one case to one row, sweeps over many cores and machines."""
 
 from rollnip.sweep.row import SCALARS, STATUSES, evaluate, scalars
+from rollnip.sweep.study import Axis, Study
+from rollnip.sweep.study_file import read_study
+from rollnip.sweep.sweep import sweep
+from rollnip.sweep.table import Table
+from rollnip.sweep.task import Outcome
 
-__all__ = ["SCALARS", "STATUSES", "evaluate", "scalars"]
+__all__ = [
+    "SCALARS",
+    "STATUSES",
+    "Axis",
+    "Outcome",
+    "Study",
+    "Table",
+    "evaluate",
+    "read_study",
+    "scalars",
+    "sweep",
+]

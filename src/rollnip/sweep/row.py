@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
 from rollnip._errors import ConvergenceError, RollnipError
-from rollnip.io import parse_case
+from rollnip.io import case_hash, parse_case
 from rollnip.solution import Solution
 from rollnip.solve import solve
 from rollnip.validity import surface_strain_in_nip
@@ -43,8 +44,9 @@ SCALARS: Mapping[str, str] = {
 }
 """Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``."""
 
-STATUSES = ("solved", "unverified", "refused", "failed")
-"""What became of a case; only of the first two there are numbers."""
+STATUSES = ("solved", "unverified", "refused", "failed", "lost")
+"""What became of a case; only of the first two there are numbers. "lost" is of sweeps alone: the
+process that worked on the case ended without a word."""
 
 _NAME = "case"
 
@@ -72,18 +74,42 @@ def evaluate(tree: Mapping[str, Any]) -> Row:
       surface in the contact, mean over an element;
     - ``warnings``: reservations, parted by blanks.
     """
+    return attempt(lambda: tree).row
+
+
+@dataclass(frozen=True, slots=True)
+class Attempt:
+    """One case tried.
+
+    Attributes
+    ----------
+    row : as `evaluate` returns it.
+    case : its hash; None where it is no case.
+    solution : None where there is none.
+    """
+
+    row: Row
+    case: str | None = None
+    solution: Solution | None = None
+
+
+def attempt(make: Callable[[], Mapping[str, Any]]) -> Attempt:
+    """Solve the case whose tree ``make`` returns; what either raises is a message in the row."""
+    name = None
     try:
-        case = parse_case(tree, source=_NAME)
+        case = parse_case(make(), source=_NAME)
+        name = case_hash(case)
         solution = solve(case.nip, case.model, on_failure="return")
-        return scalars(solution)
+        return Attempt(scalars(solution), name, solution)
     except ConvergenceError as error:
-        return _without_solution("failed", str(error))
+        return Attempt(without_solution("failed", str(error)), name)
     except RollnipError as error:
         lines = (line.removeprefix(f"{_NAME}: ") for line in str(error).splitlines())
-        return _without_solution("refused", " ".join(lines))
+        return Attempt(without_solution("refused", " ".join(lines)), name)
     except Exception as error:  # noqa: BLE001 - a fault in one case must not end a thousand others
         said = " ".join(str(error).split())
-        return _without_solution("failed", f"Unforeseen {type(error).__name__}: {said}")
+        message = f"Unforeseen {type(error).__name__}: {said}"
+        return Attempt(without_solution("failed", message), name)
 
 
 def scalars(solution: Solution) -> Row:
@@ -115,6 +141,7 @@ def _number(value: float | None) -> float | None:
     return float(value) if value is not None and isfinite(value) else None
 
 
-def _without_solution(status: str, message: str) -> Row:
+def without_solution(status: str, message: str) -> Row:
+    """A row that says what went wrong and holds no numbers."""
     row: Row = {"status": status, "message": message, "converged": False, "geometry": None}
     return row | dict.fromkeys(SCALARS) | {"warnings": ""}

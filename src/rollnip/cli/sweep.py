@@ -1,0 +1,215 @@
+"""The commands ``sweep``: solve the cases of a study, merge what shards of it have found."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+from typer.core import TyperGroup
+
+from rollnip._errors import InvalidInputError, RollnipError
+
+if TYPE_CHECKING:
+    from rollnip.sweep.crew import Crew
+    from rollnip.sweep.run import OpenCases
+    from rollnip.sweep.store import Store
+
+_MANY = 1_000_000
+
+
+class _RunByDefault(TyperGroup):
+    """``rollnip sweep study.toml`` is ``rollnip sweep run study.toml``."""
+
+    def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
+        """Put in the name of the command where it is left out."""
+        if args and args[0] not in (*self.commands, "--help"):
+            args = ["run", *args]
+        return super().parse_args(ctx, args)
+
+
+sweep = typer.Typer(
+    name="sweep",
+    help="Many cases: rollnip sweep study.toml (the word run may be left out).",
+    cls=_RunByDefault,
+    add_completion=False,
+    rich_markup_mode=None,
+    no_args_is_help=True,
+)
+
+_OUT = typer.Option(help="Table of results: name.csv or name.parquet.")
+_PROFILES = typer.Option(help="Write the profiles of every case too: name.nc (netCDF).")
+
+
+@sweep.command()
+def run(
+    study: Annotated[str, typer.Argument(help="Study file, TOML or JSON.")],
+    out: Annotated[Path | None, _OUT] = None,
+    profiles: Annotated[Path | None, _PROFILES] = None,
+    database: Annotated[
+        Path | None,
+        typer.Option(help="Takes each case as it ends; by default beside the table, name.db."),
+    ] = None,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes; by default one for each core.", min=1)
+    ] = None,
+    shard: Annotated[
+        str, typer.Option(help="i/n: only every n-th case, from the i-th; for batch queues.")
+    ] = "1/1",
+    dask: Annotated[
+        str | None,
+        typer.Option(help="Address of a Dask scheduler, tcp://host:8786, or local.", metavar="TO"),
+    ] = None,
+    yes: Annotated[
+        bool, typer.Option("--yes", help=f"Go on with more than {_MANY:,} cases.")
+    ] = False,
+) -> None:
+    """Solve every case of a study and write the table of results.
+
+    Each case is kept in the database as it ends: whatever stops the sweep, the same command goes
+    on from there. Leaves with 0 once every case has its row, 2 for wrong input, 130 after Ctrl-C.
+    """
+    from rollnip.cli.app import _clear_failures
+
+    with _clear_failures():
+        from rollnip.sweep.profiles import check_profiles_target
+        from rollnip.sweep.run import OpenCases
+        from rollnip.sweep.store import About, Store
+        from rollnip.sweep.study_file import read_study
+        from rollnip.sweep.table import check_table_target
+        from rollnip.sweep.task import own_version
+
+        part = _shard(shard)
+        table = out or Path(f"{'study' if study == '-' else Path(study).stem}.csv")
+        check_table_target(table)
+        plan = read_study(study)
+        _require_meant(study, plan.count, yes)
+        if plan.profiles and profiles is None:
+            profiles = table.with_suffix(".nc")
+        if profiles is not None:
+            check_profiles_target(profiles)
+        file = database or _database(table, part)
+        with Store(file, About.of(plan, own_version(), part)) as store:
+            cases = OpenCases(plan, store, with_profiles=profiles is not None)
+            _solve(cases, store, workers, dask)
+            if part == (1, 1):
+                _finish(store, table, profiles)
+            else:
+                _say(f"{file}: shard {shard} is done; join all with: rollnip sweep merge")
+
+
+@sweep.command()
+def merge(
+    databases: Annotated[list[Path], typer.Argument(help="Databases of all shards of a study.")],
+    out: Annotated[Path, _OUT],
+    profiles: Annotated[Path | None, _PROFILES] = None,
+) -> None:
+    """Join the databases of the shards of one study into one table."""
+    from rollnip.cli.app import _clear_failures
+
+    with _clear_failures():
+        from rollnip.sweep.merge import merged
+        from rollnip.sweep.profiles import check_profiles_target
+        from rollnip.sweep.table import check_table_target
+
+        check_table_target(out)
+        if profiles is not None:
+            check_profiles_target(profiles)
+        with merged(databases) as store:
+            _finish(store, out, profiles)
+
+
+def _solve(cases: OpenCases, store: Store, workers: int | None, dask: str | None) -> None:
+    from rollnip.cli.progress import progress
+    from rollnip.sweep.run import run as run_cases
+
+    total = len(store.about.positions)
+    known = f"{total - cases.count:,} known" if cases.count < total else ""
+    start = perf_counter()
+    try:
+        with (
+            _crew(workers, dask, cases.count) as crew,
+            progress(cases.count, known) as step,
+        ):
+            run_cases(cases, store, crew, lambda _: step())
+    except KeyboardInterrupt:
+        _stopped(f"interrupted; {_kept(store, total)}", 130)
+    except RollnipError as error:
+        raise RollnipError(f"{error} ({_kept(store, total)})") from None
+    if cases.count:
+        seconds = perf_counter() - start
+        _say(f"{cases.count:,} cases in {seconds:.3g} s, {cases.count / seconds:.3g} a second")
+
+
+def _finish(store: Store, table: Path, profiles: Path | None) -> None:
+    """Write the files and say what became of the cases."""
+    from rollnip.sweep.profiles import write_profiles
+    from rollnip.sweep.row import STATUSES
+    from rollnip.sweep.table import write_table
+
+    write_table(store, table)
+    if profiles is not None:
+        write_profiles(store, profiles)
+    tally = store.tally()
+    counts = [f"{tally[status]:,} {status}" for status in STATUSES if status in tally]
+    _say(f"{table}: {store.about.count:,} cases: {', '.join(counts)}")
+    first = next(store.rows_not_solved(), None)
+    if first is not None:
+        _say(f"first not solved, case {first[0]}: {first[1]}")
+
+
+@contextmanager
+def _crew(workers: int | None, dask: str | None, cases: int) -> Iterator[Crew | None]:
+    from rollnip.sweep.crew import available_cores, crew_of
+
+    count = available_cores() if workers is None else workers
+    if dask is not None and cases:
+        from rollnip.sweep.cluster import dask_crew
+
+        with dask_crew(dask, count) as crew:
+            yield crew
+    else:
+        with crew_of(min(count, cases)) as crew:
+            yield crew
+
+
+def _shard(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d{1,6})/(\d{1,6})", text)
+    which, shards = (int(match[1]), int(match[2])) if match else (0, 0)
+    if not 1 <= which <= shards:
+        raise InvalidInputError(
+            f'--shard: must be i/n with 1 <= i <= n, such as 2/8, got "{text}".'
+        )
+    return which, shards
+
+
+def _database(table: Path, shard: tuple[int, int]) -> Path:
+    name = table.stem if shard == (1, 1) else f"{table.stem}.{shard[0]}-of-{shard[1]}"
+    return table.with_name(f"{name}.db")
+
+
+def _require_meant(study: str, count: int, yes: bool) -> None:
+    if count > _MANY and not yes:
+        raise InvalidInputError(
+            f"{study}: makes {count:,} cases, more than {_MANY:,}; say --yes if that is meant."
+        )
+
+
+def _kept(store: Store, total: int) -> str:
+    done = sum(store.tally().values())
+    return f"{done:,} of {total:,} cases are in {store.name}: the same command goes on from there"
+
+
+def _stopped(message: str, code: int) -> None:
+    sys.stderr.write(f"rollnip: {message}.\n")
+    raise typer.Exit(code) from None
+
+
+def _say(line: str) -> None:
+    sys.stdout.write(f"{line}\n")
+    sys.stdout.flush()

@@ -1,0 +1,65 @@
+"""One database from those of the shards of a study."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import replace
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+import numpy as np
+
+from rollnip._errors import RollnipError
+from rollnip.sweep.store import About, Store
+
+_SHOWN = 5
+
+
+@contextmanager
+def merged(databases: Sequence[Path]) -> Iterator[Store]:
+    """All cases of a study from the databases of its shards, in a database that is gone after.
+
+    Raises
+    ------
+    RollnipError
+        where one is no database of a sweep or in use, they are of different studies or versions,
+        or cases are missing.
+    """
+    with TemporaryDirectory(prefix="rollnip-") as folder:
+        target: Store | None = None
+        try:
+            for path in databases:
+                with Store(path) as shard:
+                    if target is None:
+                        whole = replace(shard.about, shard=(1, 1))
+                        target = Store(Path(folder) / "merged.db", whole)
+                    _require_same(path, shard.about, databases[0], target.about)
+                    target.take(shard)
+            if target is None:
+                raise RollnipError("there is no database to merge.")
+            _require_all(target)
+            yield target
+        finally:
+            if target is not None:
+                target.close()
+
+
+def _require_same(path: Path, found: About, first: Path, about: About) -> None:
+    if found.version != about.version:
+        raise RollnipError(
+            f"{path}: was made by rollnip {found.version}, {first} by {about.version}; results of "
+            "two versions are not mixed."
+        )
+    if found.study != about.study:
+        raise RollnipError(f"{path}: holds another study than {first}.")
+
+
+def _require_all(store: Store) -> None:
+    missing = np.flatnonzero(~store.held(with_profiles=False))
+    if missing.size:
+        shown = ", ".join(map(str, missing[:_SHOWN])) + (", ..." if missing.size > _SHOWN else "")
+        raise RollnipError(
+            f"{missing.size:,} of {store.about.count:,} cases are missing (case {shown}): run "
+            "their shards to the end, and name all databases."
+        )

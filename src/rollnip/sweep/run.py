@@ -1,0 +1,182 @@
+"""The flow of a sweep: which cases are open, solve them, commit each as it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, wait
+from dataclasses import dataclass
+from itertools import islice
+
+import numpy as np
+
+from rollnip._errors import RollnipError
+from rollnip.sweep.crew import Crew
+from rollnip.sweep.store import Store
+from rollnip.sweep.study import Study
+from rollnip.sweep.task import Outcome, Task, given_up, perform
+
+Report = Callable[[Outcome], None]
+_DIED = "The worker process ended while it solved this case (out of memory?)."
+_ALL_LOST = "the workers were lost; what was finished is kept: run the same again."
+_MOST_CASES = 256  # of one task
+_PATIENCE = 30.0  # s, for the cases that run when the sweep is interrupted
+
+
+class OpenCases:
+    """The cases of a study that a database does not hold yet, made into tasks when asked for.
+
+    Parameters
+    ----------
+    study :
+        what is to be solved.
+    store :
+        of this study.
+    with_profiles :
+        keep the profiles too; cases held without them are open.
+    """
+
+    def __init__(self, study: Study, store: Store, *, with_profiles: bool = False) -> None:
+        self._study, self._with_profiles = study, with_profiles
+        held = store.held(with_profiles=with_profiles)
+        which, shards = store.about.shard
+        self.count = len(store.about.positions) - int(np.count_nonzero(held[which - 1 :: shards]))
+        self._positions = (one for one in store.about.positions if not held[one])
+        self._seconds = 0.0  # that a case takes, of late
+
+    def learn(self, outcomes: list[Outcome]) -> None:
+        """How long cases take."""
+        for outcome in outcomes:
+            change = 0.1 * (outcome.seconds - self._seconds)
+            self._seconds = self._seconds + change if self._seconds else outcome.seconds
+
+    def task(self, seconds: float = 0.0) -> Task | None:
+        """The next task, to take some seconds; 0: one case. None where no case is left."""
+        count = 1
+        if seconds > 0.0 and self._seconds > 0.0:
+            count = max(1, min(_MOST_CASES, round(seconds / self._seconds)))
+        positions = islice(self._positions, count)
+        cases = tuple((position, self._study.values(position)) for position in positions)
+        if not cases:
+            return None
+        return Task(self._study.tree, self._study.paths, cases, self._with_profiles)
+
+
+def run(
+    cases: OpenCases, store: Store, crew: Crew | None = None, report: Report | None = None
+) -> None:
+    """Solve all open cases; each is committed as it ends.
+
+    Parameters
+    ----------
+    cases :
+        what is open.
+    store :
+        takes what is done.
+    crew :
+        who solves; None: this process, one case after the other.
+    report :
+        is told every outcome once it is committed.
+
+    Raises
+    ------
+    RollnipError
+        where the store cannot be written, or the crew is lost; what was finished is kept.
+    KeyboardInterrupt
+        after the cases that were running have ended and are committed.
+    """
+
+    def keep(outcomes: list[Outcome]) -> None:
+        for outcome in outcomes:
+            store.write(outcome)
+            if report is not None:
+                report(outcome)
+
+    if crew is not None:
+        _Flow(cases, crew, keep).run()
+        return
+    while (task := cases.task()) is not None:
+        keep(perform(task))
+
+
+@dataclass(slots=True)
+class _Flow:
+    """Keeps a crew busy until no case is left."""
+
+    cases: OpenCases
+    crew: Crew
+    keep: Callable[[list[Outcome]], None]
+
+    def run(self) -> None:
+        running: dict[Future[list[Outcome]], Task] = {}
+        try:
+            while True:
+                suspects = self._filled(running)
+                if not running and not suspects:
+                    return
+                done, _ = wait(running, timeout=1.0, return_when=FIRST_COMPLETED)
+                suspects += self._collected(running, done)
+                if suspects:
+                    self._tried_singly(suspects, running)
+        except KeyboardInterrupt:
+            self._finish(running)
+            raise
+
+    def _filled(self, running: dict[Future[list[Outcome]], Task]) -> list[Task]:
+        """Start tasks; returns the one that a broken crew did not take."""
+        while len(running) < self.crew.in_flight:
+            task = self.cases.task(self.crew.chunk_seconds)
+            if task is None:
+                break
+            try:
+                running[self.crew.submit(task)] = task
+            except BrokenExecutor:
+                return [task]
+        return []
+
+    def _collected(
+        self, running: dict[Future[list[Outcome]], Task], done: set[Future[list[Outcome]]]
+    ) -> list[Task]:
+        """Keep what is done; returns the tasks that came to nothing."""
+        failed = []
+        for future in done:
+            task = running.pop(future)
+            try:
+                outcomes = future.result()
+            except CancelledError:
+                raise RollnipError(_ALL_LOST) from None
+            except Exception:  # noqa: BLE001 - whatever an executor raises: the task has no result
+                failed.append(task)
+                continue
+            self.cases.learn(outcomes)
+            self.keep(outcomes)
+        return failed
+
+    def _tried_singly(
+        self, suspects: list[Task], running: dict[Future[list[Outcome]], Task]
+    ) -> None:
+        """After a crash: one case at a time, so that the one that kills its worker is known."""
+        done, _ = wait(running)
+        suspects += self._collected(running, done)
+        for task in (single for suspect in suspects for single in suspect.split()):
+            self.keep(self._alone(task))
+
+    def _alone(self, task: Task) -> list[Outcome]:
+        try:
+            future = self.crew.submit(task)
+        except BrokenExecutor:
+            self.crew.restart()
+            future = self.crew.submit(task)
+        try:
+            return future.result()
+        except CancelledError:
+            raise RollnipError(_ALL_LOST) from None
+        except BrokenExecutor:
+            return given_up(task, _DIED)
+        except Exception as error:  # noqa: BLE001 - as above
+            return given_up(task, f"The worker returned nothing: {type(error).__name__}: {error}")
+
+    def _finish(self, running: dict[Future[list[Outcome]], Task]) -> None:
+        """Interrupted: start nothing new, keep what is about to end."""
+        left = {future for future in running if not future.cancel()}
+        done, _ = wait(left, timeout=_PATIENCE)
+        self._collected(running, done)

@@ -1,0 +1,296 @@
+"""The database of a sweep: SQLite, one writer, each case committed as it ends.
+
+A process that is killed at any moment leaves a database that holds every case committed before;
+write-ahead logging sees to that. Nothing but this module knows the tables in it.
+"""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import RollnipError
+from rollnip.sweep.row import SCALARS
+from rollnip.sweep.study import Study
+from rollnip.sweep.task import Outcome
+
+FORMAT = 1
+_APPLICATION = 0x726E6970  # marks the file as one of ours
+_TEXTS = ("hash", "parameters", "status", "message", "geometry", "warnings")
+_NAMES = ("position", *_TEXTS, *SCALARS, "seconds")
+_QUOTED = ", ".join(f'"{name}"' for name in _NAMES)
+_INSERT = f"INSERT OR REPLACE INTO cases ({_QUOTED}) VALUES ({', '.join('?' * len(_NAMES))})"
+_TABLES = f"""
+CREATE TABLE IF NOT EXISTS about (value TEXT);
+CREATE TABLE IF NOT EXISTS cases (
+    position INTEGER PRIMARY KEY,
+    {", ".join(f'"{name}" TEXT' for name in _TEXTS)},
+    {", ".join(f'"{name}" REAL' for name in SCALARS)},
+    seconds REAL
+);
+CREATE TABLE IF NOT EXISTS profiles (position INTEGER PRIMARY KEY, data BLOB);
+"""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class About:
+    """Whose cases a database holds.
+
+    Attributes
+    ----------
+    version : of rollnip.
+    study : digest of the study.
+    title, count : of the study.
+    paths, units : of the parameters.
+    results, profiles : that are wanted.
+    shard : (which, of how many), counted from 1.
+    """
+
+    version: str
+    study: str
+    title: str
+    count: int
+    paths: tuple[str, ...]
+    units: tuple[str, ...]
+    results: tuple[str, ...]
+    profiles: tuple[str, ...]
+    shard: tuple[int, int] = (1, 1)
+
+    @classmethod
+    def of(cls, study: Study, version: str, shard: tuple[int, int] = (1, 1)) -> About:
+        """What the database of a study says."""
+        return cls(
+            version=version,
+            study=study.digest,
+            title=study.title,
+            count=study.count,
+            paths=study.paths,
+            units=study.units,
+            results=study.results,
+            profiles=study.profiles,
+            shard=shard,
+        )
+
+    @property
+    def positions(self) -> range:
+        """Positions of its cases in the study."""
+        which, shards = self.shard
+        return range(which - 1, self.count, shards)
+
+
+class Store:
+    """A database of a sweep, open for this process alone.
+
+    Parameters
+    ----------
+    path :
+        of the file, which is made where it is not there; None: in memory.
+    about :
+        whose cases it is to hold; None: whatever study it holds, it must be there.
+
+    Raises
+    ------
+    RollnipError
+        where it cannot be opened, is in use, is no database of a sweep, or is of another version
+        or another study.
+    """
+
+    def __init__(self, path: Path | None, about: About | None = None) -> None:
+        self.name = "the database" if path is None else str(path)
+        if path is not None and about is None and not path.is_file():
+            raise RollnipError(f"{path}: there is no such file.")
+        try:
+            self._base = sqlite3.connect(
+                ":memory:" if path is None else path, isolation_level=None, timeout=0.5
+            )
+        except sqlite3.Error as error:
+            raise RollnipError(f"{self.name}: cannot be opened: {error}.") from None
+        try:
+            with self._spoken():
+                self._prepare(must_be_there=about is None)
+            self.about = self._claimed(about)
+        except BaseException:
+            self._base.close()
+            raise
+
+    def __enter__(self) -> Store:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Close the file; what was written stays."""
+        self._base.close()
+
+    def write(self, outcome: Outcome) -> None:
+        """Commit one case. Raises RollnipError where the disk does not take it."""
+        with self._spoken(), self._transaction():
+            self._write(outcome)
+
+    def held(self, *, with_profiles: bool) -> NDArray[np.bool_]:
+        """Which cases need not be solved again, (count,): one byte a case."""
+        found = np.zeros(self.about.count, dtype=np.bool_)
+        query = "SELECT position FROM cases WHERE status != 'lost'"
+        if with_profiles:
+            query += (
+                " AND (status NOT IN ('solved', 'unverified')"
+                " OR position IN (SELECT position FROM profiles))"
+            )
+        with self._spoken():
+            for (position,) in self._base.execute(query):
+                found[position] = True
+        return found
+
+    def tally(self) -> dict[str, int]:
+        """Number of cases by status."""
+        with self._spoken():
+            return dict(self._base.execute("SELECT status, count(*) FROM cases GROUP BY status"))
+
+    def rows(self, names: Sequence[str]) -> Iterator[tuple[Any, ...]]:
+        """The cases in the order of the study, as tuples of the columns asked for."""
+        wanted = ", ".join(f'"{name}"' for name in names)
+        with self._spoken():
+            yield from self._base.execute(f"SELECT {wanted} FROM cases ORDER BY position")
+
+    def rows_not_solved(self) -> Iterator[tuple[int, str]]:
+        """Position and message of the cases without a verified solution."""
+        query = "SELECT position, message FROM cases WHERE status != 'solved' ORDER BY position"
+        with self._spoken():
+            yield from self._base.execute(query)
+
+    def profiles(self) -> Iterator[tuple[int, bytes]]:
+        """Position and profiles of the cases that have them, in the order of the study."""
+        with self._spoken():
+            yield from self._base.execute("SELECT position, data FROM profiles ORDER BY position")
+
+    def take(self, other: Store) -> None:
+        """Take over all cases of another database of the same study."""
+        with self._spoken(), self._transaction():
+            self._base.executemany(_INSERT, other.rows(_NAMES))
+            self._base.executemany(
+                "INSERT OR REPLACE INTO profiles VALUES (?, ?)", other.profiles()
+            )
+
+    def _prepare(self, *, must_be_there: bool) -> None:
+        """Lock the file, and make the tables where it is empty."""
+        self._base.execute("PRAGMA locking_mode = EXCLUSIVE")
+        mark = self._base.execute("PRAGMA application_id").fetchone()[0]
+        is_new = not self._base.execute("PRAGMA schema_version").fetchone()[0]
+        if mark != _APPLICATION and not (is_new and not must_be_there):
+            raise RollnipError(f"{self.name}: is no database of a sweep.")
+        self._base.execute("PRAGMA journal_mode = WAL")
+        # a commit then waits for no disk; only loss of power can undo the last ones
+        self._base.execute("PRAGMA synchronous = NORMAL")
+        self._base.execute("BEGIN IMMEDIATE")
+        if is_new:
+            self._base.execute(f"PRAGMA application_id = {_APPLICATION}")
+            for statement in _TABLES.split(";"):
+                self._base.execute(statement)
+        self._base.execute("COMMIT")
+
+    def _claimed(self, about: About | None) -> About:
+        """What the database holds; it must be of ``about``."""
+        found = self._said()
+        if about is None:
+            if found is None:
+                raise RollnipError(f"{self.name}: holds no study yet.")
+            return found
+        if found is not None:
+            _require_same(self.name, found, about)
+        with self._spoken(), self._transaction():
+            self._base.execute("DELETE FROM about")
+            text = json.dumps({"format": FORMAT, **asdict(about)})
+            self._base.execute("INSERT INTO about VALUES (?)", (text,))
+        return about
+
+    def _said(self) -> About | None:
+        with self._spoken():
+            rows = self._base.execute("SELECT value FROM about").fetchall()
+        if not rows:
+            return None
+        tree: dict[str, Any] = json.loads(rows[0][0])
+        if tree.pop("format") != FORMAT:
+            raise RollnipError(
+                f"{self.name}: was made by rollnip {tree.get('version')} in another form; "
+                "choose another name, or delete it."
+            )
+        lists = {name: tuple(value) for name, value in tree.items() if isinstance(value, list)}
+        return About(**(tree | lists))
+
+    def _write(self, outcome: Outcome) -> None:
+        row = outcome.row
+        values: dict[str, Any] = {
+            "position": outcome.position,
+            "hash": outcome.case,
+            "parameters": json.dumps(outcome.values),
+            "seconds": outcome.seconds,
+        }
+        self._base.execute(_INSERT, [values[n] if n in values else row[n] for n in _NAMES])
+        if outcome.profiles is not None:
+            self._base.execute(
+                "INSERT OR REPLACE INTO profiles VALUES (?, ?)",
+                (outcome.position, outcome.profiles),
+            )
+
+    @contextmanager
+    def _transaction(self) -> Iterator[None]:
+        self._base.execute("BEGIN IMMEDIATE")
+        try:
+            yield
+            self._base.execute("COMMIT")
+        except BaseException:
+            if self._base.in_transaction:
+                self._base.execute("ROLLBACK")
+            raise
+
+    @contextmanager
+    def _spoken(self) -> Iterator[None]:
+        """Turn what SQLite says into one clear sentence."""
+        try:
+            yield
+        except sqlite3.Error as error:
+            raise RollnipError(f"{self.name}: {_plain(error)}") from error
+
+
+def _plain(error: sqlite3.Error) -> str:
+    text = str(error)
+    if "locked" in text:
+        return "is in use by another process; wait for it to end."
+    if "not a database" in text or "malformed" in text:
+        return f"is no database of a sweep, or is damaged ({text})."
+    if "full" in text or "disk I/O" in text:
+        return (
+            f"cannot write ({text}): the disk is full, or fails. What was finished before is kept; "
+            "make room and run the same again."
+        )
+    return f"cannot be used: {text}."
+
+
+def _require_same(name: str, found: About, wanted: About) -> None:
+    hint = "choose another name for the results, or delete it."
+    if found.version != wanted.version:
+        raise RollnipError(
+            f"{name}: was made by rollnip {found.version}, this is {wanted.version}; results of "
+            f"two versions are not mixed: {hint}"
+        )
+    if found.study != wanted.study:
+        title = f'"{found.title}", ' if found.title else ""
+        raise RollnipError(
+            f"{name}: holds another study ({title}{found.count} cases of {', '.join(found.paths)}):"
+            f" its case or its parameters differ; {hint}"
+        )
+    if found.shard != wanted.shard:
+        ours, theirs = ("/".join(map(str, one.shard)) for one in (wanted, found))
+        raise RollnipError(f"{name}: holds shard {theirs}, not {ours}; {hint}")

@@ -1,0 +1,126 @@
+"""A study: a case, parameters by path, and which cases they make; no case is made before its turn.
+
+The cases are the product of the axes, the last axis running fastest. An axis holds one parameter,
+or several that step together.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from hashlib import sha256
+from math import prod
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.io import with_values
+
+Array = NDArray[np.float64]
+Value = float | str
+Column = Array | tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Axis:
+    """Parameters that step together.
+
+    Attributes
+    ----------
+    paths : of the keys in the case.
+    units : base unit of each, empty where the value is no quantity.
+    columns : values of each, all of one length: numbers in base units, or JSON texts.
+    """
+
+    paths: tuple[str, ...]
+    units: tuple[str, ...]
+    columns: tuple[Column, ...]
+
+    def __len__(self) -> int:
+        return len(self.columns[0])
+
+    def values(self, index: int) -> list[Value]:
+        """The value of each parameter at one step; texts are JSON."""
+        picked = (column[index] for column in self.columns)
+        return [one if isinstance(one, str) else float(one) for one in picked]
+
+    def feed(self, digest: Any) -> None:
+        """Put everything that tells this axis from another into a hash."""
+        digest.update(json.dumps([self.paths, len(self)]).encode())
+        for column in self.columns:
+            if isinstance(column, tuple):
+                digest.update(json.dumps(column).encode())
+            else:
+                digest.update(column.tobytes())
+
+
+@dataclass(frozen=True, eq=False)
+class Study:
+    """A case and the axes along which it changes; made by `read_study`.
+
+    Attributes
+    ----------
+    title : for people.
+    tree : the case, as the tree of a case file.
+    axes : the first runs slowest.
+    results : names of `SCALARS` that go into the table.
+    profiles : names of the profiles that are kept; none: no profiles.
+    source : name of the file, for messages.
+    """
+
+    title: str
+    tree: Mapping[str, Any] = field(repr=False)
+    axes: tuple[Axis, ...]
+    results: tuple[str, ...]
+    profiles: tuple[str, ...] = ()
+    source: str = "study"
+
+    @property
+    def count(self) -> int:
+        """Number of cases."""
+        return prod(len(axis) for axis in self.axes)
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """Paths of all parameters, in the order of the file."""
+        return tuple(path for axis in self.axes for path in axis.paths)
+
+    @property
+    def units(self) -> tuple[str, ...]:
+        """Base unit of each parameter; empty where it is no quantity, "1" for ratios."""
+        return tuple(unit for axis in self.axes for unit in axis.units)
+
+    def values(self, position: int) -> tuple[Value, ...]:
+        """The parameters of one case, 0 <= position < count: numbers in base units, JSON texts."""
+        steps = []
+        for axis in reversed(self.axes):
+            position, step = divmod(position, len(axis))
+            steps.append(axis.values(step))
+        return tuple(value for values in reversed(steps) for value in values)
+
+    def case(self, position: int) -> dict[str, Any]:
+        """The tree of one case. Raises InvalidInputError where a path leads nowhere."""
+        return case_with(self.tree, self.paths, self.values(position))
+
+    @cached_property
+    def digest(self) -> str:
+        """What tells two studies apart: 16 hexadecimal digits of the case and the axes.
+
+        Neither the titles nor which results and profiles are wanted are part of it.
+        """
+        tree = {key: value for key, value in self.tree.items() if key != "title"}
+        digest = sha256(json.dumps(tree, sort_keys=True, default=str).encode())
+        for axis in self.axes:
+            axis.feed(digest)
+        return digest.hexdigest()[:16]
+
+
+def case_with(
+    tree: Mapping[str, Any], paths: Sequence[str], values: Sequence[Value]
+) -> dict[str, Any]:
+    """The case with other values at some paths; texts are JSON."""
+    read = (json.loads(value) if isinstance(value, str) else value for value in values)
+    return with_values(tree, dict(zip(paths, read, strict=True)))

@@ -1,0 +1,168 @@
+"""The table of results: in memory, as CSV, as Parquet; rows in the order of the study.
+
+All are made from the database alone, so that they are the same however the sweep was run.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._files import check_target, write_whole
+from rollnip.sweep.row import SCALARS
+from rollnip.sweep.store import About, Store
+
+SUFFIXES = (".csv", ".parquet")
+_TEXTS = ("status", "message", "geometry")
+_AFTER = ("warnings", "hash")
+_TEXT = ""
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Table:
+    """Results of a sweep, a row for each case, in the order of the study.
+
+    Attributes
+    ----------
+    columns :
+        by name: ``case`` (position in the study, from 0), the paths of the parameters, ``status``,
+        ``message``, ``geometry``, ``converged`` (1 or 0), the results, ``warnings`` and ``hash``.
+        Numbers are float arrays in which nan is what is not there, texts are tuples.
+    units :
+        of the columns of numbers, "1" where there is none.
+    """
+
+    columns: Mapping[str, Array | tuple[str, ...]]
+    units: Mapping[str, str]
+
+    def __getitem__(self, name: str) -> Any:
+        """One column. Raises InvalidInputError where there is none of that name."""
+        if name not in self.columns:
+            raise InvalidInputError(
+                f'`name` must be one of {", ".join(self.columns)}, got "{name}".'
+            )
+        return self.columns[name]
+
+    def __len__(self) -> int:
+        """Number of cases."""
+        return len(self.columns["case"])
+
+
+def check_table_target(path: Path) -> None:
+    """Raise RollnipError where a table could not be written to ``path``; costs next to nothing."""
+    check_target(path, SUFFIXES)
+    if path.suffix.lower() == ".parquet" and find_spec("polars") is None:
+        raise RollnipError(
+            f'{path}: Parquet needs an extra; pip install "rollnip[tables]", or choose a name '
+            "that ends in .csv."
+        )
+
+
+def read_table(store: Store) -> Table:
+    """All results of a sweep in memory."""
+    heads = _columns(store.about)
+    rows = list(_rows(store))
+    found = zip(*rows, strict=True) if rows else ((),) * len(heads)
+    columns: dict[str, Array | tuple[str, ...]] = {}
+    for (name, unit), values in zip(heads.items(), found, strict=True):
+        if unit == _TEXT:
+            columns[name] = tuple("" if value is None else str(value) for value in values)
+        else:
+            columns[name] = np.array(
+                [np.nan if value is None else value for value in values], dtype=np.float64
+            )
+    return Table(columns, {name: unit for name, unit in heads.items() if unit != _TEXT})
+
+
+def write_table(store: Store, path: Path) -> None:
+    """Write the results to a file, all or nothing; a row at a time, whatever their number.
+
+    Parameters
+    ----------
+    store :
+        of the sweep.
+    path :
+        ends in .csv or .parquet (with the extra ``rollnip[tables]``). Heads carry the unit:
+        ``nip_width [mm]``; what is not there is empty.
+
+    Raises
+    ------
+    RollnipError
+        where the ending is another, the extra is missing or the file cannot be written.
+    """
+    check_table_target(path)
+    if path.suffix.lower() == ".csv":
+        write_whole(path, lambda file: _write_csv(store, file))
+    else:
+        write_whole(path, lambda file: _write_parquet(store, file))
+
+
+def _columns(about: About) -> dict[str, str]:
+    """Unit of each column, empty for texts."""
+    columns = {"case": "1"} | dict(zip(about.paths, about.units, strict=True))
+    columns |= dict.fromkeys(_TEXTS, _TEXT) | {"converged": "1"}
+    columns |= {name: SCALARS[name] for name in about.results}
+    return columns | dict.fromkeys(_AFTER, _TEXT)
+
+
+def _heads(about: About) -> list[str]:
+    return [
+        name if unit in (_TEXT, "1") else f"{name} [{unit}]"
+        for name, unit in _columns(about).items()
+    ]
+
+
+def _rows(store: Store) -> Iterator[list[Any]]:
+    about = store.about
+    names = ("position", "parameters", *_TEXTS, *about.results, *_AFTER)
+    for position, parameters, *rest in store.rows(names):
+        values = zip(json.loads(parameters), about.units, strict=True)
+        shown = [_shown(value, unit) for value, unit in values]
+        texts, others = rest[: len(_TEXTS)], rest[len(_TEXTS) :]
+        yield [position, *shown, *texts, int(texts[0] == "solved"), *others]
+
+
+def _shown(value: Any, unit: str) -> Any:
+    """A parameter as it stands in the table: texts are JSON in the database."""
+    if unit != _TEXT:
+        return value
+    read = json.loads(value)
+    return read if isinstance(read, str) else value
+
+
+def _write_csv(store: Store, file: Path) -> None:
+    with file.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(_heads(store.about))
+        writer.writerows(_rows(store))
+
+
+def _write_parquet(store: Store, file: Path) -> None:
+    """Through a CSV beside it, so that the rows need never be in memory all at once."""
+    import polars as pl
+
+    kinds = _columns(store.about).values()
+    schema = {
+        head: pl.String if unit == _TEXT else pl.Float64
+        for head, unit in zip(_heads(store.about), kinds, strict=True)
+    } | {"case": pl.Int64}
+    between = file.with_name(f"{file.name}.csv")
+    try:
+        _write_csv(store, between)
+        frame = pl.scan_csv(between, schema=schema).with_columns(pl.col(pl.String).fill_null(""))
+        frame.sink_parquet(file)
+    except pl.exceptions.PolarsError as error:
+        raise RollnipError(f"{file}: cannot write: {error}.") from None
+    finally:
+        between.unlink(missing_ok=True)

@@ -1,0 +1,46 @@
+"""Shards of a study become one table, the same as without shards."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import rollnip as rn
+from rollnip._errors import RollnipError
+from rollnip.sweep import read_study
+from rollnip.sweep.merge import merged
+from rollnip.sweep.run import OpenCases, run
+from rollnip.sweep.store import About, Store
+from rollnip.sweep.table import write_table
+
+
+def shard(tree: dict[str, Any], path: Path, part: tuple[int, int], version: str = "1") -> Path:
+    study = read_study(tree)
+    with Store(path, About.of(study, version, part)) as store:
+        run(OpenCases(study, store), store)
+    return path
+
+
+def test_shards_make_the_whole_in_any_order(tree: dict[str, Any], tmp_path: Path) -> None:
+    rn.sweep(tree, workers=1, out=tmp_path / "whole.csv")
+    files = [shard(tree, tmp_path / f"{i}.db", (i, 4)) for i in (4, 1, 3, 2)]
+    with merged(files) as store:
+        write_table(store, tmp_path / "merged.csv")
+    assert (tmp_path / "merged.csv").read_bytes() == (tmp_path / "whole.csv").read_bytes()
+
+
+def test_what_does_not_belong_together_is_refused(tree: dict[str, Any], tmp_path: Path) -> None:
+    first = shard(tree, tmp_path / "1.db", (1, 2))
+    newer = shard(tree, tmp_path / "2.db", (2, 2), version="2")
+    tree["case"]["lower"]["radius"] = 30.0
+    other = shard(tree, tmp_path / "3.db", (2, 2))
+    for files, words in [
+        ([first], "3 of 6 cases are missing .case 1, 3, 5."),
+        ([first, newer], "2.db: was made by rollnip 2, .*1.db by 1"),
+        ([first, other], "3.db: holds another study than"),
+        ([first, tmp_path / "4.db"], "4.db: there is no such file"),
+    ]:
+        with pytest.raises(RollnipError, match=words), merged(files):
+            pass

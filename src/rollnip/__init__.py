@@ -34,7 +34,7 @@ if TYPE_CHECKING:
     )
     from rollnip.model import Model
     from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
-    from rollnip.rollers import Layer, Roller
+    from rollnip.rollers import Layer, Profile, Roller
     from rollnip.solution import Solution
     from rollnip.solve import solve
     from rollnip.sweep import sweep
@@ -54,7 +54,7 @@ _HOMES = {
     ),
     "rollnip.model": ("Model",),
     "rollnip.nip": ("Approach", "Creepage", "LineLoad", "Nip", "Torque", "Traction"),
-    "rollnip.rollers": ("Layer", "Roller"),
+    "rollnip.rollers": ("Layer", "Profile", "Roller"),
     "rollnip.solution": ("Solution",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
@@ -75,6 +75,7 @@ __all__ = [
     "LossFactor",
     "Model",
     "Nip",
+    "Profile",
     "Prony",
     "Roller",
     "RollnipError",

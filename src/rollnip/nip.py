@@ -90,7 +90,8 @@ class Nip:
     ------
     InvalidInputError
         where the parts do not make a nip: both rollers rigid or flat, speed missing for a
-        viscoelastic material, approach prescribed on a half-space core, traction beyond mu F.
+        viscoelastic material, approach prescribed on a half-space core, traction beyond mu F; a
+        measured profile with friction, viscoelastic materials or a prescribed creepage.
     """
 
     upper: Roller
@@ -111,6 +112,8 @@ class Nip:
             require_positive("face_width", self.face_width)
         self._check_rollers()
         self._check_controls()
+        if self.has_profile:
+            self._check_snapshot()
 
     @property
     def curvature(self) -> float:
@@ -126,6 +129,11 @@ class Nip:
     def has_half_space(self) -> bool:
         """True where a core is a half-space: the approach is then not defined."""
         return self.upper.core is not None or self.lower.core is not None
+
+    @property
+    def has_profile(self) -> bool:
+        """True where either roller has a measured profile: a snapshot without friction."""
+        return self.upper.profile is not None or self.lower.profile is not None
 
     def _check_types(self) -> None:
         wanted = {
@@ -151,6 +159,27 @@ class Nip:
             )
         if self.is_viscoelastic and self.speed is None:
             raise InvalidInputError("`speed` must be given: a material is viscoelastic.")
+
+    def _check_snapshot(self) -> None:
+        """Roughness that rolls through the nip is not steady; only elastic layers forget it."""
+        if self.friction > 0.0:
+            raise InvalidInputError(
+                "`friction` must be 0 with a measured profile, "
+                f"got {self.friction!r}: roughness that passes "
+                "through the nip is no steady state; take traction and creepage from the same nip "
+                "without the profile."
+            )
+        if isinstance(self.tangential, Creepage):
+            raise InvalidInputError(
+                "`creepage` must not be prescribed with a measured profile: it is a snapshot "
+                "without friction; leave it out."
+            )
+        if self.is_viscoelastic:
+            raise InvalidInputError(
+                "`material` must be elastic everywhere with a measured profile: what a "
+                "viscoelastic layer answers depends on the roughness that passed before; take an "
+                "elastic material with its modulus at the time an asperity needs through the nip."
+            )
 
     def _check_controls(self) -> None:
         if isinstance(self.normal, Approach):

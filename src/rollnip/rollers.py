@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from hashlib import sha256
 from itertools import pairwise
 from math import inf, isinf
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.materials import Material
 
+_MOST_SAMPLES = 2**18
 _LARGEST_LENGTH = 1e7  # mm; ten kilometres: beyond it a unit was mistaken
 
 
@@ -39,6 +44,68 @@ class Layer:
         _require_material("material", self.material)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Profile:
+    """Measured height of a surface over the smooth roller, along the nip at one instant.
+
+    Between the samples the surface is straight. Curvature of the roller must have been taken off.
+
+    Parameters
+    ----------
+    x :
+        (n,) places [mm], increasing, in the frame of the nip: 0 on the line of centres, positive
+        towards the leading edge; 2 to 262144 of them, at equal distances or not.
+    height :
+        (n,) heights [mm], positive out of the roller: towards the other one.
+
+    Raises
+    ------
+    InvalidInputError
+        where lengths differ, samples are too few or too many, a value is not finite, or places do
+        not increase.
+    """
+
+    x: NDArray[np.float64]
+    height: NDArray[np.float64]
+
+    def __post_init__(self) -> None:
+        x, height = _samples("x", self.x), _samples("height", self.height)
+        if x.size != height.size:
+            raise InvalidInputError(
+                f"`height` must have one value for each of the {x.size} places, got {height.size}."
+            )
+        if not 2 <= x.size <= _MOST_SAMPLES:
+            raise InvalidInputError(
+                f"`x` must hold 2 to {_MOST_SAMPLES} samples, got {x.size}; "
+                "give the part around the nip, or every second sample."
+            )
+        wrong = np.flatnonzero(np.diff(x) <= 0.0)
+        if wrong.size:
+            raise InvalidInputError(
+                f"`x` must increase from sample to sample, got {x[wrong[0]]:.9g} mm and then "
+                f"{x[wrong[0] + 1]:.9g} mm."
+            )
+        object.__setattr__(self, "x", x)
+        object.__setattr__(self, "height", height)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Profile):
+            return NotImplemented
+        return np.array_equal(self.x, other.x) and np.array_equal(self.height, other.height)
+
+    def __hash__(self) -> int:
+        return hash((self.x.tobytes(), self.height.tobytes()))
+
+    def __repr__(self) -> str:
+        # Whole problems are told apart by their texts: this one holds a digest of all samples.
+        digest = sha256(self.x.tobytes() + self.height.tobytes()).hexdigest()[:16]
+        return f"Profile({self.x.size} samples, {self.x[0]:.6g} to {self.x[-1]:.6g} mm, {digest})"
+
+    def at(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Heights at some places, (n,) [mm]; 0, the smooth surface, outside the samples."""
+        return np.interp(x, self.x, self.height, left=0.0, right=0.0)
+
+
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Roller:
     """A cylinder with its coating.
@@ -51,6 +118,8 @@ class Roller:
         coating from the surface to the core; empty: a bare core.
     core :
         None for a rigid core, or the material of an elastic or viscoelastic half-space.
+    profile :
+        None for a smooth surface, or its measured height over the smooth one.
 
     Raises
     ------
@@ -61,6 +130,7 @@ class Roller:
     radius: float
     layers: tuple[Layer, ...] = ()
     core: Material | None = None
+    profile: Profile | None = None
 
     def __post_init__(self) -> None:
         if not (isinstance(self.radius, float | int) and isinf(self.radius) and self.radius > 0):
@@ -79,6 +149,8 @@ class Roller:
                 raise InvalidInputError(f"`layers` must hold Layer objects, got {layer!r}.")
         if self.core is not None:
             _require_material("core", self.core)
+        if self.profile is not None and not isinstance(self.profile, Profile):
+            raise InvalidInputError(f"`profile` must be a Profile, got {self.profile!r}.")
         if self.coating_thickness >= self.radius:
             raise InvalidInputError(
                 f"`layers` must be thinner in all than the radius {self.radius:g} mm, "
@@ -123,3 +195,20 @@ class Roller:
 def _require_material(name: str, value: object) -> None:
     if not isinstance(value, Material):
         raise InvalidInputError(f"`{name}` must be a material such as Elastic, got {value!r}.")
+
+
+def _samples(name: str, values: ArrayLike) -> NDArray[np.float64]:
+    """A copy of finite numbers that cannot be changed."""
+    try:
+        out = np.array(values, dtype=float)
+    except (TypeError, ValueError):
+        raise InvalidInputError(f"`{name}` must hold numbers.") from None
+    if out.ndim != 1:
+        raise InvalidInputError(f"`{name}` must be one-dimensional, got the shape {out.shape}.")
+    wrong = np.flatnonzero(~np.isfinite(out))
+    if wrong.size:
+        raise InvalidInputError(
+            f"`{name}` must be finite everywhere, got {out[wrong[0]]} as sample {wrong[0] + 1}."
+        )
+    out.setflags(write=False)
+    return out

@@ -27,6 +27,7 @@ from rollnip.rolling import (
     refine,
     with_second_order,
 )
+from rollnip.rough import solve_rough
 from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import is_small, validity_warnings
 
@@ -67,6 +68,8 @@ def solve(
     """
     start = perf_counter()
     model = Model() if model is None else model
+    if nip.has_profile:
+        return solve_rough(nip, model, on_failure=on_failure, version=_version())
     method = Safeguarded() if method is None else method
     kernels, final = _refined(nip, model, method)
     left: tuple[str, ...] = ()

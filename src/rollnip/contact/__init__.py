@@ -3,6 +3,8 @@
 from rollnip.contact.coupled import CoupledActiveSet
 from rollnip.contact.features import Zone, contact_intervals, contact_zones, states_on
 from rollnip.contact.given import Norm, Tang
+from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
+from rollnip.contact.grid_solver import GridActiveSet
 from rollnip.contact.mesh import Demand, graded_nodes
 from rollnip.contact.methods import Alternation, Safeguarded
 from rollnip.contact.path import CreepagePath
@@ -21,9 +23,13 @@ __all__ = [
     "ContactProblem",
     "ContactState",
     "Control",
+    "Convolution",
     "CoupledActiveSet",
     "CreepagePath",
     "Demand",
+    "GridActiveSet",
+    "GridProblem",
+    "GridState",
     "Norm",
     "Safeguarded",
     "State",
@@ -34,6 +40,7 @@ __all__ = [
     "creep",
     "gap",
     "graded_nodes",
+    "grid_intervals",
     "influence_of",
     "states_on",
 ]

@@ -1,5 +1,6 @@
 """Influence functions: from compliances in the Fourier domain to displacements on a mesh."""
 
+from rollnip.influence.grid import grid_displacements, grid_strains
 from rollnip.influence.hats import displacement_matrix, load_weights, strain_matrix
 from rollnip.influence.kernel import Kernel, Window, tabulate
 from rollnip.influence.second import SecondResponse, second_response
@@ -18,6 +19,8 @@ __all__ = [
     "Window",
     "covering_window",
     "displacement_matrix",
+    "grid_displacements",
+    "grid_strains",
     "is_ring",
     "load_weights",
     "second_response",

@@ -1,0 +1,187 @@
+"""The frictionless contact problem on a uniform grid, by fast Fourier transforms.
+
+On a uniform grid the displacement under pressures that are linear between the nodes is a discrete
+convolution: u_i = sum_j c_(i-j) p_j. Padded with zeros to twice its length it costs two transforms
+of O(n log n), and nothing wraps around.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from scipy.fft import irfft, next_fast_len, rfft
+
+from rollnip.contact.problem import Array, Indices, Mask
+
+_LOW = 0.05
+_HIGH = 1e-6
+
+
+@dataclass(frozen=True)
+class Convolution:
+    """Discrete convolution of n values with coefficients at the distances -(n-1) ... n-1.
+
+    Attributes
+    ----------
+    coefficients : (2 n - 1,), that of distance 0 in the middle.
+    """
+
+    coefficients: Array
+
+    @property
+    def size(self) -> int:
+        """Values it takes and gives, n."""
+        return (self.coefficients.size + 1) // 2
+
+    @cached_property
+    def length(self) -> int:
+        """Of the circle that the values are padded to; at least 2 n - 1, so that none overlap."""
+        return int(next_fast_len(self.coefficients.size, real=True))
+
+    @cached_property
+    def spectrum(self) -> Array:
+        """Transform of the coefficients laid out on the circle, complex."""
+        n = self.size
+        circle = np.zeros(self.length)
+        circle[:n] = self.coefficients[n - 1 :]
+        if n > 1:
+            circle[1 - n :] = self.coefficients[: n - 1]
+        return np.asarray(rfft(circle, workers=1))
+
+    def of(self, values: Array) -> Array:
+        """The convolution with some values, (n,)."""
+        transformed = rfft(values, self.length, workers=1) * self.spectrum
+        return np.asarray(irfft(transformed, self.length, workers=1)[: self.size])
+
+
+@dataclass(frozen=True)
+class GridProblem:
+    """Frictionless contact on n nodes at equal distances.
+
+        gap = clearance - delta + sum_j compliance_(i-j) p_j >= 0,   p >= 0,   p gap = 0
+
+    Attributes
+    ----------
+    spacing : of the nodes [mm].
+    clearance : (n,) gap of the undeformed surfaces [mm].
+    compliance : of both surfaces together, symmetric [mm/MPa].
+    load, approach : what is prescribed, the other None [N/mm], [mm].
+    """
+
+    spacing: float
+    clearance: Array
+    compliance: Convolution
+    load: float | None
+    approach: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class GridState:
+    """A solution of a problem on a grid, or the last iterate.
+
+    Attributes
+    ----------
+    pressure : (n,) [MPa], linear between the nodes.
+    approach : delta [mm].
+    steps : of conjugate gradients, each of one convolution and one preconditioning.
+    correction : what the preconditioner would still change in the pressure, relative to its peak.
+    settled : whether that is small and the contact set reproduces itself.
+    """
+
+    pressure: Array
+    approach: float
+    steps: int
+    correction: float
+    settled: bool
+
+
+class InverseWithHoles:
+    """An approximate inverse of the compliance among the nodes of a contact set A.
+
+    The compliance among the nodes of A is a block of a circulant matrix C, and by a theorem on
+    inverses of blocks (C_AA)^-1 = min over E of E^T C^-1 E, where E extends values on A to the
+    whole circle in any way that leaves those on A as they are. Extended by zeros, a contact full of
+    small holes costs many times what it should. Here E is linear across each hole, or falls to
+    zero within ``reach`` where the hole is longer: close to the least, and as cheap as a transform.
+
+    Parameters
+    ----------
+    compliance : symmetric.
+    contact : (n,) the contact set, not empty.
+    """
+
+    def __init__(self, compliance: Convolution, contact: Mask) -> None:
+        self.length = compliance.length
+        self.inverse, reach = _inverse_symbol(compliance.spectrum.real)
+        self.nodes: Indices = np.flatnonzero(contact)
+        # The circle closes: the last hole ends at the first node, one turn on.
+        steps = np.diff(self.nodes, append=self.nodes[0] + self.length)
+        holes = np.flatnonzero(steps > 1)
+        widths = steps[holes] - 1
+        first = np.cumsum(widths) - widths
+        distance = np.arange(int(widths.sum())) - np.repeat(first, widths) + 1
+        step = np.repeat(steps[holes], widths)
+        fall = np.minimum(step, reach)
+        self.places: Indices = (np.repeat(self.nodes[holes], widths) + distance) % self.length
+        self.before: Indices = np.repeat(holes, widths)
+        self.after: Indices = (self.before + 1) % self.nodes.size
+        self.share_before = np.maximum(1.0 - distance / fall, 0.0)
+        self.share_after = np.maximum(1.0 - (step - distance) / fall, 0.0)
+
+    def of(self, values: Array) -> Array:
+        """Pressure on the contact set for gaps on it; (n,) both, values elsewhere are ignored."""
+        inside = values[self.nodes]
+        circle = np.zeros(self.length)
+        circle[self.nodes] = inside
+        circle[self.places] = (
+            self.share_before * inside[self.before] + self.share_after * inside[self.after]
+        )
+        answer = irfft(rfft(circle, workers=1) * self.inverse, self.length, workers=1)
+        count, out = self.nodes.size, np.zeros(values.size)
+        beside = answer[self.places]
+        out[self.nodes] = (
+            answer[self.nodes]
+            + np.bincount(self.before, self.share_before * beside, count)
+            + np.bincount(self.after, self.share_after * beside, count)
+        )
+        return out
+
+
+def _inverse_symbol(symbol: Array) -> tuple[Array, float]:
+    """Inverse of a symbol, kept positive, and a quarter of its dominant wavelength in nodes.
+
+    An incompressible layer hardly yields to a uniform pressure: its compliance falls to nothing at
+    long waves, where the cut of the convolution may even make it negative.
+    """
+    top = int(np.argmax(symbol))
+    floor = np.full(symbol.size, _LOW * symbol[top])
+    beyond = np.arange(top + 1, symbol.size)
+    floor[top + 1 :] = _HIGH * symbol[top] * (top + 1) / beyond
+    length = 2 * (symbol.size - 1)
+    return 1.0 / np.maximum(symbol, floor), np.inf if top == 0 else 0.25 * length / top
+
+
+def grid_intervals(x: Array, pressure: Array) -> tuple[tuple[float, float], ...]:
+    """Contact intervals (trailing, leading) of a pressure on a uniform grid [mm].
+
+    At an edge the pressure goes to zero as the square root of the distance: its square is
+    extrapolated from the last two nodes that touch; where it does not fall, or where one node
+    touches alone, the edge is put halfway to the next node.
+    """
+    padded = np.pad(pressure, 2)
+    touching = padded > 0.0
+    first = np.flatnonzero(touching[1:-1] & ~touching[:-2]) + 1
+    last = np.flatnonzero(touching[1:-1] & ~touching[2:]) + 1
+    spacing = (x[-1] - x[0]) / (x.size - 1)
+    starts = x[first - 2] - spacing * _overhang(padded[first], padded[first + 1])
+    stops = x[last - 2] + spacing * _overhang(padded[last], padded[last - 1])
+    return tuple(zip(starts.tolist(), stops.tolist(), strict=True))
+
+
+def _overhang(here: Array, before: Array) -> Array:
+    """Distance of an edge from the last node that touches, in spacings."""
+    rise = before**2 - here**2
+    falls = rise > 0.0
+    return np.where(falls, np.minimum(here**2 / np.where(falls, rise, 1.0), 1.0), 0.5)

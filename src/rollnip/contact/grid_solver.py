@@ -1,0 +1,225 @@
+"""Solvers of the frictionless contact on a uniform grid: an active set, from coarse to fine.
+
+The pressure minimises p.(C p)/2 + clearance.p under p >= 0 and a given load. With a contact set
+given that is a linear system, solved by preconditioned conjugate gradients; what is then under
+tension leaves the set, what overlaps joins it. Where that does not settle, the method of Polonsky
+and Keer follows, slower and surer.
+
+References
+----------
+Polonsky & Keer (1999), Wear 231, 206-219: conjugate gradients with bounds, and scaling to the load.
+Vollebregt (2014), J. Optim. Theory Appl. 162, 931-953: their preconditioning by transforms.
+Hintermueller, Ito & Kunisch (2003), SIAM J. Optim. 13, 865-888: the active set as Newton's method.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rollnip.contact.grid import Convolution, GridProblem, GridState, InverseWithHoles
+from rollnip.contact.problem import Array, Mask
+
+_COARSEST = 256  # nodes of the first grid
+_COARSE = 1e-3  # correction at which a coarse grid is left
+_SHARE = 0.3  # of the nodes that the first contact set of all holds
+_DROP = 0.01  # of the correction within one contact set
+
+
+@dataclass(frozen=True, slots=True)
+class GridActiveSet:
+    """Solve frictionless contact on a uniform grid, starting on grids of half the nodes.
+
+    Parameters
+    ----------
+    tolerance :
+        correction of the pressure at which to stop, relative to its peak.
+    most_steps :
+        of conjugate gradients on one grid before the surer method takes over, and again for that.
+    """
+
+    tolerance: float = 1e-5
+    most_steps: int = 400
+
+    def solve(
+        self, problem: GridProblem, coarser: Callable[[int], Convolution]
+    ) -> tuple[GridState, GridState | None]:
+        """Solve a problem and the same one with every second node.
+
+        Parameters
+        ----------
+        problem : on the finest grid.
+        coarser : gives the compliance on a grid with every ``stride``-th node.
+
+        Returns
+        -------
+        The state, and that on every second node (None where the grid is too coarse to be halved),
+        both to the tolerance: their difference says what the sampling leaves open.
+        """
+        strides = [1]
+        while problem.clearance[:: strides[-1]].size > _COARSEST:
+            strides.append(2 * strides[-1])
+        state: GridState | None = None
+        before: GridState | None = None
+        for stride in reversed(strides):
+            before = state
+            level = problem if stride == 1 else _every(problem, stride, coarser(stride))
+            start = _first(level) if before is None else _between(before.pressure, level)
+            wanted = self.tolerance if stride <= 2 else max(_COARSE, self.tolerance)
+            state = self.on_grid(level, start, wanted)
+        assert state is not None
+        return state, before
+
+    def on_grid(self, problem: GridProblem, start: Array, wanted: float) -> GridState:
+        """Solve on one grid from a first pressure, to a wanted correction."""
+        state = _active_set(problem, start, wanted, self.most_steps)
+        if state.settled:
+            return state
+        sure = _polonsky_keer(problem, state.pressure, wanted, self.most_steps)
+        return replace(sure, steps=sure.steps + state.steps)
+
+
+def _every(problem: GridProblem, stride: int, compliance: Convolution) -> GridProblem:
+    return replace(
+        problem,
+        spacing=stride * problem.spacing,
+        clearance=problem.clearance[::stride],
+        compliance=compliance,
+    )
+
+
+def _first(problem: GridProblem) -> Array:
+    """Pressure to begin with on the coarsest grid: even, where the surfaces are nearest."""
+    limit = float(np.quantile(problem.clearance, _SHARE))
+    if problem.approach is not None:
+        limit = max(min(problem.approach, limit), float(np.min(problem.clearance)))
+    return np.where(problem.clearance <= limit, 1.0, 0.0)
+
+
+def _between(pressure: Array, problem: GridProblem) -> Array:
+    """Pressure of a grid with half the nodes, linear between them."""
+    fine = np.arange(problem.clearance.size)
+    return np.interp(fine, 2.0 * np.arange(pressure.size), pressure)
+
+
+def _feasible(problem: GridProblem, pressure: Array) -> Array:
+    """Without tension, and carrying the load where that is prescribed."""
+    kept = np.maximum(pressure, 0.0)
+    if problem.load is None:
+        return kept
+    total = float(kept.sum())
+    return kept * (problem.load / (problem.spacing * total))
+
+
+def _depth(problem: GridProblem, contact: Mask, gap: Array) -> float:
+    """The approach: prescribed, or where the surfaces of the contact meet on average."""
+    return float(gap[contact].mean()) if problem.approach is None else problem.approach
+
+
+def _within(problem: GridProblem, contact: Mask, values: Array) -> Array:
+    """Values on the contact set; where the load is given without their mean, so that it stays."""
+    out = np.where(contact, values, 0.0)
+    if problem.approach is None:
+        out = np.where(contact, out - out[contact].mean(), 0.0)
+    return out
+
+
+@dataclass(slots=True)
+class _Descent:
+    """Conjugate gradients on one contact set, one step after the other."""
+
+    problem: GridProblem
+    contact: Mask
+    inverse: Callable[[Array], Array]
+    direction: Array | None = None
+    residual: Array | None = None
+    product: float = 0.0
+
+    def correction(self, open_gap: Array) -> tuple[Array, Array]:
+        """Residual and what the preconditioner makes of it, both on the contact set."""
+        residual = _within(self.problem, self.contact, open_gap)
+        return residual, _within(self.problem, self.contact, self.inverse(residual))
+
+    def step(self, residual: Array, correction: Array) -> tuple[Array, Array]:
+        """Change of the pressure and of the gap."""
+        product = _product(residual, correction)
+        direction = -correction
+        if self.direction is not None and self.residual is not None:
+            turn = max(0.0, (product - _product(self.residual, correction)) / self.product)
+            direction = _within(self.problem, self.contact, direction + turn * self.direction)
+            if _product(residual, direction) >= 0.0:
+                direction = -correction
+        opened = self.problem.compliance.of(direction)
+        bend = _product(direction, opened)
+        length = -_product(residual, direction) / bend if bend > 0.0 else 0.0
+        self.direction, self.residual, self.product = direction, residual, product
+        return length * direction, length * opened
+
+
+def _active_set(problem: GridProblem, start: Array, wanted: float, most: int) -> GridState:
+    pressure = _feasible(problem, start)
+    contact = pressure > 0.0
+    steps, size = 0, np.inf
+    while steps < most and np.any(contact):
+        gap = problem.clearance + problem.compliance.of(pressure)
+        descent = _Descent(problem, contact, InverseWithHoles(problem.compliance, contact).of)
+        first = np.inf
+        while steps < most:
+            steps += 1
+            depth = _depth(problem, contact, gap)
+            residual, correction = descent.correction(gap - depth)
+            size = _relative(correction, pressure)
+            first = size if np.isinf(first) else first
+            if size <= max(wanted, _DROP * first):
+                break
+            change, opened = descent.step(residual, correction)
+            pressure, gap = pressure + change, gap + opened
+        tension = contact & (pressure < 0.0)
+        overlap = ~contact & (gap < depth)
+        if not np.any(tension) and not np.any(overlap):
+            if size <= wanted:
+                return GridState(pressure, depth, steps, size, settled=True)
+            continue
+        contact = (contact & ~tension) | overlap
+        pressure = _feasible(problem, np.where(contact, pressure, 0.0))
+    return GridState(np.maximum(pressure, 0.0), np.nan, steps, size, settled=False)
+
+
+def _product(a: Array, b: Array) -> float:
+    """Inner product; not by `@`, whose threads wait for each other on vectors of this length."""
+    return float(np.sum(a * b))
+
+
+def _relative(correction: Array, pressure: Array) -> float:
+    peak = float(np.max(pressure))
+    return float(np.max(np.abs(correction))) / peak if peak > 0.0 else np.inf
+
+
+def _polonsky_keer(problem: GridProblem, start: Array, wanted: float, most: int) -> GridState:
+    """Conjugate gradients whose every step is cut off at zero pressure."""
+    if not np.any(start > 0.0):
+        start = _first(problem)
+    pressure = _feasible(problem, start)
+    symbol = 1.0 / InverseWithHoles(problem.compliance, np.ones(start.size, dtype=bool)).inverse
+    inverse = Convolution(_even(np.fft.irfft(1.0 / symbol, problem.compliance.length), start.size))
+    descent = _Descent(problem, pressure > 0.0, inverse.of)
+    depth, size = np.nan, np.inf
+    for steps in range(1, most + 1):
+        gap = problem.clearance + problem.compliance.of(pressure)
+        touching = pressure > 0.0
+        depth = _depth(problem, touching, gap)
+        descent.contact = touching | (gap < depth)
+        residual, correction = descent.correction(gap - depth)
+        size = _relative(correction, pressure)
+        if size <= wanted:
+            return GridState(pressure, depth, steps, size, settled=True)
+        change, _ = descent.step(residual, correction)
+        pressure = _feasible(problem, np.where(descent.contact, pressure + change, 0.0))
+    return GridState(pressure, depth, most, size, settled=False)
+
+
+def _even(circle: Array, size: int) -> Array:
+    """Coefficients at the distances -(size-1) ... size-1 of an even circulant."""
+    return np.concatenate([circle[size - 1 : 0 : -1], circle[:size]])

@@ -1,0 +1,198 @@
+"""The contact of rough rollers on one grid: from the nip to pressures, with errors and residual."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError
+from rollnip.contact import Convolution, GridActiveSet, GridProblem, GridState, grid_intervals
+from rollnip.influence import Kernel, displacement_matrix, grid_displacements
+from rollnip.nip import LineLoad, Nip
+from rollnip.rolling import PairKernels
+from rollnip.rough.sampling import Sampling
+
+Array = NDArray[np.float64]
+
+_SHARE = 0.01  # of the wanted accuracy that the iteration may leave
+_DIRECT = 16  # places at which transforms are checked against sums
+
+
+@dataclass(frozen=True)
+class RoughContact:
+    """The solved contact of rough rollers.
+
+    Attributes
+    ----------
+    sampling : grid and heights.
+    kernels : influence functions of both rollers.
+    state : pressures and approach; with a half-space core the approach is relative.
+    gap : (n,) of the deformed surfaces, evaluated afresh [mm].
+    coarser : figures of the same profile with every second sample; None on too few.
+    residual : largest violation of the contact conditions, evaluated afresh, relative.
+    """
+
+    sampling: Sampling
+    kernels: PairKernels
+    state: GridState
+    gap: Array
+    coarser: tuple[float, float, float, float] | None
+    residual: float
+
+    @property
+    def x(self) -> Array:
+        """Nodes, (n,) [mm]."""
+        return self.sampling.x
+
+    @property
+    def pressure(self) -> Array:
+        """At the nodes and linear between them, (n,) [MPa]."""
+        return self.state.pressure
+
+    @cached_property
+    def intervals(self) -> tuple[tuple[float, float], ...]:
+        """Contact intervals (trailing, leading) [mm]."""
+        return grid_intervals(self.x, self.pressure)
+
+    @property
+    def figures(self) -> tuple[float, float, float, float]:
+        """Approach [mm], load [N/mm], nip width [mm], peak pressure [MPa]."""
+        return _figures(self.x, self.state)
+
+    @property
+    def errors(self) -> tuple[float, float, float, float]:
+        """Of the figures: what they change by where every second node is left out.
+
+        And what the iteration has left; the width is never better known than to half a spacing.
+        """
+        if self.coarser is None:
+            return (np.inf,) * 4
+        left = 2.0 * self.state.correction
+        approach, load, width, peak = (
+            abs(fine - coarse) + left * abs(fine)
+            for fine, coarse in zip(self.figures, self.coarser, strict=True)
+        )
+        return approach, load, max(width, 0.5 * self.sampling.spacing), peak
+
+
+def rough_contact(
+    nip: Nip, sampling: Sampling, kernels: PairKernels, tolerance: float
+) -> RoughContact:
+    """Solve the contact of both rollers with their profiles.
+
+    Parameters
+    ----------
+    nip : elastic, without friction.
+    sampling : of its profiles.
+    kernels : of its rollers, linear.
+    tolerance : wanted relative accuracy.
+
+    Raises
+    ------
+    InvalidInputError
+        where the contact reaches the end of the profile.
+    """
+    kernel = normal_kernel(kernels)
+    clearance = 0.5 * nip.curvature * sampling.x**2 - sampling.upper - sampling.lower
+    lift = _lift(nip, kernel, sampling)
+
+    def compliance(stride: int) -> Convolution:
+        spacing, count = stride * sampling.spacing, sampling.x[::stride].size
+        return Convolution(grid_displacements(kernel, spacing, count) + spacing * lift)
+
+    load = nip.normal.load if isinstance(nip.normal, LineLoad) else None
+    approach = None if isinstance(nip.normal, LineLoad) else nip.normal.approach
+    problem = GridProblem(sampling.spacing, clearance, compliance(1), load, approach)
+    method = GridActiveSet(tolerance=_SHARE * tolerance)
+    state, before = method.solve(problem, compliance)
+    _require_room(sampling.x, state)
+    gap = clearance - state.approach + problem.compliance.of(state.pressure)
+    wrong = _wrong_sums(sampling.x, state.pressure, kernel, problem.compliance, lift)
+    coarser = None if before is None else _figures(sampling.x[::2], before)
+    return RoughContact(
+        sampling=sampling,
+        kernels=kernels,
+        state=state,
+        gap=gap,
+        coarser=coarser,
+        residual=_residual(nip, problem, state, gap, wrong),
+    )
+
+
+def normal_kernel(kernels: PairKernels) -> Kernel:
+    """Influence function of the pressure on the distance of both surfaces."""
+    parts = [k.zz for k in (kernels.upper, kernels.lower) if k is not None]
+    return parts[0] if len(parts) == 1 else parts[0] + parts[1]
+
+
+def _lift(nip: Nip, kernel: Kernel, sampling: Sampling) -> float:
+    """Constant added to the influence function so that no wave, however long, is stiff.
+
+    A half-space sinks by an infinite constant that the kernel leaves out; any other will do, and
+    with this one the function is positive over the whole grid.
+    """
+    if not nip.has_half_space:
+        return 0.0
+    farthest = np.array([sampling.x[-1] - sampling.x[0]])
+    return -float(np.minimum(kernel.value(farthest), kernel.value(-farthest))[0])
+
+
+def _require_room(x: Array, state: GridState) -> None:
+    touching = np.flatnonzero(state.pressure > 0.0)
+    if touching.size and touching[0] > 1 and touching[-1] < x.size - 2:
+        return
+    raise InvalidInputError(
+        f"`profile` must reach beyond the contact on both sides, got {x[0]:.6g} to {x[-1]:.6g} mm, "
+        f"where the contact reaches {x[touching[0]]:.6g} to {x[touching[-1]]:.6g} mm; measure a "
+        "longer piece, or add heights of 0 where the surface may count as smooth."
+        if touching.size
+        else "`approach` must be large enough for the rough rollers to touch; take a larger one."
+    )
+
+
+def _figures(x: Array, state: GridState) -> tuple[float, float, float, float]:
+    intervals = grid_intervals(x, state.pressure)
+    width = intervals[-1][1] - intervals[0][0] if intervals else 0.0
+    load = float(np.sum(state.pressure)) * float(x[1] - x[0])
+    return state.approach, load, width, float(np.max(state.pressure))
+
+
+def _wrong_sums(
+    x: Array, pressure: Array, kernel: Kernel, compliance: Convolution, lift: float
+) -> float:
+    """Largest difference of displacements by transforms and by direct sums, at some nodes [mm]."""
+    touching = np.flatnonzero(pressure > 0.0)
+    rows = touching[np.linspace(0, touching.size - 1, _DIRECT).astype(int)]
+    first, last = touching[0] - 1, touching[-1] + 1
+    part = slice(first + 1, last)
+    direct = displacement_matrix(kernel, x[rows], x[first : last + 1]) @ pressure[part]
+    direct = direct + lift * float(x[1] - x[0]) * float(np.sum(pressure))
+    return float(np.max(np.abs(direct - compliance.of(pressure)[rows])))
+
+
+def _residual(nip: Nip, problem: GridProblem, state: GridState, gap: Array, wrong: float) -> float:
+    """Largest violation of the contact conditions, each relative.
+
+    Penetration, p times gap and wrong sums over the approach (or the depth of the gap at the
+    edges); what the pressure would still change by over its peak; the error of the load.
+    """
+    pressure = state.pressure
+    peak, total = float(np.max(pressure)), float(np.sum(pressure)) * problem.spacing
+    touching = np.flatnonzero(pressure > 0.0)
+    width = problem.spacing * float(touching[-1] - touching[0])
+    depth = 0.125 * nip.curvature * width**2
+    if not nip.has_half_space:
+        depth = max(depth, abs(state.approach))
+    load = 0.0 if problem.load is None else abs(total / problem.load - 1.0)
+    parts = [
+        float(np.max(-gap)) / depth,
+        float(np.max(pressure * np.abs(gap))) / (peak * depth),
+        wrong / depth,
+        float(np.max(-pressure)) / peak,
+        state.correction,
+        load,
+    ]
+    return float(max(0.0, *parts))

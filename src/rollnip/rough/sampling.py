@@ -1,0 +1,142 @@
+"""One uniform grid for the profiles of both rollers, and what is to be said of the samples."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError
+from rollnip.nip import Nip
+from rollnip.rollers import Profile, Roller
+
+Array = NDArray[np.float64]
+
+_FEWEST = 512  # nodes in the contact of the smooth rollers
+_FAR = 8.0  # half-widths of that contact that are looked at, and what the highest asperity adds
+_MOST_NODES = 2**19
+_GAP = 10.0  # median distances of samples
+_FEW_SAMPLES = 64  # in the contact of the smooth rollers
+_CURVED = 0.5  # share of the roller's curvature that a profile must not hold
+
+
+@dataclass(frozen=True, slots=True)
+class Sampling:
+    """Heights of both surfaces on a uniform grid.
+
+    Attributes
+    ----------
+    x : (n,) [mm], at equal distances.
+    upper, lower : (n,) heights over the smooth rollers, positive out of each [mm].
+    notes : what the user should know of the samples.
+    """
+
+    x: Array
+    upper: Array
+    lower: Array
+    notes: tuple[str, ...]
+
+    @property
+    def spacing(self) -> float:
+        """Distance of the nodes [mm]."""
+        return float(self.x[-1] - self.x[0]) / (self.x.size - 1)
+
+
+def sampled(nip: Nip, half_width: float) -> Sampling:
+    """Profiles of a nip on the grid that its contact is solved on.
+
+    The grid has the distance of the samples (their median; the smaller of two profiles), or a
+    whole fraction of it where that leaves fewer than 512 nodes in the contact. It covers what all
+    profiles cover, as far as there can be contact. Profiles are straight between their samples.
+
+    Parameters
+    ----------
+    nip : with a profile.
+    half_width : of the contact of the smooth rollers, about [mm].
+
+    Raises
+    ------
+    InvalidInputError
+        where profiles have no part in common near the nip, or too many nodes would be needed.
+    """
+    profiles = [p for p in (nip.upper.profile, nip.lower.profile) if p is not None]
+    first, last = _ends(nip, profiles, half_width)
+    distance = min(float(np.median(np.diff(p.x))) for p in profiles)
+    spacing = distance / ceil(distance * _FEWEST / (2.0 * half_width))
+    if last - first <= 4.0 * spacing:
+        raise InvalidInputError(
+            "`profile` must cover the nip, around x = 0"
+            f"{' in both rollers' if len(profiles) > 1 else ''}; got "
+            + " and ".join(f"{p.x[0]:.6g} to {p.x[-1]:.6g} mm" for p in profiles)
+            + "."
+        )
+    # On the samples themselves where they are at equal distances.
+    origin = float(profiles[0].x[0])
+    start = ceil((first - origin) / spacing - 1e-6)
+    stop = int((last - origin) / spacing + 1e-6)
+    if stop - start >= _MOST_NODES:
+        raise InvalidInputError(
+            f"`profile` must need at most {_MOST_NODES} nodes, got {stop - start + 1} of "
+            f"{spacing:.3g} mm; give the part around the nip alone."
+        )
+    x = origin + spacing * np.arange(float(start), stop + 1.0)
+    heights = [np.zeros(x.size) if r.profile is None else r.profile.at(x) for r in _rollers(nip)]
+    notes = [
+        note
+        for name, roller in (("upper", nip.upper), ("lower", nip.lower))
+        if roller.profile is not None
+        for note in _notes(name, roller, roller.profile, half_width)
+    ]
+    return Sampling(x, heights[0], heights[1], tuple(notes))
+
+
+def _rollers(nip: Nip) -> tuple[Roller, Roller]:
+    return nip.upper, nip.lower
+
+
+def _ends(nip: Nip, profiles: list[Profile], half_width: float) -> tuple[float, float]:
+    """Where the grid begins and ends: in all profiles, near enough for contact."""
+    rise = sum(float(np.ptp(p.height)) for p in profiles)
+    far = sqrt((_FAR * half_width) ** 2 + 2.0 * rise / nip.curvature)
+    far = min(far, 0.99 * nip.upper.radius, 0.99 * nip.lower.radius)
+    first = max(-far, *(float(p.x[0]) for p in profiles))
+    last = min(far, *(float(p.x[-1]) for p in profiles))
+    return first, last
+
+
+def _notes(name: str, roller: Roller, profile: Profile, half_width: float) -> list[str]:
+    steps = np.diff(profile.x)
+    middle = float(np.median(steps))
+    notes = []
+    widest = int(np.argmax(steps))
+    if steps[widest] > _GAP * middle:
+        notes.append(
+            f"The profile of the {name} roller has a gap of {steps[widest]:.3g} mm at "
+            f"x = {profile.x[widest]:.5g} mm; it is bridged by a straight line."
+        )
+    inside = int(np.count_nonzero(np.abs(profile.x) <= half_width))
+    if inside < _FEW_SAMPLES and np.any(profile.height != 0.0):
+        notes.append(
+            f"The profile of the {name} roller has {inside} samples in the nip; what lies between "
+            "them is taken as straight."
+        )
+    if _holds_curvature(roller, profile):
+        notes.append(
+            f"The profile of the {name} roller looks as if it still held the curvature of the "
+            "roller; heights are counted over the smooth cylinder, so take off -x^2/(2 radius)."
+        )
+    return notes
+
+
+def _holds_curvature(roller: Roller, profile: Profile) -> bool:
+    """Whether a parabola as curved as the roller makes up most of the heights."""
+    if roller.curvature == 0.0 or profile.x.size < 8:
+        return False
+    x = profile.x - profile.x.mean()
+    fit = np.polynomial.Polynomial.fit(x, profile.height, 2)
+    bend = 2.0 * float(fit.convert().coef[-1]) if fit.convert().coef.size == 3 else 0.0
+    spread = float(np.var(profile.height))
+    left = float(np.var(profile.height - fit(x)))
+    return left < 0.5 * spread and abs(bend / -roller.curvature - 1.0) < _CURVED

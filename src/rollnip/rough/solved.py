@@ -1,0 +1,142 @@
+"""The flow of one solution with measured profiles."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from time import perf_counter
+from typing import Literal
+
+from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip.model import Model
+from rollnip.nip import LineLoad, Nip
+from rollnip.rolling import SolverInfo, half_width_guess, pair_kernels
+from rollnip.rough.contact import RoughContact, rough_contact
+from rollnip.rough.sampling import sampled
+from rollnip.rough.solution import RoughSolution
+from rollnip.validity import CONTACT_ANGLE, NIP_STRAIN, THICKNESS_RATIO
+
+
+def solve_rough(
+    nip: Nip, model: Model, *, on_failure: Literal["raise", "return"], version: str
+) -> RoughSolution:
+    """Solve the frictionless contact of rollers with measured profiles, as a snapshot.
+
+    Parameters
+    ----------
+    nip : with a profile on at least one roller.
+    model :
+        geometry "linear" or "curved"; with "finite", the default, "curved" is solved and said.
+    on_failure : as in ``solve``.
+    version : of rollnip, for the record.
+
+    Raises
+    ------
+    InvalidInputError
+        where the geometry is "corrected", or the profile does not reach beyond the contact.
+    ConvergenceError
+        where ``on_failure`` is "raise" and the solution could not be verified.
+    """
+    start = perf_counter()
+    notes: tuple[str, ...] = ()
+    if model.geometry == "corrected":
+        raise InvalidInputError(
+            '`geometry` must be "linear" or "curved" with a measured profile, got "corrected".'
+        )
+    if model.geometry == "finite":
+        model = replace(model, geometry="curved")
+        notes = (
+            "A measured profile is solved with linear elasticity: geometry is "
+            '"curved", not "finite".',
+        )
+    kernels = pair_kernels(nip, model.geometry)
+    sampling = sampled(nip, half_width_guess(nip, kernels))
+    rough = rough_contact(nip, sampling, kernels, model.tolerance)
+    converged, status = _verdict(nip, model, rough)
+    solution = RoughSolution(
+        nip=nip,
+        model=model,
+        converged=converged,
+        status=status,
+        warnings=(),
+        solver=SolverInfo(
+            elements=rough.x.size - 1,
+            iterations=rough.state.steps,
+            residual=rough.residual,
+            geometry_change=0.0,
+            seconds=perf_counter() - start,
+            version=version,
+        ),
+        rough=rough,
+    )
+    solution = replace(solution, warnings=notes + sampling.notes + _warnings(solution))
+    if on_failure == "raise" and not converged:
+        raise ConvergenceError(status, solution)
+    return solution
+
+
+def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
+    """Whether the contact on the samples stands, and a sentence that says so.
+
+    What the samples do not resolve, local pressures above all, is no matter of the solver: it is
+    in ``error`` and the warnings.
+    """
+    if not rough.state.settled:
+        return False, (
+            f"The contact did not settle (last correction {rough.state.correction:.1e} of the peak "
+            "pressure); try a smaller load, or a profile with fewer samples."
+        )
+    if not rough.residual <= model.tolerance:
+        return False, (
+            f"The contact conditions are violated by {rough.residual:.1e} (relative), more than "
+            f"the tolerance {model.tolerance:g}; try a smaller tolerance."
+        )
+    approach, load = rough.figures[:2]
+    depth = max(abs(approach), 0.125 * nip.curvature * rough.figures[2] ** 2)
+    by_load = isinstance(nip.normal, LineLoad)
+    name = "approach" if by_load else "load"
+    error = rough.errors[0] / depth if by_load else rough.errors[1] / load
+    if not error <= model.tolerance:
+        return False, (
+            f"The estimated error of the {name} is {error:.1e} (relative), more than the tolerance "
+            f"{model.tolerance:g}: the samples are too far apart; measure more closely, or accept "
+            "it with a larger tolerance."
+        )
+    return True, (
+        f"Solved and verified on the samples of the profile: residual {rough.residual:.1e}, "
+        f"tolerance {model.tolerance:g}."
+    )
+
+
+def _warnings(solution: RoughSolution) -> tuple[str, ...]:
+    nip, tolerance = solution.nip, solution.model.tolerance
+    found = []
+    for name, value, error in (
+        ("peak pressure", solution.peak_pressure, solution.error["peak_pressure"]),
+        ("nip width", solution.nip_width, solution.error["nip_width"]),
+    ):
+        if not error <= tolerance * value:
+            found.append(
+                f"The samples do not resolve the {name}: with every second one left out it changes "
+                f"by {100.0 * error / value:.2g} %."
+            )
+    if solution.inside_from > 0.0:
+        found.append(
+            "Stresses inside are those of an averaged pressure: do not read them at depths below "
+            f"{solution.inside_from:.2g} mm."
+        )
+    covering = nip.upper.coating_thickness + nip.lower.coating_thickness
+    if solution.approach is not None and solution.approach > NIP_STRAIN * covering:
+        found.append(
+            f"The coverings are pressed in by {100.0 * solution.approach / covering:.0f} % of "
+            f"their thickness; the model was compared with finite elements up to "
+            f"{100.0 * NIP_STRAIN:.0f} %."
+        )
+    for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
+        if roller.coating_thickness > THICKNESS_RATIO * roller.radius:
+            found.append(
+                f"The covering of the {side} roller is more than {THICKNESS_RATIO:g} of its "
+                "radius; the model was compared with finite elements up to that."
+            )
+    if solution.nip_width > 2.0 * CONTACT_ANGLE * min(nip.upper.radius, nip.lower.radius):
+        found.append("The nip is wider than half the smaller radius; the model is out of range.")
+    return tuple(found)

@@ -25,6 +25,7 @@ _SHOWN: dict[Dimension, tuple[str, str]] = {
     "temperature difference": ("K", "K"),
     "ratio": ("", ""),
     "molar energy": ("kJ/mol", "kcal/mol"),
+    "frequency": ("Hz", "Hz"),
 }
 
 

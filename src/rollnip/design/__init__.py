@@ -1,24 +1,49 @@
-"""Design: the parameter that gives a wanted result, and the best values of a few."""
+"""Design: wanted results, best values, tolerances, Pareto fronts."""
 
 from rollnip.design.aims import AtLeast, AtMost, LimitKept, Maximise, Minimise
+from rollnip.design.distributions import (
+    Correlation,
+    LogNormal,
+    Normal,
+    Triangular,
+    Uniform,
+    Varied,
+)
 from rollnip.design.find import Found, find
 from rollnip.design.optimise import Chosen, Optimum, optimise
+from rollnip.design.pareto import pareto_front
 from rollnip.design.problem import Bounds
 from rollnip.design.quantities import QUANTITIES
+from rollnip.design.scatter import Chance, Quantile, Sampling, Scatter, Share, Tolerance
 from rollnip.design.search import Search
+from rollnip.design.tolerance import tolerance
 
 __all__ = [
     "QUANTITIES",
     "AtLeast",
     "AtMost",
     "Bounds",
+    "Chance",
     "Chosen",
+    "Correlation",
     "Found",
     "LimitKept",
+    "LogNormal",
     "Maximise",
     "Minimise",
+    "Normal",
     "Optimum",
+    "Quantile",
+    "Sampling",
+    "Scatter",
     "Search",
+    "Share",
+    "Tolerance",
+    "Triangular",
+    "Uniform",
+    "Varied",
     "find",
     "optimise",
+    "pareto_front",
+    "tolerance",
 ]

@@ -1,0 +1,191 @@
+"""Distributions of parameters, and Latin hypercube samples of them, correlated or not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.stats import lognorm, norm, qmc, triang, uniform
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import Dimension
+from rollnip.design.quantities import read_parameter
+
+Array = NDArray[np.float64]
+Number = float | str
+
+_EDGE = 1e-12  # probabilities closer to 0 and 1 than this are not drawn
+
+
+@dataclass(frozen=True, slots=True)
+class Normal:
+    """Normal: mean and standard deviation; numbers in base units, or texts with their unit."""
+
+    mean: Number
+    deviation: Number
+
+
+@dataclass(frozen=True, slots=True)
+class Uniform:
+    """Every value between two limits alike; numbers in base units, or texts with their unit."""
+
+    low: Number
+    high: Number
+
+
+@dataclass(frozen=True, slots=True)
+class Triangular:
+    """From low to high, most often the mode; numbers in base units, or texts with their unit."""
+
+    low: Number
+    mode: Number
+    high: Number
+
+
+@dataclass(frozen=True, slots=True)
+class LogNormal:
+    """The logarithm is normal: median, and the standard deviation of the logarithm (a ratio)."""
+
+    median: Number
+    spread: Number
+
+
+Distribution = Normal | Uniform | Triangular | LogNormal
+
+
+@dataclass(frozen=True, slots=True)
+class Varied:
+    """A parameter by its path in the case, and how it is distributed."""
+
+    path: str
+    distribution: Distribution
+
+
+@dataclass(frozen=True, slots=True)
+class Correlation:
+    """Two parameters, and the correlation of their normal scores (of themselves where normal)."""
+
+    one: str
+    other: str
+    coefficient: float
+
+    def __post_init__(self) -> None:
+        if not -1.0 < self.coefficient < 1.0:
+            raise InvalidInputError(
+                f"`coefficient` must lie between -1 and 1, got {self.coefficient!r}."
+            )
+        if self.one == self.other:
+            raise InvalidInputError(f"`between` must name two parameters, got {self.one} twice.")
+
+
+def frozen(distribution: Distribution, dimension: Dimension) -> Any:
+    """The distribution of scipy, in base units.
+
+    Raises
+    ------
+    InvalidInputError
+        for a value that cannot be read, a deviation that is not positive, limits the wrong way
+        round.
+    """
+    match distribution:
+        case Normal(mean, deviation):
+            kind: Dimension = "temperature difference" if dimension == "temperature" else dimension
+            return norm(
+                read_parameter("mean", mean, dimension), _positive("deviation", deviation, kind)
+            )
+        case Uniform(low, high):
+            a, b = _ordered(dimension, low=low, high=high)
+            return uniform(a, b - a)
+        case Triangular(low, mode, high):
+            a, b = _ordered(dimension, low=low, high=high)
+            c = read_parameter("mode", mode, dimension)
+            if not a <= c <= b:
+                raise InvalidInputError(f"`mode` must lie between low and high, got {mode!r}.")
+            return triang((c - a) / (b - a), a, b - a)
+        case LogNormal(median, spread):
+            return lognorm(
+                _positive("spread", spread, "ratio"), scale=_positive("median", median, dimension)
+            )
+
+
+def hypercube(distributions: Sequence[Any], count: int, scores: Array | None, seed: int) -> Array:
+    """A Latin hypercube sample.
+
+    Parameters
+    ----------
+    distributions : (d,) distributions of scipy.
+    count : n.
+    scores :
+        (d, d) correlations of the normal scores, positive definite; None: independent. The
+        samples of each parameter stay one to each of n strata: they are only paired otherwise.
+    seed : of the random numbers.
+
+    Returns
+    -------
+    (n, d) array.
+
+    References
+    ----------
+    McKay, Beckman & Conover (1979), Technometrics 21, 239-245; Iman & Conover (1982), Commun.
+    Statist. B 11, 311-334.
+    """
+    generator = np.random.default_rng(seed)
+    shares = qmc.LatinHypercube(len(distributions), seed=generator).random(count)
+    if scores is not None:
+        wanted = norm.ppf(shares) @ np.linalg.cholesky(scores).T
+        ranks = np.argsort(np.argsort(wanted, axis=0), axis=0)
+        shares = np.take_along_axis(np.sort(shares, axis=0), ranks, axis=0)
+    return placed(distributions, shares)
+
+
+def placed(distributions: Sequence[Any], shares: Array) -> Array:
+    """From probabilities (n, d) to values (n, d)."""
+    inside = np.clip(shares, _EDGE, 1.0 - _EDGE)
+    return np.column_stack([one.ppf(inside[:, i]) for i, one in enumerate(distributions)])
+
+
+def score_matrix(paths: Sequence[str], correlations: Sequence[Correlation]) -> Array | None:
+    """(d, d) correlations of the normal scores; None without any.
+
+    Raises
+    ------
+    InvalidInputError
+        for a parameter that does not vary, a pair that is there twice, or correlations that
+        cannot hold together.
+    """
+    if not correlations:
+        return None
+    matrix = np.eye(len(paths))
+    for one in correlations:
+        for path in (one.one, one.other):
+            if path not in paths:
+                raise InvalidInputError(
+                    f"`between` must name parameters that vary, got {path} (there: "
+                    f"{', '.join(paths)})."
+                )
+        i, j = paths.index(one.one), paths.index(one.other)
+        if matrix[i, j] != 0.0:
+            raise InvalidInputError(f"`between` must not hold {one.one} and {one.other} twice.")
+        matrix[i, j] = matrix[j, i] = one.coefficient
+    if np.linalg.eigvalsh(matrix)[0] <= 1e-9:
+        raise InvalidInputError(
+            "`coefficient`: these correlations cannot hold together; make them weaker."
+        )
+    return matrix
+
+
+def _positive(name: str, value: Number, dimension: Dimension) -> float:
+    number = read_parameter(name, value, dimension)
+    if not number > 0.0:
+        raise InvalidInputError(f"`{name}` must be positive, got {value!r}.")
+    return number
+
+
+def _ordered(dimension: Dimension, *, low: Number, high: Number) -> tuple[float, float]:
+    a, b = read_parameter("low", low, dimension), read_parameter("high", high, dimension)
+    if not a < b:
+        raise InvalidInputError(f"`low` must be below `high`, got {low!r} and {high!r}.")
+    return a, b

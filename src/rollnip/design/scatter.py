@@ -1,0 +1,164 @@
+"""How tolerances are computed, and what comes out: distributions, quantiles, chances, shares."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from rollnip._errors import InvalidInputError
+from rollnip.design.sensitivity import require_sobol_count
+
+FEWEST, MOST = 20, 1_000_000
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Sampling:
+    """How tolerances are computed.
+
+    Parameters
+    ----------
+    count : samples of the Latin hypercube, 20 to 1000000.
+    sobol :
+        0, or a power of two n from 8 on: Sobol indices too, from n (d + 2) more cases with d
+        parameters.
+    probabilities : of the quantiles, each between 0 and 1.
+    confidence : of all intervals.
+    seed : of the random numbers; the same seed gives the same answer.
+
+    Raises
+    ------
+    InvalidInputError
+        where one is out of its range.
+    """
+
+    count: int = 200
+    sobol: int = 0
+    probabilities: tuple[float, ...] = (0.05, 0.5, 0.95)
+    confidence: float = 0.95
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if not FEWEST <= self.count <= MOST:
+            raise InvalidInputError(
+                f"`count` must lie between {FEWEST} and {MOST}, got {self.count}."
+            )
+        if self.sobol:
+            require_sobol_count(self.sobol)
+        if not self.probabilities or not all(0.0 < one < 1.0 for one in self.probabilities):
+            raise InvalidInputError(
+                f"`probabilities` must lie between 0 and 1, got {list(self.probabilities)!r}."
+            )
+        if not 0.5 <= self.confidence < 1.0:
+            raise InvalidInputError(
+                f"`confidence` must lie from 0.5 to below 1, got {self.confidence!r}."
+            )
+        if self.seed < 0:
+            raise InvalidInputError(f"`seed` must be zero or positive, got {self.seed}.")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Quantile:
+    """A quantile of a result, with its interval; None where there are too few samples for it."""
+
+    probability: float
+    value: float
+    low: float | None
+    high: float | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Share:
+    """How much of a result's scatter hangs on one parameter.
+
+    Attributes
+    ----------
+    path : of the parameter.
+    coefficient : standardised regression coefficient; its sign is that of the influence.
+    first, total : Sobol indices (value, low, high); None where they were not computed.
+    """
+
+    path: str
+    coefficient: float
+    first: tuple[float, float, float] | None
+    total: tuple[float, float, float] | None
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Scatter:
+    """How one result is distributed, in its base unit.
+
+    Attributes
+    ----------
+    quantity, unit : the result.
+    mean, deviation, least, most : of the samples.
+    quantiles : with intervals from order statistics, good for any distribution.
+    shares : of each parameter.
+    linear : share of the variance that the regression explains, R^2: below some 0.9 its
+        coefficients do not tell the whole story.
+    values : (n,) of the solved samples.
+    """
+
+    quantity: str
+    unit: str
+    mean: float
+    deviation: float
+    least: float
+    most: float
+    quantiles: tuple[Quantile, ...]
+    shares: tuple[Share, ...]
+    linear: float
+    values: tuple[float, ...]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Chance:
+    """How probable it is that a specification is met.
+
+    Attributes
+    ----------
+    text : the specification in words.
+    value : share of the solved samples that meet it.
+    low, high : its interval (Clopper & Pearson); a sample that was not solved counts as a miss
+        in ``low`` and as met in ``high``.
+    undecided : solved samples nearer to the limit than the solver's estimated error.
+    """
+
+    text: str
+    value: float
+    low: float
+    high: float
+    undecided: int
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Tolerance:
+    """What `tolerance` found.
+
+    Attributes
+    ----------
+    scatters : a distribution for each result.
+    chances : for each specification.
+    together : that all specifications are met at once; None without any.
+    paths, units : the parameters.
+    samples : (n, d) solved samples of the parameters, in base units.
+    count, confidence, seed : as asked for.
+    failures : (values by path, message) of the samples that were not solved.
+    notes : what limits the answer, in plain words.
+    """
+
+    scatters: tuple[Scatter, ...]
+    chances: tuple[Chance, ...]
+    together: Chance | None
+    paths: tuple[str, ...]
+    units: tuple[str, ...]
+    samples: tuple[tuple[float, ...], ...]
+    count: int
+    confidence: float
+    seed: int
+    failures: tuple[tuple[Mapping[str, float], str], ...]
+    notes: tuple[str, ...]
+
+    def as_dict(self) -> dict[str, Any]:
+        """All of it as plain values, for JSON."""
+        return asdict(self)

@@ -164,10 +164,9 @@ class Nip:
         """Roughness that rolls through the nip is not steady; only elastic layers forget it."""
         if self.friction > 0.0:
             raise InvalidInputError(
-                "`friction` must be 0 with a measured profile, "
-                f"got {self.friction!r}: roughness that passes "
-                "through the nip is no steady state; take traction and creepage from the same nip "
-                "without the profile."
+                f"`friction` must be 0 with a measured profile, got {self.friction!r}: roughness "
+                "that passes through the nip is no steady state; take traction and creepage from "
+                "the same nip without the profile."
             )
         if isinstance(self.tangential, Creepage):
             raise InvalidInputError(
@@ -176,9 +175,9 @@ class Nip:
             )
         if self.is_viscoelastic:
             raise InvalidInputError(
-                "`material` must be elastic everywhere with a measured profile: what a "
-                "viscoelastic layer answers depends on the roughness that passed before; take an "
-                "elastic material with its modulus at the time an asperity needs through the nip."
+                "`profile` must go with elastic materials alone: what a viscoelastic layer answers "
+                "depends on the roughness that passed before; take elastic materials with the "
+                "modulus at the time that an asperity spends in the nip."
             )
 
     def _check_controls(self) -> None:

@@ -120,8 +120,8 @@ BAD = [
     (("nip", "traction"), "5 N/mm", "nip.traction: must be smaller than friction * load"),
     (("solver", "tolerance"), 0, "solver.tolerance: "),
     (("solver", "tolerance"), nan, "solver.tolerance: "),
-    # not yet there
-    (("lower", "profile"), "profile.csv", "lower.profile: is not available yet"),
+    # a file, which is only read for a case file
+    (("lower", "profile"), "profile.csv", "lower.profile: names a file, which is read for a case"),
 ]
 
 

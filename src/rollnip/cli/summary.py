@@ -16,6 +16,7 @@ from rollnip.solution import Solution
 _WIDTH = 96
 _DIGITS = 4
 _ROUNDING = 1e-9
+_MOST_INTERVALS = 4  # listed one by one
 _SIGNS = (
     "x points to the inlet (leading edge). Traction and creepage > 0: the upper roller drives. "
     "Torque > 0: that axle puts power in."
@@ -109,6 +110,12 @@ def _nip_rows(solution: Solution) -> list[_Row]:
 
 def _contact_rows(solution: Solution) -> Iterator[_Row]:
     size = solution.nip_width
+    if len(solution.contact) > _MOST_INTERVALS:
+        length = sum(leading - trailing for trailing, leading in solution.contact)
+        yield _Row("  from x", solution.contact[0][0], "mm", size=size)
+        yield _Row("  to x", solution.contact[-1][1], "mm", size=size)
+        yield _Row(f"  touching in {len(solution.contact)} pieces", length, "mm")
+        return
     for trailing, leading in solution.contact:
         yield _Row("  from x", trailing, "mm", size=size)
         yield _Row("  to x", leading, "mm", size=size)

@@ -4,6 +4,7 @@ from rollnip.io.case import Case, case_hash, case_schema, parse_case, read_case
 from rollnip.io.columns import Columns, read_columns
 from rollnip.io.fields import check_fields_target, write_fields
 from rollnip.io.paths import dimension_at, value_at, with_values
+from rollnip.io.profile import read_profile
 from rollnip.io.result import check_result_target, result_dict, result_text, write_result
 from rollnip.io.script import base_tree, case_python, case_toml, units_of
 
@@ -21,6 +22,7 @@ __all__ = [
     "parse_case",
     "read_case",
     "read_columns",
+    "read_profile",
     "result_dict",
     "result_text",
     "units_of",

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import TypeVar
 
-from rollnip._errors import InvalidInputError
+from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.io.messages import placed, unknown_name
+from rollnip.io.profile import read_profile
 from rollnip.io.tables import (
     AnyMaterial,
     ArrheniusTable,
@@ -35,9 +37,14 @@ from rollnip.materials import (
 )
 from rollnip.model import Model
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
-from rollnip.rollers import Layer, Roller
+from rollnip.rollers import Layer, Profile, Roller
 
-_OF_THE_WHOLE = {"upper": "nip", "lower": "nip", "radius": "upper.radius, lower.radius"}
+_OF_THE_WHOLE = {
+    "upper": "nip",
+    "lower": "nip",
+    "radius": "upper.radius, lower.radius",
+    "profile": "upper.profile, lower.profile",
+}
 _KINDS: dict[type[ViscoelasticTable], type[Viscoelastic]] = {
     StandardLinearSolidTable: StandardLinearSolid,
     PronyTable: Prony,
@@ -54,10 +61,13 @@ class Builder:
     ----------
     table :
         the case as read.
+    folder :
+        where the files it names are found; None: no file is read.
     """
 
-    def __init__(self, table: CaseTable) -> None:
+    def __init__(self, table: CaseTable, folder: Path | None = None) -> None:
         self.table = table
+        self.folder = folder
         self.errors: list[str] = []
 
     def model(self) -> Model | None:
@@ -124,12 +134,28 @@ class Builder:
         return None if normal is None or tangential is None else (normal, tangential)
 
     def _roller(self, path: str, table: RollerTable) -> Roller | None:
-        if table.profile is not None:
-            self.errors.append(f"{path}.profile: is not available yet; leave it out.")
+        profile = self._profile(f"{path}.profile", table.profile)
         layers = [self._layer(f"{path}.layers[{i}]", layer) for i, layer in enumerate(table.layers)]
         core = None if table.core == "rigid" else self._named(f"{path}.core", table.core)
         whole = tuple(layer for layer in layers if layer is not None)
-        return self._made(path, lambda: Roller(radius=table.radius, layers=whole, core=core))
+        return self._made(
+            path, lambda: Roller(radius=table.radius, layers=whole, core=core, profile=profile)
+        )
+
+    def _profile(self, path: str, name: str | None) -> Profile | None:
+        if name is None:
+            return None
+        if self.folder is None:
+            self.errors.append(
+                f"{path}: names a file, which is read for a case file alone; use `rollnip solve`, "
+                "or `Roller(profile=Profile(x=..., height=...))` in Python."
+            )
+            return None
+        try:
+            return read_profile(self.folder / name)
+        except RollnipError as error:
+            self.errors.append(f"{path}: {error}")
+            return None
 
     def _layer(self, path: str, table: LayerTable) -> Layer | None:
         material = self._named(f"{path}.material", table.material)

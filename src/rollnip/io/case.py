@@ -41,12 +41,12 @@ class Case:
 
 
 def read_case(path: str | Path) -> Case:
-    """Read a case file, TOML or JSON.
+    """Read a case file, TOML or JSON, and the measured profiles that it names.
 
     Parameters
     ----------
     path :
-        the file; ``-`` is the standard input.
+        the file; ``-`` is the standard input. Profiles are looked for in its folder.
 
     Raises
     ------
@@ -54,17 +54,22 @@ def read_case(path: str | Path) -> Case:
         where the file cannot be read or does not describe a nip; one line for each error, with
         the name of the file and the path of the key.
     """
-    return parse_case(read_document(path), source=str(path))
+    folder = Path() if str(path) == "-" else Path(path).parent
+    return _built(read_document(path), str(path), folder)
 
 
 def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:
     """Read a case from a text (TOML or JSON) or from the tree that such a text holds.
 
-    ``source`` names it in messages. Raises CaseFileError as `read_case` does.
+    ``source`` names it in messages. Raises CaseFileError as `read_case` does, and where the case
+    names a file: none is ever read.
     """
     tree = parse_document(case, source) if isinstance(case, str) else dict(case)
-    table = _checked(tree, source)
-    builder = Builder(table)
+    return _built(tree, source, folder=None)
+
+
+def _built(tree: dict[str, Any], source: str, folder: Path | None) -> Case:
+    builder = Builder(_checked(tree, source), folder)
     nip, model = builder.nip(), builder.model()
     if nip is None or model is None:
         _refuse(source, builder.errors)

@@ -203,7 +203,11 @@ class RollerTable(Table):
         "rigid", description="'rigid', or the material of a half-space below the layers."
     )
     layers: list[LayerTable] = []
-    profile: str | None = Field(None, description="Measured profile; not available yet.")
+    profile: str | None = Field(
+        None,
+        description="CSV file with the columns x and height over the smooth surface, in the "
+        "folder of the case file.",
+    )
 
 
 class NipTable(Table):

@@ -30,6 +30,7 @@ _NARROW, _WIDE = 2.6, 5.5  # inches of axes at which type is smallest and full-s
 _ROOM = 1.06  # of a legend, in widths of the axes
 _SMALLEST = 0.72
 _TYPE = 10.0  # pt
+_MANY = 8  # pieces of contact
 LETTER = 0.53  # mean width of a letter, in sizes
 
 
@@ -293,8 +294,7 @@ def shade(ax: Axes, look: Look, solution: Solution) -> list[Artist]:
     """Shade stick and slip (without friction: the contact); returns what a legend shows."""
     colours = look.palette
     if not solution.zones:
-        for trailing, leading in solution.contact:
-            ax.axvspan(trailing, leading, facecolor=colours.contact, linewidth=0.0, zorder=0.5)
+        _shade_contact(ax, look, solution.contact)
         return [_swatch(look, "contact", colours.contact)]
     shown: dict[str, Artist] = {}
     for zone in sorted(solution.zones, key=lambda zone: zone.state != "stick"):
@@ -310,6 +310,23 @@ def shade(ax: Axes, look: Look, solution: Solution) -> list[Artist]:
         )
         shown[name] = _swatch(look, name, fill, hatch)
     return list(shown.values())
+
+
+def _shade_contact(ax: Axes, look: Look, contact: tuple[tuple[float, float], ...]) -> None:
+    """Shade the contact; rough rollers may touch in thousands of pieces, drawn as one."""
+    if len(contact) > _MANY:
+        pieces = [(trailing, leading - trailing) for trailing, leading in contact]
+        ax.broken_barh(
+            pieces,
+            (0.0, 1.0),
+            transform=ax.get_xaxis_transform(),
+            facecolor=look.palette.contact,
+            linewidth=0.0,
+            zorder=0.5,
+        )
+        return
+    for trailing, leading in contact:
+        ax.axvspan(trailing, leading, facecolor=look.palette.contact, linewidth=0.0, zorder=0.5)
 
 
 def _kind(state: str, direction: int | None, colours: Palette) -> tuple[str, str, str]:

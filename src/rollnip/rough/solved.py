@@ -15,6 +15,8 @@ from rollnip.rough.sampling import sampled
 from rollnip.rough.solution import RoughSolution
 from rollnip.validity import CONTACT_ANGLE, NIP_STRAIN, THICKNESS_RATIO
 
+_NOTED = 0.01  # relative error of a figure that is worth a note
+
 
 def solve_rough(
     nip: Nip, model: Model, *, on_failure: Literal["raise", "return"], version: str
@@ -114,7 +116,7 @@ def _warnings(solution: RoughSolution) -> tuple[str, ...]:
         ("peak pressure", solution.peak_pressure, solution.error["peak_pressure"]),
         ("nip width", solution.nip_width, solution.error["nip_width"]),
     ):
-        if not error <= tolerance * value:
+        if not error <= max(tolerance, _NOTED) * value:
             found.append(
                 f"The samples do not resolve the {name}: with every second one left out it changes "
                 f"by {100.0 * error / value:.2g} %."

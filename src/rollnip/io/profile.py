@@ -1,0 +1,38 @@
+"""Measured profiles as tables: places and heights, units in the column heads.
+
+x [mm], height [um]
+-4.000, 1.27
+-3.998, 1.31
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from rollnip._errors import InvalidInputError
+from rollnip.io.columns import read_columns
+from rollnip.rollers import Profile
+
+
+def read_profile(path: str | Path) -> Profile:
+    """Read a profile from a CSV file or a workbook with the columns ``x`` and ``height``.
+
+    Lengths are in mm where the head names no unit; other columns are left alone. A profile that
+    was scanned towards -x is turned round.
+
+    Raises
+    ------
+    InvalidInputError
+        naming the file: it cannot be read, a column is missing, a unit is no length, a cell is
+        empty or no number, places do not run in one direction, samples are too many.
+    """
+    table = read_columns(path)
+    x, height = table.numbers("x", "length"), table.numbers("height", "length")
+    if x.size > 1 and np.all(np.diff(x) < 0.0):
+        x, height = x[::-1], height[::-1]
+    try:
+        return Profile(x=x, height=height)
+    except InvalidInputError as problem:
+        raise InvalidInputError(f"{table.source}: {problem}") from None

@@ -1,12 +1,11 @@
 // The figures: one big, four beside it, all of them below; alarms and warnings.
 
 import { byId, el, withUnit } from "./dom.js";
-import { ANSWERS, flat, totalsOf } from "./quantities.js";
+import { ANSWERS, errorOf, flat, totalsOf } from "./quantities.js";
 import { number } from "./units.js";
 
 const SECONDS = ["peak_pressure", "approach", "dwell_time", "speed_ratio"];
 const SHORT = { approach: "Indentation" };
-const ERRORS = ["approach", "load", "creepage", "nip_width", "peak_pressure"];
 const ROOT = document.documentElement;
 
 /** Show a result. `state` is "preview" while a slider moves, else "settled". */
@@ -59,8 +58,8 @@ function showMini(result, units) {
 function showFigures(all, units) {
   const shown = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined);
   const rows = shown.map(({ key, label, dimension, digits, hint }) => {
-    const error =
-      ERRORS.includes(key) && all.error?.[key] ? `± ${units.error(all.error[key], dimension)}` : "";
+    const noted = errorOf(all, key);
+    const error = noted ? `± ${units.error(noted, dimension)}` : "";
     return figure(label, key, units.format(all[key], dimension, digits), error, hint(all));
   });
   const totals = totalsOf(all, units.system).map(({ label, text, unit }) =>
@@ -106,9 +105,9 @@ export function alarm(title, sentences) {
 }
 
 /** There is no answer to the design as it stands: what is shown belongs to an older one. */
-export function showFailure(message, details) {
+export function showFailure(sentences) {
   ROOT.classList.add("stale");
-  alarm("No answer for this design", [message, ...details]);
+  alarm("No answer for this design", sentences);
 }
 
 /** What a screen reader hears when an answer settles. */

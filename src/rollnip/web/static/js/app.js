@@ -14,7 +14,7 @@ import { Inputs } from "./inputs.js";
 import { InsideView } from "./inside.js";
 import { designItems, examplesDialog, menu, shareItems } from "./menus.js";
 import { paletteOf } from "./palette.js";
-import { same, setAt } from "./paths.js";
+import { placeInWords, same, setAt } from "./paths.js";
 import { linkOf, stateIn } from "./permalink.js";
 import { Runner } from "./runner.js";
 import { Store } from "./store.js";
@@ -32,6 +32,8 @@ const VIEW = {
   compare: { profile: "pressure" },
 };
 
+const IDLE = 300; // ms
+
 /** The designer. */
 export class App extends Actions {
   constructor({ units, materials, examples }) {
@@ -46,7 +48,7 @@ export class App extends Actions {
       settled: (tree, result) => this.answered(tree, result, "settled"),
       surfaces: (tree, surfaces, result) => this.placed(tree, surfaces, result),
       failed: (tree, error) => this.failed(error),
-      busy: (yes) => byId("answers").setAttribute("aria-busy", String(yes)),
+      busy: (yes) => this.busy(yes),
     });
     this.inputs = new Inputs(byId("inputs"), this);
     this.drawings = new Drawings(byId("drawings"), this);
@@ -105,11 +107,11 @@ export class App extends Actions {
   async begin(hash) {
     try {
       const state = await stateIn(hash);
-      if (state) await this.restore(state);
+      if (state) return await this.restore(state);
     } catch (error) {
       this.complain(`This link could not be opened: ${error.message}`);
     }
-    this.changed(this.store.state, "design");
+    return this.changed(this.store.state, "design");
   }
 
   /** A state from outside: every case goes through the server's check first. */
@@ -121,9 +123,7 @@ export class App extends Actions {
       tab: String(state.tab ?? VIEW.tab),
       system: state.system === "us" ? "us" : "metric",
     };
-    this.store.state = { case: first, kept, view };
-    this.store.past = [];
-    this.store.future = [];
+    this.store.replace({ case: first, kept, view });
   }
 
   async checked(tree) {
@@ -159,10 +159,26 @@ export class App extends Actions {
     for (const system of ["metric", "us"])
       byId(system).setAttribute("aria-pressed", String(state.view.system === system));
     this.tabs.refresh();
-    if (why === "live") this.runner.preview(state.case);
-    else if (why === "view") this.showAll();
-    else this.runner.settle(state.case);
-    if (why === "view") this.remember();
+    if (why === "view") this.showAll();
+    else this.ask(state.case, why);
+  }
+
+  ask(tree, why) {
+    clearTimeout(this.idle);
+    document.documentElement.dataset.state = "waiting";
+    if (why === "live") this.move(tree);
+    else this.runner.settle(tree);
+  }
+
+  busy(yes) {
+    byId("answers").setAttribute("aria-busy", String(yes));
+    if (!yes) document.documentElement.dataset.state = "rest";
+  }
+
+  /** A slider moves; when it has rested for a while, the exact answer is asked for. */
+  move(tree) {
+    this.runner.preview(tree);
+    this.idle = setTimeout(() => this.store.rest(), IDLE);
   }
 
   answered(tree, result, state) {
@@ -183,16 +199,18 @@ export class App extends Actions {
     this.drawings.show(this.snapshot);
   }
 
+  /** Each complaint at its input and, in words, above everything. */
   failed(error) {
-    const left = this.inputs.complain(error.details ?? []);
-    showFailure(
-      error.message,
-      left.map(({ message }) => message).filter((text) => text !== error.message),
-    );
+    const details = error.details ?? [];
+    this.inputs.complain(details);
+    const sentences = details.map(({ path, message }) => `${placeInWords(path)}${message}`);
+    showFailure(sentences.length ? sentences : [error.message]);
   }
 
+  /** The same answer in other units, colours or tabs. */
   showAll() {
     if (!this.snapshot) return;
+    this.remember();
     showAnswers(this.snapshot.result, this.units(), this.snapshot.state);
     this.drawings.show(this.snapshot);
     this.tabs.open.show(this.snapshot);

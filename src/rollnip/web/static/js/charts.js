@@ -2,6 +2,7 @@
 
 const SOURCE = "/static/plotly.min.js";
 const TYPE = "Inter, 'Segoe UI', system-ui, -apple-system, Roboto, sans-serif";
+const NARROW = 520; // px
 const CONFIG = { displayModeBar: false, responsive: false, displaylogo: false, doubleClick: "reset" };
 
 let loading = null; // the page has one Plotly
@@ -46,8 +47,25 @@ export class Chart {
   }
 }
 
+/** A layout for the size of its node; where that is narrow, type is smaller and long titles break. */
 function sized(layout, node) {
-  return { ...layout, width: node.clientWidth, height: node.clientHeight };
+  const { clientWidth: width, clientHeight: height } = node;
+  if (width > NARROW) return { ...layout, width, height };
+  const broken = (axis) => ({
+    ...axis,
+    title: { ...axis.title, text: axis.title.text.replace(", ", "<br>") },
+  });
+  const font = { ...layout.font, size: 11 };
+  const legend = { ...layout.legend, font: { size: 11 } };
+  return {
+    ...layout,
+    width,
+    height,
+    font,
+    legend,
+    xaxis: broken(layout.xaxis),
+    margin: { l: 50, r: 8, t: 8, b: 54 },
+  };
 }
 
 /** Layout shared by all charts. */

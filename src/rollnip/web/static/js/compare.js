@@ -190,5 +190,6 @@ function difference(value, first, dimension, units) {
   if (dimension === "share") return `${sign}${number(units.shown(by, dimension), 3)} points`;
   if (Math.abs(first) < 1e-9) return "";
   const percent = (100 * by) / Math.abs(first);
+  if (percent > 1000) return `${number(value / first, 3)} times`;
   return Math.abs(percent) < 1e-6 ? "same" : `${sign}${number(percent, 3)} %`;
 }

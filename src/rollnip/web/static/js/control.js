@@ -47,7 +47,7 @@ export class Control {
     });
     this.wrong = el("p", { class: "wrong", id: `${id}-wrong` });
     this.slider.addEventListener("input", () => this.slid());
-    this.slider.addEventListener("change", () => this.app.store.rest());
+    this.slider.addEventListener("pointerup", () => this.app.store.rest());
     this.box.addEventListener("change", () => this.typed());
     return el(
       "div",

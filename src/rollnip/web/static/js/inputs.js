@@ -41,6 +41,7 @@ export class Inputs {
   rebuild() {
     const tree = this.app.store.state.case;
     const focused = document.activeElement?.id;
+    this.open = new Set(Array.from(this.place.querySelectorAll("details[open]"), ({ id }) => id));
     this.controls = [];
     this.parts = [];
     this.shape = shapeOf(tree);
@@ -64,28 +65,24 @@ export class Inputs {
   /** A fold that stays open over a rebuild. */
   fold(id, title, children, kind = "fold") {
     const inner = el("div", { class: "inner" }, ...children);
-    const node = el(
+    return el(
       "details",
       { class: kind, id, open: this.open.has(id) },
       el("summary", { text: title }),
       inner,
     );
-    node.addEventListener("toggle", () => (node.open ? this.open.add(id) : this.open.delete(id)));
-    return node;
   }
 
   change(tree) {
     this.app.store.design({ case: tree });
   }
 
-  /** Show what the server found wrong, at the controls it belongs to; returns what found no place. */
+  /** Show what the server found wrong at the controls it belongs to. */
   complain(details) {
     for (const control of this.controls) control.complain("");
-    return details.filter(({ path, message }) => {
-      const control = this.controls.find((one) => one.path === path);
-      control?.complain(message);
-      return !control;
-    });
+    for (const { path, message } of details) {
+      this.controls.find((one) => one.path === path)?.complain(message);
+    }
   }
 
   pressingGroup(tree) {

@@ -151,7 +151,7 @@ function contours({ field, chosen, roller, result }, units, palette) {
   const nip = line("nip", edges, [0, 0], palette.ink, { width: 5, showlegend: false, hoverinfo: "skip" });
   const layout = layoutOf(
     palette,
-    titled("Place along the nip, outlet left, inlet right", length),
+    `${titled("Place along the nip", length)}, outlet left, inlet right`,
     titled("Depth", length),
     {
       yaxis: { autorange: roller === "lower" ? "reversed" : true, zeroline: false },

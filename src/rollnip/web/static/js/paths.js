@@ -33,6 +33,19 @@ export function idOf(path) {
   return `in-${steps(path).join("-")}`;
 }
 
+/** "upper.layers[0].thickness" -> "Upper roller, layer 1, thickness: "; "" for no path. */
+export function placeInWords(path) {
+  const parts = steps(path ?? "").filter((step) => step !== "nip" && step !== "model");
+  const words = parts.map((step, i) => {
+    if (typeof step === "number") return null;
+    if (step === "upper" || step === "lower") return `${step} roller`;
+    const next = parts[i + 1];
+    return typeof next === "number" ? `${step.replace(/s$/, "")} ${next + 1}` : step.replace(/_/g, " ");
+  });
+  const text = words.filter(Boolean).join(", ");
+  return text ? `${text.charAt(0).toUpperCase()}${text.slice(1)}: ` : "";
+}
+
 /** Whether two trees hold the same. */
 export function same(one, two) {
   return canonical(one) === canonical(two);

@@ -3,7 +3,8 @@
 import { layoutOf, line, titled } from "./charts.js";
 import { nameOf } from "./design.js";
 
-const ALONG = "Place along the nip, outlet left, inlet right";
+const ALONG = "Place along the nip";
+const ENDS = ", outlet left, inlet right";
 const SIDE = 0.75; // nip widths shown outside the contact
 
 /** The charts by tab: each (result, units, palette, tree) -> {data, layout, label}. */
@@ -109,7 +110,7 @@ function begin({ profiles }, units) {
 }
 
 function along(units) {
-  return titled(ALONG, units.name("length"));
+  return titled(ALONG, units.name("length")) + ENDS;
 }
 
 /** What is shown along the nip, in the unit shown. */

@@ -3,6 +3,9 @@
 import { getAt } from "./paths.js";
 import { number } from "./units.js";
 
+const ROUNDING = 1e-9; // of the line load: forces below it (torques: at an arm of 1 mm) are none
+const TINY = 2e-5; // relative errors below it say nothing to anybody
+
 const MATERIAL = {
   shore_a: {
     label: "Hardness (Shore A)",
@@ -280,14 +283,30 @@ const TOTALS = [
 ];
 const US_TOTALS = { N: ["lbf", 4.4482216152605], "N·m": ["lbf·ft", 1.3558179483314], W: ["W", 1] };
 
-/** The result with every scalar on its first level, as sweeps give it. */
+/** The result with every scalar on its first level, as sweeps give it; what is rounding only is zero. */
 export function flat(result) {
+  const none = ROUNDING * result.load;
+  const clean = ["traction", "torque_upper", "torque_lower"].map((key) => [
+    key,
+    cleaned(result[key], none),
+  ]);
   return {
     ...result,
+    ...Object.fromEntries(clean),
     dissipation_friction: result.dissipation.friction,
     dissipation_viscous: result.dissipation.viscous,
     max_surface_strain: result.max_surface_strain ?? largestStrain(result),
   };
+}
+
+function cleaned(value, none) {
+  return value !== null && Math.abs(value) < none ? 0 : value;
+}
+
+/** An estimated error worth showing, or null. */
+export function errorOf(all, key) {
+  const error = all.error?.[key];
+  return error && error > TINY * Math.abs(all[key]) ? error : null;
 }
 
 function largestStrain({ profiles, contact }) {

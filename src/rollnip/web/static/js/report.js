@@ -5,7 +5,7 @@ import { driving, kindOf, nameOf } from "./design.js";
 import { byId, el } from "./dom.js";
 import { drawingSvg } from "./files.js";
 import { PLOTS } from "./plots.js";
-import { ANSWERS, flat, inputAt, totalsOf } from "./quantities.js";
+import { ANSWERS, errorOf, flat, inputAt, totalsOf } from "./quantities.js";
 import { joined } from "./units.js";
 import { getAt } from "./paths.js";
 
@@ -87,7 +87,8 @@ function figures(result, units) {
   const all = flat(result);
   const rows = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined).map(
     ({ key, label, dimension, digits }) => {
-      const error = result.error?.[key] ? ` ± ${units.error(result.error[key], dimension)}` : "";
+      const noted = errorOf(all, key);
+      const error = noted ? ` ± ${units.error(noted, dimension)}` : "";
       return [label, units.text(all[key], dimension, digits) + error];
     },
   );

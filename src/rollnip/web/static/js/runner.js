@@ -3,7 +3,6 @@
 import { isAbort, post } from "./api.js";
 import { quickCase } from "./design.js";
 
-const IDLE = 300; // ms after which a resting slider gets the exact answer
 const PATIENCE = 400; // ms after which a running preview gives way to a newer one
 
 /**
@@ -17,14 +16,11 @@ export class Runner {
     this.flight = null; // {abort, started} of the preview under way
     this.waiting = null; // the newest design that waits for it
     this.exact = null; // AbortController of the exact answer under way
-    this.timer = null;
     this.turn = 0;
   }
 
   /** The design moves. */
   preview(tree) {
-    clearTimeout(this.timer);
-    this.timer = setTimeout(() => this.settle(tree), IDLE);
     this.exact?.abort();
     this.waiting = tree;
     if (!this.flight) this.launch();
@@ -33,7 +29,6 @@ export class Runner {
 
   /** The design rests: the exact answer. */
   async settle(tree) {
-    clearTimeout(this.timer);
     this.waiting = null;
     this.flight?.abort.abort();
     this.exact?.abort();

@@ -31,6 +31,15 @@ export class Store {
     this.tell(gesture === null ? "design" : "live");
   }
 
+  /** Another state altogether; there is no way back behind it. */
+  replace(state) {
+    this.past = [];
+    this.future = [];
+    this.gesture = null;
+    this.state = state;
+    this.tell("design");
+  }
+
   /** The movement is over. */
   rest() {
     if (this.gesture === null) return;

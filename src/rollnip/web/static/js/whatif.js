@@ -115,9 +115,11 @@ export class WhatIfView {
     if (this.sweep.key !== this.asking.key) return;
     const { results } = this.sweep;
     const lost = results.filter((one) => !isSound(one)).length;
-    this.said.textContent = lost
-      ? `${lost} of ${results.length} values have no sound answer and are left out.`
-      : "The dot is your design; each point of the curve is a full solution.";
+    if (results.length < POINTS) this.said.textContent = "Computing …";
+    else
+      this.said.textContent = lost
+        ? `${lost} of ${results.length} values have no sound answer and are left out.`
+        : "The dot is your design; each point of the curve is a full solution.";
     this.shown = { ...this.asking, sweep: this.sweep };
     this.chart.show(curve(this.shown, this.app.units(), this.app.palette()));
   }

@@ -1,0 +1,264 @@
+"""Every input: sliders and boxes, layers, materials, pressing, driving, units, undo."""
+
+import json
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+TOP = "in-upper-layers-0"
+
+
+def sent(designer, act):
+    """The case that an action sends to be solved."""
+    with designer.page.expect_request("**/api/solve") as request:
+        act()
+    designer.rest()
+    return json.loads(request.value.post_data)
+
+
+def choose(designer, box, value):
+    return sent(designer, lambda: designer.page.select_option(f"#{box}", value))
+
+
+@pytest.mark.parametrize(
+    ("text", "diameter"),
+    [("180", 180.0), ("6 in", 152.4), ("6,5 in", 165.1), ("0.16 m", 160.0), ("170,5", 170.5)],
+)
+def test_a_box_takes_units_and_decimal_commas(designer, text, diameter):
+    designer.enter("in-upper-radius", text)
+    assert float(designer.page.input_value("#in-upper-radius")) == pytest.approx(diameter)
+
+
+@pytest.mark.parametrize("text", ["two inches", "5 bar", "1,234", "", "1e999", "<b>1</b>"])
+def test_a_box_refuses_what_it_cannot_read_and_keeps_the_design(designer, text):
+    before = designer.nip_width
+    designer.type("in-upper-radius", text)
+    designer.page.wait_for_selector('#in-upper-radius[aria-invalid="true"]')
+    assert designer.page.inner_text("#in-upper-radius-wrong")
+    assert designer.nip_width == before
+
+
+def test_a_value_the_model_refuses_is_shown_at_its_box_and_the_answer_is_dimmed(designer):
+    designer.enter("in-upper-radius", "20 mm")
+    designer.page.wait_for_selector("html.stale")
+    assert "No answer for this design" in designer.page.inner_text("#alarm")
+    assert "Upper roller, layers: must be thinner" in designer.page.inner_text("#alarm")
+    designer.enter("in-upper-radius", "200 mm")
+    assert designer.page.inner_text("#in-upper-radius-wrong") == ""
+    assert designer.page.inner_text("#alarm") == ""
+    assert not designer.page.evaluate("document.documentElement.classList.contains('stale')")
+
+
+@pytest.mark.parametrize(
+    "box",
+    [
+        "in-upper-radius",
+        f"{TOP}-thickness",
+        f"{TOP}-material-shore_a",
+        "in-lower-radius",
+        "in-nip-load",
+        "in-nip-speed",
+        "in-nip-friction",
+    ],
+)
+def test_every_box_has_a_slider_that_moves_the_answer_and_the_box(designer, box):
+    before = designer.page.input_value(f"#{box}")
+    tree = sent(designer, lambda: designer.page.press(f"#{box}-slider", "PageUp"))
+    assert tree["model"]["geometry"] == "curved"
+    assert float(designer.page.input_value(f"#{box}")) > float(before)
+    unit = designer.page.inner_text(f"#{box}-unit")
+    value = designer.page.get_attribute(f"#{box}-slider", "aria-valuetext")
+    assert value.startswith(designer.page.input_value(f"#{box}"))
+    assert value.endswith(unit)
+
+
+def test_the_geometry_is_curved_while_a_slider_moves_and_the_users_own_at_rest(designer):
+    seen = []
+    designer.page.on(
+        "request",
+        lambda request: (
+            seen.append(json.loads(request.post_data)["model"]["geometry"])
+            if request.url.endswith("/api/solve")
+            else None
+        ),
+    )
+    for _turn in range(5):
+        designer.page.press("#in-nip-load-slider", "ArrowRight")
+    designer.rest()
+    assert set(seen[:-1]) == {"curved"}
+    assert seen[-1] == "finite"
+    assert "finite" in designer.page.inner_text("#solver-line")
+
+
+def test_layers_are_added_moved_doubled_and_removed(designer):
+    page = designer.page
+    tree = sent(designer, lambda: page.click("#add-upper"))
+    assert [layer["thickness"] for layer in tree["upper"]["layers"]] == [12, 12]
+    designer.enter("in-upper-layers-1-thickness", "3 mm")
+    tree = sent(designer, lambda: page.click("#raise-upper-1"))
+    assert [layer["thickness"] for layer in tree["upper"]["layers"]] == [3, 12]
+    tree = sent(designer, lambda: page.click("#lower-upper-0"))
+    assert [layer["thickness"] for layer in tree["upper"]["layers"]] == [12, 3]
+    tree = sent(designer, lambda: page.click("#duplicate-upper-1"))
+    assert [layer["thickness"] for layer in tree["upper"]["layers"]] == [12, 3, 3]
+    tree = sent(designer, lambda: page.click("#remove-upper-0"))
+    assert [layer["thickness"] for layer in tree["upper"]["layers"]] == [3, 3]
+    tree = sent(designer, lambda: page.click("#add-lower"))
+    assert len(tree["lower"]["layers"]) == 1
+    drawn = page.locator("#drawings figure.whole circle").count()
+    assert drawn == 3 + 2  # three bodies above (two layers, core), two below
+
+
+@pytest.mark.parametrize(
+    ("kind", "numbers"),
+    [
+        ("shore", ["shore_a"]),
+        ("elastic", ["modulus"]),
+        ("standard-linear-solid", ["modulus", "stiffening", "relaxation_time"]),
+        ("prony", ["modulus", "terms-0-modulus", "terms-1-relaxation_time"]),
+        ("fractional-zener", ["modulus", "stiffening", "relaxation_time", "order"]),
+        ("loss-factor", ["modulus", "loss_factor"]),
+    ],
+)
+def test_every_model_of_a_material_can_be_chosen_and_solved(designer, kind, numbers):
+    if kind == "shore":
+        choose(designer, f"{TOP}-material-kind", "elastic")
+    tree = choose(designer, f"{TOP}-material-kind", kind)
+    assert tree["upper"]["layers"][0]["material"]["model"] == (
+        "elastic" if kind == "shore" else kind
+    )
+    for number in numbers:
+        assert designer.page.is_visible(f"#{TOP}-material-{number}")
+        assert designer.page.is_visible(f"#{TOP}-material-{number}-slider")
+    assert designer.page.inner_text("#alarm") == ""
+    assert designer.nip_width > 0
+    if kind not in ("shore", "elastic"):
+        assert designer.figure("rolling_resistance") > 0
+
+
+def test_terms_of_a_prony_series_are_added_and_removed(designer):
+    choose(designer, f"{TOP}-material-kind", "prony")
+    tree = sent(designer, lambda: designer.page.click(f"#{TOP}-material-add-term"))
+    assert len(tree["upper"]["layers"][0]["material"]["terms"]) == 3
+    tree = sent(designer, lambda: designer.page.click(f"#{TOP}-material-drop-0"))
+    assert len(tree["upper"]["layers"][0]["material"]["terms"]) == 2
+
+
+def test_every_material_of_the_library_can_be_used_and_names_its_source(designer):
+    page = designer.page
+    options = page.locator(f'#{TOP}-material-kind optgroup[label="Library"] option')
+    names = options.evaluate_all("all => all.map(one => one.value)")
+    assert len(names) >= 3
+    designer.unfold(f"{TOP}-material-more")
+    for name in names:
+        choose(designer, f"{TOP}-material-kind", name)
+        assert page.inner_text("#alarm") == "", name
+        assert "Source:" in page.inner_text(f"#{TOP}-material-more"), name
+
+
+def test_a_viscoelastic_rubber_is_shifted_with_temperature(designer):
+    choose(designer, f"{TOP}-material-kind", "standard-linear-solid")
+    designer.unfold(f"{TOP}-material-more")
+    tree = choose(designer, f"{TOP}-material-shift", "wlf")
+    assert tree["upper"]["layers"][0]["material"]["temperature"] == 23
+    cold = designer.figure("rolling_resistance")
+    designer.enter(f"{TOP}-material-temperature", "104 degF")
+    assert float(designer.page.input_value(f"#{TOP}-material-temperature")) == pytest.approx(40)
+    assert designer.figure("rolling_resistance") != cold
+    tree = choose(designer, f"{TOP}-material-shift", "arrhenius")
+    assert tree["upper"]["layers"][0]["material"]["shift"]["activation_energy"] == 60
+    tree = choose(designer, f"{TOP}-material-shift", "none")
+    assert "shift" not in tree["upper"]["layers"][0]["material"]
+
+
+def test_load_gives_way_to_approach_without_a_jump_and_back(designer):
+    width, load = designer.nip_width, designer.figure("load")
+    tree = sent(designer, lambda: designer.page.check("#in-press-approach"))
+    assert "load" not in tree["nip"]
+    assert designer.nip_width == pytest.approx(width, rel=2e-3)
+    tree = sent(designer, lambda: designer.page.check("#in-press-load"))
+    assert "approach" not in tree["nip"]
+    assert designer.figure("load") == pytest.approx(load, rel=2e-3)
+
+
+def test_every_way_of_driving(designer):
+    tree = choose(designer, "in-drive", "traction")
+    assert tree["nip"]["traction"] == pytest.approx(0.2 * 0.5 * 4)
+    assert designer.figure("traction") == pytest.approx(0.4, rel=1e-3)
+    tree = choose(designer, "in-drive", "creepage")
+    assert set(tree["nip"]) == {"load", "friction", "speed", "creepage"}
+    designer.enter("in-nip-creepage", "0 %")
+    assert designer.figure("speed_ratio") == 1.0
+    tree = choose(designer, "in-drive", "idler")
+    assert tree["nip"]["torque_lower"] == 0
+    assert designer.figure("torque_lower") == 0
+    tree = choose(designer, "in-drive", "free")
+    assert set(tree["nip"]) == {"load", "friction", "speed"}
+
+
+def test_geometry_core_plane_and_face_width_under_advanced(designer):
+    page = designer.page
+    designer.unfold("advanced")
+    for geometry in ("linear", "corrected", "curved", "finite"):
+        assert choose(designer, "in-geometry", geometry)["model"]["geometry"] == geometry
+        assert geometry in page.inner_text("#solver-line")
+    tree = sent(designer, lambda: page.check("#in-has-width"))
+    assert tree["nip"]["face_width"] == 1000
+    assert "Pressing force, whole face" in page.inner_text("#figures")
+    assert "4000" in page.inner_text("#figures")
+    tree = sent(designer, lambda: page.check("#in-lower-plane"))
+    assert tree["lower"]["radius"] == "inf"
+    sent(designer, lambda: page.uncheck("#in-lower-plane"))
+    tree = choose(designer, "in-upper-core", "soft")
+    assert tree["upper"]["core"]["model"] == "elastic"
+    assert page.inner_text("#alarm") == ""
+
+
+def test_units_convert_and_never_drift(designer):
+    page = designer.page
+    designer.enter("in-upper-radius", "7.123 in")
+    boxes = ("in-upper-radius", f"{TOP}-thickness", "in-nip-load", "in-nip-speed")
+    metric = [page.input_value(f"#{box}") for box in boxes]
+    width, address = designer.nip_width, page.url
+    asked = []
+    page.on("request", lambda request: asked.append(request.url))
+    page.click("#us")
+    assert page.input_value("#in-upper-radius") == "7.123"
+    assert float(page.input_value("#in-nip-load")) == pytest.approx(4 * 25.4 / 4.4482216, rel=1e-5)
+    assert float(page.input_value("#in-nip-speed")) == pytest.approx(60 / 0.3048, rel=1e-5)
+    assert designer.nip_width == pytest.approx(width / 25.4, rel=1e-3)
+    assert "psi" in page.inner_text('#seconds [data-key="peak_pressure"]')
+    for _turn in range(50):
+        page.click("#metric")
+        page.click("#us")
+    page.click("#metric")
+    assert [page.input_value(f"#{box}") for box in boxes] == metric
+    assert designer.nip_width == width
+    assert [url for url in asked if "/api/solve" in url] == []
+    page.wait_for_timeout(400)
+    assert page.url == address
+
+
+def test_undo_and_redo_by_button_and_by_key(designer):
+    page = designer.page
+    first = designer.nip_width
+    designer.enter("in-nip-load", "8")
+    second = designer.nip_width
+    for _turn in range(6):  # one movement of a slider is one step
+        page.press("#in-upper-radius-slider", "ArrowRight")
+    designer.rest()
+    page.click("#undo")
+    designer.rest()
+    assert designer.nip_width == second
+    assert page.input_value("#in-upper-radius") == "200"
+    page.focus("#in-nip-load-slider")
+    page.keyboard.press("Control+z")
+    designer.rest()
+    assert designer.nip_width == first
+    assert page.is_disabled("#undo")
+    page.keyboard.press("Control+y")
+    page.click("#redo")
+    designer.rest()
+    assert page.is_disabled("#redo")
+    assert float(page.input_value("#in-upper-radius")) > 200

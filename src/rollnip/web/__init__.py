@@ -33,7 +33,7 @@ def create_app(limits: Limits | None = None, *, host: str = "127.0.0.1") -> Guar
     """
     from rollnip.web.app import application
 
-    return application(limits or Limits(), host)
+    return application(limits or Limits(), host)[0]
 
 
 def serve(*, host: str = "127.0.0.1", port: int = 8000, open_page: bool = True) -> None:

@@ -13,6 +13,7 @@ from rollnip._errors import RollnipError
 from rollnip.io import case_schema
 from rollnip.web.answers import RefusedError, error_tree, json_bytes
 from rollnip.web.bodies import CASE
+from rollnip.web.desk import Desk
 from rollnip.web.guard import Guard
 from rollnip.web.library import Library
 from rollnip.web.limits import Limits
@@ -34,9 +35,8 @@ STATIC = Path(__file__).parent / "static"
 _COMPONENT = "#/components/schemas/{model}"
 
 
-def application(limits: Limits, host: str) -> Guard:
-    """The whole application behind its guard."""
-    from rollnip.web.desk import Desk
+def application(limits: Limits, host: str) -> tuple[Guard, Desk]:
+    """The whole application behind its guard, and the desk that has its workers."""
     from rollnip.web.routes import router
 
     app = _Api(
@@ -47,7 +47,7 @@ def application(limits: Limits, host: str) -> Guard:
         redoc_url=None,
         lifespan=_lifespan,
     )
-    app.state.desk = Desk(limits)
+    app.state.desk = desk = Desk(limits)
     app.state.library = Library.read()
     app.include_router(router)
     for path, page in (("/", _index), ("/static/plotly.min.js", _plotly)):
@@ -57,7 +57,7 @@ def application(limits: Limits, host: str) -> Guard:
     app.add_exception_handler(HTTPException, _http_error)
     app.add_exception_handler(RequestValidationError, _wrong_body)
     app.add_exception_handler(Exception, _own_error)
-    return Guard(app, limits, host)
+    return Guard(app, limits, host), desk
 
 
 class _Api(FastAPI):

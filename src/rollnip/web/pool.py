@@ -90,9 +90,13 @@ class _Worker:
 
     async def stop(self) -> None:
         """End the process, whatever it is doing."""
+        self.kill()
+        await self.process.wait()
+
+    def kill(self) -> None:
+        """Have the process ended."""
         if self.process.returncode is None:
             self.process.kill()
-        await self.process.wait()
 
 
 class Pool:
@@ -110,17 +114,23 @@ class Pool:
         self._queue: deque[asyncio.Future[_Worker]] = deque()
         self._jobs: set[asyncio.Task[Any]] = set()
         self._all: set[_Worker] = set()
+        self._starts: set[asyncio.Task[None]] = set()
+        self._is_stopped = False
 
     def start(self) -> None:
         """Start the workers in the background; tasks wait until one is ready."""
         for _ in range(self._limits.workers):
-            self._spawn(self._add())
+            self._start_one()
 
     async def stop(self) -> None:
-        """End all workers."""
-        for job in tuple(self._jobs):
-            job.cancel()
-        await asyncio.gather(*self._jobs, return_exceptions=True)
+        """End all workers; who waits for one gets a WorkerError."""
+        self._is_stopped = True
+        for start in self._starts:
+            start.cancel()
+        self._give_up()
+        for worker in self._all:
+            worker.kill()
+        await asyncio.gather(*self._jobs, *self._starts, return_exceptions=True)
         await asyncio.gather(*(worker.stop() for worker in self._all))
 
     async def run(
@@ -143,7 +153,9 @@ class Pool:
         ------
         OverloadedError, TimeLimitError, WorkerError
         """
-        if len(self._queue) >= self._limits.waiting and not patient:
+        if self._is_stopped:
+            raise WorkerError
+        if not self._idle and len(self._queue) >= self._limits.waiting and not patient:
             raise OverloadedError
         task = json.dumps({"name": name, "body": body}).encode()
         key = json.dumps(body.get("case"), sort_keys=True)
@@ -157,21 +169,38 @@ class Pool:
     def _spawn(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
         job = asyncio.create_task(work)
         self._jobs.add(job)
-        job.add_done_callback(self._jobs.discard)
+        job.add_done_callback(self._finished)
         return job
 
-    async def _add(self) -> None:
-        """Start one worker and hand it over; until it is there, the pool is one smaller."""
+    def _finished(self, job: asyncio.Task[Any]) -> None:
+        self._jobs.discard(job)
+        if not job.cancelled():
+            job.exception()  # asked for, so that an error nobody waits for is not reported
+
+    async def _add(self, old: _Worker | None = None) -> None:
+        """Start one worker, for an old one; until it is there, the pool is one smaller."""
+        if old is not None:
+            await old.stop()
+            self._all.discard(old)
         while True:
             try:
                 worker = await _Worker.start(self._limits)
             except (WorkerError, TimeoutError, OSError) as error:
                 _log.error("A solver process could not be started: %r", error)
+                if not self._all:
+                    self._give_up()
                 await asyncio.sleep(_PAUSE)
             else:
                 self._all.add(worker)
                 self._release(worker)
                 return
+
+    def _give_up(self) -> None:
+        """Tell those who wait that there is no worker."""
+        while self._queue:
+            turn = self._queue.popleft()
+            if not turn.done():
+                turn.set_exception(WorkerError())
 
     async def _free(self, key: str) -> _Worker:
         """A free worker, the one that knows this case if it can be."""
@@ -214,6 +243,11 @@ class Pool:
         return reply
 
     def _replace(self, worker: _Worker) -> None:
-        self._all.discard(worker)
-        self._spawn(worker.stop())
-        self._spawn(self._add())
+        worker.kill()
+        if not self._is_stopped:
+            self._start_one(worker)
+
+    def _start_one(self, old: _Worker | None = None) -> None:
+        start = asyncio.create_task(self._add(old))
+        self._starts.add(start)
+        start.add_done_callback(self._starts.discard)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import socket
 import sys
 import webbrowser
@@ -9,15 +10,33 @@ import webbrowser
 import uvicorn
 
 from rollnip._errors import RollnipError
-from rollnip.web import create_app
+from rollnip.web.app import application
+from rollnip.web.desk import Desk
 from rollnip.web.guard import is_loopback
+from rollnip.web.limits import Limits
+
+_EVERY = {"0.0.0.0": "127.0.0.1", "::": "::1"}  # not to be asked by that name
+
+
+class _Server(uvicorn.Server):
+    """Ends the solves before it waits for their requests, so that Ctrl-C takes no time."""
+
+    def __init__(self, config: uvicorn.Config, desk: Desk) -> None:
+        super().__init__(config)
+        self._desk = desk
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """Stop."""
+        await self._desk.pool.stop()
+        await super().shutdown(sockets)
 
 
 def run(host: str, port: int, *, open_page: bool) -> None:
     """Serve until Ctrl-C; see `rollnip.web.serve`."""
-    app = create_app(host=host)
+    app, desk = application(Limits(), host)
     with _bound(host, port) as listener:
-        shown = f"[{host}]" if ":" in host else host
+        name = _EVERY.get(host, host).strip("[]")
+        shown = f"[{name}]" if ":" in name else name
         address = f"http://{shown}:{listener.getsockname()[1]}/"
         if not is_loopback(host):
             _say(
@@ -35,15 +54,19 @@ def run(host: str, port: int, *, open_page: bool) -> None:
             ws="none",
             timeout_graceful_shutdown=2,
         )
-        uvicorn.Server(config).run(sockets=[listener])
+        _Server(config, desk).run(sockets=[listener])
 
 
 def _bound(host: str, port: int) -> socket.socket:
+    if not host.strip("[]"):
+        raise RollnipError("`--host` must be an address, got an empty text (0.0.0.0 is every one).")
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     try:
         return socket.create_server((host.strip("[]"), port), family=family, backlog=256)
     except (OSError, OverflowError) as error:
-        reason = getattr(error, "strerror", None) or str(error)
+        # create_server puts the address into the text of an error of the system.
+        number = getattr(error, "errno", None) or 0
+        reason = os.strerror(number) if number > 0 else str(error)
         raise RollnipError(
             f"cannot serve at {host}, port {port}: {reason}; choose another with --port or --host."
         ) from None

@@ -44,6 +44,7 @@ from rollnip.closed_forms.thin_layer import (
     thin_compressible_layer,
     thin_incompressible_layer,
 )
+from rollnip.closed_forms.waviness import WavyContact, wavy_contact
 
 __all__ = [
     "Carter",
@@ -57,6 +58,7 @@ __all__ = [
     "ThinLayer",
     "VanishingFriction",
     "ViscoelasticStrip",
+    "WavyContact",
     "WinklerContact",
     "carter",
     "carter_at_creepage",
@@ -75,5 +77,6 @@ __all__ = [
     "thin_incompressible_layer",
     "viscoelastic_strip",
     "viscoelastic_strip_of_width",
+    "wavy_contact",
     "winkler_contact",
 ]

@@ -146,7 +146,7 @@ class _Descent:
         """Change of the pressure and of the gap."""
         product = _product(residual, correction)
         direction = -correction
-        if self.direction is not None and self.residual is not None:
+        if self.direction is not None and self.residual is not None and self.product > 0.0:
             turn = max(0.0, (product - _product(self.residual, correction)) / self.product)
             direction = _within(self.problem, self.contact, direction + turn * self.direction)
             if _product(residual, direction) >= 0.0:
@@ -162,7 +162,10 @@ def _active_set(problem: GridProblem, start: Array, wanted: float, most: int) ->
     pressure = _feasible(problem, start)
     contact = pressure > 0.0
     steps, size = 0, np.inf
-    while steps < most and np.any(contact):
+    while steps < most:
+        if problem.approach is not None and not np.any(contact):
+            apart = bool(np.all(problem.clearance >= problem.approach))
+            return GridState(np.zeros(contact.size), problem.approach, steps, 0.0, settled=apart)
         gap = problem.clearance + problem.compliance.of(pressure)
         descent = _Descent(problem, contact, InverseWithHoles(problem.compliance, contact).of)
         first = np.inf
@@ -193,8 +196,8 @@ def _product(a: Array, b: Array) -> float:
 
 
 def _relative(correction: Array, pressure: Array) -> float:
-    peak = float(np.max(pressure))
-    return float(np.max(np.abs(correction))) / peak if peak > 0.0 else np.inf
+    peak, largest = float(np.max(pressure)), float(np.max(np.abs(correction)))
+    return largest / peak if peak > 0.0 else np.inf
 
 
 def _polonsky_keer(problem: GridProblem, start: Array, wanted: float, most: int) -> GridState:

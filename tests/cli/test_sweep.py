@@ -139,6 +139,7 @@ def test_the_example_is_a_study() -> None:
 
 
 def start(study: Path, out: Path, **more: Any) -> subprocess.Popen[str]:
+    """A process to be waited for with `communicate`."""
     return subprocess.Popen(
         [*COMMAND, str(study), "--out", str(out), "--workers", "2"],
         stdout=subprocess.PIPE,
@@ -156,37 +157,38 @@ def rows(database: Path) -> dict[int, Any]:
         return {row[0]: row[1:] for row in store.rows(["position", "hash", "nip_width", "status"])}
 
 
-def wait_for_rows(database: Path, process: subprocess.Popen[str], size: int) -> None:
-    """Until the log of the database has grown; the database itself is locked."""
+def wait_for_rows(database: Path, process: subprocess.Popen[str], more: int = 60_000) -> None:
+    """Until the log of the database has grown by some bytes; the database itself is locked."""
     log = database.with_name(database.name + "-wal")
+    size = log.stat().st_size if log.is_file() else 0
     until = time.monotonic() + 120.0
     while process.poll() is None and time.monotonic() < until:
-        if log.is_file() and log.stat().st_size > size:
+        if log.is_file() and log.stat().st_size > size + more:
             return
-        time.sleep(0.02)
+        time.sleep(0.01)
 
 
 @pytest.mark.slow
 def test_killed_at_any_moment_nothing_finished_is_lost(study: Path, tmp_path: Path) -> None:
     enlarged(study, 60)
     whole = tmp_path / "whole.csv"
-    assert start(study, whole).wait() == 0
+    assert sweep(study, "--out", whole, "--workers", 1).exit_code == 0
     chance = random.Random(9)
     out, database = tmp_path / "out.csv", tmp_path / "out.db"
     known: dict[int, Any] = {}
     kills = 0
     while not out.exists():
         process = start(study, out, start_new_session=True)
-        if kills < 5:
-            wait_for_rows(database, process, chance.randrange(20_000, 90_000))
+        if kills < 4:
+            wait_for_rows(database, process, chance.randrange(100, 60_000))
             time.sleep(chance.uniform(0.0, 0.05))
-            os.kill(process.pid, signal.SIGKILL)
-            kills += 1
+            kills += process.poll() is None
+            process.kill()
         process.communicate()
         found = rows(database)
         assert known.items() <= found.items()
         known = found
-    assert kills == 5
+    assert kills >= 3
     assert len(known) == 60
     assert out.read_bytes() == whole.read_bytes()
 
@@ -195,7 +197,7 @@ def test_killed_at_any_moment_nothing_finished_is_lost(study: Path, tmp_path: Pa
 def test_workers_end_with_a_killed_parent(study: Path, tmp_path: Path) -> None:
     enlarged(study, 2000)
     process = start(study, tmp_path / "out.csv", start_new_session=True)
-    wait_for_rows(tmp_path / "out.db", process, 20_000)
+    wait_for_rows(tmp_path / "out.db", process)
     workers = children(process.pid)
     assert len(workers) >= 2
     os.kill(process.pid, signal.SIGKILL)
@@ -230,7 +232,7 @@ def test_an_interrupt_ends_it_cleanly_and_says_how_to_go_on(study: Path, tmp_pat
     enlarged(study, 2000)
     out = tmp_path / "out.csv"
     process = start(study, out, start_new_session=True)
-    wait_for_rows(tmp_path / "out.db", process, 20_000)
+    wait_for_rows(tmp_path / "out.db", process)
     os.killpg(process.pid, signal.SIGINT)  # as a terminal does: parent and workers
     said = process.communicate(timeout=120)[1]
     assert process.returncode == 130
@@ -247,7 +249,7 @@ def test_an_interrupt_ends_it_cleanly_and_says_how_to_go_on(study: Path, tmp_pat
 def test_a_full_disk_loses_nothing_that_was_finished(study: Path, tmp_path: Path) -> None:
     enlarged(study, 60)
     whole = tmp_path / "whole.csv"
-    assert start(study, whole).wait() == 0
+    assert sweep(study, "--out", whole, "--workers", 1).exit_code == 0
     out, database = tmp_path / "out.csv", tmp_path / "out.db"
 
     def limited() -> None:
@@ -261,7 +263,6 @@ def test_a_full_disk_loses_nothing_that_was_finished(study: Path, tmp_path: Path
     assert "Traceback" not in said
     kept = rows(database)
     assert 1 <= len(kept) < 60
-    process = start(study, out)
-    assert process.wait() == 0
+    assert sweep(study, "--out", out, "--workers", 1).exit_code == 0
     assert kept.items() <= rows(database).items()
     assert out.read_bytes() == whole.read_bytes()

@@ -125,25 +125,29 @@ def merge(
 
 
 def _solve(cases: OpenCases, store: Store, workers: int | None, dask: str | None) -> None:
-    from rollnip.cli.progress import progress
-    from rollnip.sweep.run import run as run_cases
-
+    """Solve what is open; what stops it says how much is kept, and how to go on."""
     total = len(store.about.positions)
-    known = f"{total - cases.count:,} known" if cases.count < total else ""
     start = perf_counter()
     try:
-        with (
-            _crew(workers, dask, cases.count) as crew,
-            progress(cases.count, known) as step,
-        ):
-            run_cases(cases, store, crew, lambda _: step())
+        _run(cases, store, workers, dask)
     except KeyboardInterrupt:
-        _stopped(f"interrupted; {_kept(store, total)}", 130)
+        sys.stderr.write(f"rollnip: interrupted; {_kept(store, total)}.\n")
+        raise typer.Exit(130) from None
     except RollnipError as error:
         raise RollnipError(f"{error} ({_kept(store, total)})") from None
     if cases.count:
         seconds = perf_counter() - start
         _say(f"{cases.count:,} cases in {seconds:.3g} s, {cases.count / seconds:.3g} a second")
+
+
+def _run(cases: OpenCases, store: Store, workers: int | None, dask: str | None) -> None:
+    from rollnip.cli.progress import progress
+    from rollnip.sweep.run import run as run_cases
+
+    known = len(store.about.positions) - cases.count
+    label = f"{known:,} known" if known else ""
+    with _crew(workers, dask, cases.count) as crew, progress(cases.count, label) as step:
+        run_cases(cases, store, crew, lambda _: step())
 
 
 def _finish(store: Store, table: Path, profiles: Path | None) -> None:
@@ -203,11 +207,6 @@ def _require_meant(study: str, count: int, yes: bool) -> None:
 def _kept(store: Store, total: int) -> str:
     done = sum(store.tally().values())
     return f"{done:,} of {total:,} cases are in {store.name}: the same command goes on from there"
-
-
-def _stopped(message: str, code: int) -> None:
-    sys.stderr.write(f"rollnip: {message}.\n")
-    raise typer.Exit(code) from None
 
 
 def _say(line: str) -> None:

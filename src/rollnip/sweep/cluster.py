@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from rollnip._errors import RollnipError
+from rollnip.sweep import task
 from rollnip.sweep.crew import Given, one_thread_each
 from rollnip.sweep.task import own_version
 
@@ -65,8 +66,9 @@ def _checked(client: Any, name: str) -> Given:
     threads = sum(client.nthreads().values())
     if not threads:
         raise RollnipError(f"{name}: the Dask scheduler has no workers.")
-    for worker, version in client.run(own_version, on_error="return").items():
-        if version != own_version():
+    ours = own_version()
+    for worker, version in client.run(task.own_version, on_error="return").items():
+        if version != ours:
             has = f"rollnip {version}" if isinstance(version, str) else f"no rollnip ({version})"
-            raise RollnipError(f"{name}: worker {worker} has {has}, this is {own_version()}.")
+            raise RollnipError(f"{name}: worker {worker} has {has}, this is {ours}.")
     return Given(client.get_executor(), threads, _CHUNK_SECONDS)

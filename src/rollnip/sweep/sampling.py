@@ -7,7 +7,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.stats import qmc
 
 from rollnip._errors import InvalidInputError
 
@@ -76,6 +75,8 @@ def samples(
             f'`count` must be a power of 2 where `method` is "sobol": {below} or {2 * below}, '
             f"got {count}."
         )
+    from scipy.stats import qmc  # takes longer to import than all the rest of a worker
+
     generator = np.random.default_rng(seed)
     sampler = qmc.Sobol if method == "sobol" else qmc.LatinHypercube
     shares = sampler(len(ranges), seed=generator).random(count)

@@ -1,0 +1,155 @@
+"""Dask: a real scheduler and real worker processes, of which some are killed on the way."""
+
+from __future__ import annotations
+
+import json
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import rollnip as rn
+from rollnip._errors import RollnipError
+from rollnip.sweep import Outcome, cluster, read_study
+from rollnip.sweep.run import OpenCases, run
+from rollnip.sweep.store import About, Store
+from rollnip.sweep.table import write_table
+
+pytest.importorskip("distributed")
+pytestmark = pytest.mark.slow
+
+PLAIN = ["--no-dashboard", "--host", "127.0.0.1"]
+
+
+class Cluster:
+    """Processes of a scheduler and of workers, as on a cluster, on this machine."""
+
+    def __init__(self, folder: Path) -> None:
+        self.file = folder / "scheduler.json"
+        self.processes: list[subprocess.Popen[bytes]] = []
+        self.scheduler = self.start("dask_scheduler", "--port", "0")
+        until = time.monotonic() + 60.0
+        while not self.file.is_file() and time.monotonic() < until:
+            time.sleep(0.05)
+        self.address = json.loads(self.file.read_text())["address"]
+
+    def start(self, module: str, *options: str) -> subprocess.Popen[bytes]:
+        command = [sys.executable, "-m", f"distributed.cli.{module}", *PLAIN, *options]
+        process = subprocess.Popen(
+            [*command, "--scheduler-file", str(self.file)], stderr=subprocess.DEVNULL
+        )
+        self.processes.append(process)
+        return process
+
+    def add_worker(self) -> subprocess.Popen[bytes]:
+        return self.start("dask_worker", "--no-nanny", "--nthreads", "1")
+
+    def close(self) -> None:
+        for process in self.processes:
+            process.kill()
+            process.wait()
+
+
+@pytest.fixture
+def machines(tmp_path: Path) -> Iterator[Cluster]:
+    one = Cluster(tmp_path)
+    yield one
+    one.close()
+
+
+@pytest.fixture
+def wide(tree: dict[str, Any]) -> dict[str, Any]:
+    """36 cases of which 12 are refused."""
+    tree["parameters"].append({"path": "lower.radius", "start": 20.0, "stop": 40.0, "count": 6})
+    return tree
+
+
+def two_workers(machines: Cluster) -> list[subprocess.Popen[bytes]]:
+    from distributed import Client
+
+    workers = [machines.add_worker() for _ in range(2)]
+    with Client(machines.address, set_as_default=False) as client:
+        client.wait_for_workers(2, timeout=60)
+    return workers
+
+
+def test_a_worker_killed_half_way_changes_nothing(
+    machines: Cluster, wide: dict[str, Any], tmp_path: Path
+) -> None:
+    rn.sweep(wide, workers=1, out=tmp_path / "alone.csv")
+    workers = two_workers(machines)
+    study = read_study(wide)
+    done: list[int] = []
+
+    def kill(outcome: Outcome) -> None:
+        done.append(outcome.position)
+        if len(done) == study.count // 2:
+            workers[0].send_signal(signal.SIGKILL)
+
+    with Store(None, About.of(study, "1")) as store:
+        with cluster.dask_crew(machines.address, 0) as crew:
+            run(OpenCases(study, store), store, crew, kill)
+        assert sorted(done) == list(range(study.count))
+        write_table(store, tmp_path / "dask.csv")
+    assert workers[0].wait() == -signal.SIGKILL
+    assert workers[1].poll() is None
+    assert (tmp_path / "dask.csv").read_bytes() == (tmp_path / "alone.csv").read_bytes()
+
+
+def test_a_lost_scheduler_is_said_and_what_was_finished_is_kept(
+    machines: Cluster, wide: dict[str, Any]
+) -> None:
+    two_workers(machines)
+    study = read_study(wide)
+
+    def kill(_: Outcome) -> None:
+        machines.scheduler.kill()
+
+    with Store(None, About.of(study, "1")) as store:
+        with (
+            pytest.raises(RollnipError, match="the workers were lost; what was finished is kept"),
+            cluster.dask_crew(machines.address, 0) as crew,
+        ):
+            run(OpenCases(study, store), store, crew, kill)
+        assert store.tally().get("lost", 0) == 0
+        kept = sum(store.tally().values())
+        assert 1 <= kept < study.count
+        cases = OpenCases(study, store)
+        assert cases.count == study.count - kept
+
+
+def test_a_cluster_without_workers_is_said(machines: Cluster) -> None:
+    with (
+        pytest.raises(RollnipError, match="the Dask scheduler has no workers"),
+        cluster.dask_crew(machines.address, 0),
+    ):
+        pass
+
+
+def pretended() -> str:
+    return "99.0"
+
+
+def test_workers_of_another_version_are_refused(
+    machines: Cluster, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    two_workers(machines)
+    # here this process takes itself for another version; the workers are asked for theirs
+    monkeypatch.setattr(cluster, "own_version", pretended)
+    with (
+        pytest.raises(RollnipError, match=r"worker tcp://.* has rollnip .*, this is 99\.0"),
+        cluster.dask_crew(machines.address, 0),
+    ):
+        pass
+
+
+def test_a_local_cluster_does_the_same(wide: dict[str, Any]) -> None:
+    study = read_study(wide)
+    with Store(None, About.of(study, "1")) as store, cluster.dask_crew("local", 2) as crew:
+        run(OpenCases(study, store), store, crew)
+        assert store.tally() == {"solved": 24, "refused": 12}

@@ -1,5 +1,7 @@
 """Tables with units in their heads."""
 
+import zipfile
+
 import numpy as np
 import pytest
 
@@ -85,3 +87,102 @@ def test_files_that_are_no_tables(table, tmp_path):
     binary.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(InvalidInputError, match="UTF-8"):
         read_columns(binary)
+
+
+def workbook(path, sheets):
+    """A minimal workbook: texts in the cells themselves, numbers as they are."""
+
+    def cell(value):
+        if isinstance(value, str):
+            return f'<c t="inlineStr"><is><t>{value}</t></is></c>'
+        return f"<c><v>{value!r}</v></c>"
+
+    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
+    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
+    package = "http://schemas.openxmlformats.org/package/2006"
+    book, links, kinds = "", "", ""
+    with zipfile.ZipFile(path, "w") as archive:
+        for number, (name, rows) in enumerate(sheets.items(), start=1):
+            cells = "".join(f"<row>{''.join(map(cell, row))}</row>" for row in rows)
+            text = f'<worksheet xmlns="{main}"><sheetData>{cells}</sheetData></worksheet>'
+            archive.writestr(f"xl/worksheets/sheet{number}.xml", text)
+            book += f'<sheet name="{name}" sheetId="{number}" r:id="rId{number}"/>'
+            links += (
+                f'<Relationship Id="rId{number}" Type="{office}/worksheet" '
+                f'Target="worksheets/sheet{number}.xml"/>'
+            )
+            kinds += (
+                f'<Override PartName="/xl/worksheets/sheet{number}.xml" ContentType="application/'
+                'vnd.openxmlformats-officedocument.spreadsheetml.worksheet+xml"/>'
+            )
+        archive.writestr(
+            "xl/workbook.xml",
+            f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>{book}</sheets></workbook>',
+        )
+        archive.writestr(
+            "xl/_rels/workbook.xml.rels",
+            f'<Relationships xmlns="{package}/relationships">{links}</Relationships>',
+        )
+        archive.writestr(
+            "_rels/.rels",
+            f'<Relationships xmlns="{package}/relationships"><Relationship Id="rId1" '
+            f'Type="{office}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
+        )
+        archive.writestr(
+            "[Content_Types].xml",
+            f'<Types xmlns="{package}/content-types"><Default Extension="xml" '
+            'ContentType="application/xml"/><Default Extension="rels" ContentType="application/'
+            'vnd.openxmlformats-package.relationships+xml"/><Override PartName="/xl/workbook.xml" '
+            'ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.'
+            f'main+xml"/>{kinds}</Types>',
+        )
+
+
+def test_a_sheet_of_a_workbook_is_read_as_a_text_file_is(tmp_path):
+    path = tmp_path / "data.xlsx"
+    rows = [["load [kN/m]", "nip width [in]", "rubber"], [1.5, 0.2, "soft"], [2.0, "1e-1", "hard"]]
+    workbook(path, {"notes": [["# of two nips"]], "data": rows})
+    columns = read_columns(path, sheet="data")
+    assert columns.names == ("load", "nip width", "rubber")
+    assert columns.units == ("kN/m", "in", "")
+    np.testing.assert_allclose(columns.numbers("load", "line load"), [1.5, 2.0])
+    np.testing.assert_allclose(columns.numbers("nip width", "length"), [5.08, 2.54])
+    assert columns.cells("rubber") == ("soft", "hard")
+    assert columns.lines == (2, 3)
+
+
+def test_the_first_sheet_counts_and_comments_and_blank_rows_do_not(tmp_path):
+    path = tmp_path / "data.xlsx"
+    workbook(path, {"one": [["# measured"], ["load", "note"], ["", ""], [1.5, ""]], "two": [["a"]]})
+    columns = read_columns(path)
+    assert columns.rows == ((1.5, ""),)
+    assert columns.lines == (4,)
+
+
+@pytest.mark.parametrize(
+    ("rows", "sheet", "words"),
+    [
+        ([["load"], [1.0]], "three", 'has no sheet "three" .there: one'),
+        ([["load", "load"], [1.0, 2.0]], None, 'column "load" must not be there twice'),
+        ([["load"]], None, "must hold a line of column names and rows below it"),
+        ([["load", "width"], [1.0, ""]], None, 'line 2: "width" must not be empty'),
+        ([["load [mm]", "width"], [1.0, 2.0]], None, 'unit of column "load" '),
+    ],
+)
+def test_what_is_wrong_with_a_workbook_is_said_with_its_name(tmp_path, rows, sheet, words):
+    path = tmp_path / "data.xlsx"
+    workbook(path, {"one": rows})
+
+    def read():
+        columns = read_columns(path, sheet=sheet)
+        columns.numbers("load", "line load")
+        columns.numbers("width", "length")
+
+    with pytest.raises(InvalidInputError, match=words) as caught:
+        read()
+    assert "data.xlsx" in str(caught.value)
+
+
+def test_what_is_no_workbook_is_said(table):
+    with pytest.raises(InvalidInputError, match=r"data.xlsx: cannot be read as a workbook"):
+        read_columns(table("load\n1\n", "data.xlsx"))

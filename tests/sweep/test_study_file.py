@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import zipfile
 from pathlib import Path
 from typing import Any
 
@@ -182,82 +181,8 @@ def test_a_wrong_table_is_said_with_its_name(
     assert "designs.csv" in str(caught.value)
 
 
-def workbook(path: Path, sheets: dict[str, list[list[str | float]]]) -> None:
-    """A minimal workbook: texts in the cells themselves, numbers as they are."""
-
-    def cell(value: str | float) -> str:
-        if isinstance(value, str):
-            return f'<c t="inlineStr"><is><t>{value}</t></is></c>'
-        return f"<c><v>{value!r}</v></c>"
-
-    main = "http://schemas.openxmlformats.org/spreadsheetml/2006/main"
-    office = "http://schemas.openxmlformats.org/officeDocument/2006/relationships"
-    package = "http://schemas.openxmlformats.org/package/2006"
-    book, links, kinds = "", "", ""
-    with zipfile.ZipFile(path, "w") as archive:
-        for number, (name, rows) in enumerate(sheets.items(), start=1):
-            cells = "".join(f"<row>{''.join(map(cell, row))}</row>" for row in rows)
-            text = f'<worksheet xmlns="{main}"><sheetData>{cells}</sheetData></worksheet>'
-            archive.writestr(f"xl/worksheets/sheet{number}.xml", text)
-            book += f'<sheet name="{name}" sheetId="{number}" r:id="rId{number}"/>'
-            links += (
-                f'<Relationship Id="rId{number}" Type="{office}/worksheet" '
-                f'Target="worksheets/sheet{number}.xml"/>'
-            )
-            kinds += (
-                f'<Override PartName="/xl/worksheets/sheet{number}.xml" ContentType="application/'
-                'vnd.openxmlformats-officedocument.spreadsheetml.worksheet+xml"/>'
-            )
-        archive.writestr(
-            "xl/workbook.xml",
-            f'<workbook xmlns="{main}" xmlns:r="{office}"><sheets>{book}</sheets></workbook>',
-        )
-        archive.writestr(
-            "xl/_rels/workbook.xml.rels",
-            f'<Relationships xmlns="{package}/relationships">{links}</Relationships>',
-        )
-        archive.writestr(
-            "_rels/.rels",
-            f'<Relationships xmlns="{package}/relationships"><Relationship Id="rId1" '
-            f'Type="{office}/officeDocument" Target="xl/workbook.xml"/></Relationships>',
-        )
-        archive.writestr(
-            "[Content_Types].xml",
-            f'<Types xmlns="{package}/content-types"><Default Extension="xml" '
-            'ContentType="application/xml"/><Default Extension="rels" ContentType="application/'
-            'vnd.openxmlformats-package.relationships+xml"/><Override PartName="/xl/workbook.xml" '
-            'ContentType="application/vnd.openxmlformats-officedocument.spreadsheetml.sheet.'
-            f'main+xml"/>{kinds}</Types>',
-        )
-
-
-def test_designs_may_stand_in_a_workbook(case: dict[str, Any], tmp_path: Path) -> None:
-    workbook(
-        tmp_path / "designs.xlsx",
-        {
-            "notes": [["of two designs"]],
-            "designs": [
-                ["upper.layers[0].thickness [in]", "nip.load [kN/m]", "model.geometry"],
-                [0.1, 1.5, "linear"],
-                [0.2, "2.5", "curved"],
-            ],
-        },
-    )
-    (tmp_path / "study.json").write_text(
-        json.dumps(study_of(case, {"table": "designs.xlsx", "sheet": "designs"}))
-    )
-    study = read_study(tmp_path / "study.json")
-    assert study.paths[0] == "upper.layers[0].thickness"
-    assert [study.values(i) for i in range(2)] == [
-        (2.54, 1.5, '"linear"'),
-        (5.08, 2.5, '"curved"'),
-    ]
-
-
-def test_a_workbook_without_that_sheet_says_which_there_are(
-    case: dict[str, Any], tmp_path: Path
-) -> None:
-    workbook(tmp_path / "designs.xlsx", {"one": [["nip.load"], [1.0]], "two": [["a"]]})
-    wrong = study_of(case, {"table": str(tmp_path / "designs.xlsx"), "sheet": "three"})
-    with pytest.raises(RollnipError, match=r'has no sheet "three" \(there: one, two\)'):
+def test_a_sheet_is_asked_of_the_table(case: dict[str, Any], tmp_path: Path) -> None:
+    (tmp_path / "designs.csv").write_text("nip.load [N/mm]\n1\n")
+    wrong = study_of(case, {"table": str(tmp_path / "designs.csv"), "sheet": "two"})
+    with pytest.raises(RollnipError, match=r"designs.csv: is a text file and has no sheets"):
         read_study(wrong)

@@ -77,11 +77,14 @@ def test_find_as_json_and_as_a_case(case, tmp_path):
     assert rn.solve(found.nip, found.model).nip_width == pytest.approx(0.4, rel=2e-4)
 
 
-def test_find_writes_toml(case, tmp_path):
+def test_find_writes_toml_with_units(case, tmp_path):
     pytest.importorskip("tomli_w")
     out = tmp_path / "found.toml"
     assert run(*ask(case), "--out", str(out)).exit_code == 0
-    assert rn.read_case(out).nip.title == "Steel on steel"
+    found = rn.read_case(out)
+    assert found.nip.title == "Steel on steel"
+    assert 'load = "' in out.read_text()
+    assert found.nip.normal.load == pytest.approx(LOAD, rel=0.01)
 
 
 def test_find_nothing_is_exit_1_and_no_file(case, tmp_path):
@@ -113,3 +116,131 @@ def test_find_refuses_files(case, tmp_path):
     assert "there is no such file" in refused(*ask(str(tmp_path / "none.toml")))
     assert "model.geometry: must be 'linear'" in refused(*ask(case)[:-1], "flat")
     assert not Path(tmp_path / "a.txt").exists()
+
+
+OPTIMISE = """
+title = "Largest load"
+case = "case.toml"
+[[parameters]]
+path = "nip.load"
+low = "10 N/mm"
+high = "500 N/mm"
+[objective]
+maximise = "load"
+[[limits]]
+result = "nip_width"
+at_most = "0.4 mm"
+[search]
+solves = 30
+"""
+TOLERANCE = """
+case = "case.toml"
+[[parameters]]
+path = "nip.load"
+distribution = "normal"
+deviation = "5 N/mm"
+[[limits]]
+result = "nip_width"
+at_most = "{limit}"
+[sampling]
+count = 20
+"""
+
+
+@pytest.fixture
+def study(case, tmp_path):
+    def written(text):
+        path = tmp_path / "study.toml"
+        path.write_text(text)
+        return str(path)
+
+    return written
+
+
+def test_optimise_says_writes_and_leaves_with_0(study, tmp_path):
+    out = tmp_path / "best.json"
+    arguments = ("--geometry", "linear", "--out", str(out))
+    result = run("optimise", study(OPTIMISE), *arguments)
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout.startswith("Largest load\n\nload is largest, ")
+    assert "The limit decides: nip_width at most 0.40000 mm." in result.stdout
+    # the search ends at 1e-3 of the interval, the width is known to 1e-3: the load to 2e-3
+    assert rn.read_case(out).nip.normal.load == pytest.approx(LOAD, abs=0.002 * LOAD + 0.5)
+
+
+def test_optimise_without_a_case_that_keeps_the_limits_is_exit_1(study, tmp_path):
+    out = tmp_path / "best.json"
+    text = OPTIMISE.replace("0.4 mm", "0.01 mm")
+    result = run("optimise", study(text), "--geometry", "linear", "--json", "--out", str(out))
+    assert (result.exit_code, result.stderr) == (1, "")
+    tree = json.loads(result.stdout)
+    assert tree["is_feasible"] is False
+    assert tree["message"].startswith("No case was found that keeps all limits.")
+    assert not out.exists()
+
+
+def test_tolerance_says_and_draws(study, tmp_path):
+    plot = tmp_path / "t.png"
+    arguments = ("--geometry", "linear", "--workers", "1")
+    text = TOLERANCE.format(limit="1 mm")
+    result = run("tolerance", study(text), *arguments, "--plot", str(plot))
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout.startswith("Steel on steel\n\n20 samples")
+    assert "nip_width at most 1.0000 mm: 100.0 %" in result.stdout
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_tolerance_as_json(study):
+    text = TOLERANCE.format(limit="1 mm")
+    result = run("tolerance", study(text), "--geometry", "linear", "--workers", "1", "--json")
+    tree = json.loads(result.stdout)
+    (scatter,) = tree["scatters"]
+    # a ~ F^(1/2): 5 % of the load are 2.5 % of the width
+    assert scatter["deviation"] / scatter["mean"] == pytest.approx(0.025, rel=0.05)
+    assert tree["together"]["limits"] == [{"quantity": "nip_width", "limit": 1.0}]
+
+
+TABLE = """nip.load [N/mm],nip_width [mm],peak_pressure [MPa],converged
+1,4,0.2,1
+2,6,0.3,1
+2.5,5,0.4,1
+3,9,0.1,0
+4,,,1
+"""
+
+
+def test_pareto_picks_rows(tmp_path):
+    table, plot, out = (tmp_path / name for name in ("r.csv", "p.png", "front.csv"))
+    table.write_text(TABLE)
+    wanted = ("--minimise", "peak_pressure", "--maximise", "nip_width")
+    result = run("pareto", str(table), *wanted, "--plot", str(plot))
+    assert (result.exit_code, result.stderr) == (0, "")
+    assert result.stdout.splitlines() == [*TABLE.splitlines()[:3]]
+    assert plot.read_bytes().startswith(b"\x89PNG")
+    assert run("pareto", str(table), *wanted, "--out", str(out)).stdout == ""
+    assert out.read_text() == result.stdout
+
+
+def test_pareto_refuses(tmp_path):
+    table = tmp_path / "r.csv"
+    table.write_text(TABLE)
+    one = ("pareto", str(table), "--minimise", "peak_pressure")
+    assert "must name two or more columns in all, got 1" in refused(*one)
+    assert 'has no column "nip_widht"; did you mean "nip_width"?' in refused(
+        *one, "--maximise", "nip_widht"
+    )
+    table.write_text(TABLE.replace("0.4", "high"))
+    assert 'line 4: "peak_pressure" must be a number, got "high"' in refused(
+        *one, "--maximise", "nip_width"
+    )
+    assert "cannot be read" in refused("pareto", str(tmp_path / "n.csv"), *one[2:], *one[2:])
+
+
+@pytest.mark.parametrize("command", ["optimise", "tolerance"])
+def test_study_files_that_are_wrong(command, study, tmp_path):
+    path = study('case = "case.toml"\nparameter = 3\n')
+    result = run(command, path)
+    assert (result.exit_code, result.stdout) == (2, "")
+    assert 'parameter: is not a known key; did you mean "parameters"?' in result.stderr
+    assert "parameters: is missing." in result.stderr
+    assert "there is no such file" in refused(command, str(tmp_path / "none.toml"))

@@ -164,7 +164,7 @@ def test_the_largest_load_a_pressure_allows():
         ([], [], "`parameters` must hold 1 to 20 parameters, got 0."),
         ([LOAD, LOAD], [], "`parameters` must not name nip.load twice."),
         ([Bounds("nip.lod", 0, 1)], [], 'did you mean "load"'),
-        ([Bounds("nip.load", 1, 1)], [], "`low` of nip.load must be below `high`"),
+        ([Bounds("nip.load", 1, 1)], [], "`low` must be below `high` for nip.load"),
         ([Bounds("nip.load", "1 mm", 2)], [], "`low` must be a force per length"),
         ([Bounds("nip.load", 1, float("nan"))], [], "`high` must be a finite number"),
         ([Bounds("upper.layers[7].thickness", 1, 2)], [], "has 1 entry"),

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, TextIO, cast
 import typer
 
 from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
-from rollnip.cli.design import find
+from rollnip.cli.design import find, optimise, pareto, tolerance
 from rollnip.cli.fit import fit
 from rollnip.cli.lda import lda
 from rollnip.cli.paper import paper
@@ -37,6 +37,9 @@ app.add_typer(sweep)
 app.command()(paper)
 app.command()(fit)
 app.command()(find)
+app.command()(optimise)
+app.command()(tolerance)
+app.command()(pareto)
 app.command()(serve)
 
 

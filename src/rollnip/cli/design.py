@@ -1,9 +1,10 @@
-"""The command ``find``: the parameter that gives a wanted result."""
+"""The commands ``find``, ``optimise``, ``tolerance`` and ``pareto``: design on the terminal."""
 
 from __future__ import annotations
 
 import re
 import sys
+from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -13,14 +14,13 @@ from rollnip._errors import InvalidInputError
 
 if TYPE_CHECKING:
     from rollnip.design import Found
+    from rollnip.io import Columns
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
 _GEOMETRY = typer.Option(help="linear, corrected, curved or finite; overrides the file.")
-_ROUNDING = 1e-9
-_SHOWN = (
-    "load", "approach", "nip_width", "peak_pressure", "mean_pressure", "traction", "creepage",
-    "dwell_time", "torque_upper", "torque_lower", "rolling_resistance",
-)  # fmt: skip
+_STUDY = typer.Argument(help="Study file, TOML or JSON; - is the standard input.")
+_JSON = typer.Option("--json", help="Print the answer as JSON.")
+_CASE_OUT = typer.Option(help="Write the case found: name.toml or name.json.")
 
 
 def find(
@@ -39,10 +39,8 @@ def find(
         int, typer.Option(help="Cases from limit to limit before closing in; more find more bends.")
     ] = 5,
     geometry: Annotated[str | None, _GEOMETRY] = None,
-    json: Annotated[bool, typer.Option("--json", help="Print the answer as JSON.")] = False,
-    out: Annotated[
-        Path | None, typer.Option(help="Write the case found: name.toml or name.json.")
-    ] = None,
+    json: Annotated[bool, _JSON] = False,
+    out: Annotated[Path | None, _CASE_OUT] = None,
 ) -> None:
     """Find the value of a parameter that gives a wanted result.
 
@@ -65,11 +63,167 @@ def find(
         with _named(case):
             found = search(tree, path, quantity, value, *between, tolerance=share, points=points)
         if out is not None and found.value is not None:
-            _write_case(found.case, out)
+            _write_case(found.case, {path: (found.value, found.unit)}, out)
         sys.stdout.write(_json(found.as_dict()) if json else _text(found, between[0]))
         sys.stdout.flush()
     if found.value is None:
         raise typer.Exit(1)
+
+
+def optimise(
+    study: Annotated[str, _STUDY],
+    geometry: Annotated[str | None, _GEOMETRY] = None,
+    json: Annotated[bool, _JSON] = False,
+    out: Annotated[Path | None, _CASE_OUT] = None,
+) -> None:
+    """Find the values of a few parameters that make one result small or large, within limits.
+
+    Leaves with 0 where a case was found that keeps all limits, confirmed by a fresh solve, 1
+    where none was, 2 for wrong input.
+    """
+    from rollnip.cli.app import _clear_failures, _named
+
+    with _clear_failures():
+        from rollnip.cli.progress import progress
+        from rollnip.design import optimise as search
+        from rollnip.design.files import read_optimise
+        from rollnip.design.report import optimum_report
+        from rollnip.sweep import evaluate
+
+        question = read_optimise(study)
+        if out is not None:
+            _check_case_target(out)
+        tree = _with_geometry(question.case, geometry)
+        with progress(question.search.solves + 1, "solving") as advance, _named(study):
+
+            def counted(case: Mapping[str, Any]) -> Mapping[str, Any]:
+                row = evaluate(case)
+                advance()
+                return row
+
+            found = search(
+                tree,
+                question.parameters,
+                question.objective,
+                question.limits,
+                search=question.search,
+                evaluate=counted,
+            )
+        if out is not None and found.is_feasible:
+            chosen = {one.path: (one.value, one.unit) for one in found.chosen}
+            _write_case(found.case, chosen, out)
+        sys.stdout.write(_json(found.as_dict()) if json else optimum_report(found, question.title))
+        sys.stdout.flush()
+    if not found.is_feasible:
+        raise typer.Exit(1)
+
+
+def tolerance(
+    study: Annotated[str, _STUDY],
+    geometry: Annotated[str | None, _GEOMETRY] = None,
+    json: Annotated[bool, _JSON] = False,
+    plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
+    workers: Annotated[
+        int | None, typer.Option(help="Processes; by default one for each core.", min=1)
+    ] = None,
+) -> None:
+    """Compute how results scatter where parameters do, and how often specifications are met."""
+    from rollnip.cli.app import _clear_failures, _named
+
+    with _clear_failures():
+        from functools import partial
+
+        from rollnip.cli.progress import progress
+        from rollnip.design import tolerance as scatter
+        from rollnip.design.files import read_tolerance
+        from rollnip.design.report import plot_tolerance, tolerance_report
+        from rollnip.plots import check_figure_target, save_figure
+        from rollnip.sweep import sweep
+
+        question = read_tolerance(study)
+        if plot is not None:
+            check_figure_target(plot)
+        tree = _with_geometry(question.case, geometry)
+        plan = question.sampling
+        total = plan.count + plan.sobol * (len(question.parameters) + 2)
+        with progress(total, "solving") as advance, _named(study):
+            found = scatter(
+                tree,
+                question.parameters,
+                results=question.results,
+                limits=question.limits,
+                correlations=question.correlations,
+                sampling=plan,
+                solve=partial(sweep, workers=workers, report=lambda _: advance()),
+            )
+        if plot is not None:
+            save_figure(plot_tolerance(found), plot)
+        sys.stdout.write(
+            _json(found.as_dict()) if json else tolerance_report(found, question.title)
+        )
+        sys.stdout.flush()
+
+
+def pareto(
+    table: Annotated[Path, typer.Argument(help="Table of results, such as of rollnip sweep.")],
+    minimise: Annotated[
+        list[str] | None, typer.Option(help="Column to be small; may be given more than once.")
+    ] = None,
+    maximise: Annotated[
+        list[str] | None, typer.Option(help="Column to be large; may be given more than once.")
+    ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Write the rows found: name.csv; else they are printed.")
+    ] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf; for two columns.")
+    ] = None,
+) -> None:
+    """Pick the rows of a table that no other row beats in all wanted columns at once.
+
+    Rows that did not converge, or hold no number there, are left out.
+    """
+    from rollnip.cli.app import _clear_failures, _named
+
+    with _clear_failures():
+        from rollnip._files import check_target, write_whole
+        from rollnip.design import pareto_front
+        from rollnip.design.pareto import Sense, column_values, rows_text
+        from rollnip.io import read_columns
+        from rollnip.plots import check_figure_target, plot_pareto, save_figure
+        from rollnip.plots.style import figure_of
+
+        wanted: list[tuple[str, Sense]] = [(name, "minimise") for name in minimise or ()]
+        wanted += [(name, "maximise") for name in maximise or ()]
+        names = [name for name, _ in wanted]
+        if len(names) < 2 or (plot is not None and len(names) != 2):
+            raise InvalidInputError(
+                f"`--minimise` and `--maximise` must name {'two' if plot else 'two or more'} "
+                f"columns in all, got {len(names)}."
+            )
+        if out is not None:
+            check_target(out, (".csv",))
+        if plot is not None:
+            check_figure_target(plot)
+        read = read_columns(table)
+        values = column_values(read, names)
+        with _named(str(table)):
+            front = pareto_front(values, [sense for _, sense in wanted])
+        if plot is not None:
+            heads = (_head(read, names[0]), _head(read, names[1]))
+            ax = plot_pareto(values[:, 0], values[:, 1], front, names=heads)
+            save_figure(figure_of(ax), plot)
+        text = rows_text(read, front)
+        if out is None:
+            sys.stdout.write(text)
+        else:
+            write_whole(out, lambda file: file.write_text(text, "utf-8"))
+        sys.stdout.flush()
+
+
+def _head(table: Columns, name: str) -> str:
+    unit = table.unit(name)
+    return f"{name} [{unit}]" if unit else name
 
 
 def _parted(wanted: str) -> tuple[str, str]:
@@ -81,7 +235,7 @@ def _parted(wanted: str) -> tuple[str, str]:
     return name.strip(), value.strip()
 
 
-def _with_geometry(tree: dict[str, Any], geometry: str | None) -> dict[str, Any]:
+def _with_geometry(tree: Mapping[str, Any], geometry: str | None) -> Mapping[str, Any]:
     from rollnip.io import with_values
 
     return tree if geometry is None else with_values(tree, {"model.geometry": geometry})
@@ -93,11 +247,19 @@ def _check_case_target(path: Path) -> None:
     check_target(path, (".toml", ".json"))
 
 
-def _write_case(tree: Any, path: Path) -> None:
+def _write_case(
+    tree: Mapping[str, Any], found: Mapping[str, tuple[float, str]], path: Path
+) -> None:
+    """Write a case, the values found in it with their units."""
     from rollnip._files import write_whole
-    from rollnip.io import case_toml
+    from rollnip._units import format_quantity
+    from rollnip.io import case_toml, with_values
 
-    text = _json(tree) if path.suffix.lower() == ".json" else case_toml(tree)
+    values = {
+        key: format_quantity(value, unit) if unit else value for key, (value, unit) in found.items()
+    }
+    written = with_values(tree, values)
+    text = _json(written) if path.suffix.lower() == ".json" else case_toml(written)
     write_whole(path, lambda file: file.write_text(text, "utf-8"))
 
 
@@ -108,8 +270,7 @@ def _json(tree: Any) -> str:
 
 
 def _text(found: Found, limit: str) -> str:
-    from rollnip._units import format_quantity
-    from rollnip.design import QUANTITIES
+    from rollnip.design.report import result_lines
 
     lines = [found.message, f"{found.solves} cases solved."]
     if found.value is None:
@@ -117,18 +278,7 @@ def _text(found: Found, limit: str) -> str:
     other = _elsewhere(found, limit)
     if other:
         lines[0] += f" That is {other}."
-    lines += ["", "At this value, solved afresh:"]
-    for name in _SHOWN:
-        value = found.scalars[name]
-        if value is None:
-            continue
-        error = found.scalars.get(f"error.{name}") or 0.0
-        real = error > _ROUNDING * abs(value)
-        doubt = f" ± {format_quantity(error, digits=2)}" if real else ""
-        number = format_quantity(value, QUANTITIES[name], digits=5)
-        lines.append(f"  {name:20s}{number}{doubt}")
-    warnings = str(found.scalars["warnings"])
-    return "\n".join(lines + ([f"Note: {warnings}"] if warnings else [])) + "\n"
+    return "\n".join(lines + result_lines(found.scalars)) + "\n"
 
 
 def _elsewhere(found: Found, limit: str) -> str:

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import csv
 from collections.abc import Sequence
+from io import StringIO
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError
+from rollnip.io import Columns
 
 Sense = Literal["minimise", "maximise"]
 
@@ -50,3 +53,55 @@ def pareto_front(values: ArrayLike, senses: Sequence[Sense]) -> NDArray[np.intp]
         if not dominated.any():
             front.append(int(row))
     return np.array(front, dtype=np.intp)
+
+
+def column_values(table: Columns, names: Sequence[str]) -> NDArray[np.float64]:
+    """Columns of a table of results, each in the unit of its head.
+
+    Parameters
+    ----------
+    table : as read.
+    names : (m,) of columns.
+
+    Returns
+    -------
+    (n, m) array; nan where a cell is empty, and in rows whose column "converged", where there is
+    one, does not say so.
+
+    Raises
+    ------
+    InvalidInputError
+        where there is no such column, or a cell is no number; with file, line and column.
+    """
+    values = np.array(
+        [
+            [
+                _number(cell, f'{table.source}, line {line}: "{name}"')
+                for cell, line in zip(table.cells(name), table.lines, strict=True)
+            ]
+            for name in names
+        ]
+    ).T
+    if "converged" in table.names:
+        said = [str(cell).strip().lower() for cell in table.cells("converged")]
+        values[[one not in ("1", "1.0", "true") for one in said]] = np.nan
+    return values
+
+
+def rows_text(table: Columns, rows: Sequence[int] | NDArray[np.intp]) -> str:
+    """Some rows of a table as CSV, under its heads."""
+    text = StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    heads = zip(table.names, table.units, strict=True)
+    writer.writerow([f"{name} [{unit}]" if unit else name for name, unit in heads])
+    writer.writerows(table.rows[row] for row in rows)
+    return text.getvalue()
+
+
+def _number(cell: str | float, where: str) -> float:
+    if cell == "":
+        return float("nan")
+    try:
+        return float(cell)
+    except ValueError:
+        raise InvalidInputError(f'{where} must be a number, got "{str(cell)[:60]}".') from None

@@ -52,7 +52,7 @@ class Problem:
         if twice is not None:
             raise InvalidInputError(f"`parameters` must not name {twice} twice.")
         self.units = tuple(base_unit(parameter_dimension(case, path)) for path in self.paths)
-        bounds = [_interval(case, one) for one in parameters]
+        bounds = [interval(case, one) for one in parameters]
         with_values(case, dict(zip(self.paths, (low for low, _ in bounds), strict=True)))
         self.low, self.high = (np.array(ends) for ends in zip(*bounds, strict=True))
         self.failures: list[tuple[Mapping[str, float], str]] = []
@@ -121,14 +121,15 @@ class Problem:
         )
 
 
-def _interval(case: Mapping[str, Any], bounds: Bounds) -> tuple[float, float]:
+def interval(case: Mapping[str, Any], bounds: Bounds) -> tuple[float, float]:
+    """Both bounds in base units. Raises InvalidInputError."""
     dimension = parameter_dimension(case, bounds.path)
     low = read_parameter("low", bounds.low, dimension)
     high = read_parameter("high", bounds.high, dimension)
     if not low < high:
         unit = base_unit(dimension)
         raise InvalidInputError(
-            f"`low` of {bounds.path} must be below `high`, got {format_quantity(low, unit)} and "
+            f"`low` must be below `high` for {bounds.path}, got {format_quantity(low, unit)} and "
             f"{format_quantity(high, unit)}."
         )
     return low, high

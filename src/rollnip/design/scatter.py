@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from rollnip._errors import InvalidInputError
+from rollnip.design.aims import Limit
 from rollnip.design.sensitivity import require_sobol_count
 
 FEWEST, MOST = 20, 1_000_000
@@ -117,13 +118,15 @@ class Chance:
 
     Attributes
     ----------
-    text : the specification in words.
+    limits : the specification, one limit or several at once.
+    text : it in words.
     value : share of the solved samples that meet it.
     low, high : its interval (Clopper & Pearson); a sample that was not solved counts as a miss
         in ``low`` and as met in ``high``.
     undecided : solved samples nearer to the limit than the solver's estimated error.
     """
 
+    limits: tuple[Limit, ...]
     text: str
     value: float
     low: float

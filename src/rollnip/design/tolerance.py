@@ -237,6 +237,7 @@ def _chance(question: _Question, table: Table, is_solved: Any, limits: tuple[Lim
     met, solved, count = int(is_met.sum()), int(is_solved.sum()), is_met.size
     level = question.sampling.confidence
     return Chance(
+        limits=limits,
         text=" and ".join(limit_text(limit) for limit in limits),
         value=met / solved,
         low=float(binomtest(met, count).proportion_ci(level).low),

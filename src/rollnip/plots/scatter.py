@@ -27,6 +27,7 @@ def plot_shares(
     ax: Axes | None = None,
     *,
     result: str = "the result",
+    kinds: tuple[str, str] = ("alone (first order)", "with interactions (total)"),
     style: Style | None = None,
 ) -> Axes:
     """Draw which share of a result's variance hangs on each parameter: Sobol indices.
@@ -37,7 +38,8 @@ def plot_shares(
     first : (d, 3) index alone, and the limits of its confidence interval; or (d,) without.
     total : the same with all interactions; None: not drawn.
     ax : axes to draw on; None makes a figure of its own.
-    result : what scatters, for the title.
+    result : what scatters, for the abscissa.
+    kinds : of ``first`` and ``total``, for the legend.
     style : "light" or "dark"; None: as the figure of ``ax`` is.
 
     Raises
@@ -45,9 +47,9 @@ def plot_shares(
     InvalidInputError
         where shapes do not fit or a number is not finite.
     """
-    parts = [("alone (first order)", _shares("first", first, len(names)))]
+    parts = [(kinds[0], _shares("first", first, len(names)))]
     if total is not None:
-        parts.append(("with interactions (total)", _shares("total", total, len(names))))
+        parts.append((kinds[1], _shares("total", total, len(names))))
     ax, look = prepare(ax, style)
     rows = np.arange(len(names), dtype=float)
     colours = (look.palette.pressure, look.palette.shear)

@@ -1,0 +1,234 @@
+"""From files to questions: optimise.toml and tolerance.toml, every fault one clear line."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+from rollnip._errors import CaseFileError, InvalidInputError
+from rollnip.design.aims import AtLeast, AtMost, Limit, Maximise, Minimise, Objective
+from rollnip.design.distributions import (
+    Correlation,
+    Distribution,
+    LogNormal,
+    Normal,
+    Triangular,
+    Uniform,
+    Varied,
+    frozen,
+)
+from rollnip.design.problem import Bounds, interval
+from rollnip.design.quantities import parameter_dimension, require_quantity
+from rollnip.design.scatter import Sampling
+from rollnip.design.search import Search
+from rollnip.io import value_at
+from rollnip.io.designs import (
+    LimitTable,
+    ObjectiveTable,
+    SamplingPlanTable,
+    SearchTable,
+    VariedTable,
+    parse_optimise,
+    parse_tolerance,
+)
+from rollnip.io.document import read_document
+from rollnip.io.messages import placed
+
+_KEYS = {
+    "normal": ("mean", "deviation"),
+    "uniform": ("low", "high"),
+    "triangular": ("low", "mode", "high"),
+    "lognormal": ("median", "spread"),
+}
+_FROM_CASE = ("mean", "mode", "median")
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class OptimiseStudy:
+    """What `optimise` is asked, as a file says it."""
+
+    title: str
+    case: Mapping[str, Any]
+    parameters: tuple[Bounds, ...]
+    objective: Objective
+    limits: tuple[Limit, ...]
+    search: Search
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ToleranceStudy:
+    """What `tolerance` is asked, as a file says it."""
+
+    title: str
+    case: Mapping[str, Any]
+    parameters: tuple[Varied, ...]
+    results: tuple[str, ...]
+    limits: tuple[Limit, ...]
+    correlations: tuple[Correlation, ...]
+    sampling: Sampling
+
+
+def read_optimise(path: str | Path) -> OptimiseStudy:
+    """Read a file that asks for an optimum, TOML or JSON.
+
+    The name of the case in it counts from the folder of the file.
+
+    Raises
+    ------
+    CaseFileError
+        where a file cannot be read or asks for what cannot be; with the name of the file and the
+        path of the key.
+    """
+    source = str(path)
+    table = parse_optimise(read_document(path), source)
+    case = _case(table.case, path)
+    parameters = []
+    for index, one in enumerate(table.parameters):
+        with _at(source, f"parameters[{index}]"):
+            parameters.append(Bounds(one.path, one.low, one.high))
+            interval(case, parameters[-1])
+    return OptimiseStudy(
+        title=table.title or str(case.get("title", "")),
+        case=case,
+        parameters=tuple(parameters),
+        objective=_objective(table.objective, source),
+        limits=_limits(table.limits, source),
+        search=_search(table.search, source),
+    )
+
+
+def read_tolerance(path: str | Path) -> ToleranceStudy:
+    """Read a file that asks for tolerances, TOML or JSON.
+
+    The name of the case in it counts from the folder of the file. A mean, mode or median that is
+    left out is the value in the case.
+
+    Raises
+    ------
+    CaseFileError
+        where a file cannot be read or asks for what cannot be; with the name of the file and the
+        path of the key.
+    """
+    source = str(path)
+    table = parse_tolerance(read_document(path), source)
+    case = _case(table.case, path)
+    parameters = []
+    for index, one in enumerate(table.parameters):
+        with _at(source, f"parameters[{index}]"):
+            dimension = parameter_dimension(case, one.path)
+            parameters.append(Varied(one.path, _distribution(one, case)))
+            frozen(parameters[-1].distribution, dimension)
+    for index, name in enumerate(table.results):
+        with _at(source, f"results[{index}]"):
+            _require_result(name)
+    correlations = []
+    for index, pair in enumerate(table.correlations):
+        with _at(source, f"correlations[{index}]"):
+            if len(pair.between) != 2:
+                raise InvalidInputError(
+                    f"`between` must name two parameters, got {len(pair.between)}."
+                )
+            one_path, other_path = pair.between
+            correlations.append(Correlation(one_path, other_path, pair.coefficient))
+    return ToleranceStudy(
+        title=table.title or str(case.get("title", "")),
+        case=case,
+        parameters=tuple(parameters),
+        results=tuple(table.results),
+        limits=_limits(table.limits, source),
+        correlations=tuple(correlations),
+        sampling=_sampling(table.sampling, source),
+    )
+
+
+@contextmanager
+def _at(source: str, where: str) -> Iterator[None]:
+    """Put the file and the place in it before what is said against a value."""
+    try:
+        yield
+    except InvalidInputError as error:
+        said = str(error)
+        of_path = "` is no path of this case" in said
+        line = f"{where}.path: {said}" if of_path else placed(where, said)
+        raise CaseFileError(f"{source}: {line}") from None
+
+
+def _case(given: Any, path: str | Path) -> Mapping[str, Any]:
+    if isinstance(given, str):
+        folder = Path() if str(path) == "-" else Path(path).parent
+        return read_document(folder / given)
+    if not isinstance(given, dict):
+        raise CaseFileError(f"{path}: case: must be the name of a case file, or a table.")
+    return given
+
+
+def _objective(table: ObjectiveTable, source: str) -> Objective:
+    with _at(source, "objective"):
+        if (table.minimise is None) == (table.maximise is None):
+            got = "neither" if table.minimise is None else "both"
+            raise InvalidInputError(f"must hold one of minimise and maximise, got {got}.")
+        if table.minimise is not None:
+            return Minimise(table.minimise)
+        return Maximise(str(table.maximise))
+
+
+def _limits(tables: Sequence[LimitTable], source: str) -> tuple[Limit, ...]:
+    limits: list[Limit] = []
+    for index, table in enumerate(tables):
+        with _at(source, f"limits[{index}]"):
+            if table.at_least is None and table.at_most is None:
+                raise InvalidInputError("must hold at_least, at_most or both, got neither.")
+            if table.at_least is not None:
+                limits.append(AtLeast(table.result, table.at_least))
+            if table.at_most is not None:
+                limits.append(AtMost(table.result, table.at_most))
+    return tuple(limits)
+
+
+def _require_result(name: str) -> None:
+    try:
+        require_quantity(name)
+    except InvalidInputError as error:
+        raise InvalidInputError(str(error).removeprefix("`quantity` ")) from None
+
+
+def _search(table: SearchTable, source: str) -> Search:
+    given = {name: getattr(table, name) for name in ("solves", "tolerance", "seed")}
+    with _at(source, "search"):
+        return Search(**{name: value for name, value in given.items() if value is not None})
+
+
+def _sampling(table: SamplingPlanTable, source: str) -> Sampling:
+    given = {name: getattr(table, name) for name in ("count", "sobol", "confidence", "seed")}
+    given["probabilities"] = None if table.quantiles is None else tuple(table.quantiles)
+    with _at(source, "sampling"):
+        return Sampling(**{name: value for name, value in given.items() if value is not None})
+
+
+def _distribution(table: VariedTable, case: Mapping[str, Any]) -> Distribution:
+    kind: Literal["normal", "uniform", "triangular", "lognormal"] = table.distribution
+    keys = _KEYS[kind]
+    given = table.model_fields_set - {"path", "distribution"}
+    for name in sorted(given - set(keys)):
+        raise InvalidInputError(
+            f"`{name}` has no meaning for a {kind} distribution (there: {', '.join(keys)})."
+        )
+    values: dict[str, Any] = {}
+    for name in keys:
+        value = getattr(table, name)
+        if value is None and name in _FROM_CASE:
+            value = value_at(case, table.path)
+        if value is None:
+            raise InvalidInputError(f"`{name}` must be given for a {kind} distribution.")
+        values[name] = value
+    makers: dict[str, Any] = {
+        "normal": Normal,
+        "uniform": Uniform,
+        "triangular": Triangular,
+        "lognormal": LogNormal,
+    }
+    made: Distribution = makers[kind](**values)
+    return made

@@ -1,0 +1,186 @@
+"""Optima and tolerances in words and in a picture."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from matplotlib.figure import Figure
+
+from rollnip._units import format_quantity
+from rollnip.design.aims import AtLeast, LimitKept
+from rollnip.design.optimise import Optimum
+from rollnip.design.quantities import QUANTITIES, result_error
+from rollnip.design.scatter import Chance, Scatter, Share, Tolerance
+from rollnip.plots import plot_distribution, plot_shares
+from rollnip.plots.style import FULL, MM, Style, palette_of
+
+_DIGITS = 5
+_ROUNDING = 1e-9  # of a value: an error as small is none
+_ROW = 78.0  # mm, height of the picture of one result
+_SHOWN = (
+    "load", "approach", "nip_width", "peak_pressure", "mean_pressure", "traction", "creepage",
+    "dwell_time", "torque_upper", "torque_lower", "rolling_resistance",
+)  # fmt: skip
+
+
+def optimum_report(found: Optimum, title: str = "") -> str:
+    """What `optimise` found: parameters, limits, results, reservations."""
+    lines = [title, ""] if title else []
+    lines += [found.message, "", "Parameters"]
+    for one in found.chosen:
+        good = " to ".join(format_quantity(end, digits=_DIGITS) for end in one.as_good)
+        lines.append(
+            f"  {one.path:32s}{_shown(one.value, one.unit):>16s}   as good within 1 %: {good}"
+        )
+    if found.limits:
+        lines += ["", "Limits"]
+        lines += [f"  {_limit(one)}" for one in found.limits]
+    lines += [*result_lines(found.scalars), ""]
+    lines.append(f"{found.solves} cases solved, {len(found.failures)} of them in vain.")
+    return "\n".join(lines) + "\n"
+
+
+def result_lines(row: Mapping[str, Any]) -> list[str]:
+    """The main results of a row of `rollnip.sweep.evaluate`, each with its error; warnings."""
+    lines = ["", "Results there, solved afresh"]
+    for name in _SHOWN:
+        if row.get(name) is not None:
+            lines.append(f"  {name:20s}{_with_error(row, name)}")
+    warnings = str(row.get("warnings") or "")
+    return [*lines, f"Note: {warnings}"] if warnings else lines
+
+
+def tolerance_report(found: Tolerance, title: str = "") -> str:
+    """What `tolerance` found: distributions, influences, chances, reservations."""
+    level = f"{100.0 * found.confidence:g} %"
+    lines = [title, ""] if title else []
+    lines.append(
+        f"{found.count} samples of a Latin hypercube, {len(found.samples)} solved; "
+        f"in brackets: {level} intervals."
+    )
+    for scatter in found.scatters:
+        lines += ["", *_scatter_lines(scatter)]
+    if found.chances:
+        lines += ["", "Chance of meeting"]
+        lines += [f"  {_chance(one)}" for one in found.chances]
+        if found.together is not None and len(found.chances) > 1:
+            lines.append(f"  {_chance(found.together, 'all at once')}")
+    return "\n".join([*lines, *(f"Note: {note}" for note in found.notes)]) + "\n"
+
+
+def plot_tolerance(found: Tolerance, *, style: Style = "light") -> Figure:
+    """Draw the distribution of every result, and beside it what it hangs on.
+
+    Raises
+    ------
+    InvalidInputError
+        where the style is unknown.
+    """
+    ground = palette_of(style).ground
+    rows = len(found.scatters)
+    figure = Figure(figsize=(FULL * MM, _ROW * rows * MM), layout="constrained", facecolor=ground)
+    axes = figure.subplots(rows, 2, squeeze=False, width_ratios=(1.25, 1.0))
+    for (left, right), scatter in zip(axes, found.scatters, strict=True):
+        unit = f" [{scatter.unit}]" if scatter.unit else ""
+        plot_distribution(
+            scatter.values,
+            left,
+            name=f"{scatter.quantity}{unit}",
+            quantiles=[(one.probability, one.value) for one in scatter.quantiles],
+            limits=_limits_of(found, scatter.quantity),
+            style=style,
+        )
+        _plot_influence(scatter, right, style)
+    return figure
+
+
+def _plot_influence(scatter: Scatter, ax: Any, style: Style) -> None:
+    names = [_short(share.path) for share in scatter.shares]
+    first = [share.first for share in scatter.shares if share.first is not None]
+    total = [share.total for share in scatter.shares if share.total is not None]
+    if first and total:
+        kinds = ("alone (Sobol)", "with interactions")
+        plot_shares(names, first, total, ax, result=scatter.quantity, kinds=kinds, style=style)
+        return
+    squares = [share.coefficient**2 for share in scatter.shares]
+    kinds = (f"regression, R² = {scatter.linear:.3f}", "")
+    plot_shares(names, squares, None, ax, result=scatter.quantity, kinds=kinds, style=style)
+
+
+def _short(path: str) -> str:
+    """A path on two lines where it is long."""
+    above, _, last = path.rpartition(".")
+    return f"{above}.\n{last}" if len(path) > 14 and above else path
+
+
+def _limits_of(found: Tolerance, quantity: str) -> tuple[float | None, float | None]:
+    """The tightest limits on a result."""
+    limits = [
+        limit for chance in found.chances for limit in chance.limits if limit.quantity == quantity
+    ]
+    least = [float(one.limit) for one in limits if isinstance(one, AtLeast)]
+    most = [float(one.limit) for one in limits if not isinstance(one, AtLeast)]
+    return max(least, default=None), min(most, default=None)
+
+
+def _scatter_lines(scatter: Scatter) -> Iterator[str]:
+    unit = scatter.unit
+    yield f"{scatter.quantity}{f' [{unit}]' if unit else ''}"
+    yield (
+        f"  mean {_number(scatter.mean)}, standard deviation "
+        f"{format_quantity(scatter.deviation, digits=3)}, from {_number(scatter.least)} to "
+        f"{_number(scatter.most)}"
+    )
+    for one in scatter.quantiles:
+        ends = " to ".join("?" if end is None else _number(end) for end in (one.low, one.high))
+        yield f"  {100.0 * one.probability:5g} % of all below {_number(one.value)}  [{ends}]"
+    yield f"  influence (regression explains {100.0 * scatter.linear:.1f} % of the variance)"
+    for share in _by_influence(scatter.shares):
+        yield f"    {share.path:34s}{share.coefficient:+.3f}{_sobol(share)}"
+
+
+def _by_influence(shares: Sequence[Share]) -> list[Share]:
+    return sorted(shares, key=lambda one: -abs(one.coefficient))
+
+
+def _sobol(share: Share) -> str:
+    if share.first is None or share.total is None:
+        return ""
+    parts = (
+        f"{value:.3f} [{low:.3f} to {high:.3f}]" for value, low, high in (share.first, share.total)
+    )
+    return "   Sobol: alone {}, with interactions {}".format(*parts)
+
+
+def _chance(chance: Chance, called: str = "") -> str:
+    near = f"; {chance.undecided} within the solver's error" if chance.undecided else ""
+    value, low, high = (100.0 * part for part in (chance.value, chance.low, chance.high))
+    return f"{called or chance.text}: {value:.1f} %  [{low:.1f} to {high:.1f} %]{near}"
+
+
+def _limit(limit: LimitKept) -> str:
+    state = "decides" if limit.is_active else "kept" if limit.is_kept else "BROKEN"
+    doubt = "" if limit.error is None else f" ± {format_quantity(limit.error, digits=2)}"
+    return (
+        f"{limit.quantity} {limit.sense} {_shown(limit.limit, limit.unit)}: "
+        f"{_shown(limit.value, limit.unit)}{doubt}, {state}"
+    )
+
+
+def _with_error(row: Mapping[str, Any], name: str) -> str:
+    value, error = float(row[name]), result_error(row, name) or 0.0
+    load, width = row.get("load") or 0.0, row.get("nip_width") or 0.0
+    size = {"traction": load, "torque_upper": load * width, "torque_lower": load * width}
+    if abs(value) <= _ROUNDING * abs(size.get(name, 0.0)):
+        value = 0.0
+    doubt = f" ± {format_quantity(error, digits=2)}" if error > _ROUNDING * abs(value) else ""
+    return f"{_shown(value, QUANTITIES[name])}{doubt}"
+
+
+def _shown(value: float, unit: str) -> str:
+    return format_quantity(value, unit, digits=_DIGITS)
+
+
+def _number(value: float) -> str:
+    return format_quantity(value, digits=_DIGITS)

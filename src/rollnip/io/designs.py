@@ -1,0 +1,153 @@
+"""The tables of files that ask for an optimum or for tolerances: which keys, and their form."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Literal
+
+from pydantic import ConfigDict, Field, ValidationError
+
+from rollnip._errors import CaseFileError
+from rollnip.io.messages import form_error
+from rollnip.io.tables import Ratio, Table
+
+
+class BoundsTable(Table):
+    """A parameter of an optimum."""
+
+    path: str = Field(description="Of the key in the case: upper.layers[0].thickness.")
+    low: Any = Field(description="Lower bound, with its unit.")
+    high: Any = Field(description="Upper bound.")
+
+
+class ObjectiveTable(Table):
+    """What is to be small or large; exactly one of both."""
+
+    minimise: str | None = Field(default=None, description="Name of a result: peak_pressure.")
+    maximise: str | None = Field(default=None, description="Name of a result.")
+
+
+class LimitTable(Table):
+    """What a result must keep; at_least, at_most or both."""
+
+    result: str = Field(description="Name of a result: nip_width.")
+    at_least: Any = Field(default=None, description="With its unit.")
+    at_most: Any = Field(default=None, description="With its unit.")
+
+
+class SearchTable(Table):
+    """How an optimum is searched."""
+
+    solves: int | None = Field(default=None, description="Cases at most; 250 by default.")
+    tolerance: Ratio | None = Field(
+        default=None, description="Of the parameters; 0.1 % of the intervals."
+    )
+    seed: int | None = Field(default=None, description="Of the random numbers; 0 by default.")
+
+
+class OptimiseTable(Table):
+    """A whole file that asks for an optimum."""
+
+    model_config = ConfigDict(title="rollnip optimise file")
+
+    title: str = ""
+    case: Any = Field(description="A case file, or the case itself as a table.")
+    parameters: list[BoundsTable]
+    objective: ObjectiveTable
+    limits: list[LimitTable] = Field(default=[])
+    search: SearchTable = SearchTable()
+
+
+class VariedTable(Table):
+    """A parameter that scatters."""
+
+    path: str = Field(description="Of the key in the case: upper.layers[0].thickness.")
+    distribution: Literal["normal", "uniform", "triangular", "lognormal"]
+    mean: Any = Field(default=None, description="Of a normal one; none: the value in the case.")
+    deviation: Any = Field(default=None, description="Standard deviation of a normal one.")
+    low: Any = Field(default=None, description="Least value of a uniform or triangular one.")
+    high: Any = Field(default=None, description="Largest value of a uniform or triangular one.")
+    mode: Any = Field(default=None, description="Of a triangular one; none: the value in the case.")
+    median: Any = Field(
+        default=None, description="Of a lognormal one; none: the value in the case."
+    )
+    spread: Any = Field(
+        default=None, description="Standard deviation of its logarithm, such as 5 %."
+    )
+
+
+class CorrelationTable(Table):
+    """Two parameters that scatter together."""
+
+    between: list[str] = Field(description="The paths of two parameters.")
+    coefficient: Ratio = Field(description="Between -1 and 1.")
+
+
+class SamplingPlanTable(Table):
+    """How tolerances are computed."""
+
+    count: int | None = Field(
+        default=None, description="Samples of the Latin hypercube; 200 by default."
+    )
+    sobol: int | None = Field(
+        default=None,
+        description="Power of two; 0 by default: no Sobol indices. Needs n (d + 2) cases.",
+    )
+    quantiles: list[Ratio] | None = Field(
+        default=None, description="5 %, 50 % and 95 % by default."
+    )
+    confidence: Ratio | None = Field(default=None, description="Of all intervals; 95 % by default.")
+    seed: int | None = Field(default=None, description="Of the random numbers; 0 by default.")
+
+
+class ToleranceTable(Table):
+    """A whole file that asks for tolerances."""
+
+    model_config = ConfigDict(title="rollnip tolerance file")
+
+    title: str = ""
+    case: Any = Field(description="A case file, or the case itself as a table.")
+    parameters: list[VariedTable]
+    results: list[str] = Field(
+        default=[], description="Names of results; those of limits are there too."
+    )
+    limits: list[LimitTable] = Field(default=[], description="The specifications.")
+    correlations: list[CorrelationTable] = Field(default=[])
+    sampling: SamplingPlanTable = SamplingPlanTable()
+
+
+_OPTIMISE: dict[str, type[Table]] = {
+    "parameters": BoundsTable,
+    "objective": ObjectiveTable,
+    "limits": LimitTable,
+    "search": SearchTable,
+}
+_TOLERANCE: dict[str, type[Table]] = {
+    "parameters": VariedTable,
+    "limits": LimitTable,
+    "correlations": CorrelationTable,
+    "sampling": SamplingPlanTable,
+}
+
+
+def parse_optimise(tree: Mapping[str, Any], source: str) -> OptimiseTable:
+    """Check the form. Raises CaseFileError, one line for each error."""
+    try:
+        return OptimiseTable.model_validate(dict(tree))
+    except ValidationError as error:
+        raise _refusal(error, source, _OPTIMISE, OptimiseTable) from None
+
+
+def parse_tolerance(tree: Mapping[str, Any], source: str) -> ToleranceTable:
+    """Check the form. Raises CaseFileError, one line for each error."""
+    try:
+        return ToleranceTable.model_validate(dict(tree))
+    except ValidationError as error:
+        raise _refusal(error, source, _TOLERANCE, ToleranceTable) from None
+
+
+def _refusal(
+    error: ValidationError, source: str, tables: Mapping[str, type[Table]], root: type[Table]
+) -> CaseFileError:
+    lines = (form_error(details, tables, root) for details in error.errors())
+    return CaseFileError("\n".join(f"{source}: {line}" for line in lines))

@@ -32,7 +32,7 @@ def scattered(coated):
             "nip_width": x[:, 0] + 3.0 * x[:, 1],
             "peak_pressure": x[:, 0],
             "error.nip_width": np.full(len(x), 0.01),
-            "error.peak_pressure": np.full(len(x), 0.01),
+            "error.peak_pressure": np.full(len(x), 0.2),
             "converged": np.ones(len(x)),
             "message": ("",) * len(x),
             "case": np.arange(len(x)),

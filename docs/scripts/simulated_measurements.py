@@ -17,6 +17,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples"
 TRUE = {"materials.cover.modulus": 2.2, "upper.layers[0].thickness": 8.6}
 LOADS = (1.0, 2.0, 3.0, 4.5, 6.0, 8.0, 10.0)  # N/mm
 WIDTH_ERROR, APPROACH_ERROR = 0.15, 0.008  # mm
+DMA_ERROR = 0.02
 
 
 def nips() -> None:
@@ -43,6 +44,31 @@ def nips() -> None:
     write("fit/approaches.csv", [head, columns, *rows])
 
 
+def isotherms() -> None:
+    """Storage modulus and tan delta of a fractional Zener solid at nine temperatures, noisy."""
+    law = rn.WLF(c1=8.9, c2=101.0, reference=23.0)
+    solid = rn.FractionalZener(
+        modulus=2.0, stiffening=800.0, relaxation_time=1e-7, order=0.45, poisson=0.5
+    )
+    rng = np.random.default_rng(8)
+    rows = []
+    for temperature in range(-20, 61, 10):
+        for frequency in np.geomspace(0.1, 100.0, 13):
+            omega = 2.0 * np.pi * frequency * law.factor(temperature)
+            modulus = complex(solid.modulus_at(1j * omega))
+            noise = 1.0 + DMA_ERROR * rng.standard_normal(2)
+            tangent = modulus.imag / modulus.real * noise[1]
+            rows.append(
+                f"{temperature},{frequency:.4g},{modulus.real * noise[0]:.5g},{tangent:.5g}"
+            )
+    head = (
+        "# Simulated, no measurement: fractional Zener, E0 2 MPa, k 800 MPa, tau 1e-7 s, order "
+        f"0.45, at 23 degC; WLF c1 8.9, c2 101 K; noise of {100 * DMA_ERROR:g} %"
+    )
+    columns = "temperature [degC],frequency [Hz],E' [MPa],tan delta"
+    write("dma/isotherms.csv", [head, columns, *rows])
+
+
 def write(name: str, lines: list[str]) -> None:
     """One file of the examples."""
     (EXAMPLES / name).write_text("\n".join(lines) + "\n", encoding="utf-8")
@@ -50,3 +76,4 @@ def write(name: str, lines: list[str]) -> None:
 
 if __name__ == "__main__":
     nips()
+    isotherms()

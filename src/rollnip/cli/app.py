@@ -13,6 +13,7 @@ import typer
 
 from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
 from rollnip.cli.design import find, optimise, pareto, tolerance
+from rollnip.cli.dma import dma
 from rollnip.cli.fit import fit
 from rollnip.cli.lda import lda
 from rollnip.cli.paper import paper
@@ -33,6 +34,7 @@ app = typer.Typer(
 )
 app.command()(verify)
 app.add_typer(lda)
+app.add_typer(dma)
 app.add_typer(sweep)
 app.command()(paper)
 app.command()(fit)

@@ -1,0 +1,205 @@
+"""The commands ``dma``: from dynamic-mechanical data to a material."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from rollnip._errors import InvalidInputError
+
+if TYPE_CHECKING:
+    from rollnip._units import Dimension
+    from rollnip.dma import DmaFit
+
+dma = typer.Typer(
+    name="dma",
+    help="Dynamic-mechanical data: master curve and material.",
+    add_completion=False,
+    rich_markup_mode=None,
+    no_args_is_help=True,
+)
+
+
+@dma.callback()
+def group() -> None:
+    """Keep ``fit`` a command of its own, though it is the only one."""
+
+
+@dma.command()
+def fit(
+    file: Annotated[Path, typer.Argument(help="CSV or workbook of a sweep, units in the heads.")],
+    out: Annotated[
+        Path | None, typer.Option(help="Write the material: name.toml, for [materials] of a case.")
+    ] = None,
+    plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
+    name: Annotated[str, typer.Option(help="Of the material in the case.")] = "rubber",
+    model: Annotated[str, typer.Option(help="prony or fractional-zener.")] = "prony",
+    shift: Annotated[str, typer.Option(help="wlf, arrhenius or none (one temperature).")] = "wlf",
+    c1: Annotated[float | None, typer.Option("--c1", help="Of a known WLF law.")] = None,
+    c2: Annotated[str | None, typer.Option("--c2", help='Of it, such as "51.6 K".')] = None,
+    energy: Annotated[
+        str | None, typer.Option(help='Of a known Arrhenius law, such as "60 kJ/mol".')
+    ] = None,
+    reference: Annotated[
+        str | None, typer.Option(help='Of curve and law, such as "23 degC"; none: middle isotherm.')
+    ] = None,
+    vertical: Annotated[
+        str, typer.Option(help="Shift of moduli: none, entropic (as T in kelvin) or free.")
+    ] = "none",
+    terms: Annotated[
+        int | None, typer.Option(help="Of the Prony series; none: by cross-validation.")
+    ] = None,
+    modulus: Annotated[
+        str | None, typer.Option(help="E or G, where the heads do not say it.")
+    ] = None,
+    poisson: Annotated[float, typer.Option(help="Turns G into E, and goes into the case.")] = 0.5,
+    temperature: Annotated[
+        str | None, typer.Option(help="Of all data, where there is no such column.")
+    ] = None,
+    frequency: Annotated[
+        str | None, typer.Option(help="Of all data, where there is no such column.")
+    ] = None,
+    sheet: Annotated[str | None, typer.Option(help="Of the workbook; none: the first.")] = None,
+    case: Annotated[
+        Path | None,
+        typer.Option(help="Case that names the material: is its nip within the data?"),
+    ] = None,
+) -> None:
+    """Shift isotherms to a master curve and fit a Prony series or a fractional Zener solid.
+
+    Prints the material as a table for the case file, with its range and its deviation from the
+    data in comments; warnings go to the standard error.
+    """
+    from rollnip.cli.app import _clear_failures, _named
+
+    with _clear_failures():
+        from rollnip.dma import DmaMethod, fit_dma, material_toml, read_dma
+
+        _check_targets(out, plot)
+        _choose("--modulus", modulus, ("E", "G", None))
+        degrees = _read("--reference", reference, "temperature")
+        data = read_dma(
+            file,
+            modulus=modulus,  # type: ignore[arg-type]
+            poisson=poisson,
+            temperature=_read("--temperature", temperature, "temperature"),
+            frequency=_read("--frequency", frequency, "frequency"),
+            sheet=sheet,
+        )
+        law = _law(shift, c1, _read("--c2", c2, "temperature difference"), energy, degrees)
+        with _named(str(file)):
+            method = DmaMethod(
+                model=model,  # type: ignore[arg-type]
+                shift=law,
+                reference=degrees,
+                vertical=vertical,  # type: ignore[arg-type]
+                terms=terms,
+            )
+            found = fit_dma(data, method)
+        text = material_toml(found, name)
+        warnings = [*found.warnings, *([] if case is None else _in_the_nip(found, case, name))]
+        _write(found, text, out, plot)
+        if out is None:
+            sys.stdout.write(text)
+        sys.stdout.flush()
+        sys.stderr.write("".join(f"rollnip: warning: {said}\n" for said in warnings))
+
+
+def _read(option: str, text: str | None, dimension: Dimension) -> float | None:
+    from rollnip._units import parse_quantity
+    from rollnip.cli.app import _named
+
+    if text is None:
+        return None
+    with _named(option):
+        return parse_quantity(text, dimension)
+
+
+def _choose(option: str, value: str | None, known: tuple[str | None, ...]) -> None:
+    if value not in known:
+        shown = ", ".join(one for one in known if one)
+        raise InvalidInputError(f'`{option}` must be one of {shown}, got "{value}".')
+
+
+def _law(
+    shift: str, c1: float | None, c2: float | None, energy: str | None, reference: float | None
+) -> Any:
+    """The name of a law to fit, or the law that the options give."""
+    from rollnip.materials import WLF, Arrhenius
+
+    joules = _read("--energy", energy, "molar energy")
+    if (c1 is None) != (c2 is None):
+        raise InvalidInputError("`--c1` and `--c2` must be given together.")
+    if c1 is None and joules is None:
+        return shift
+    if reference is None:
+        raise InvalidInputError("`--reference` must be given with a known law: it belongs to it.")
+    if c1 is not None and joules is not None:
+        raise InvalidInputError("`--energy` must not be given with `--c1`: they are two laws.")
+    if joules is not None:
+        return Arrhenius(joules, reference)
+    assert c1 is not None
+    assert c2 is not None
+    return WLF(c1, c2, reference)
+
+
+def _check_targets(out: Path | None, plot: Path | None) -> None:
+    from rollnip._files import check_target
+
+    if out is not None:
+        check_target(out, (".toml",))
+    if plot is not None:
+        check_target(plot, (".png", ".svg", ".pdf"))
+
+
+def _write(found: DmaFit, text: str, out: Path | None, plot: Path | None) -> None:
+    from rollnip._files import write_whole
+
+    if out is not None:
+        write_whole(out, lambda file: file.write_text(text, "utf-8"))
+    if plot is not None:
+        from rollnip.dma import plot_dma
+        from rollnip.plots import save_figure
+
+        save_figure(plot_dma(found), plot)
+
+
+def _in_the_nip(found: DmaFit, case: Path, name: str) -> list[str]:
+    """Warnings of the nip of a case with the material put into its [materials]."""
+    from rollnip.cli.app import _named
+    from rollnip.dma import frequency_warning, material_toml
+    from rollnip.io import parse_case
+    from rollnip.io.document import parse_document, read_document
+    from rollnip.solve import solve
+
+    tree = read_document(case)
+    fitted = parse_document(material_toml(found, name), "material")
+    materials = tree.get("materials", {})
+    if not isinstance(materials, dict) or name not in materials:
+        raise InvalidInputError(
+            f"{case}: must hold a material named `{name}` for it to be put in its place; "
+            "see --name."
+        )
+    given = materials[name].get("temperature") if isinstance(materials[name], dict) else None
+    table = fitted["materials"][name]
+    if given is not None and "shift" in table:
+        table["temperature"] = given
+    problem = parse_case({**tree, "materials": {**materials, name: table}}, source=str(case))
+    with _named(str(case)):
+        solution = solve(problem.nip, problem.model, on_failure="return")
+        at = _temperature(table)
+        said = [frequency_warning(found, solution, at)]
+    if not solution.converged:
+        said.append(solution.status)
+    return [one for one in said if one]
+
+
+def _temperature(table: dict[str, Any]) -> float | None:
+    """Temperature [degC] of a material's table; None where it has none."""
+    from rollnip._units import parse_quantity
+
+    given = table.get("temperature")
+    return None if given is None else parse_quantity(given, "temperature")

@@ -1,0 +1,34 @@
+"""Dynamic-mechanical data: master curve, Prony series or fractional Zener, material of a case."""
+
+from rollnip.dma.data import DmaData, read_dma
+from rollnip.dma.export import frequency_warning, material_toml, nip_frequency, valid_range
+from rollnip.dma.fit import DmaFit, DmaMethod, fit_dma
+from rollnip.dma.pictures import (
+    plot_deviation,
+    plot_dma,
+    plot_master,
+    plot_phase,
+    plot_shifts,
+)
+from rollnip.dma.shifts import Master, ShiftFit
+from rollnip.dma.spectrum import Reduced
+
+__all__ = [
+    "DmaData",
+    "DmaFit",
+    "DmaMethod",
+    "Master",
+    "Reduced",
+    "ShiftFit",
+    "fit_dma",
+    "frequency_warning",
+    "material_toml",
+    "nip_frequency",
+    "plot_deviation",
+    "plot_dma",
+    "plot_master",
+    "plot_phase",
+    "plot_shifts",
+    "read_dma",
+    "valid_range",
+]

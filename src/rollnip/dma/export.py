@@ -1,0 +1,122 @@
+"""A fitted material as text for a case file, and whether a nip stays within its data."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import format_quantity
+from rollnip.dma.fit import DmaFit
+from rollnip.materials import WLF, FractionalZener, Prony
+from rollnip.solution import Solution
+
+_NAME = re.compile(r"[A-Za-z0-9_-]+")
+
+
+def material_toml(fit: DmaFit, name: str = "rubber") -> str:
+    """The material as a table ``[materials.name]`` that a case file takes as it is.
+
+    Comments say where it comes from, how far it departs from the data, and for which frequencies
+    it holds. Raises InvalidInputError where the name is none for a TOML key.
+    """
+    if _NAME.fullmatch(name) is None or name == "rigid":
+        raise InvalidInputError(
+            f'`name` must be letters, digits, - and _, and not "rigid", got "{name}".'
+        )
+    return "\n".join([*_comments(fit), f"[materials.{name}]", *_keys(fit)]) + "\n"
+
+
+def nip_frequency(solution: Solution) -> float:
+    """Speed over nip width [Hz]: how often a point is pressed while the nip passes.
+
+    Raises InvalidInputError where the nip has no speed.
+    """
+    if solution.nip.speed is None:
+        raise InvalidInputError("`speed` must be given: without it a nip has no frequency.")
+    return solution.nip.speed / solution.nip_width
+
+
+def frequency_warning(fit: DmaFit, solution: Solution, temperature: float | None = None) -> str:
+    """A sentence where a nip works outside the data of its material, else an empty text.
+
+    Parameters
+    ----------
+    fit :
+        of the material.
+    solution :
+        of the nip.
+    temperature :
+        of the material in it [degC]; the reference by default.
+    """
+    low, high = valid_range(fit, temperature)
+    frequency = nip_frequency(solution)
+    if low <= frequency <= high:
+        return ""
+    side = "below" if frequency < low else "above"
+    at = fit.master.reference if temperature is None else temperature
+    return (
+        f"The nip works at {format_quantity(frequency, digits=3)} Hz (speed over nip width), "
+        f"{side} the data of the material, {format_quantity(low, digits=3)} to "
+        f"{format_quantity(high, digits=3)} Hz at {at:g} degC: the material is extrapolated."
+    )
+
+
+def valid_range(fit: DmaFit, temperature: float | None = None) -> tuple[float, float]:
+    """Lowest and highest frequency [Hz] that the data reach at a temperature [degC].
+
+    Raises InvalidInputError where the material has no shift law and another temperature than the
+    reference is asked for.
+    """
+    low, high = fit.frequency_range
+    if temperature is None or temperature == fit.master.reference:
+        return low, high
+    law = fit.material.shift
+    if law is None:
+        raise InvalidInputError(
+            f"`temperature` must be {fit.master.reference:g} degC: the material has no shift law, "
+            f"got {temperature!r}."
+        )
+    factor = law.factor(temperature)
+    return low / factor, high / factor
+
+
+def _comments(fit: DmaFit) -> Iterator[str]:
+    low, high = (format_quantity(v, digits=3) for v in fit.frequency_range)
+    cold, warm = fit.temperature_range
+    storage, loss = (100.0 * v for v in fit.deviation)
+    yield f"# From {fit.master.data.source}, {fit.master.data.frequency.size} measurements."
+    yield f"# Valid from {low} Hz to {high} Hz at {fit.master.reference:g} degC,"
+    yield f"# measured at {cold:g} to {warm:g} degC; outside of that it is extrapolated."
+    yield f"# Deviation from the data: storage {storage:.2g} % rms, loss {loss:.2g} % rms."
+    shift = fit.shift
+    units = {"c1": "", "c2": " K", "activation_energy": " kJ/mol"}
+    for name, value, error in zip(shift.names, shift.values, shift.standard_errors, strict=True):
+        shown = format_quantity(value, digits=4), format_quantity(error, digits=2)
+        yield f"# Shift law: {name} = {shown[0]} +- {shown[1]}{units[name]} (standard error)."
+    yield from (f"# Warning: {said}" for said in fit.warnings)
+
+
+def _keys(fit: DmaFit) -> Iterator[str]:
+    material = fit.material
+    yield f'model = "{"prony" if isinstance(material, Prony) else "fractional-zener"}"'
+    yield f'modulus = "{material.modulus!r} MPa"'
+    if isinstance(material, FractionalZener):
+        yield f'stiffening = "{material.stiffening!r} MPa"'
+        yield f'relaxation_time = "{material.relaxation_time!r} s"'
+        yield f"order = {material.order!r}"
+    yield f"poisson = {material.poisson!r}"
+    law = material.shift
+    if law is not None:
+        yield f'temperature = "{material.temperature!r} degC"'
+        reference = f'reference = "{law.reference!r} degC"'
+        if isinstance(law, WLF):
+            yield f'shift = {{ model = "wlf", c1 = {law.c1!r}, c2 = "{law.c2!r} K", {reference} }}'
+        else:
+            energy = f'activation_energy = "{law.activation_energy!r} kJ/mol"'
+            yield f'shift = {{ model = "arrhenius", {energy}, {reference} }}'
+    if isinstance(material, Prony):
+        yield "terms = ["
+        for modulus, time in material.terms:
+            yield f'  {{ modulus = "{modulus!r} MPa", relaxation_time = "{time!r} s" }},'
+        yield "]"

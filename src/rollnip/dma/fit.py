@@ -1,0 +1,356 @@
+"""From dynamic-mechanical data to a material: shift, spectrum, warnings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+
+from rollnip._errors import InvalidInputError
+from rollnip.dma.data import DmaData
+from rollnip.dma.shifts import (
+    Law,
+    Master,
+    ShiftFit,
+    Vertical,
+    fit_free,
+    fit_law,
+    unshifted,
+    with_errors,
+)
+from rollnip.dma.spectrum import Reduced, crossvalidated, non_negative, relaxation_times
+from rollnip.materials import WLF, Arrhenius, FractionalZener, Prony
+
+Array = NDArray[np.float64]
+Kind = Literal["prony", "fractional-zener"]
+
+_DIGITS = 6  # of the numbers of the material
+_MOST_ISOTHERMS = 200  # beyond it free shifts take too long to be worth it
+_FAR, _MANY = 0.15, 4.0  # decades, standard errors: a free shift that departs from the law
+_NEAR_POLE = 3.0  # K
+_WORSE = 1.5  # deviation of the model over the scatter of the data
+_NO_PLATEAU = 1e-3  # of the least storage modulus, where the data bound the relaxed one only
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class DmaMethod:
+    """How dynamic-mechanical data are turned into a material.
+
+    Parameters
+    ----------
+    model :
+        "prony" or "fractional-zener".
+    shift :
+        "wlf" or "arrhenius": the law whose constants are fitted; or a law itself.
+    reference :
+        temperature of the master curve [degC]; that of the middle isotherm by default.
+    vertical :
+        "none"; "entropic": moduli in proportion to the absolute temperature; "free".
+    terms :
+        of the Prony series; chosen by cross-validation by default.
+    width :
+        temperatures this near [K] are one isotherm.
+
+    Raises
+    ------
+    InvalidInputError
+        where a choice is unknown or a number out of range.
+    """
+
+    model: Kind = "prony"
+    shift: Law | WLF | Arrhenius = "wlf"
+    reference: float | None = None
+    vertical: Vertical = "none"
+    terms: int | None = None
+    width: float = 1.0
+
+    def __post_init__(self) -> None:
+        for name, kinds in (("model", Kind), ("vertical", Vertical)):
+            if getattr(self, name) not in get_args(kinds):
+                known = ", ".join(get_args(kinds))
+                raise InvalidInputError(
+                    f"`{name}` must be one of {known}, got {getattr(self, name)!r}."
+                )
+        if not isinstance(self.shift, WLF | Arrhenius) and self.shift not in get_args(Law):
+            raise InvalidInputError(
+                f"`shift` must be wlf, arrhenius, none or a law, got {self.shift!r}."
+            )
+        if self.terms is not None and not 1 <= self.terms <= 100:
+            raise InvalidInputError(f"`terms` must lie between 1 and 100, got {self.terms!r}.")
+        if not 0.0 < self.width <= 20.0:
+            raise InvalidInputError(f"`width` must lie in (0, 20] K, got {self.width!r}.")
+
+
+@dataclass(frozen=True, eq=False, slots=True, kw_only=True)
+class DmaFit:
+    """A material from dynamic-mechanical data.
+
+    Attributes
+    ----------
+    material : Prony or FractionalZener at the reference temperature, with the shift law where it
+        has one and moduli were not shifted.
+    master : the data at the reference temperature, shifted by the law.
+    shift : the law with its constants and their standard errors.
+    free : the isotherms shifted each by itself; None where that was not done.
+    free_errors : (m,) standard errors of those shifts [decades].
+    scatter : relative standard errors of storage and loss modulus, from the data themselves.
+    deviation : relative rms deviation of storage and loss modulus of the material from the data.
+    frequency_range : lowest and highest frequency [Hz] of the data at the reference temperature.
+    temperature_range : lowest and highest temperature measured [degC].
+    crossvalidation : (k,) mean squares of what was left out, for 1 to k terms; empty otherwise.
+    warnings : in plain words.
+    """
+
+    material: Prony | FractionalZener
+    master: Master
+    shift: ShiftFit
+    free: Master | None
+    free_errors: Array
+    scatter: tuple[float, float]
+    deviation: tuple[float, float]
+    frequency_range: tuple[float, float]
+    temperature_range: tuple[float, float]
+    crossvalidation: Array
+    warnings: tuple[str, ...]
+
+
+def fit_dma(data: DmaData, method: DmaMethod | None = None) -> DmaFit:
+    """Build the master curve and fit a material to it.
+
+    Parameters
+    ----------
+    data :
+        from `read_dma`.
+    method :
+        material, shift law, reference; ``DmaMethod()`` by default.
+
+    Returns
+    -------
+    DmaFit; its ``material`` goes into a `rollnip.Layer`, `material_toml` writes it for a case.
+
+    Raises
+    ------
+    InvalidInputError
+        where the data cannot tell the shifts: one frequency only, and no law given.
+    """
+    method = DmaMethod() if method is None else method
+    start = unshifted(data, method.reference, method.vertical, method.width)
+    shift = _shifted(start, method)
+    if start.temperatures.size > 1 and not isinstance(method.shift, WLF | Arrhenius):
+        shift = _shifted(replace(start, errors=with_errors(shift.master).errors), method)
+    master = with_errors(shift.master)
+    shift = replace(shift, master=master)
+    free, errors = _free(master)
+    material, squares, said = _material(master, shift, method)
+    deviation = deviations(material, master)
+    return DmaFit(
+        material=material,
+        master=master,
+        shift=shift,
+        free=free,
+        free_errors=errors,
+        scatter=master.errors,
+        deviation=deviation,
+        frequency_range=master.frequency_range,
+        temperature_range=(float(np.min(data.temperature)), float(np.max(data.temperature))),
+        crossvalidation=squares,
+        warnings=(
+            *said,
+            *_shift_warnings(master, shift, free, errors),
+            *_model_warnings(deviation, master, method),
+        ),
+    )
+
+
+def deviations(material: Prony | FractionalZener, master: Master) -> tuple[float, float]:
+    """Relative rms deviation of storage and loss modulus of a material from a master curve."""
+    storage, loss = relative_deviations(material, master.reduced)
+    return float(np.sqrt(np.mean(storage**2))), float(np.sqrt(np.mean(loss**2)))
+
+
+def relative_deviations(material: Prony | FractionalZener, data: Reduced) -> tuple[Array, Array]:
+    """Measured over computed less 1, of storage and loss modulus, each (n,)."""
+    unheated = replace(material, temperature=None, shift=None)
+    found = unheated.modulus_at(1j * data.omega)
+    return data.storage / found.real - 1.0, data.loss / found.imag - 1.0
+
+
+def _shifted(start: Master, method: DmaMethod) -> ShiftFit:
+    law = method.shift
+    if not isinstance(law, WLF | Arrhenius):
+        return fit_law(start, law, levels=method.vertical == "free")
+    # a law given at another reference moves to that of the master curve
+    at_reference = np.log10(law.factor(start.reference))
+    factors = np.array([np.log10(law.factor(float(t))) for t in start.temperatures])
+    moved = _moved(law, start.reference)
+    return ShiftFit(moved, (), (), (), replace(start, horizontal=factors - at_reference))
+
+
+def _moved(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
+    """The same law about another reference: C1 C2 and the pole of WLF stay as they are."""
+    if isinstance(law, Arrhenius):
+        return Arrhenius(law.activation_energy, reference)
+    c2 = law.c2 + reference - law.reference
+    return WLF(law.c1 * law.c2 / c2, c2, reference)
+
+
+def _free(master: Master) -> tuple[Master | None, Array]:
+    several = all(np.ptp(master.data.frequency[group]) > 0.0 for group in master.groups)
+    if not 1 < master.temperatures.size <= _MOST_ISOTHERMS or not several:
+        return None, np.zeros(0)
+    return fit_free(master)
+
+
+def _material(
+    master: Master, shift: ShiftFit, method: DmaMethod
+) -> tuple[Prony | FractionalZener, Array, list[str]]:
+    law = None if np.any(master.vertical) else shift.law
+    temperature = None if law is None else master.reference
+    data, poisson = master.reduced, master.data.poisson
+    if method.model == "fractional-zener":
+        modulus, stiffening, time, order = (_rounded(v) for v in fractional_zener(data))
+        zener = FractionalZener(
+            modulus=modulus,
+            stiffening=stiffening,
+            relaxation_time=time,
+            order=min(order, 1.0),
+            poisson=poisson,
+            temperature=temperature,
+            shift=_rounded_law(law),
+        )
+        return zener, np.zeros(0), []
+    count, squares = (method.terms, np.zeros(0)) if method.terms else crossvalidated(data)
+    times = relaxation_times(data.omega, count)
+    moduli, _ = non_negative(data, times)
+    least, said = _NO_PLATEAU * float(np.min(data.storage)), []
+    if moduli[0] < least:
+        said = [
+            "The data do not reach the rubbery plateau: the relaxed modulus is not told by them, "
+            f"and set to {least:.3g} MPa; below the valid frequencies the material is a guess."
+        ]
+    terms = [
+        (_rounded(float(e)), _rounded(float(t)))
+        for e, t in zip(moduli[1:], times, strict=True)
+        if e > 1e-9 * float(np.max(moduli))
+    ]
+    prony = Prony(
+        modulus=_rounded(max(float(moduli[0]), least)),
+        terms=tuple(terms) or ((0.0, _rounded(float(times[0]))),),
+        poisson=poisson,
+        temperature=temperature,
+        shift=_rounded_law(law),
+    )
+    return prony, squares, said
+
+
+def fractional_zener(data: Reduced) -> tuple[float, float, float, float]:
+    """E0 [MPa], k [MPa], tau [s] and order of the fractional Zener solid that fits best."""
+    low, high = float(np.min(data.storage)), float(np.max(data.storage))
+    times = 1.0 / np.array([np.min(data.omega), np.max(data.omega)])
+
+    def solid(x: Array) -> FractionalZener:
+        modulus, stiffening, time = np.exp(x[:3])
+        return FractionalZener(
+            modulus=modulus, stiffening=stiffening, relaxation_time=time, order=x[3], poisson=0.5
+        )
+
+    def residuals(x: Array) -> Array:
+        found = solid(x).modulus_at(1j * data.omega)
+        return np.concatenate(
+            [
+                (found.real / data.storage - 1.0) / data.errors[0],
+                (found.imag / data.loss - 1.0) / data.errors[1],
+            ]
+        )
+
+    bounds = (
+        [np.log(1e-3 * low), np.log(1e-3 * low), np.log(1e-4 * times[1]), 0.01],
+        [np.log(1e3 * high), np.log(1e4 * high), np.log(1e4 * times[0]), 1.0],
+    )
+    starts = [
+        [np.log(low), np.log(max(high - low, 0.1 * low)), np.log(time), order]
+        for time in np.geomspace(times[1], times[0], 5)
+        for order in (0.3, 0.6, 0.9)
+    ]
+    ends = [least_squares(residuals, start, bounds=bounds, x_scale="jac") for start in starts]
+    best = solid(min(ends, key=lambda end: float(end.cost)).x)
+    return best.modulus, best.stiffening, best.relaxation_time, best.order
+
+
+def _shift_warnings(
+    master: Master, shift: ShiftFit, free: Master | None, errors: Array
+) -> list[str]:
+    said = _gaps(master)
+    if isinstance(shift.law, WLF) and shift.values:
+        coldest = float(np.min(master.temperatures))
+        pole = master.reference - shift.law.c2
+        if coldest - pole < _NEAR_POLE:
+            said.append(
+                f"The pole of the WLF law, {pole:.1f} degC, lies right below the coldest "
+                f"measurement, {coldest:.1f} degC: such temperatures are near the glass "
+                "transition or below it, where WLF does not hold; leave them out."
+            )
+    if free is not None and shift.law is not None:
+        away = free.horizontal - master.horizontal
+        far = (np.abs(away) > _FAR) & (np.abs(away) > _MANY * errors)
+        if np.any(far):
+            worst = int(np.argmax(np.abs(away) * far))
+            said.append(
+                f"The isotherm of {master.temperatures[worst]:.1f} degC departs from the shift law "
+                f"by {away[worst]:+.2f} decades: the law does not hold for all of these data."
+            )
+    return said
+
+
+def _gaps(master: Master) -> list[str]:
+    """Neighbouring isotherms whose reduced frequencies do not overlap."""
+    ends = [
+        np.log10(master.data.frequency[group]) + a
+        for group, a in zip(master.groups, master.horizontal, strict=True)
+    ]
+    gaps = [
+        (cold, warm)
+        for cold, warm, above, below in zip(
+            master.temperatures, master.temperatures[1:], ends, ends[1:], strict=False
+        )
+        if float(np.min(above)) > float(np.max(below))
+    ]
+    if not gaps:
+        return []
+    shown = ", ".join(f"{cold:.0f} and {warm:.0f}" for cold, warm in gaps[:3])
+    return [
+        f"Isotherms do not overlap between {shown} degC: their shift rests on the law alone, and "
+        "errors of its constants are larger than said; measure at temperatures between."
+    ]
+
+
+def _model_warnings(deviation: tuple[float, float], master: Master, method: DmaMethod) -> list[str]:
+    worse = [d / s for d, s in zip(deviation, master.errors, strict=True)]
+    said = []
+    if max(worse) > _WORSE and max(deviation) > 0.01:
+        other = "" if method.model == "prony" else ' `model = "prony"` follows them closer.'
+        said.append(
+            f"The material departs from the data by {100 * max(deviation):.1f} % rms, more than "
+            f"they scatter.{other}"
+        )
+    if np.any(master.vertical):
+        said.append(
+            f"Moduli were shifted too, which a material cannot follow: it holds at "
+            f"{master.reference:g} degC only."
+        )
+    return said
+
+
+def _rounded_law(law: WLF | Arrhenius | None) -> WLF | Arrhenius | None:
+    if isinstance(law, WLF):
+        return WLF(_rounded(law.c1), _rounded(law.c2), law.reference)
+    if isinstance(law, Arrhenius):
+        return Arrhenius(_rounded(law.activation_energy), law.reference)
+    return None
+
+
+def _rounded(value: float) -> float:
+    return float(f"{value:.{_DIGITS - 1}e}")

@@ -1,0 +1,170 @@
+"""Pictures of dynamic-mechanical data: master curve, shifts, phase, deviation."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import Normalize
+from matplotlib.figure import Figure
+
+from rollnip.dma.fit import DmaFit, relative_deviations
+from rollnip.plots.style import FULL, MM, Look, Style, label, palette_of, prepare
+
+_HEIGHT = 150.0  # mm
+_MARK = 0.32  # of the size of type
+
+
+def plot_dma(fit: DmaFit, style: Style = "light") -> Figure:
+    """Draw master curve, shift factors, phase over modulus and deviations on one page.
+
+    Parameters
+    ----------
+    fit :
+        from `fit_dma`.
+    style :
+        "light" or "dark".
+
+    Returns
+    -------
+    Figure
+        180 by 150 mm, outside pyplot.
+    """
+    figure = Figure(
+        figsize=(FULL * MM, _HEIGHT * MM), layout="constrained", facecolor=palette_of(style).ground
+    )
+    (master, shifts), (phase, deviation) = figure.subplots(2, 2)
+    plot_master(fit, master, style=style)
+    plot_shifts(fit, shifts, style=style)
+    plot_phase(fit, phase, style=style)
+    plot_deviation(fit, deviation, style=style)
+    return figure
+
+
+def plot_master(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
+    """Draw storage and loss modulus over reduced frequency, with the material as curves."""
+    ax, look = prepare(ax, style)
+    colours, data = look.palette, fit.master.reduced
+    frequency = data.omega / (2.0 * np.pi)
+    grid = np.geomspace(float(np.min(frequency)), float(np.max(frequency)), 400)
+    plain = replace(fit.material, temperature=None, shift=None)
+    found = plain.modulus_at(2j * np.pi * grid)
+    for values, curve, colour, mark, name in (
+        (data.storage, found.real, colours.pressure, "o", "storage"),
+        (data.loss, found.imag, colours.shear, "s", "loss"),
+    ):
+        ax.loglog(
+            frequency,
+            values,
+            mark,
+            color=colour,
+            markersize=_MARK * look.size,
+            markerfacecolor="none",
+            markeredgewidth=look.thin,
+            label=name,
+        )
+        name = "material" if mark == "s" else "_"
+        ax.loglog(grid, curve, color=colours.ink, linewidth=0.7 * look.line, label=name)
+    label(
+        ax,
+        look,
+        f"frequency at {fit.master.reference:g} °C [Hz]",
+        "Young's modulus [MPa]",
+    )
+    _legend(ax, look)
+    return ax
+
+
+def plot_shifts(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
+    """Draw the shift of each isotherm by itself, with two standard errors, and the law."""
+    ax, look = prepare(ax, style)
+    colours, master = look.palette, fit.master
+    if fit.shift.law is not None:
+        cold, warm = fit.temperature_range
+        grid = np.linspace(cold, warm, 200)
+        law = [np.log10(fit.shift.law.factor(float(t))) for t in grid]
+        name = type(fit.shift.law).__name__
+        ax.plot(grid, law, color=colours.pressure, linewidth=look.line, label=name)
+    free = fit.free
+    if free is not None:
+        ax.errorbar(
+            master.temperatures,
+            free.horizontal,
+            yerr=2.0 * fit.free_errors,
+            fmt="o",
+            color=colours.shear,
+            markerfacecolor="none",
+            markersize=0.45 * look.size,
+            linewidth=1.5 * look.thin,
+            label="each by itself, ± 2 standard errors",
+        )
+    else:
+        ax.plot(master.temperatures, master.horizontal, "o", color=colours.shear, label="isotherms")
+    label(ax, look, "temperature [°C]", "$\\log_{10}\\,a_T$")
+    _legend(ax, look)
+    return ax
+
+
+def plot_phase(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
+    """Draw phase over size of the complex modulus (van Gurp & Palmen 1998), coloured by isotherm.
+
+    Frequency does not enter: isotherms that do not fall on one curve cannot be shifted onto one
+    another along the frequency alone.
+    """
+    ax, look = prepare(ax, style)
+    master, data = fit.master, fit.master.data
+    cold, warm = fit.temperature_range
+    scale = Normalize(cold, warm if warm > cold else cold + 1.0)
+    colours = look.palette.sequential
+    for group, temperature in zip(master.groups, master.temperatures, strict=True):
+        modulus = data.storage[group] + 1j * data.loss[group]
+        ax.semilogx(
+            np.abs(modulus),
+            np.degrees(np.angle(modulus)),
+            "o",
+            color=colours(0.25 + 0.7 * float(scale(temperature))),
+            markersize=_MARK * look.size,
+            markerfacecolor="none",
+            markeredgewidth=look.thin,
+        )
+    label(ax, look, "|E*| [MPa]", "phase [degrees]")
+    ax.set_title(
+        f"darkest: {warm:g} °C, lightest: {cold:g} °C"
+        if look.palette is palette_of("light")
+        else f"lightest: {warm:g} °C, darkest: {cold:g} °C",
+        loc="left",
+        fontsize=look.small,
+        color=look.palette.muted,
+    )
+    return ax
+
+
+def plot_deviation(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
+    """Draw by how much measured moduli lie above those of the material, in per cent."""
+    ax, look = prepare(ax, style)
+    colours, data = look.palette, fit.master.reduced
+    storage, loss = relative_deviations(fit.material, data)
+    frequency = data.omega / (2.0 * np.pi)
+    for values, rms, colour, mark, name in (
+        (storage, fit.deviation[0], colours.pressure, "o", "storage"),
+        (loss, fit.deviation[1], colours.shear, "s", "loss"),
+    ):
+        ax.semilogx(
+            frequency,
+            100.0 * values,
+            mark,
+            color=colour,
+            markersize=_MARK * look.size,
+            markerfacecolor="none",
+            markeredgewidth=look.thin,
+            label=f"{name}, {100.0 * rms:.2g} % rms",
+        )
+    ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
+    label(ax, look, f"frequency at {fit.master.reference:g} °C [Hz]", "deviation [%]")
+    _legend(ax, look)
+    return ax
+
+
+def _legend(ax: Axes, look: Look) -> None:
+    ax.legend(frameon=False, fontsize=look.small, labelcolor=look.palette.ink, loc="best")

@@ -1,0 +1,313 @@
+"""Time-temperature shifts: laws, free shifts, and the spectrum that both share.
+
+Whatever the shifts, the best spectrum follows by non-negative least squares; so only the shifts
+are searched (variable projection, Golub & Pereyra 1973).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import product
+from math import exp, log
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import OptimizeResult, least_squares
+
+from rollnip._errors import InvalidInputError
+from rollnip.dma.data import DmaData
+from rollnip.dma.spectrum import Reduced, most_terms, non_negative, relaxation_times
+from rollnip.materials import WLF, Arrhenius
+
+Array = NDArray[np.float64]
+Law = Literal["wlf", "arrhenius", "none"]
+Vertical = Literal["none", "entropic", "free"]
+
+_ZERO = 273.15  # degC in K
+_CLEAR = 1.0  # K by which the pole of WLF lies below the coldest measurement at least
+_SLOPES = (0.02, 0.04, 0.08, 0.15, 0.3)  # C1/C2 [decades/K] tried
+_ROOMS = (5.0, 20.0, 60.0, 150.0, 500.0)  # C2 beyond its least value [K] tried
+_MOST_ROOM = 3000.0  # K: beyond it WLF is a straight line
+_ENERGIES = (30.0, 60.0, 100.0, 160.0, 240.0, 400.0)  # kJ/mol tried
+_LARGEST = 30.0  # decades of shift at a start
+_LARGEST_LEVEL = 3.0  # factor on the moduli of an isotherm
+_STEP = 1e-4
+_LN10 = log(10.0)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Master:
+    """Data, and how each isotherm is shifted to the reference temperature.
+
+    Attributes
+    ----------
+    data : as measured.
+    groups : indices of the measurements of each isotherm, coldest first.
+    temperatures : (m,) mean of each isotherm [degC].
+    reference : temperature shifted to [degC].
+    horizontal : (m,) log10 a_T: reduced frequency = frequency a_T.
+    vertical : (m,) ln b_T: modulus at the reference = modulus / b_T.
+    errors : relative standard errors of storage and loss.
+    """
+
+    data: DmaData
+    groups: tuple[NDArray[np.int64], ...]
+    temperatures: Array
+    reference: float
+    horizontal: Array
+    vertical: Array
+    errors: tuple[float, float] = (0.02, 0.02)
+
+    @property
+    def reduced(self) -> Reduced:
+        """All data at the reference temperature, coldest isotherm first."""
+        omega, storage, loss = [], [], []
+        for group, a, b in zip(self.groups, self.horizontal, self.vertical, strict=True):
+            omega.append(2.0 * np.pi * self.data.frequency[group] * 10.0**a)
+            storage.append(self.data.storage[group] * exp(-b))
+            loss.append(self.data.loss[group] * exp(-b))
+        return Reduced(
+            np.concatenate(omega), np.concatenate(storage), np.concatenate(loss), self.errors
+        )
+
+    @property
+    def frequency_range(self) -> tuple[float, float]:
+        """Lowest and highest reduced frequency [Hz]."""
+        omega = self.reduced.omega / (2.0 * np.pi)
+        return float(np.min(omega)), float(np.max(omega))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ShiftFit:
+    """A fitted shift law.
+
+    Attributes
+    ----------
+    law : with its constants; None where there is one temperature only.
+    names : of the constants.
+    values, standard_errors : of the constants (C1 and C2 [K], or the energy [kJ/mol]).
+    master : the data shifted by it.
+    """
+
+    law: WLF | Arrhenius | None
+    names: tuple[str, ...]
+    values: tuple[float, ...]
+    standard_errors: tuple[float, ...]
+    master: Master
+
+
+def unshifted(data: DmaData, reference: float | None, vertical: Vertical, width: float) -> Master:
+    """The isotherms side by side; the reference is the middle one by default."""
+    groups = tuple(data.isotherms(width))
+    temperatures = np.array([float(np.mean(data.temperature[g])) for g in groups])
+    if reference is None:
+        reference = round(float(temperatures[len(groups) // 2]), 1)
+    levels = np.zeros(temperatures.size)
+    if vertical == "entropic":
+        levels = np.log((temperatures + _ZERO) / (reference + _ZERO))
+    return Master(data, groups, temperatures, reference, np.zeros(temperatures.size), levels)
+
+
+def fit_law(master: Master, law: Law, *, levels: bool = False) -> ShiftFit:
+    """Constants of a shift law, by the spectrum that all isotherms must share.
+
+    With ``levels`` the moduli of each isotherm get a factor, too.
+
+    C2 is bounded so that the pole of WLF, at the reference less C2, lies 1 K or more below the
+    coldest measurement: started without that bound, at the "universal" constants say, a search
+    may end on the wrong side of the pole.
+
+    Raises
+    ------
+    InvalidInputError
+        where the data cannot tell shifts: one temperature, or one frequency.
+    """
+    if law == "none" or master.temperatures.size == 1:
+        if master.temperatures.size > 1:
+            raise InvalidInputError(
+                f"`shift` must be wlf or arrhenius: the data hold {master.temperatures.size} "
+                'temperatures, and "none" is for one.'
+            )
+        return ShiftFit(None, (), (), (), master)
+    _require_two_frequencies(master)
+    shape = _Wlf(master) if law == "wlf" else _Energy(master)
+    found = _searched(master, shape, levels=levels)
+    size = shape.bounds[0].size
+    x, vertical = found.x[:size], master.vertical.copy()
+    if levels:
+        vertical[_moved(master)] = found.x[size:]
+    fitted = replace(master, horizontal=shape.shifts(x), vertical=vertical)
+    values, slopes = shape.constants(x), shape.slopes(x)
+    errors = np.sqrt(np.diag(slopes @ _covariance(found)[:size, :size] @ slopes.T))
+    return ShiftFit(shape.law(values), shape.names, values, tuple(float(e) for e in errors), fitted)
+
+
+def fit_free(start: Master) -> tuple[Master, Array]:
+    """Shifts of each isotherm by itself, from those of a law; their standard errors (m,).
+
+    The isotherm nearest to the reference stays where it is, and so do all moduli.
+    """
+    moved = _moved(start)
+
+    def placed(x: Array) -> Master:
+        horizontal = start.horizontal.copy()
+        horizontal[moved] += x
+        return replace(start, horizontal=horizontal)
+
+    def residuals(x: Array) -> Array:
+        return non_negative(placed(x).reduced, times)[1]
+
+    times = _times(start, 1.0)
+    begin = np.zeros(int(np.count_nonzero(moved)))
+    found = least_squares(
+        residuals, begin, bounds=(begin - 3.0, begin + 3.0), diff_step=_STEP, ftol=1e-6
+    )
+    errors = np.zeros(start.temperatures.size)
+    errors[moved] = np.sqrt(np.diag(_covariance(found)))
+    return placed(found.x), errors
+
+
+def _moved(master: Master) -> NDArray[np.bool_]:
+    """(m,) all isotherms but that nearest to the reference."""
+    held = int(np.argmin(np.abs(master.temperatures - master.reference)))
+    return np.asarray(np.arange(master.temperatures.size) != held)
+
+
+def with_errors(master: Master) -> Master:
+    """The same with relative errors of storage and loss estimated from what a rich fit leaves."""
+    plain = replace(master, errors=(1.0, 1.0))
+    for _ in range(3):
+        data = plain.reduced
+        moduli, residuals = non_negative(data, _times(plain, 0.0))
+        count = data.omega.size
+        free = max(1.0 - 0.5 * np.count_nonzero(moduli) / count, 0.2)
+        parts = residuals[:count] * data.errors[0], residuals[count:] * data.errors[1]
+        first, second = (float(np.sqrt(np.mean(part**2) / free)) for part in parts)
+        plain = replace(plain, errors=(max(first, 1e-6), max(second, 1e-6)))
+    return plain
+
+
+def _times(master: Master, margin: float) -> Array:
+    """Relaxation times (m,) over the reduced range, ``margin`` decades more on either side."""
+    omega = master.reduced.omega
+    wide = np.array([np.min(omega) * 10.0**-margin, np.max(omega) * 10.0**margin])
+    count = most_terms(np.repeat(wide, omega.size))
+    return relaxation_times(wide, count)
+
+
+def _searched(master: Master, shape: _Wlf | _Energy, *, levels: bool) -> OptimizeResult:
+    """Constants of a law, then levels where wanted: the best of the starts, followed."""
+    size = shape.bounds[0].size
+    moved = _moved(master)
+
+    def placed(x: Array) -> Master:
+        vertical = master.vertical.copy()
+        if x.size > size:
+            vertical[moved] = x[size:]
+        return replace(master, horizontal=shape.shifts(x[:size]), vertical=vertical)
+
+    def misfit(x: Array, times: Array | None) -> Array:
+        shifted = placed(x)
+        return non_negative(shifted.reduced, _times(shifted, 0.0) if times is None else times)[1]
+
+    mild = [x for x in shape.starts if float(np.max(np.abs(shape.shifts(x)))) < _LARGEST]
+    costs = [float(np.sum(misfit(start, None) ** 2)) for start in mild]
+    x, bounds = mild[int(np.argmin(costs))], shape.bounds
+    for with_levels in (False, True) if levels else (False, False):
+        if with_levels:
+            count = int(np.count_nonzero(moved))
+            x = np.concatenate([x, np.zeros(count)])
+            reach = np.full(count, log(_LARGEST_LEVEL))
+            bounds = (
+                np.concatenate([bounds[0], -reach]),
+                np.concatenate([bounds[1], reach]),
+            )
+        # the relaxation times are those that the shifts found last ask for
+        times = _times(placed(x), 1.0)
+        found = least_squares(
+            misfit, x, bounds=bounds, diff_step=_STEP, ftol=1e-9, xtol=1e-9, args=(times,)
+        )
+        x = found.x
+    return found
+
+
+def _covariance(found: OptimizeResult) -> Array:
+    """Of the searched shifts; residuals are over their standard errors, rescaled by their size."""
+    jacobian: Array = found.jac
+    _, values, right = np.linalg.svd(jacobian, full_matrices=False)
+    kept = values > 1e-10 * values[0]
+    inverse = np.where(kept, 1.0 / np.where(kept, values, 1.0), 1e10)
+    free = max(jacobian.shape[0] - jacobian.shape[1], 1)
+    scale = max(1.0, 2.0 * float(found.cost) / free)
+    return np.asarray(scale * (right.T * inverse**2) @ right)
+
+
+class _Wlf:
+    """WLF with x = (ln of the slope C1/C2, ln of C2 less its least value)."""
+
+    names = ("c1", "c2")
+
+    def __init__(self, master: Master) -> None:
+        self.reference = master.reference
+        self.away = master.temperatures - master.reference
+        self.least = max(-float(np.min(self.away)), 0.0) + _CLEAR
+        self.starts = [np.log([slope, room]) for slope, room in product(_SLOPES, _ROOMS)]
+        low, high = np.log([1e-4, 1e-2]), np.log([10.0, _MOST_ROOM])
+        self.bounds = (low, high)
+
+    def shifts(self, x: Array) -> Array:
+        """log10 a_T, (m,)."""
+        c1, c2 = self.constants(x)
+        return np.asarray(-c1 * self.away / (c2 + self.away))
+
+    def constants(self, x: Array) -> tuple[float, ...]:
+        c2 = self.least + exp(float(x[1]))
+        return exp(float(x[0])) * c2, c2
+
+    def slopes(self, x: Array) -> Array:
+        """(2, 2) derivatives of C1 and C2."""
+        slope, room = exp(float(x[0])), exp(float(x[1]))
+        c1, _ = self.constants(x)
+        return np.array([[c1, slope * room], [0.0, room]])
+
+    def law(self, values: tuple[float, ...]) -> WLF:
+        return WLF(values[0], values[1], self.reference)
+
+
+class _Energy:
+    """Arrhenius with x = (ln of the activation energy,)."""
+
+    names = ("activation_energy",)
+
+    def __init__(self, master: Master) -> None:
+        self.reference = master.reference
+        kelvin = master.temperatures + _ZERO
+        gas = 8.31446261815324e-3  # kJ/(mol K)
+        self.per_energy = (1.0 / kelvin - 1.0 / (master.reference + _ZERO)) / (gas * _LN10)
+        self.starts = [np.log([energy]) for energy in _ENERGIES]
+        self.bounds = (np.log([0.1]), np.log([3000.0]))
+
+    def shifts(self, x: Array) -> Array:
+        """log10 a_T, (m,)."""
+        return np.asarray(exp(float(x[0])) * self.per_energy)
+
+    def constants(self, x: Array) -> tuple[float, ...]:
+        return (exp(float(x[0])),)
+
+    def slopes(self, x: Array) -> Array:
+        """(1, 1) derivative of the energy."""
+        return np.array([[exp(float(x[0]))]])
+
+    def law(self, values: tuple[float, ...]) -> Arrhenius:
+        return Arrhenius(values[0], self.reference)
+
+
+def _require_two_frequencies(master: Master) -> None:
+    several = [np.ptp(master.data.frequency[group]) > 0.0 for group in master.groups]
+    if not any(several):
+        raise InvalidInputError(
+            "`frequency` must take two values or more at some temperatures: shifts cannot be told "
+            "from a temperature sweep at one frequency, which any shift law with its own spectrum "
+            "explains. Give the law: `law = WLF(...)` or `Arrhenius(...)`."
+        )

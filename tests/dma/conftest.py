@@ -1,0 +1,41 @@
+"""What the tests of dynamic-mechanical data share: simulated isotherms of known solids."""
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+from rollnip.dma import DmaData, DmaMethod, fit_dma
+
+LAW = rn.WLF(c1=8.9, c2=101.0, reference=23.0)
+ZENER = rn.FractionalZener(
+    modulus=2.0, stiffening=800.0, relaxation_time=1e-7, order=0.45, poisson=0.5
+)
+PRONY = rn.Prony(
+    modulus=2.0,
+    terms=((1.0, 1e-1), (2.0, 1e-2), (5.0, 1e-3), (12.0, 1e-4), (40.0, 1e-5), (150.0, 1e-6)),
+    poisson=0.5,
+)
+TEMPERATURES = np.arange(-20.0, 61.0, 10.0)
+FREQUENCIES = np.geomspace(0.1, 100.0, 13)
+
+
+def isotherms(solid, law, *, seed=0, noise=0.02, temperatures=TEMPERATURES, level=None):
+    """Moduli at each temperature and frequency, with relative noise.
+
+    ``level``: factor on the moduli of each temperature.
+    """
+    rng = np.random.default_rng(seed)
+    frequency = np.tile(FREQUENCIES, temperatures.size)
+    temperature = np.repeat(temperatures, FREQUENCIES.size)
+    factors = np.array([law.factor(float(t)) for t in temperature])
+    modulus = solid.modulus_at(2j * np.pi * frequency * factors)
+    if level is not None:
+        modulus = modulus * np.repeat(level, FREQUENCIES.size)
+    scatter = 1.0 + noise * rng.standard_normal((2, frequency.size))
+    return DmaData(frequency, temperature, modulus.real * scatter[0], modulus.imag * scatter[1])
+
+
+@pytest.fixture(scope="session")
+def fitted():
+    """A Prony series from isotherms of a fractional Zener solid."""
+    return fit_dma(isotherms(ZENER, LAW), DmaMethod(reference=23.0))

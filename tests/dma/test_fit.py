@@ -1,0 +1,103 @@
+"""From data to a material: known solids are found again, what does not hold is said."""
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+from rollnip._errors import InvalidInputError
+from rollnip.dma import DmaMethod, fit_dma
+
+from .conftest import FREQUENCIES, LAW, PRONY, TEMPERATURES, ZENER, isotherms
+
+
+def away(fit, solid):
+    """Relative errors of storage and loss modulus over the valid frequencies, (2, n)."""
+    grid = 2j * np.pi * np.geomspace(*fit.frequency_range, 200)
+    from dataclasses import replace
+
+    found = replace(fit.material, temperature=None, shift=None).modulus_at(grid)
+    true = solid.modulus_at(grid)
+    return np.array([found.real / true.real - 1.0, found.imag / true.imag - 1.0])
+
+
+@pytest.mark.parametrize("solid", [ZENER, PRONY], ids=["fractional Zener", "Prony"])
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_a_prony_series_keeps_within_its_stated_deviation(solid, seed):
+    fit = fit_dma(isotherms(solid, LAW, seed=seed), DmaMethod(reference=23.0))
+    wrong = away(fit, solid)
+    rms = np.sqrt(np.mean(wrong**2, axis=1))
+    assert np.all(rms < fit.deviation)
+    # twice the stated rms nearly everywhere; the ends of the range have data on one side only
+    held = np.mean(np.abs(wrong) < 2.0 * np.array(fit.deviation)[:, None], axis=1)
+    assert np.all(held > 0.95)
+    assert fit.warnings == ()
+
+
+def test_fractional_zener_is_found_again():
+    found = [
+        fit_dma(isotherms(ZENER, LAW, seed=s), DmaMethod(model="fractional-zener", reference=23.0))
+        for s in range(3)
+    ]
+    for fit in found:
+        assert fit.material.modulus == pytest.approx(2.0, rel=0.02)
+        assert fit.material.stiffening == pytest.approx(800.0, rel=0.03)
+        assert fit.material.order == pytest.approx(0.45, abs=0.005)
+        assert np.log10(fit.material.relaxation_time) == pytest.approx(-7.0, abs=0.1)
+        assert np.max(np.abs(away(fit, ZENER))) < 0.05
+        assert max(fit.deviation) < 0.03
+
+
+def test_scatter_is_the_noise(fitted):
+    assert fitted.scatter == pytest.approx((0.02, 0.02), rel=0.3)
+    assert fitted.frequency_range[0] == pytest.approx(0.1 * LAW.factor(60.0), rel=0.1)
+    assert fitted.temperature_range == (-20.0, 60.0)
+
+
+def test_one_temperature_needs_no_law():
+    data = isotherms(ZENER, LAW, temperatures=np.array([23.0]))
+    fit = fit_dma(data)
+    assert fit.material.shift is None
+    assert fit.free is None
+    assert fit.frequency_range == pytest.approx((FREQUENCIES[0], FREQUENCIES[-1]))
+
+
+def test_a_law_that_does_not_hold_is_said():
+    data = isotherms(ZENER, LAW)
+    fit = fit_dma(data, DmaMethod(shift="arrhenius", reference=23.0))
+    assert any("departs from the shift law" in said for said in fit.warnings)
+
+
+def test_a_model_that_does_not_follow_is_said():
+    two = rn.Prony(modulus=2.0, terms=((20.0, 1e-2), (300.0, 1e-6)), poisson=0.5)
+    data = isotherms(two, LAW)
+    fit = fit_dma(data, DmaMethod(model="fractional-zener", reference=23.0))
+    assert any('`model = "prony"` follows' in said for said in fit.warnings)
+
+
+def test_isotherms_too_far_apart_are_said():
+    data = isotherms(ZENER, LAW, temperatures=np.array([-40.0, 0.0, 40.0]))
+    fit = fit_dma(data, DmaMethod(reference=0.0))
+    assert any("do not overlap between -40 and 0" in said for said in fit.warnings)
+
+
+def test_a_missing_plateau_is_said():
+    melt = rn.Prony(modulus=1e-6, terms=((1.0, 1e-2), (5.0, 1e-4)), poisson=0.5)
+    cold = isotherms(melt, LAW, temperatures=TEMPERATURES[:4])
+    fit = fit_dma(cold, DmaMethod(reference=0.0))
+    assert any("rubbery plateau" in said for said in fit.warnings)
+    assert fit.material.modulus > 0.0
+
+
+def test_terms_may_be_prescribed():
+    fit = fit_dma(isotherms(ZENER, LAW), DmaMethod(terms=5, reference=23.0))
+    assert len(fit.material.terms) <= 5
+    assert any("departs from the data" in said for said in fit.warnings)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [{"model": "maxwell"}, {"vertical": "up"}, {"shift": "vft"}, {"terms": 0}, {"width": 0.0}],
+)
+def test_a_method_that_cannot_be_is_refused(wrong):
+    with pytest.raises(InvalidInputError, match=next(iter(wrong))):
+        DmaMethod(**wrong)

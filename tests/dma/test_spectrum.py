@@ -1,0 +1,67 @@
+"""Spectra: exact ones are found, passive always, and no more terms than the data bear."""
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import rollnip as rn
+from rollnip.dma import Reduced
+from rollnip.dma.spectrum import crossvalidated, non_negative, relaxation_times
+
+OMEGA = np.geomspace(1e-2, 1e4, 60)
+
+
+def reduced(solid, noise=0.0, seed=0):
+    rng = np.random.default_rng(seed)
+    modulus = solid.modulus_at(1j * OMEGA)
+    scatter = 1.0 + noise * rng.standard_normal((2, OMEGA.size))
+    errors = (max(noise, 1e-3), max(noise, 1e-3))
+    return Reduced(OMEGA, modulus.real * scatter[0], modulus.imag * scatter[1], errors)
+
+
+def test_a_series_at_the_same_times_is_found_exactly():
+    times = relaxation_times(OMEGA, 8)
+    moduli = np.array([2.0, 1.0, 0.0, 3.0, 0.5, 4.0, 0.0, 2.5, 1.5])
+    solid = rn.Prony(modulus=2.0, terms=tuple(zip(moduli[1:], times, strict=True)), poisson=0.5)
+    found, residuals = non_negative(reduced(solid), times)
+    np.testing.assert_allclose(found, moduli, atol=1e-9)
+    assert np.max(np.abs(residuals)) < 1e-8
+
+
+@given(st.integers(0, 1000))
+def test_no_term_is_ever_negative(seed):
+    rng = np.random.default_rng(seed)
+    data = Reduced(OMEGA, rng.uniform(0.1, 10.0, 60), rng.uniform(0.1, 10.0, 60))
+    moduli, _ = non_negative(data, relaxation_times(OMEGA, 12))
+    assert np.all(moduli >= 0.0)
+
+
+def test_design_is_the_modulus_of_the_material():
+    times = relaxation_times(OMEGA, 5)
+    terms = tuple((float(k + 1), float(t)) for k, t in enumerate(times))
+    solid = rn.Prony(modulus=0.7, terms=terms, poisson=0.5)
+    data = reduced(solid)
+    predicted = data.design(times) @ np.array([0.7, 1.0, 2.0, 3.0, 4.0, 5.0])
+    np.testing.assert_allclose(predicted, data.target, rtol=1e-12)
+
+
+def test_huge_ranges_do_not_overflow():
+    data = Reduced(np.array([1e-150, 1e150]), np.ones(2), np.ones(2))
+    assert np.all(np.isfinite(data.design(np.array([1e-150, 1e150]))))
+
+
+def test_terms_are_as_many_as_the_noise_allows():
+    solid = rn.FractionalZener(
+        modulus=2.0, stiffening=50.0, relaxation_time=0.1, order=0.5, poisson=0.5
+    )
+    counts = [crossvalidated(reduced(solid, noise))[0] for noise in (0.1, 0.02, 0.004)]
+    assert counts == sorted(counts)
+    assert counts[0] < counts[-1]
+    assert 3 <= counts[1] <= 18
+
+
+def test_times_span_the_data_and_half_a_decade():
+    times = relaxation_times(OMEGA, 7)
+    assert times[0] == pytest.approx(1e-4 / 10**0.5)
+    assert times[-1] == pytest.approx(1e2 * 10**0.5)

@@ -68,6 +68,15 @@ def test_the_load_of_a_hertzian_nip():
     assert "N/mm" in answer.message
 
 
+@pytest.mark.parametrize("width", [0.15, 0.25, 0.37, 0.6])
+def test_the_error_covers_what_is_missing_to_the_closed_form(width):
+    radius, modulus = effective_radius(50.0, 25.0), contact_modulus(210e3, 0.3, 210e3, 0.3)
+    exact = pi * modulus * (0.5 * width) ** 2 / (4.0 * radius)
+    answer = find(HERTZ, "nip.load", "nip_width", width, "10 N/mm", "2 kN/mm")
+    assert abs(answer.value - exact) <= answer.error
+    assert answer.error < 0.01 * exact
+
+
 def test_a_thickness_and_a_result_that_falls():
     answer = find(COATED, "upper.layers[0].thickness", "peak_pressure", "0.3 MPa", "1 mm", "0.2 in")
     assert answer.unit == "mm"
@@ -118,6 +127,16 @@ def test_the_error_is_that_of_the_result_over_the_slope():
     assert answer.error == pytest.approx(0.02, rel=0.02)
 
 
+def test_reservations_of_the_model_are_said():
+    evaluate, _ = evaluating(lambda x: x)
+    answer = find(
+        COATED, "nip.load", "nip_width", 2.0, 1.0, 5.0,
+        evaluate=lambda tree: evaluate(tree) | {"warnings": "Too thin."},
+    )  # fmt: skip
+    assert "the model has reservations there" in answer.message
+    assert "reservations" not in found(lambda x: x, 2.0, 1.0, 5.0).message
+
+
 def test_none_between_says_what_there_is():
     answer = found(lambda x: x, 50.0, 1.0, 5.0)
     assert (answer.value, answer.error, answer.scalars) == (None, None, {})
@@ -145,6 +164,11 @@ def test_a_jump_with_the_model_says_so():
     assert "from geometry finite to curved" in answer.message
 
 
+def test_a_wanted_value_out_of_all_proportion_is_not_called_no_influence():
+    answer = found(lambda x: x, 1e99, 1.0, 5.0)
+    assert "it goes from 1.0000 mm to 5.0000 mm there." in answer.message
+
+
 def test_no_influence_is_said():
     answer = found(lambda x: 2.0, 2.0, 1.0, 5.0)
     assert answer.value is None
@@ -156,6 +180,15 @@ def test_cases_that_fail_are_said_and_left_out():
     assert answer.value == pytest.approx(2.0, rel=1e-4)
     assert [x for x, _ in answer.failures] == [7.0, 9.0]
     assert "2 cases on the way could not be solved; at 7.0000 N/mm: Too much." in answer.message
+
+
+def test_an_answer_beside_cases_that_fail_is_found():
+    # of five cases from 1 to 1000 only the first two can be solved: 1 and 5.6
+    answer = found(lambda x: x, 12.0, 1.0, 1000.0, refused=lambda x: x > 20.0)
+    assert answer.value == pytest.approx(12.0, rel=1e-4)
+    assert answer.solves <= 20
+    falling = found(lambda x: -x, -12.0, 1.0, 1000.0, refused=lambda x: x < 10.0)
+    assert falling.value == pytest.approx(12.0, rel=1e-4)
 
 
 def test_a_failure_right_at_the_answer_is_no_answer():

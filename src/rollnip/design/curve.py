@@ -14,6 +14,7 @@ _GEOMETRIC = 10.0  # an interval of positive numbers as wide as this is parted b
 _SHARPEST = 1e-6  # of the interval: a change over less is a jump
 _MOST_STEPS = 60
 _TURN_STEPS = 8
+_REACH_STEPS = 6
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +80,25 @@ class Curve:
             sign = 1.0 if here > 0.0 else -1.0
             if 0.0 < sign * here <= min(sign * near, sign * far):
                 self._descend(left, right, wanted, sign)
+
+    def reach(self, wanted: float) -> None:
+        """Move from solved cases towards neighbours that were not solved, to pass the wanted value.
+
+        Halving: so an answer beside cases without a solution is found.
+        """
+        for left, right in pairwise(self.points):
+            if (left.y is None) == (right.y is None):
+                continue
+            good, bad = (left, right) if right.y is None else (right, left)
+            sign = _off(good, wanted)
+            for _ in range(_REACH_STEPS):
+                middle = self._at(0.5 * (self._share(good) + self._share(bad)))
+                if middle.y is None:
+                    bad = middle
+                    continue
+                good = middle
+                if sign * _off(good, wanted) <= 0.0:
+                    return
 
     def crossings(self, wanted: float, near: float) -> tuple[tuple[Point, ...], tuple[Jump, ...]]:
         """Cases whose result is ``wanted`` within ``near``, and jumps across it, by parameter."""

@@ -26,6 +26,7 @@ _DIGITS = 8  # of a value found; what follows is far below the error
 _SHOWN = 5
 _NOISE = 5.0  # errors: results that differ by less say little about a slope
 _LEAST, _MOST = 3, 200
+_FLAT = 1e-9  # of the result: that a parameter does not touch it
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -38,8 +39,9 @@ class Found:
     quantity, quantity_unit, wanted : the result, and its wanted value.
     low, high : limits of the parameter.
     value : the parameter that gives the wanted result (the lowest of them); None where none does.
-    error : of ``value``: estimated error of the result, and its distance from the wanted value,
-        over the slope; None where the result has no error estimate.
+    error : of ``value``: the solver's estimate of the error of the result, and its distance from
+        the wanted value, over the slope; None where there is no estimate. The model's own error
+        is not in it: see ``scalars["warnings"]``.
     reached : the result at ``value``, by a solve of its own.
     reached_error : its estimated error.
     others : further values within the limits that give the wanted result.
@@ -162,10 +164,13 @@ def find(
     curve.scan(points)
     _require_some(question, curve.points)
     near = question.near * _size(question, curve.solved)
-    if _is_flat(curve.solved, near):
+    if _is_flat(curve.solved):
         return _answer(question, curve, None, (), [_no_influence(question, curve)])
     curve.turn(question.wanted)
     roots, jumps = curve.crossings(question.wanted, near)
+    if not roots:
+        curve.reach(question.wanted)
+        roots, jumps = curve.crossings(question.wanted, near)
     final = _fresh(question, roots[0]) if roots else None
     lines = [_jump(question, jump) for jump in jumps]
     if final is not None and not _is_reached(question, final, near):
@@ -208,7 +213,7 @@ def _require_some(question: _Question, points: Sequence[Point]) -> None:
     raise InvalidInputError(
         f"not one of {len(points)} cases with {question.path} between "
         f"{question.said(question.low)} and {question.said(question.high)} could be solved; at "
-        f"{question.said(first.x)}: {first.message}"
+        f"{question.said(first.x)}: {first.message.rstrip('.')}; try other limits."
     )
 
 
@@ -216,9 +221,10 @@ def _size(question: _Question, points: Sequence[Point]) -> float:
     return abs(question.wanted) or max(abs(point.y or 0.0) for point in points) or 1.0
 
 
-def _is_flat(points: Sequence[Point], near: float) -> bool:
+def _is_flat(points: Sequence[Point]) -> bool:
     results = [point.y for point in points if point.y is not None]
-    return len(results) > 1 and max(results) - min(results) <= near
+    size = max(abs(y) for y in results)
+    return len(results) > 1 and max(results) - min(results) <= _FLAT * size
 
 
 def _no_influence(question: _Question, curve: Curve) -> str:
@@ -333,6 +339,8 @@ def _sentences(
     if others:
         also = ", ".join(question.said(x) for x in others)
         said.append(f"So {'does' if len(others) == 1 else 'do'} {also}.")
+    if final.row.get("warnings"):
+        said.append("The error is that of the computation; the model has reservations there.")
     return said
 
 

@@ -13,6 +13,7 @@ from rollnip import (
     Layer,
     LineLoad,
     Nip,
+    Profile,
     Roller,
     StandardLinearSolid,
     Torque,
@@ -169,3 +170,22 @@ def test_frozen():
 def test_equal_and_hashable():
     assert replace(GOOD) == GOOD
     assert hash(replace(GOOD, title="one")) != hash(GOOD)
+
+
+ROUGH = replace(COATED, profile=Profile(x=[-9.0, 9.0], height=[0.0, 0.0]))
+
+
+def test_a_measured_profile_is_a_snapshot_without_friction():
+    nip = Nip(upper=ROUGH, lower=BARE, normal=LineLoad(1.0), friction=0.0)
+    assert nip.has_profile
+    assert not GOOD.has_profile
+    assert hash(nip) == hash(replace(nip))
+    assert refusal(replace, nip, friction=0.5).startswith(
+        "`friction` must be 0 with a measured profile, got 0.5: roughness that passes"
+    )
+    assert refusal(replace, nip, tangential=Creepage(0.01)).startswith(
+        "`creepage` must not be prescribed with a measured profile"
+    )
+    assert refusal(replace, nip, lower=SLOW, speed=10.0).startswith(
+        "`profile` must go with elastic materials alone"
+    )

@@ -3,9 +3,10 @@
 from dataclasses import FrozenInstanceError, replace
 from math import inf, nan
 
+import numpy as np
 import pytest
 
-from rollnip import Elastic, InvalidInputError, Layer, Roller, StandardLinearSolid
+from rollnip import Elastic, InvalidInputError, Layer, Profile, Roller, StandardLinearSolid
 
 RUBBER = Elastic(modulus=2.0, poisson=0.5)
 BLACK = StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=7e-3, poisson=0.5)
@@ -105,3 +106,49 @@ def test_frozen():
         Roller(radius=9.0).radius = 3.0
     with pytest.raises(FrozenInstanceError):
         Layer(1.0, RUBBER).thickness = 3.0
+
+
+def test_profile_is_a_frozen_copy():
+    heights = np.array([0.0, 1.0, 0.0])
+    profile = Profile(x=[0.0, 1.0, 2.0], height=heights)
+    heights[1] = 5.0
+    assert profile.height[1] == 1.0
+    with pytest.raises(ValueError, match="read-only"):
+        profile.height[0] = 1.0
+    with pytest.raises(FrozenInstanceError):
+        profile.x = heights
+    np.testing.assert_allclose(profile.at(np.array([-1.0, 0.5, 2.0, 2.1])), [0.0, 0.5, 0.0, 0.0])
+
+
+def test_profiles_are_told_apart_by_every_sample():
+    x = np.arange(5000.0)
+    one, same = Profile(x=x, height=0.0 * x), Profile(x=x, height=0.0 * x)
+    height = 0.0 * x
+    height[2500] = 1e-6
+    other = Profile(x=x, height=height)
+    assert one == same
+    assert hash(one) == hash(same)
+    assert repr(one) == repr(same)
+    assert one != other
+    assert repr(one) != repr(other)
+    assert one != 3
+
+
+@pytest.mark.parametrize(
+    ("x", "height", "message"),
+    [
+        ([0.0, 1.0], [1.0], "`height` must have one value for each of the 2 places, got 1."),
+        ([0.0], [1.0], "`x` must hold 2 to 262144 samples, got 1; give the part around the nip"),
+        ([0.0, 1.0, 1.0], [1.0, 1.0, 1.0], "`x` must increase from sample to sample, got 1 mm and"),
+        ([0.0, nan], [1.0, 1.0], "`x` must be finite everywhere, got nan as sample 2."),
+        ([0.0, 1.0], [1.0, inf], "`height` must be finite everywhere, got inf as sample 2."),
+        ("ab", [1.0, 1.0], "`x` must hold numbers."),
+        ([[0.0, 1.0]], [1.0, 1.0], "`x` must be one-dimensional, got the shape (1, 2)."),
+    ],
+)
+def test_profiles_that_are_none(x, height, message):
+    assert refusal(Profile, x=x, height=height).startswith(message)
+
+
+def test_roller_takes_a_profile_only():
+    assert refusal(Roller, radius=50.0, profile=[1.0]).startswith("`profile` must be a Profile")

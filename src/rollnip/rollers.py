@@ -14,6 +14,7 @@ from rollnip._errors import InvalidInputError, require_positive
 from rollnip.materials import Material
 
 _MOST_SAMPLES = 2**18
+_ROUNDING = 1e-9  # of the length of a profile
 _LARGEST_LENGTH = 1e7  # mm; ten kilometres: beyond it a unit was mistaken
 
 
@@ -103,7 +104,9 @@ class Profile:
 
     def at(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
         """Heights at some places, (n,) [mm]; 0, the smooth surface, outside the samples."""
-        return np.interp(x, self.x, self.height, left=0.0, right=0.0)
+        slack = _ROUNDING * (self.x[-1] - self.x[0])
+        inside = (x >= self.x[0] - slack) & (x <= self.x[-1] + slack)
+        return np.where(inside, np.interp(x, self.x, self.height), 0.0)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

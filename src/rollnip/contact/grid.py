@@ -16,7 +16,7 @@ from scipy.fft import irfft, next_fast_len, rfft
 from rollnip.contact.problem import Array, Indices, Mask
 
 _LOW = 0.05
-_HIGH = 1e-6
+_HIGH = 1e-2
 
 
 @dataclass(frozen=True)
@@ -38,17 +38,32 @@ class Convolution:
     @cached_property
     def length(self) -> int:
         """Of the circle that the values are padded to; at least 2 n - 1, so that none overlap."""
-        return int(next_fast_len(self.coefficients.size, real=True))
+        return int(next_fast_len(self.coefficients.size + self.size // 4 + 2, real=True))
 
     @cached_property
     def spectrum(self) -> Array:
-        """Transform of the coefficients laid out on the circle, complex."""
+        """Transform of the coefficients laid out on the circle, complex.
+
+        No two values are as far apart as the distances left over, so anything may stand there. A
+        cubic that joins both ends smoothly keeps the transform of a compliance positive: a jump
+        would hide the small compliance of a stiff skin for short waves.
+        """
         n = self.size
-        circle = np.zeros(self.length)
+        circle = np.empty(self.length)
         circle[:n] = self.coefficients[n - 1 :]
+        circle[n : self.length - n + 1] = self._bridge()
         if n > 1:
             circle[1 - n :] = self.coefficients[: n - 1]
         return np.asarray(rfft(circle, workers=1))
+
+    def _bridge(self) -> Array:
+        """Values between the last coefficient and, once round, the first."""
+        c, steps = self.coefficients, self.length - 2 * self.size + 2
+        t = np.arange(1.0, steps) / steps
+        rise, slopes = c[0] - c[-1], (c[-1] - c[-2], c[1] - c[0]) if c.size > 1 else (0.0, 0.0)
+        bend = t * t * (3.0 - 2.0 * t) * rise
+        ends = t * (1.0 - t) ** 2 * slopes[0] - t * t * (1.0 - t) * slopes[1]
+        return np.asarray(c[-1] + bend + steps * ends)
 
     def of(self, values: Array) -> Array:
         """The convolution with some values, (n,)."""

@@ -85,7 +85,8 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
     if not rough.state.settled:
         return False, (
             f"The contact did not settle (last correction {rough.state.correction:.1e} of the peak "
-            "pressure); try a smaller load, or a profile with fewer samples."
+            "pressure); under a skin much stiffer than what lies below it, leave out of the "
+            "profile what is shorter than the skin is thick."
         )
     if not rough.residual <= model.tolerance:
         return False, (

@@ -13,6 +13,7 @@ from rollnip.verification.limits import limits
 from rollnip.verification.plates import plates
 from rollnip.verification.thin_layers import thin_layers
 from rollnip.verification.viscoelastic import viscoelastic
+from rollnip.verification.waves import waves
 
 
 def all_cases() -> tuple[VerificationCase, ...]:
@@ -25,6 +26,7 @@ def all_cases() -> tuple[VerificationCase, ...]:
         *thin_layers(),
         *plates(),
         *kernels(),
+        *waves(),
         *finite_strain(),
         *laws(),
         *limits(),

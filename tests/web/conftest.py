@@ -7,7 +7,9 @@ from starlette.testclient import TestClient
 
 from rollnip.web import Limits, create_app
 
-LIMITS = Limits(workers=2)
+# A machine that does ten other things is slow, which is no fault of the routes.
+PATIENT = {"solve_seconds": 120.0, "waiting_seconds": 120.0, "long_seconds": 300.0}
+LIMITS = Limits(workers=2, **PATIENT)
 RUBBER = {"model": "elastic", "modulus": "0.91 MPa", "poisson": 0.5}
 CASE = {
     "title": "Two rollers",
@@ -22,6 +24,17 @@ CASE = {
 def client():
     with TestClient(create_app(LIMITS), base_url="http://127.0.0.1:8000") as one:
         yield one
+
+
+@pytest.fixture
+def served():
+    """Make a client of another server with other limits."""
+
+    def make(**limits):
+        app = create_app(Limits(**{"workers": 1, **PATIENT, **limits}))
+        return TestClient(app, base_url="http://127.0.0.1:8000")
+
+    return make
 
 
 @pytest.fixture

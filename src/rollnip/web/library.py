@@ -47,6 +47,7 @@ class Library:
         """Read it from the files of the package."""
         typical = [_example(path, "typical") for path in sorted((_DATA / "nips").glob("*.toml"))]
         paper = [_example(path, "paper") for path in sorted(_paper_folder().glob("*.toml"))]
+        paper = [example for example in paper if not _names_a_file(example["case"])]
         others = tomllib.loads((_DATA / "materials.toml").read_text(encoding="utf-8"))["material"]
         rubbers = [_rubber(hardness) for hardness in _HARDNESSES]
         return cls(typical + paper, rubbers + [_material(table) for table in others])
@@ -63,6 +64,11 @@ def units() -> dict[str, Any]:
         }
         for dimension in get_args(Dimension)
     }
+
+
+def _names_a_file(case: dict[str, Any]) -> bool:
+    """Whether a roller has a measured profile, which the server does not read."""
+    return any("profile" in case[roller] for roller in ("upper", "lower"))
 
 
 def _example(path: Path, group: str) -> dict[str, Any]:

@@ -51,7 +51,7 @@ class Limits:
     body_seconds: float = 10.0
     workers: int = field(default_factory=_workers)
     waiting: int = 16
-    waiting_seconds: float = 30.0
+    waiting_seconds: float = 5.0
     long_waiting: int = 8
     solve_seconds: float = 10.0
     long_seconds: float = 60.0

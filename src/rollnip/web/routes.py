@@ -31,10 +31,12 @@ from rollnip.web.library import Library, units
 _STATUSES = {
     400: "The body is no JSON object.",
     403: "Not from a page of this server, or the Host header names another.",
+    408: "The body did not arrive in time.",
     413: "The body is too large.",
     415: "The body is not sent as JSON.",
     422: "The case or the body is wrong, or it took too long; `details` says which key.",
     429: "Too many requests wait; Retry-After says when to try again.",
+    503: "A solver process ended by itself.",
 }
 _REFUSALS: dict[int | str, dict[str, Any]] = {
     status: {"model": Refusal, "description": text} for status, text in _STATUSES.items()

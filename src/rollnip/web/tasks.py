@@ -107,17 +107,20 @@ class Tasks:
 
     def _interior(self, body: Body) -> Reply:
         case = self._read(body["case"])
-        solution = self._solution(case)
         name = body["roller"]
         roller = case.nip.upper if name == "upper" else case.nip.lower
+        if roller.is_rigid:
+            raise CaseFileError(f"{SOURCE}: roller: must deform, the {name} one is bare and rigid.")
+        solution = self._solution(case)
         trailing, leading = solution.contact[0][0], solution.contact[-1][1]
         width = leading - trailing
-        x = np.linspace(trailing - width, leading + width, body["nx"])
+        x = _rounded(np.linspace(trailing - width, leading + width, body["nx"]))
         field = solution.interior(name, _rows(roller, width, body["nz"]), x)
-        tree: dict[str, Any] = {"x": _rounded(field.x), "z": _numbers(field.z)}
-        tree |= {key: _rounded(getattr(field, name)) for key, name in _FIELDS.items()}
+        values = {key: getattr(field, name) for key, name in _FIELDS.items()}
         if roller.is_viscoelastic:
-            tree["loss"] = _rounded(field.loss_density)
+            values["loss"] = field.loss_density
+        tree: dict[str, Any] = {"x": _numbers(x), "z": _numbers(field.z)}
+        tree |= {key: _numbers(_rounded(value)) for key, value in values.items()}
         tree["layer"] = field.layer.tolist()
         tree["interfaces"] = list(roller.interfaces)
         return Reply(200, json_bytes(tree), case_hash(case))
@@ -247,8 +250,6 @@ def _rows(roller: Roller, width: float, count: int) -> Array:
     faces = [0.0, *roller.interfaces]
     if roller.core is not None:
         faces.append(faces[-1] + _CORE_DEPTH * width)
-    if len(faces) == 1:
-        return np.zeros(1)  # bare and rigid: `Solution.interior` says so
     pieces = []
     for top, bottom in pairwise(faces):
         share = (bottom - top) / (faces[-1] - faces[0])
@@ -259,12 +260,12 @@ def _rows(roller: Roller, width: float, count: int) -> Array:
     return np.concatenate(pieces)
 
 
-def _rounded(values: Array) -> Any:
-    """Nested lists, to six digits of the largest value: a third of the size."""
+def _rounded(values: Array) -> Array:
+    """To six digits of the largest value: a third of the text."""
     largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
-    if largest > 0.0:
-        values = np.round(values, int(_DIGITS - np.floor(np.log10(largest)) - 1))
-    return _numbers(values)
+    if largest == 0.0:
+        return values
+    return np.round(values, int(_DIGITS - np.floor(np.log10(largest)) - 1))
 
 
 def _numbers(values: Array) -> Any:

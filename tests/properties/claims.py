@@ -80,8 +80,9 @@ class Judged:
 
     @property
     def is_certain(self):
-        """Whether the reference is good enough to tell."""
-        return self.doubt <= 0.5 * max(self.true, self._at_least_claimed)
+        """Whether the verdict is the same however wrong the reference may be."""
+        bound = ALLOWED * self._at_least_claimed
+        return (self.true - self.doubt > bound) == (self.true + self.doubt > bound)
 
     @property
     def _at_least_claimed(self):

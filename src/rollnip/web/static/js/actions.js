@@ -1,6 +1,6 @@
 // What the menus do: open, keep, save, copy, export, print. The App is what they act on.
 
-import { post } from "./api.js";
+import { post, sentencesOf } from "./api.js";
 import { defaultCase, nameOf } from "./design.js";
 import {
   chartCsv,
@@ -135,7 +135,12 @@ export class Actions {
     try {
       await act();
     } catch (error) {
-      this.complain(`${failure}: ${error.message}`);
+      this.complain(`${failure}: ${sentencesOf(error, keyOf).slice(0, 3).join(" ")}`);
     }
   }
+}
+
+/** A place as a case file writes it, for those who look for it there. */
+function keyOf(path) {
+  return path ? `${path}: ` : "";
 }

@@ -1,5 +1,7 @@
 // The server's answers; every failure becomes one ApiError with a sentence for people.
 
+import { placeInWords } from "./paths.js";
+
 /** What went wrong, with the places in the case it belongs to. */
 export class ApiError extends Error {
   constructor(message, status, details = []) {
@@ -7,6 +9,12 @@ export class ApiError extends Error {
     this.status = status;
     this.details = details;
   }
+}
+
+/** What went wrong, a sentence for each place it belongs to; `place` writes a path. */
+export function sentencesOf({ message, details = [] }, place = placeInWords) {
+  if (details.length === 0) return [message];
+  return details.map((one) => place(one.path) + one.message);
 }
 
 const RETRIES = 4;

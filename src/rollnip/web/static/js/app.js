@@ -2,7 +2,7 @@
 
 import { Actions } from "./actions.js";
 import { announce, showAnswers, showFailure } from "./answers.js";
-import { post } from "./api.js";
+import { post, sentencesOf } from "./api.js";
 import { CompareView } from "./compare.js";
 import { CurveView } from "./curves.js";
 import { defaultCase, designOf, nameOf } from "./design.js";
@@ -14,7 +14,7 @@ import { Inputs } from "./inputs.js";
 import { InsideView } from "./inside.js";
 import { designItems, examplesDialog, menu, shareItems } from "./menus.js";
 import { paletteOf } from "./palette.js";
-import { placeInWords, same, setAt } from "./paths.js";
+import { same, setAt } from "./paths.js";
 import { linkOf, stateIn } from "./permalink.js";
 import { Runner } from "./runner.js";
 import { Store } from "./store.js";
@@ -109,7 +109,7 @@ export class App extends Actions {
       const state = await stateIn(hash);
       if (state) return await this.restore(state);
     } catch (error) {
-      this.complain(`This link could not be opened: ${error.message}`);
+      this.complain(`This link could not be opened: ${sentencesOf(error).slice(0, 3).join(" ")}`);
     }
     return this.changed(this.store.state, "design");
   }
@@ -201,10 +201,8 @@ export class App extends Actions {
 
   /** Each complaint at its input and, in words, above everything. */
   failed(error) {
-    const details = error.details ?? [];
-    this.inputs.complain(details);
-    const sentences = details.map(({ path, message }) => `${placeInWords(path)}${message}`);
-    showFailure(sentences.length ? sentences : [error.message]);
+    this.inputs.complain(error.details ?? []);
+    showFailure(sentencesOf(error));
   }
 
   /** The same answer in other units, colours or tabs. */

@@ -24,6 +24,7 @@ export class Chart {
   constructor(node) {
     this.node = node;
     this.node.setAttribute("role", "img");
+    this.node.setAttribute("aria-label", "A chart that is not drawn yet");
     this.figure = null;
     this.drawn = Promise.resolve();
     new ResizeObserver(() => this.fit()).observe(node);

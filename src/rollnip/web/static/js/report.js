@@ -30,6 +30,8 @@ const GEOMETRIES = {
   corrected: "Flat layers, true distance of the deformed surfaces.",
   linear: "Linear theory: flat layers, parabolic gap.",
 };
+const HARDNESS =
+  "Moduli estimated from Shore A (Gent 1958): easily half or twice; calibrate on a measured nip width.";
 const ASSUMPTIONS = [
   "Plane strain: long rollers, straight axles; no bending, crown or ends of the face.",
   "Steady rolling; Coulomb friction with one coefficient.",
@@ -68,10 +70,16 @@ export async function fillReport(answer, units, palette, about) {
     ),
     el("div", { class: "two" }, ...pictures),
     el("h2", { text: "Assumptions" }),
-    el("ul", {}, ...[GEOMETRIES[result.geometry], ...ASSUMPTIONS].map((text) => el("li", { text }))),
+    el("ul", {}, ...assumptionsOf(tree, result).map((text) => el("li", { text }))),
     ...warnings(result),
   );
   await Promise.all(pictures.map((one) => one.decode()));
+}
+
+function assumptionsOf(tree, { geometry }) {
+  const layers = [...tree.upper.layers, ...tree.lower.layers];
+  const byHardness = layers.some(({ material: one }) => one.shore_a !== undefined);
+  return [GEOMETRIES[geometry], ...ASSUMPTIONS, ...(byHardness ? [HARDNESS] : [])];
 }
 
 function picture(source, alt) {

@@ -49,7 +49,7 @@ function layerCard(side, i, tree, panel) {
   return el(
     "div",
     { class: "layer", role: "group", "aria-label": `${called} of the ${side} roller` },
-    el("div", { class: "head row" }, el("h4", {}, swatch, called), moves(side, i, layers, panel)),
+    el("div", { class: "head row" }, el("h3", {}, swatch, called), moves(side, i, layers, panel)),
     panel.control(`${path}.thickness`),
     ...materialEditor(`${path}.material`, panel),
   );

@@ -1,0 +1,140 @@
+"""Keyboard, screen reader, dark colours, a phone: axe finds nothing, nothing overflows."""
+
+import pytest
+from axe_playwright_python.sync_playwright import Axe
+from tests.browser.conftest import Designer, Watch, new_context
+
+pytestmark = pytest.mark.slow
+
+WINDOWS = {
+    "light": {},
+    "dark": {"color_scheme": "dark"},
+    "phone": {"viewport": {"width": 360, "height": 740}, "has_touch": True},
+    "phone-dark": {"viewport": {"width": 360, "height": 740}, "color_scheme": "dark"},
+}
+TABS = ("pressure", "inside", "whatif", "find", "compare")
+
+
+@pytest.fixture(params=WINDOWS)
+def seen(request, browser, base):
+    context = new_context(browser, **WINDOWS[request.param])
+    page = context.new_page()
+    watch = Watch(page, base)
+    yield Designer(page, base).open()
+    watch.check()
+    context.close()
+
+
+def violations(page):
+    found = Axe().run(page).response["violations"]
+    return [(one["id"], [node["html"][:120] for node in one["nodes"][:3]]) for one in found]
+
+
+def overhang(page):
+    """Pixels that the page is wider than its window."""
+    root = "document.documentElement"
+    return page.evaluate(f"{root}.scrollWidth - {root}.clientWidth")
+
+
+def test_axe_finds_nothing_and_nothing_is_too_wide_in_any_view(seen):
+    page = seen.page
+    page.select_option("#in-upper-layers-0-material-kind", "prony")
+    page.evaluate("document.querySelectorAll('details').forEach(fold => { fold.open = true; })")
+    page.wait_for_timeout(100)
+    seen.rest()
+    assert violations(page) == []
+    assert overhang(page) <= 0
+    for tab in TABS[1:]:
+        seen.tab(tab)
+        page.wait_for_timeout(300)
+        assert violations(page) == [], tab
+        assert overhang(page) <= 0, tab
+    page.click("#keep")
+    page.wait_for_selector("#kept-drop-0")
+    assert violations(page) == []
+    for opener in ("#open-share", "#open-designs", "#open-examples"):
+        page.click(opener)
+        assert violations(page) == [], opener
+        page.keyboard.press("Escape")
+    page.fill("#in-nip-load", "nothing")
+    page.press("#in-nip-load", "Enter")
+    page.wait_for_selector('#in-nip-load[aria-invalid="true"]')
+    assert violations(page) == []
+
+
+def test_the_answer_stays_in_sight_on_a_phone(browser, base):
+    context = new_context(browser, **WINDOWS["phone"])
+    designer = Designer(context.new_page(), base).open()
+    page = designer.page
+    assert page.locator("#big").bounding_box()["y"] < 300
+    page.locator("#in-nip-load").scroll_into_view_if_needed()
+    page.wait_for_selector("#mini.shown")
+    assert "Nip" in page.inner_text("#mini")
+    for control in ("#undo", "#open-share", "#theme", "#us"):
+        box = page.locator(control).bounding_box()
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 360
+    context.close()
+
+
+def test_the_theme_follows_the_system_until_it_is_chosen(browser, base):
+    context = new_context(browser, color_scheme="dark")
+    designer = Designer(context.new_page(), base).open()
+    page = designer.page
+    ground = "getComputedStyle(document.body).backgroundColor"
+    chart = "document.getElementById('chart-pressure').layout?.paper_bgcolor"
+    designer.until(f"{chart} === '#171c22'")
+    assert page.evaluate(ground) == "rgb(15, 19, 23)"
+    page.click("#theme")
+    designer.until(f"{chart} === '#ffffff'")
+    assert page.evaluate(ground) == "rgb(243, 245, 248)"
+    page.reload()
+    page.wait_for_selector('html[data-theme="light"]')
+    context.close()
+
+
+def test_everything_is_reached_by_keyboard(designer):
+    page = designer.page
+    page.evaluate("document.activeElement.blur(); window.scrollTo(0, 0)")
+    page.keyboard.press("Tab")
+    reached = []
+    for _turn in range(60):
+        reached.append(page.evaluate("document.activeElement.id || document.activeElement.tagName"))
+        page.keyboard.press("Tab")
+    for wanted in (
+        "metric",
+        "open-examples",
+        "open-share",
+        "theme",
+        "in-upper-radius",
+        "in-upper-radius-slider",
+        "in-upper-layers-0-material-kind",
+        "add-upper",
+        "in-press-load",
+        "in-drive",
+        "tab-pressure",
+        "panel",
+    ):
+        assert wanted in reached, wanted
+    page.focus("#tab-pressure")
+    page.keyboard.press("ArrowRight")
+    assert page.evaluate("document.activeElement.id") == "tab-gap"
+    page.keyboard.press("End")
+    assert page.get_attribute("#tab-compare", "aria-selected") == "true"
+    page.focus("#open-share")
+    page.keyboard.press("Enter")
+    assert page.evaluate("document.activeElement.id") == "copy-link"
+    page.keyboard.press("Escape")
+    assert page.evaluate("document.activeElement.id") == "open-share"
+
+
+def test_the_focus_survives_a_new_panel(designer):
+    page = designer.page
+    page.focus("#in-drive")
+    page.select_option("#in-drive", "creepage")
+    assert page.evaluate("document.activeElement.id") == "in-drive"
+    page.click("#add-upper")
+    designer.rest()
+    assert page.evaluate("document.activeElement.id") == "add-upper"
+    page.click("#remove-upper-1")
+    assert page.evaluate("document.activeElement.id") == "add-upper"

@@ -1,0 +1,52 @@
+"""Up to four designs over each other and side by side."""
+
+import pytest
+
+pytestmark = pytest.mark.slow
+
+
+def keep(designer, number):
+    designer.tab("compare")
+    designer.page.click("#keep")
+    designer.page.wait_for_selector(f"#kept-drop-{number}", timeout=20_000)
+
+
+def test_four_designs_are_overlaid_and_their_differences_shown(designer):
+    page = designer.page
+    width = designer.nip_width
+    for number, load in enumerate(("8", "12", "16")):
+        keep(designer, number)
+        designer.enter("in-nip-load", load)
+    designer.until("document.querySelectorAll('.compare thead th').length === 5")
+    designer.until("document.getElementById('chart-compare').data?.length === 4")
+    assert page.is_disabled("#keep")
+    row = page.locator(".compare tbody tr", has_text="Nip width").inner_text()
+    percent = 100.0 * (designer.nip_width / width - 1.0)
+    shown = float(row.split("+")[-1].split("%")[0])
+    assert shown == pytest.approx(percent, abs=0.1)
+    page.select_option("#compare-profile", "gap")
+    designer.until(
+        "document.getElementById('chart-compare').layout.yaxis.title.text.startsWith('Gap')"
+    )
+
+
+def test_a_kept_design_is_opened_and_removed_and_both_can_be_undone(designer):
+    page = designer.page
+    width = designer.nip_width
+    keep(designer, 0)
+    designer.enter("in-nip-load", "9")
+    with page.expect_response("**/api/solve"):
+        page.click("#kept-open-0")
+    designer.rest()
+    assert designer.nip_width == width
+    page.click("#kept-drop-0")
+    page.wait_for_selector(".compare", state="hidden")
+    page.click("#undo")
+    page.wait_for_selector("#kept-drop-0")
+
+
+def test_a_design_that_did_not_converge_is_marked_in_the_table(designer):
+    keep(designer, 0)
+    cells = designer.page.locator(".compare tbody tr", has_text="Converged").inner_text()
+    assert "yes" in cells
+    assert "NO" not in cells

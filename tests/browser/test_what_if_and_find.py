@@ -1,0 +1,79 @@
+"""What if a value changed, and which value gives a wanted answer."""
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+from rollnip.materials import shore_a_modulus
+
+pytestmark = pytest.mark.slow
+
+
+def nip(load: float = 4.0, thickness: float = 12.0) -> rn.Nip:
+    rubber = rn.Elastic(modulus=shore_a_modulus(60.0), poisson=0.5)
+    return rn.Nip(
+        upper=rn.Roller(radius=100.0, layers=(rn.Layer(thickness, rubber),)),
+        lower=rn.Roller(radius=75.0),
+        normal=rn.LineLoad(load),
+        friction=0.5,
+        speed=1000.0,
+    )
+
+
+def swept(designer, label: str) -> dict[str, list[float | None]]:
+    designer.until(
+        "document.getElementById('whatif-said').textContent.startsWith('The dot')", timeout=30_000
+    )
+    return designer.trace("chart-whatif", label)
+
+
+def test_the_nip_width_over_the_load_is_a_curve_of_full_solutions(designer):
+    designer.tab("whatif")
+    curve = swept(designer, "Nip width")
+    x, y = np.array(curve["x"]), np.array(curve["y"], dtype=float)
+    assert len(x) == 19
+    assert x[0] == pytest.approx(4.0 / 2.5)
+    assert x[-1] == pytest.approx(4.0 * 2.5)
+    assert np.all(np.diff(x) > 0)
+    assert y[0] == pytest.approx(rn.solve(nip(x[0])).nip_width, rel=2e-3)
+    assert y[-1] == pytest.approx(rn.solve(nip(x[-1])).nip_width, rel=2e-3)
+    own = designer.trace("chart-whatif", "your design")
+    assert own["x"] == [4]
+    assert own["y"][0] == pytest.approx(designer.nip_width, rel=1e-3)
+
+
+def test_another_answer_over_another_input(designer):
+    designer.tab("whatif")
+    designer.page.select_option("#whatif-path", "upper.layers[0].thickness")
+    designer.page.select_option("#whatif-answer", "peak_pressure")
+    curve = swept(designer, "Peak pressure")
+    middle = len(curve["x"]) // 2
+    expected = rn.solve(nip(thickness=curve["x"][middle])).peak_pressure
+    assert curve["y"][middle] == pytest.approx(expected, rel=2e-3)
+
+
+def test_which_load_gives_a_nip_of_8_mm(designer):
+    page = designer.page
+    designer.tab("find")
+    page.fill("#find-wanted", "8 mm")
+    page.press("#find-wanted", "Enter")
+    page.wait_for_selector("#find-use", timeout=30_000)
+    assert "Line load: " in page.inner_text("#find-said")
+    with page.expect_response("**/api/solve"):
+        page.click("#find-use")
+    designer.rest()
+    assert designer.nip_width == pytest.approx(8.0, rel=2e-3)
+    load = float(page.input_value("#in-nip-load"))
+    assert rn.solve(nip(load)).nip_width == pytest.approx(8.0, rel=2e-3)
+
+
+def test_what_cannot_be_found_is_said(designer):
+    page = designer.page
+    designer.tab("find")
+    page.fill("#find-wanted", "3 m")
+    page.click("#find-go")
+    page.wait_for_selector("#find-said .found.not", timeout=30_000)
+    assert len(page.inner_text("#find-said").split()) > 5
+    page.fill("#find-wanted", "much")
+    page.click("#find-go")
+    designer.until("document.getElementById('find-said').textContent.includes('much')")

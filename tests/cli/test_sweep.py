@@ -228,12 +228,18 @@ def is_alive(pid: int) -> bool:
 
 
 @pytest.mark.slow
-def test_an_interrupt_ends_it_cleanly_and_says_how_to_go_on(study: Path, tmp_path: Path) -> None:
+@pytest.mark.parametrize("of", [signal.SIGINT, signal.SIGTERM])
+def test_an_interrupt_ends_it_cleanly_and_says_how_to_go_on(
+    study: Path, tmp_path: Path, of: signal.Signals
+) -> None:
     enlarged(study, 2000)
     out = tmp_path / "out.csv"
     process = start(study, out, start_new_session=True)
     wait_for_rows(tmp_path / "out.db", process)
-    os.killpg(process.pid, signal.SIGINT)  # as a terminal does: parent and workers
+    if of == signal.SIGINT:
+        os.killpg(process.pid, of)  # as a terminal does: parent and workers
+    else:
+        process.send_signal(of)
     said = process.communicate(timeout=120)[1]
     assert process.returncode == 130
     assert said.startswith("rollnip: interrupted; ")

@@ -5,12 +5,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import rollnip as rn
 from rollnip._errors import RollnipError
 from rollnip.sweep import read_study
-from rollnip.sweep.merge import merged
+from rollnip.sweep.merge import merged, take_known
 from rollnip.sweep.run import OpenCases, run
 from rollnip.sweep.store import About, Store
 from rollnip.sweep.table import write_table
@@ -44,3 +45,35 @@ def test_what_does_not_belong_together_is_refused(tree: dict[str, Any], tmp_path
     ]:
         with pytest.raises(RollnipError, match=words), merged(files):
             pass
+
+
+def test_a_study_that_grows_solves_only_what_is_new(tree: dict[str, Any], tmp_path: Path) -> None:
+    old = tmp_path / "old.db"
+    rn.sweep(tree | {"profiles": ["pressure"]}, workers=1, database=old)
+    tree["parameters"][1]["values"] = [0.75, 1.0, 0.5]
+    tree["parameters"].reverse()
+    solved: list[int] = []
+    grown = rn.sweep(
+        tree | {"profiles": ["pressure"]},
+        workers=1,
+        known=[old],
+        report=lambda outcome: solved.append(outcome.position),
+    )
+    assert solved == [0, 1]  # two thicknesses at the new load
+    afresh = rn.sweep(tree, workers=1)
+    assert all(
+        np.array_equal(grown[name], afresh[name], equal_nan=afresh[name].dtype.kind == "f")
+        for name in afresh.columns
+        if isinstance(afresh[name], np.ndarray)
+    )
+    assert grown["hash"] == afresh["hash"]
+
+
+def test_cases_of_another_version_are_not_known(tree: dict[str, Any], tmp_path: Path) -> None:
+    old = shard(tree, tmp_path / "old.db", (1, 1), version="0")
+    study = read_study(tree)
+    with (
+        Store(None, About.of(study, "1")) as store,
+        pytest.raises(RollnipError, match=r"old.db: was made by rollnip 0, the database by 1"),
+    ):
+        take_known(study, store, [old])

@@ -150,6 +150,7 @@ def test_a_worker_that_is_killed_costs_no_case(tree: dict[str, Any]) -> None:
     study = read_study(tree)
     killed: list[int] = []
     with Store(None, About.of(study, "1")) as store, processes(2) as crew:
+        assert crew._pool.submit(os.getenv, "OPENBLAS_NUM_THREADS").result() == "1"
 
         def kill(_: Outcome) -> None:
             workers = list(crew._pool._processes)

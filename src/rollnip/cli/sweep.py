@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -55,6 +56,10 @@ def run(
         Path | None,
         typer.Option(help="Takes each case as it ends; by default beside the table, name.db."),
     ] = None,
+    known: Annotated[
+        list[Path] | None,
+        typer.Option(help="Database of another study: cases that it holds are taken from there."),
+    ] = None,
     workers: Annotated[
         int | None, typer.Option(help="Processes; by default one for each core.", min=1)
     ] = None,
@@ -77,6 +82,7 @@ def run(
     from rollnip.cli.app import _clear_failures
 
     with _clear_failures():
+        from rollnip.sweep.merge import take_known
         from rollnip.sweep.profiles import check_profiles_target
         from rollnip.sweep.run import OpenCases
         from rollnip.sweep.store import About, Store
@@ -95,6 +101,9 @@ def run(
             check_profiles_target(profiles)
         file = database or _database(table, part)
         with Store(file, About.of(plan, own_version(), part)) as store:
+            taken = take_known(plan, store, known or [])
+            if known:
+                _say(f"{taken:,} cases taken over")
             cases = OpenCases(plan, store, with_profiles=profiles is not None)
             _solve(cases, store, workers, dask)
             if part == (1, 1):
@@ -129,7 +138,8 @@ def _solve(cases: OpenCases, store: Store, workers: int | None, dask: str | None
     total = len(store.about.positions)
     start = perf_counter()
     try:
-        _run(cases, store, workers, dask)
+        with _terminated_as_interrupted():
+            _run(cases, store, workers, dask)
     except KeyboardInterrupt:
         sys.stderr.write(f"rollnip: interrupted; {_kept(store, total)}.\n")
         raise typer.Exit(130) from None
@@ -148,6 +158,16 @@ def _run(cases: OpenCases, store: Store, workers: int | None, dask: str | None) 
     label = f"{known:,} known" if known else ""
     with _crew(workers, dask, cases.count) as crew, progress(cases.count, label) as step:
         run_cases(cases, store, crew, lambda _: step())
+
+
+@contextmanager
+def _terminated_as_interrupted() -> Iterator[None]:
+    """What a batch queue sends before it kills ends the sweep as Ctrl-C does."""
+    handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, handler)
 
 
 def _finish(store: Store, table: Path, profiles: Path | None) -> None:

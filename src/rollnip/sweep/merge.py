@@ -1,4 +1,4 @@
-"""One database from those of the shards of a study."""
+"""From database to database: shards of a study become one, known cases are taken over."""
 
 from __future__ import annotations
 
@@ -11,7 +11,9 @@ from tempfile import TemporaryDirectory
 import numpy as np
 
 from rollnip._errors import RollnipError
+from rollnip.io import case_hash, parse_case
 from rollnip.sweep.store import About, Store
+from rollnip.sweep.study import Study
 
 _SHOWN = 5
 
@@ -45,14 +47,59 @@ def merged(databases: Sequence[Path]) -> Iterator[Store]:
                 target.close()
 
 
+def take_known(study: Study, store: Store, databases: Sequence[Path]) -> int:
+    """Take over the cases of a study that other studies hold already, by their hash.
+
+    Parameters
+    ----------
+    study, store :
+        the study and its database.
+    databases :
+        of other sweeps with the same version of rollnip.
+
+    Returns
+    -------
+    How many cases were taken over.
+
+    Raises
+    ------
+    RollnipError
+        where one is no database of a sweep, in use, or of another version.
+    """
+    taken = 0
+    for path in databases:
+        with Store(path) as other:
+            _require_same_version(path, other.about, Path(store.name), store.about)
+            known = other.known()
+            held = store.held(with_profiles=False)
+            for position in (one for one in store.about.positions if not held[one]):
+                there = known.get(_hash(study, position))
+                if there is not None:
+                    store.adopt(other, there, position, study.values(position))
+                    taken += 1
+    return taken
+
+
+def _hash(study: Study, position: int) -> str:
+    """Hash of a case; empty where it is none."""
+    try:
+        return case_hash(parse_case(study.case(position)))
+    except RollnipError:
+        return ""
+
+
 def _require_same(path: Path, found: About, first: Path, about: About) -> None:
+    _require_same_version(path, found, first, about)
+    if found.study != about.study:
+        raise RollnipError(f"{path}: holds another study than {first}.")
+
+
+def _require_same_version(path: Path, found: About, first: Path, about: About) -> None:
     if found.version != about.version:
         raise RollnipError(
             f"{path}: was made by rollnip {found.version}, {first} by {about.version}; results of "
             "two versions are not mixed."
         )
-    if found.study != about.study:
-        raise RollnipError(f"{path}: holds another study than {first}.")
 
 
 def _require_all(store: Store) -> None:

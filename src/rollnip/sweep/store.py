@@ -29,6 +29,7 @@ _TEXTS = ("hash", "parameters", "status", "message", "geometry", "warnings")
 _NAMES = ("position", *_TEXTS, *SCALARS, "seconds")
 _QUOTED = ", ".join(f'"{name}"' for name in _NAMES)
 _INSERT = f"INSERT OR REPLACE INTO cases ({_QUOTED}) VALUES ({', '.join('?' * len(_NAMES))})"
+_INSERT_PROFILES = "INSERT OR REPLACE INTO profiles VALUES (?, ?)"
 _TABLES = f"""
 CREATE TABLE IF NOT EXISTS about (value TEXT);
 CREATE TABLE IF NOT EXISTS cases (
@@ -175,13 +176,33 @@ class Store:
         with self._spoken():
             yield from self._base.execute("SELECT position, data FROM profiles ORDER BY position")
 
+    def known(self) -> dict[str, int]:
+        """Position by hash of the cases that need not be solved again, in whatever study."""
+        query = "SELECT hash, position FROM cases WHERE hash IS NOT NULL AND status != 'lost'"
+        with self._spoken():
+            return dict(self._base.execute(query))
+
+    def adopt(self, other: Store, there: int, position: int, values: Sequence[float | str]) -> None:
+        """Take over one case, at ``there`` in the other study, at ``position`` in this one."""
+        with other._spoken():
+            row = other._base.execute(
+                f"SELECT {_QUOTED} FROM cases WHERE position = ?", (there,)
+            ).fetchone()
+            profiles = other._base.execute(
+                "SELECT data FROM profiles WHERE position = ?", (there,)
+            ).fetchone()
+        found = dict(zip(_NAMES, row, strict=True))
+        found |= {"position": position, "parameters": json.dumps(values)}
+        with self._spoken(), self._transaction():
+            self._base.execute(_INSERT, list(found.values()))
+            if profiles is not None:
+                self._base.execute(_INSERT_PROFILES, (position, *profiles))
+
     def take(self, other: Store) -> None:
         """Take over all cases of another database of the same study."""
         with self._spoken(), self._transaction():
             self._base.executemany(_INSERT, other.rows(_NAMES))
-            self._base.executemany(
-                "INSERT OR REPLACE INTO profiles VALUES (?, ?)", other.profiles()
-            )
+            self._base.executemany(_INSERT_PROFILES, other.profiles())
 
     def _prepare(self, *, must_be_there: bool) -> None:
         """Lock the file, and make the tables where it is empty."""
@@ -239,10 +260,7 @@ class Store:
         }
         self._base.execute(_INSERT, [values[n] if n in values else row[n] for n in _NAMES])
         if outcome.profiles is not None:
-            self._base.execute(
-                "INSERT OR REPLACE INTO profiles VALUES (?, ?)",
-                (outcome.position, outcome.profiles),
-            )
+            self._base.execute(_INSERT_PROFILES, (outcome.position, outcome.profiles))
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import Executor
 from pathlib import Path
 from typing import Any
 
 from rollnip._errors import InvalidInputError
 from rollnip.sweep.crew import available_cores, crew_of
+from rollnip.sweep.merge import take_known
 from rollnip.sweep.run import OpenCases, Report, run
 from rollnip.sweep.store import About, Store
 from rollnip.sweep.study import Study
@@ -21,6 +22,7 @@ def sweep(
     study: Study | str | Path | Mapping[str, Any],
     *,
     database: str | Path | None = None,
+    known: Sequence[str | Path] = (),
     out: str | Path | None = None,
     workers: int | None = None,
     executor: Executor | None = None,
@@ -35,6 +37,8 @@ def sweep(
     database :
         SQLite file that takes each case as it ends; a sweep that was stopped goes on from there,
         a finished one returns at once. None: in memory.
+    known :
+        databases of other sweeps: cases that they hold, by their hash, are taken from there.
     out :
         write the table too: name.csv, or name.parquet with the extra ``rollnip[tables]``.
     workers :
@@ -66,6 +70,7 @@ def sweep(
         check_table_target(Path(out))
     about = About.of(plan, own_version())
     with Store(None if database is None else Path(database), about) as store:
+        take_known(plan, store, [Path(one) for one in known])
         cases = OpenCases(plan, store, with_profiles=bool(plan.profiles))
         with crew_of(min(count, cases.count), executor) as crew:
             run(cases, store, crew, report)

@@ -11,7 +11,6 @@ from rollnip.identify.result import Estimate, Fit, FittedSet
 from rollnip.io import case_toml, with_values
 
 SCHEMA = 1
-_UNKNOWN_ERROR = 1e100  # standard errors beyond it say only that the data do not tell
 _WARN_CORRELATION = 0.9
 
 
@@ -109,10 +108,9 @@ def _table(fit: Fit) -> Iterator[str]:
     yield f"{'':{width}}  {'value':>12} {'std. error':>12}  {'':6} {level} ({kind})"
     for one in fit.estimates:
         digits = _decimals(one)
-        known = one.standard_error < _UNKNOWN_ERROR
-        error = f"{one.standard_error:.{digits}f}" if known else "unknown"
+        error = f"{one.standard_error:.{digits}f}" if one.is_told else "unknown"
         low, high = interval(one)
-        value = f"{one.value:.{digits}f}" if known else format_quantity(one.value, digits=4)
+        value = f"{one.value:.{digits}f}"
         unit = fit.units.get(one.path, "")
         yield f"{one.path:{width}}  {value:>12} {error:>12}  {unit:6} {low} to {high}"
 
@@ -156,14 +154,14 @@ def _starts_line(fit: Fit) -> str:
 def _decimals(one: Estimate) -> int:
     """Decimals that show two digits of the standard error."""
     size = one.standard_error
-    if not 0.0 < size < _UNKNOWN_ERROR:
+    if not size > 0.0 or not one.is_told:
         return 4
     return int(min(max(1 - floor(log10(size)), 0), 12))
 
 
 def _with_error(one: Estimate) -> str:
     digits = _decimals(one)
-    if not one.standard_error < _UNKNOWN_ERROR:
+    if not one.is_told:
         return f"{one.value:.{digits}f} (not told by the data)"
     return f"{one.value:.{digits}f} +- {one.standard_error:.{digits}f}"
 
@@ -173,9 +171,7 @@ def _estimate_dict(one: Estimate, fit: Fit) -> dict[str, Any]:
         "path": one.path,
         "unit": fit.units.get(one.path, ""),
         "value": _number(one.value),
-        "standard_error": _number(one.standard_error)
-        if one.standard_error < _UNKNOWN_ERROR
-        else None,
+        "standard_error": _number(one.standard_error) if one.is_told else None,
         "low": _number(one.low),
         "high": _number(one.high),
         "profile": None if one.profile is None else [_number(v) for v in one.profile],

@@ -41,6 +41,11 @@ class Estimate:
     bounds: tuple[float, float]
     bound: str | None
 
+    @property
+    def is_told(self) -> bool:
+        """Whether the data tell the value: its standard error is smaller than its range."""
+        return self.standard_error < self.bounds[1] - self.bounds[0]
+
 
 @dataclass(frozen=True, slots=True)
 class FittedSet:

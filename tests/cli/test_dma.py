@@ -1,0 +1,74 @@
+"""The command dma fit: tables in, a material out."""
+
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+from rollnip.cli.app import app
+from rollnip.io import read_case
+
+EXAMPLES = Path(__file__).parents[2] / "examples" / "dma"
+DATA, NIP = str(EXAMPLES / "isotherms.csv"), str(EXAMPLES / "nip.toml")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["dma", "fit", *map(str, arguments)])
+
+
+def test_the_printed_table_completes_a_case(tmp_path):
+    result = run(DATA, "--reference", "23 degC", "--name", "measured")
+    assert result.exit_code == 0, result.stderr
+    assert result.stderr == ""
+    text = Path(NIP).read_text("utf-8").replace('material = "rubber"', 'material = "measured"')
+    whole = tmp_path / "whole.toml"
+    whole.write_text(text + result.stdout, "utf-8")
+    solved = CliRunner().invoke(app, ["solve", str(whole), "--geometry", "linear", "--quiet"])
+    assert solved.exit_code == 0, solved.output
+    assert read_case(whole).nip.upper.layers[0].material.shift.reference == 23.0
+
+
+def test_files_are_written_and_the_nip_is_looked_at(tmp_path):
+    out, plot = tmp_path / "rubber.toml", tmp_path / "rubber.png"
+    options = ("--model", "fractional-zener", "--reference", "23 degC", "--case", NIP)
+    result = run(DATA, "--out", out, "--plot", plot, *options)
+    assert result.exit_code == 0, result.stderr
+    assert result.stdout == ""
+    assert "order = 0.4" in out.read_text("utf-8")
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_a_nip_beyond_the_data_is_warned_of(tmp_path):
+    slow = tmp_path / "slow.toml"
+    slow.write_text(Path(NIP).read_text("utf-8").replace("90 m/min", "1e-6 mm/s"), "utf-8")
+    result = run(DATA, "--reference", "23 degC", "--case", slow)
+    assert result.exit_code == 0
+    assert "below the data of the material" in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        (("--shift", "none"), "9 temperatures"),
+        (("--shift", "vft"), "`shift`"),
+        (("--model", "maxwell"), "`model`"),
+        (("--modulus", "K"), "--modulus"),
+        (("--modulus", "G"), "says E"),
+        (("--reference", "23"), "--reference"),
+        (("--c1", "8.9"), "--c2"),
+        (("--c1", "8.9", "--c2", "101 K"), "--reference"),
+        (("--energy", "60 kJ", "--reference", "23 degC"), "--energy"),
+        (("--name", "a b"), "`name`"),
+        (("--terms", "0"), "`terms`"),
+        (("--out", "a.csv"), "must end in .toml"),
+        (("--plot", "a.exe"), "must end in"),
+        (("--sheet", "one"), "no sheets"),
+        (("--case", NIP, "--name", "other"), "`other`"),
+    ],
+)
+def test_wrong_input_is_one_line_and_exit_2(options, said):
+    result = run(DATA, *options)
+    assert result.exit_code == 2, result.output
+    assert result.stdout == ""
+    assert said in result.stderr
+    assert result.stderr.count("\n") == 1

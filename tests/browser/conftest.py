@@ -75,7 +75,7 @@ class Designer:
         self.resets += 1
         state = {"case": DEFAULT, "turn": self.resets}
         self.page.mouse.move(0, 0)
-        with self.page.expect_response("**/api/solve"):
+        with self.page.expect_response("**/api/solve*"):
             self.page.evaluate("hash => { location.hash = hash; }", fragment(state))
         return self.rest()
 
@@ -97,7 +97,7 @@ class Designer:
 
     def enter(self, box: str, text: str) -> Designer:
         """Type a value that changes the design; wait for the answer."""
-        with self.page.expect_request("**/api/solve"):
+        with self.page.expect_request("**/api/solve*"):
             self.type(box, text)
         return self.rest()
 

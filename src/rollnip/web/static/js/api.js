@@ -17,6 +17,9 @@ export function sentencesOf({ message, details = [] }, place = placeInWords) {
   return details.map((one) => place(one.path) + one.message);
 }
 
+/** Where a nip is solved; stresses on interfaces, which cost more than the rest, are not shown here. */
+export const SOLVE = "/api/solve?interfaces=false";
+
 const RETRIES = 4;
 const WAIT = 400; // ms before asking a busy server again
 

@@ -81,7 +81,7 @@ export class App extends Actions {
     byId("theme").addEventListener("click", () => this.theme.toggle());
     byId("open-examples").addEventListener("click", () => this.examples.showModal());
     menu("open-share", "Save and share", shareItems(this));
-    menu("open-designs", "My designs", designItems(this));
+    menu("open-designs", "Designs", designItems(this));
     const title = byId("design-title");
     title.addEventListener("change", () =>
       this.store.design({ case: setAt(this.store.state.case, "title", title.value.trim()) }),

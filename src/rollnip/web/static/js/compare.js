@@ -1,6 +1,6 @@
 // Up to four designs: curves over each other, figures beside each other.
 
-import { isAbort, post } from "./api.js";
+import { SOLVE, isAbort, post } from "./api.js";
 import { Chart } from "./charts.js";
 import { nameOf } from "./design.js";
 import { button, el, select } from "./dom.js";
@@ -63,7 +63,7 @@ export class CompareView {
       const key = JSON.stringify(one);
       if (this.results.has(key)) continue;
       try {
-        this.results.set(key, await post("/api/solve", one));
+        this.results.set(key, await post(SOLVE, one));
       } catch (error) {
         if (!isAbort(error)) this.app.complain(`“${nameOf(one)}” cannot be solved: ${error.message}`);
         return;
@@ -191,5 +191,5 @@ function difference(value, first, dimension, units) {
   if (Math.abs(first) < 1e-9) return "";
   const percent = (100 * by) / Math.abs(first);
   if (percent > 1000) return `${number(value / first, 3)} times`;
-  return Math.abs(percent) < 1e-6 ? "same" : `${sign}${number(percent, 3)} %`;
+  return Math.abs(percent) < 0.005 ? "same" : `${sign}${number(percent, 3)} %`;
 }

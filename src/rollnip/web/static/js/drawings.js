@@ -4,7 +4,7 @@ import { el } from "./dom.js";
 import { pairPicture } from "./drawing.js";
 import { sectionPicture, windowOf } from "./section.js";
 
-const SHAPES = { pair: 1.3, nip: 0.74 }; // height over width
+const SHAPES = { pair: 1.6, nip: 0.9 }; // height over width
 const TALLEST = 300;
 
 /** Redraws in the size they have. */

@@ -75,7 +75,7 @@ export function shareItems(app) {
   ];
 }
 
-/** What the menu "My designs" holds. */
+/** What the menu "Designs" holds. */
 export function designItems(app) {
   return (close) => {
     const rows = savedDesigns().map(({ name, case: tree }, i) => {

@@ -1,6 +1,6 @@
 // Asks the server for answers so that the latest design always wins.
 
-import { isAbort, post } from "./api.js";
+import { SOLVE, isAbort, post } from "./api.js";
 import { quickCase } from "./design.js";
 
 const PATIENCE = 400; // ms after which a running preview gives way to a newer one
@@ -37,7 +37,7 @@ export class Runner {
     this.turn += 1;
     this.tell.busy(true);
     try {
-      const result = await post("/api/solve", tree, exact.signal);
+      const result = await post(SOLVE, tree, exact.signal);
       this.tell.settled(tree, result);
       this.tell.surfaces(tree, await post("/api/surfaces", tree, exact.signal), result);
     } catch (error) {
@@ -58,7 +58,7 @@ export class Runner {
     this.flight = flight;
     try {
       const quick = quickCase(tree);
-      const result = await post("/api/solve", quick, flight.abort.signal);
+      const result = await post(SOLVE, quick, flight.abort.signal);
       if (turn === this.turn) this.tell.preview(tree, result);
       if (!this.waiting && turn === this.turn) this.sections(tree, quick, result, turn);
     } catch (error) {

@@ -1,0 +1,86 @@
+"""Make the pictures of docs/designer.md: the nip designer in Debian's chromium."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+from playwright.sync_api import Browser, Page, sync_playwright
+
+FIGURES = Path(__file__).parents[1] / "figures"
+DESKTOP = {"width": 1280, "height": 860}
+PHONE = {"width": 360, "height": 720}
+
+
+@contextmanager
+def served() -> Iterator[str]:
+    """Address of a server on a free port."""
+    command = [sys.executable, "-c", "from rollnip.cli import main; main()"]
+    command += ["serve", "--no-open", "--port", "0"]
+    process = subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
+    try:
+        assert process.stderr is not None
+        yield re.search(r"http://\S+", process.stderr.readline())[0]
+    finally:
+        process.terminate()
+        process.wait()
+
+
+def opened(browser: Browser, address: str, viewport: dict[str, int], scheme: str) -> Page:
+    """The page with its first answer."""
+    page = browser.new_page(viewport=viewport, color_scheme=scheme)
+    page.goto(address)
+    page.wait_for_selector("html[data-ready]")
+    return rested(page)
+
+
+def rested(page: Page) -> Page:
+    """The page when its answer and its chart stand still."""
+    page.wait_for_timeout(100)
+    page.wait_for_selector('html[data-state="rest"]', state="attached")
+    page.wait_for_timeout(1500)
+    return page
+
+
+def compared(page: Page) -> None:
+    """Three thicknesses of the covering side by side."""
+    for name, thickness in (("Thin covering", "6 mm"), ("As drawn", "12 mm"), ("Thick", "18 mm")):
+        page.fill("#in-upper-layers-0-thickness", thickness)
+        page.press("#in-upper-layers-0-thickness", "Enter")
+        rested(page)
+        page.fill("#design-title", name)
+        page.press("#design-title", "Enter")
+        page.click("#tab-compare")
+        if name != "Thick":
+            page.click("#keep")
+    page.wait_for_timeout(6000)  # until the message has gone
+
+
+def make_pictures() -> None:
+    """Write the pictures."""
+    arguments = ["--no-sandbox"] if os.geteuid() == 0 else []
+    with served() as address, sync_playwright() as playwright:
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), args=arguments
+        )
+        page = opened(browser, address, DESKTOP, "light")
+        page.screenshot(path=FIGURES / "designer_light.png")
+        compared(page)
+        page.set_viewport_size({"width": DESKTOP["width"], "height": 2400})
+        rested(page)
+        page.locator("section.card:has(#charts-title)").screenshot(
+            path=FIGURES / "designer_compare.png"
+        )
+        page = opened(browser, address, PHONE, "dark")
+        page.screenshot(path=FIGURES / "designer_phone.png")
+        browser.close()
+
+
+if __name__ == "__main__":
+    make_pictures()

@@ -87,6 +87,19 @@ def test_find_writes_toml_with_units(case, tmp_path):
     assert found.nip.normal.load == pytest.approx(LOAD, rel=0.01)
 
 
+@pytest.mark.parametrize("ending", ["json", "toml"])
+def test_find_with_a_plane(case, tmp_path, ending):
+    # its radius is infinite, which JSON has no number for
+    Path(case).write_text(HERTZ.replace('radius = "50 mm"', "radius = inf"))
+    out = tmp_path / f"found.{ending}"
+    result = run(*ask(case), "--json", "--out", str(out))
+    assert result.exit_code == 0
+    assert json.loads(result.stdout)["case"]["upper"]["radius"] == "inf"
+    found = rn.read_case(out).nip
+    # half the curvature more than before: F = pi E* a^2 / (4 R)
+    assert found.normal.load == pytest.approx(LOAD * (50.0 * 25.0 / 75.0) / 25.0, rel=0.01)
+
+
 def test_find_nothing_is_exit_1_and_no_file(case, tmp_path):
     out = tmp_path / "found.json"
     result = run(*ask(case, wanted="nip_width=40 mm"), "--out", str(out))

@@ -253,13 +253,14 @@ def _write_case(
     """Write a case, the values found in it with their units."""
     from rollnip._files import write_whole
     from rollnip._units import format_quantity
+    from rollnip.design.quantities import json_tree
     from rollnip.io import case_toml, with_values
 
     values = {
         key: format_quantity(value, unit) if unit else value for key, (value, unit) in found.items()
     }
     written = with_values(tree, values)
-    text = _json(written) if path.suffix.lower() == ".json" else case_toml(written)
+    text = _json(json_tree(written)) if path.suffix.lower() == ".json" else case_toml(written)
     write_whole(path, lambda file: file.write_text(text, "utf-8"))
 
 

@@ -11,6 +11,7 @@ from rollnip._units import base_unit, format_quantity
 from rollnip.design.curve import Curve, Jump, Point, slope_at
 from rollnip.design.quantities import (
     QUANTITIES,
+    json_tree,
     parameter_dimension,
     read_parameter,
     read_result,
@@ -78,12 +79,8 @@ class Found:
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as plain values, for JSON."""
-        tree = {name: getattr(self, name) for name in self.__slots__}
-        lists = {name: [list(pair) for pair in tree[name]] for name in ("points", "failures")} | {
-            "others": list(self.others),
-            "bracket": self.bracket and list(self.bracket),
-        }
-        return tree | lists | {"scalars": dict(self.scalars), "case": dict(self.case)}
+        found: dict[str, Any] = json_tree({name: getattr(self, name) for name in self.__slots__})
+        return found
 
 
 @dataclass(frozen=True, slots=True)

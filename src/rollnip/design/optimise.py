@@ -12,7 +12,7 @@ from rollnip._units import format_quantity
 from rollnip.design.aims import Limit, LimitKept, Maximise, Objective, standing
 from rollnip.design.find import Evaluate
 from rollnip.design.problem import Bounds, Problem
-from rollnip.design.quantities import QUANTITIES, result_error
+from rollnip.design.quantities import QUANTITIES, json_tree, result_error
 from rollnip.design.search import Array, Search, Trial, search_cube
 from rollnip.io import with_values
 from rollnip.sweep import evaluate as evaluated
@@ -82,7 +82,8 @@ class Optimum:
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as plain values, for JSON."""
-        return asdict(self)
+        found: dict[str, Any] = json_tree(asdict(self))
+        return found
 
 
 def optimise(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from difflib import get_close_matches
-from math import isfinite
+from math import isfinite, isnan
 from typing import Any, get_args
 
 from rollnip._errors import InvalidInputError
@@ -69,6 +69,17 @@ def result_error(row: Mapping[str, Any], quantity: str) -> float | None:
     if error is None or value is None or not size:
         return error if source == quantity else None
     return float(abs(error * value / size))
+
+
+def json_tree(value: Any) -> Any:
+    """Plain values for JSON: an infinite number (the radius of a plane) is a text, nan None."""
+    if isinstance(value, Mapping):
+        return {str(name): json_tree(one) for name, one in value.items()}
+    if isinstance(value, list | tuple):
+        return [json_tree(one) for one in value]
+    if isinstance(value, float) and not isfinite(value):
+        return None if isnan(value) else str(value)
+    return value
 
 
 def _plain(text: str) -> float | str:

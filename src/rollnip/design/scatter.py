@@ -8,6 +8,7 @@ from typing import Any
 
 from rollnip._errors import InvalidInputError
 from rollnip.design.aims import Limit
+from rollnip.design.quantities import json_tree
 from rollnip.design.sensitivity import require_sobol_count
 
 FEWEST, MOST = 20, 1_000_000
@@ -164,4 +165,5 @@ class Tolerance:
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as plain values, for JSON."""
-        return asdict(self)
+        found: dict[str, Any] = json_tree(asdict(self))
+        return found

@@ -109,6 +109,7 @@ def test_profiles_are_written_beside(study: Path, tmp_path: Path) -> None:
         (["--shard", "half"], 'got "half"'),
         (["--out", "a.xlsx"], "must end in .csv or .parquet"),
         (["--profiles", "a.txt"], "must end in .nc"),
+        (["--dask", "somewhere"], 'must be like tcp://host:8786, or "local", got "somewhere"'),
         (["--dask", "tcp://127.0.0.1:1"], "no Dask scheduler answers there"),
     ],
 )

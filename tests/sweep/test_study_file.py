@@ -146,6 +146,11 @@ def test_a_case_that_is_wrong_throughout_is_said_before_it_runs(case: dict[str, 
         read_study(study_of(case, LOAD))
 
 
+def test_a_case_in_place_of_a_study_is_told_from_it(case: dict[str, Any]) -> None:
+    with pytest.raises(rn.CaseFileError, match=r"^study: is a case; a study names it with `case`"):
+        read_study(case)
+
+
 def test_a_case_that_is_wrong_at_one_end_is_a_matter_of_its_row(case: dict[str, Any]) -> None:
     read_study(study_of(case, {"path": "nip.load", "values": [-1.0, 1.0]}))
 

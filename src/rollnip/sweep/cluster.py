@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from typing import Any
@@ -11,6 +12,7 @@ from rollnip.sweep import task
 from rollnip.sweep.crew import Given, one_thread_each
 from rollnip.sweep.task import own_version
 
+_ADDRESS = re.compile(r"([a-z]+://)?\S+:\d+")
 _CHUNK_SECONDS = 0.25  # a task costs Dask some milliseconds
 PATIENCE = "30s"
 """How long a scheduler may take to answer."""
@@ -33,6 +35,11 @@ def dask_crew(address: str, workers: int) -> Iterator[Given]:
         where the extra is missing, the scheduler does not answer, has no workers, or these have
         no rollnip or another version of it.
     """
+    if address != "local" and not _ADDRESS.fullmatch(address):
+        raise RollnipError(
+            f'the address of a Dask scheduler must be like tcp://host:8786, or "local", '
+            f'got "{address}".'
+        )
     try:
         from distributed import Client, LocalCluster
     except ImportError:

@@ -1,6 +1,7 @@
 """Every limit is a clear refusal, and what lies within it is answered."""
 
 import json
+import time
 
 import pytest
 
@@ -46,6 +47,27 @@ def test_what_is_no_plain_object_is_refused(client, body, said):
     answer = client.post("/api/solve", content=body, headers=head)
     assert answer.status_code == 400
     assert said in answer.json()["error"]
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        "{" + "".join(f'"{i:x}":1,' for i in range(25_000)) + '"z":1,"z":1}',
+        '{"a":[' + "[]," * 80_000 + "[]]}",
+        '{"a":[' + ",".join(["9" * 4000] * 60) + "]}",
+        '{"text":"' + "a.b=1\\n" * 30_000 + '"}',
+        '{"text":"' + "[a.b.c]\\n" * 20_000 + '"}',
+    ],
+    ids=["keys", "lists", "numbers", "lines", "tables"],
+)
+def test_no_body_of_the_allowed_size_takes_long_to_refuse(client, body):
+    assert len(body) <= Limits().body
+    head = {"content-type": "application/json"}
+    start = time.process_time()
+    answer = client.post("/api/toml", content=body, headers=head)
+    assert answer.status_code in (400, 422)
+    # Of this process, which has the event loop; what workers do has a time limit of its own.
+    assert time.process_time() - start < 1.0
 
 
 def test_layers(post, case):

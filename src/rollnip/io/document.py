@@ -74,11 +74,11 @@ def _text(data: bytes, name: str) -> str:
 
 def _json(text: str) -> Any:
     def table(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-        tree = dict(pairs)
-        if len(tree) < len(pairs):
-            names = [name for name, _ in pairs]
-            twice = next(name for name in names if names.count(name) > 1)
-            raise ValueError(f"the key {twice!r} is given twice")
+        tree: dict[str, Any] = {}
+        for name, value in pairs:
+            if name in tree:
+                raise ValueError(f"the key {name!r} is given twice")
+            tree[name] = value
         return tree
 
     return json.loads(text, object_pairs_hook=table)

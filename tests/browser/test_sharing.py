@@ -196,7 +196,7 @@ def test_every_example_opens_with_one_click(designer):
     for tile in tiles:
         page.click("#open-examples")
         with page.expect_response("**/api/solve*"):
-            page.click(f"#{tile}")
+            page.click(f'[id="{tile}"]')
         designer.rest()
         assert page.inner_text("#alarm") == "", tile
         assert designer.nip_width > 0, tile

@@ -3,7 +3,8 @@
 import { getAt } from "./paths.js";
 import { number } from "./units.js";
 
-const ROUNDING = 1e-9; // of the line load: forces below it (torques: at an arm of 1 mm) are none
+const NO_FORCE = 1e-9; // of the line load: forces below it (torques: at an arm of 1 mm) are rounding
+const NO_LOSS = 1e-6; // of line load times speed: losses below it are the mesh's, not the nip's
 const TINY = 2e-5; // relative errors below it say nothing to anybody
 
 const MATERIAL = {
@@ -285,16 +286,18 @@ const US_TOTALS = { N: ["lbf", 4.4482216152605], "N·m": ["lbf·ft", 1.355817948
 
 /** The result with every scalar on its first level, as sweeps give it; what is rounding only is zero. */
 export function flat(result) {
-  const none = ROUNDING * result.load;
-  const clean = ["traction", "torque_upper", "torque_lower"].map((key) => [
+  const { load, nip_width: nip, dwell_time: dwell, dissipation } = result;
+  const force = NO_FORCE * load;
+  const power = dwell ? (NO_LOSS * load * nip) / dwell : 0;
+  const forces = ["traction", "torque_upper", "torque_lower"].map((key) => [
     key,
-    cleaned(result[key], none),
+    cleaned(result[key], force),
   ]);
   return {
     ...result,
-    ...Object.fromEntries(clean),
-    dissipation_friction: result.dissipation.friction,
-    dissipation_viscous: result.dissipation.viscous,
+    ...Object.fromEntries(forces),
+    dissipation_friction: cleaned(dissipation.friction, power),
+    dissipation_viscous: cleaned(dissipation.viscous, power),
     max_surface_strain: result.max_surface_strain ?? largestStrain(result),
   };
 }

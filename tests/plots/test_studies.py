@@ -76,11 +76,19 @@ def test_shares_with_their_intervals():
     ax = plot_shares(["a", "b"], [[0.3, 0.2, 0.4], [0.6, 0.5, 0.7]], [[0.4, 0.3, 0.5]] * 2)
     widths = [bar.get_width() for bar in ax.patches]
     assert widths == [0.3, 0.6, 0.4, 0.4]
-    assert legend_texts(ax)[-1] == "confidence interval"
+    assert legend_texts(ax)[-1] == "confidence"
     assert [text.get_text() for text in ax.get_yticklabels()] == ["a", "b"]
     low, high = ax.collections[0].get_segments()[0][:, 0]
     assert (low, high) == (0.2, 0.4)
-    assert "confidence interval" not in legend_texts(plot_shares(["a"], [0.3]))
+    assert "confidence" not in legend_texts(plot_shares(["a"], [0.3]))
+
+
+def test_long_paths_leave_room_for_the_bars():
+    ax = plot_shares(["upper.layers[0].material.modulus", "nip.load"], [0.3, 0.5])
+    assert [text.get_text() for text in ax.get_yticklabels()] == [
+        "upper.layers[0].material.\nmodulus",
+        "nip.load",
+    ]
 
 
 def test_a_front_is_told_from_the_rest():

@@ -96,7 +96,7 @@ def plot_tolerance(found: Tolerance, *, style: Style = "light") -> Figure:
 
 
 def _plot_influence(scatter: Scatter, ax: Any, style: Style) -> None:
-    names = [_short(share.path) for share in scatter.shares]
+    names = [share.path for share in scatter.shares]
     first = [share.first for share in scatter.shares if share.first is not None]
     total = [share.total for share in scatter.shares if share.total is not None]
     if first and total:
@@ -106,12 +106,6 @@ def _plot_influence(scatter: Scatter, ax: Any, style: Style) -> None:
     squares = [share.coefficient**2 for share in scatter.shares]
     kinds = (f"regression, R² = {scatter.linear:.3f}", "")
     plot_shares(names, squares, None, ax, result=scatter.quantity, kinds=kinds, style=style)
-
-
-def _short(path: str) -> str:
-    """A path on two lines where it is long."""
-    above, _, last = path.rpartition(".")
-    return f"{above}.\n{last}" if len(path) > 14 and above else path
 
 
 def _limits_of(found: Tolerance, quantity: str) -> tuple[float | None, float | None]:

@@ -17,6 +17,7 @@ from rollnip._errors import InvalidInputError
 from rollnip.plots.arrays import Array, finite_row
 from rollnip.plots.style import Look, Style, label, legend, prepare
 
+_LONG = 14  # letters
 _SHARE_GAP = 0.38  # of a row, between the bars of a parameter
 
 
@@ -65,10 +66,8 @@ def plot_shares(
         ax.hlines(rows + offset, values[:, 1], values[:, 2], color=look.palette.ink, linewidth=1.0)
     ax.axvline(0.0, color=look.palette.muted, linewidth=look.thin)
     if np.any(parts[0][1][:, 1] < parts[0][1][:, 2]):
-        handles.append(
-            Line2D([], [], color=look.palette.ink, linewidth=1.0, label="confidence interval")
-        )
-    ax.set_yticks(rows, list(names), parse_math=False)
+        handles.append(Line2D([], [], color=look.palette.ink, linewidth=1.0, label="confidence"))
+    ax.set_yticks(rows, [_folded(name) for name in names], parse_math=False)
     ax.set_ylim(len(names) - 0.5, -0.5)
     label(ax, look, f"share of the variance of {result}", "")
     legend(ax, look, handles)
@@ -197,6 +196,12 @@ def _beside(ax: Axes, look: Look, value: float, text: str) -> None:
         color=look.palette.ink,
         path_effects=[withStroke(linewidth=2.5, foreground=look.palette.ground)],
     )
+
+
+def _folded(path: str) -> str:
+    """A long path on two lines, so that it leaves room for the bars."""
+    above, _, last = path.rpartition(".")
+    return f"{above}.\n{last}" if len(path) > _LONG and above else path
 
 
 def _bins(samples: Array) -> Array:

@@ -76,3 +76,12 @@ def test_colour_only_where_the_terminal_wants_it(solution, monkeypatch):
     assert "\x1b[" not in printed(solution)
     monkeypatch.setenv("NO_COLOR", "1")
     assert "\x1b[3" not in printed(solution, force_terminal=True, color_system="standard")
+
+
+def test_many_pieces_of_contact_are_counted(solution):
+    pieces = tuple((-3.0 + 0.5 * i, -2.75 + 0.5 * i) for i in range(12))
+    text = printed(replace(solution, contact=pieces))
+    assert row(text, "touching in 12 pieces").split()[-2:] == ["3.000", "mm"]
+    assert row(text, "from x").split()[-2:] == ["-3.000", "mm"]
+    assert row(text, "to x").split()[-2:] == ["2.750", "mm"]
+    assert text.count("from x") == 1

@@ -86,7 +86,7 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
         return False, (
             f"The contact did not settle (last correction {rough.state.correction:.1e} of the peak "
             "pressure); under a skin much stiffer than what lies below it, leave out of the "
-            "profile what is shorter than the skin is thick."
+            "profile what is much shorter than the skin is thick."
         )
     if not rough.residual <= model.tolerance:
         return False, (

@@ -1,11 +1,13 @@
 """From data to a material: known solids are found again, what does not hold is said."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import rollnip as rn
 from rollnip._errors import InvalidInputError
-from rollnip.dma import DmaMethod, fit_dma
+from rollnip.dma import DmaData, DmaMethod, fit_dma
 
 from .conftest import FREQUENCIES, LAW, PRONY, TEMPERATURES, ZENER, isotherms
 
@@ -13,8 +15,6 @@ from .conftest import FREQUENCIES, LAW, PRONY, TEMPERATURES, ZENER, isotherms
 def away(fit, solid):
     """Relative errors of storage and loss modulus over the valid frequencies, (2, n)."""
     grid = 2j * np.pi * np.geomspace(*fit.frequency_range, 200)
-    from dataclasses import replace
-
     found = replace(fit.material, temperature=None, shift=None).modulus_at(grid)
     true = solid.modulus_at(grid)
     return np.array([found.real / true.real - 1.0, found.imag / true.imag - 1.0])
@@ -86,6 +86,33 @@ def test_a_missing_plateau_is_said():
     fit = fit_dma(cold, DmaMethod(reference=0.0))
     assert any("rubbery plateau" in said for said in fit.warnings)
     assert fit.material.modulus > 0.0
+
+
+def test_two_temperatures_do_not_tell_the_constants_of_wlf():
+    data = isotherms(ZENER, LAW, temperatures=np.array([0.0, 20.0]))
+    fit = fit_dma(data)
+    assert any("do not tell c1 and c2" in said for said in fit.warnings)
+
+
+def test_few_measurements_are_enough_for_few_terms():
+    two = np.array([1.0, 2.0, 3.0, 4.0])
+    data = DmaData(two, np.full(4, 20.0), two, 0.1 * two)
+    assert 1 <= len(fit_dma(data).material.terms) <= 4
+
+
+def test_a_ramp_of_many_isotherms_gives_the_law():
+    rng = np.random.default_rng(0)
+    temperature = np.repeat(np.arange(-30.0, 81.0, 4.0), 5)
+    temperature = temperature + 0.1 * rng.standard_normal(temperature.size)
+    frequency = np.tile([0.5, 1.6, 5.0, 16.0, 50.0], temperature.size // 5)
+    factors = np.array([LAW.factor(float(t)) for t in temperature])
+    modulus = ZENER.modulus_at(2j * np.pi * frequency * factors)
+    noise = 1.0 + 0.02 * rng.standard_normal((2, temperature.size))
+    data = DmaData(frequency, temperature, modulus.real * noise[0], modulus.imag * noise[1])
+    fit = fit_dma(data, DmaMethod(reference=23.0))
+    away = np.abs(np.subtract(fit.shift.values, (8.9, 101.0)))
+    assert np.all(away < 4.0 * np.array(fit.shift.standard_errors))
+    assert fit.warnings == ()
 
 
 def test_terms_may_be_prescribed():

@@ -87,7 +87,7 @@ def _comments(fit: DmaFit) -> Iterator[str]:
     storage, loss = (100.0 * v for v in fit.deviation)
     yield f"# From {fit.master.data.source}, {fit.master.data.frequency.size} measurements."
     yield f"# Valid from {low} Hz to {high} Hz at {fit.master.reference:g} degC,"
-    yield f"# measured at {cold:g} to {warm:g} degC; outside of that it is extrapolated."
+    yield f"# measured at {cold:.4g} to {warm:.4g} degC; outside of that it is extrapolated."
     yield f"# Deviation from the data: storage {storage:.2g} % rms, loss {loss:.2g} % rms."
     shift = fit.shift
     units = {"c1": "", "c2": " K", "activation_energy": " kJ/mol"}

@@ -31,6 +31,7 @@ _DIGITS = 6  # of the numbers of the material
 _MOST_ISOTHERMS = 200  # beyond it free shifts take too long to be worth it
 _FAR, _MANY = 0.15, 4.0  # decades, standard errors: a free shift that departs from the law
 _NEAR_POLE = 3.0  # K
+_VAGUE = 0.5  # of a constant: a standard error that says it is not told
 _WORSE = 1.5  # deviation of the model over the scatter of the data
 _NO_PLATEAU = 1e-3  # of the least storage modulus, where the data bound the relaxed one only
 
@@ -293,6 +294,16 @@ def _shift_warnings(
                 f"measurement, {coldest:.1f} degC: such temperatures are near the glass "
                 "transition or below it, where WLF does not hold; leave them out."
             )
+    vague = [
+        name
+        for name, value, error in zip(shift.names, shift.values, shift.standard_errors, strict=True)
+        if error > _VAGUE * abs(value)
+    ]
+    if vague:
+        said.append(
+            f"The data do not tell {' and '.join(vague)} of the shift law: their standard errors "
+            "are half their size or more. Measure at more temperatures, or give the law."
+        )
     if free is not None and shift.law is not None:
         away = free.horizontal - master.horizontal
         far = (np.abs(away) > _FAR) & (np.abs(away) > _MANY * errors)

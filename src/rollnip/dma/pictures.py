@@ -130,9 +130,9 @@ def plot_phase(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) 
         )
     label(ax, look, "|E*| [MPa]", "phase [degrees]")
     ax.set_title(
-        f"darkest: {warm:g} °C, lightest: {cold:g} °C"
+        f"darkest: {warm:.0f} °C, lightest: {cold:.0f} °C"
         if look.palette is palette_of("light")
-        else f"lightest: {warm:g} °C, darkest: {cold:g} °C",
+        else f"lightest: {warm:.0f} °C, darkest: {cold:.0f} °C",
         loc="left",
         fontsize=look.small,
         color=look.palette.muted,

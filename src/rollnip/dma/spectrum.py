@@ -77,16 +77,26 @@ def non_negative(data: Reduced, times: Array) -> tuple[Array, Array]:
 def crossvalidated(data: Reduced) -> tuple[int, Array]:
     """Number of terms that best predicts what it was not fitted to; mean squares (m,) of each.
 
-    Five folds, the same every time. The fewest terms whose mean square is within one standard
-    error of the least (Breiman et al. 1984) are taken: more would follow the noise.
+    One term, and no mean squares, where there are too few data to leave some out.
+
+    Five folds, the same every time. The fewest terms are taken that predict no worse than the
+    best number does, but for one standard error of the difference over the folds (after Breiman
+    et al. 1984): more would follow the noise. What lies within half a decade of the ends is never
+    left out: without it a spectrum would have to extrapolate, which tells nothing of its terms.
     """
     counts = np.arange(1, most_terms(data.omega) + 1)
-    fold = np.random.default_rng(0).permutation(data.omega.size) % _FOLDS
+    inner = data.omega > _MARGIN * np.min(data.omega)
+    inner &= data.omega < np.max(data.omega) / _MARGIN
+    if np.count_nonzero(inner) < _FOLDS:
+        return 1, np.zeros(0)
+    fold = np.full(data.omega.size, -1)
+    size = int(np.count_nonzero(inner))
+    fold[inner] = np.random.default_rng(0).permutation(size) % _FOLDS
     squares = np.array([_held_out(data, int(count), fold) for count in counts])
     means = squares.mean(axis=1)
-    best = int(np.argmin(means))
-    error = float(squares[best].std(ddof=1)) / np.sqrt(_FOLDS)
-    return int(counts[np.flatnonzero(means <= means[best] + error)[0]]), means
+    worse = squares - squares[int(np.argmin(means))]
+    error = worse.std(axis=1, ddof=1) / np.sqrt(_FOLDS)
+    return int(counts[np.flatnonzero(worse.mean(axis=1) <= error)[0]]), means
 
 
 def _held_out(data: Reduced, count: int, fold: NDArray[np.int64]) -> Array:

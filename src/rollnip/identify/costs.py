@@ -14,7 +14,6 @@ from rollnip._errors import InvalidInputError, require_positive
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
-Condition = ArrayLike | str
 Roller = Literal["upper", "lower"]
 
 
@@ -81,7 +80,7 @@ class Measurements(Cost):
     nuisances: ClassVar[int] = 0
     """Numbers fitted within the set, beside the unknowns."""
 
-    at: Mapping[str, Condition]
+    at: Mapping[str, Any]
     measured: ArrayLike
     standard_error: ArrayLike | None = None
     weight: float = 1.0
@@ -258,7 +257,7 @@ def check_roller(roller: str) -> None:
         raise InvalidInputError(f'`roller` must be "upper" or "lower", got {roller!r}.')
 
 
-def _condition(path: str, value: Condition) -> Array | float | str:
+def _condition(path: str, value: Any) -> Array | float | str:
     if isinstance(value, str):
         return value
     try:

@@ -230,6 +230,8 @@ class Store:
             return found
         if found is not None:
             _require_same(self.name, found, about)
+        if found == about:
+            return about
         with self._spoken(), self._transaction():
             self._base.execute("DELETE FROM about")
             text = json.dumps({"format": FORMAT, **asdict(about)})

@@ -163,6 +163,6 @@ def _write_parquet(store: Store, file: Path) -> None:
         frame = pl.scan_csv(between, schema=schema).with_columns(pl.col(pl.String).fill_null(""))
         frame.sink_parquet(file)
     except pl.exceptions.PolarsError as error:
-        raise RollnipError(f"{file}: cannot write: {error}.") from None
+        raise OSError(str(error)) from None  # as any other failure to write
     finally:
         between.unlink(missing_ok=True)

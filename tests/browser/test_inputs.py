@@ -225,8 +225,8 @@ def test_units_convert_and_never_drift(designer):
     page.on("request", lambda request: asked.append(request.url))
     page.click("#us")
     assert page.input_value("#in-upper-radius") == "7.123"
-    assert float(page.input_value("#in-nip-load")) == pytest.approx(4 * 25.4 / 4.4482216, rel=1e-5)
-    assert float(page.input_value("#in-nip-speed")) == pytest.approx(60 / 0.3048, rel=1e-5)
+    assert float(page.input_value("#in-nip-load")) == pytest.approx(4 * 25.4 / 4.4482216, rel=3e-5)
+    assert float(page.input_value("#in-nip-speed")) == pytest.approx(60 / 0.3048, rel=3e-5)
     assert designer.nip_width == pytest.approx(width / 25.4, rel=1e-3)
     assert "psi" in page.inner_text('#seconds [data-key="peak_pressure"]')
     for _turn in range(50):

@@ -108,6 +108,7 @@ export function alarm(title, sentences) {
 export function showFailure(sentences) {
   ROOT.classList.add("stale");
   alarm("No answer for this design", sentences);
+  byId("mini").replaceChildren(el("span", { class: "alarm", text: "No answer for this design" }));
 }
 
 /** What a screen reader hears when an answer settles. */

@@ -8,7 +8,7 @@ import { joined, number } from "./units.js";
 
 const STEPS = 500; // of a slider
 const DIGITS = 3; // a slider gives round values in the unit shown
-const BOX_DIGITS = 6;
+const BOX_DIGITS = 5;
 
 /** A control of the number at `path`. `app` is {store, units()}. */
 export class Control {

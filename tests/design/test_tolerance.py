@@ -188,6 +188,29 @@ def test_intervals_of_quantiles_hold_them_as_often_as_they_say():
     assert np.mean(held) >= 0.87
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("law", [plane, lambda x: x[:, 0] * x[:, 1]], ids=["plane", "product"])
+def test_intervals_of_a_hypercube_hold_at_least_as_often_as_they_say(coated, law):
+    generator = np.random.default_rng(9)
+    many = law(generator.normal([10.0, 5.0], [1.0, 0.5], (1_000_000, 2)))
+    limit = float(np.quantile(many, 0.9))
+    true = {one: np.quantile(many, one) for one in (0.05, 0.5, 0.95)}
+    quantiles, chances = [], []
+    for seed in range(150):
+        found = tolerance(
+            coated,
+            [LOAD, THICKNESS],
+            limits=[AtMost("nip_width", limit)],
+            sampling=Sampling(seed=seed),
+            solve=solving({"nip_width": law}),
+        )
+        for one in found.scatters[0].quantiles:
+            quantiles.append(one.low <= true[one.probability] <= one.high)
+        chances.append(found.chances[0].low <= 0.9 <= found.chances[0].high)
+    assert np.mean(quantiles) >= 0.95
+    assert np.mean(chances) >= 0.95
+
+
 def test_too_few_samples_for_a_quantile_are_said():
     found = quantile(np.arange(30.0), 0.01, 0.95)
     assert found.low is None

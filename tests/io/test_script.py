@@ -6,13 +6,25 @@ from pathlib import Path
 
 import pytest
 
-from rollnip._errors import CaseFileError
-from rollnip.io import base_tree, case_hash, case_python, case_toml, parse_case, units_of
+from rollnip._errors import CaseFileError, RollnipError
+from rollnip.io import (
+    base_tree,
+    case_hash,
+    case_python,
+    case_toml,
+    parse_case,
+    read_case,
+    units_of,
+)
 from rollnip.io.document import read_document
 
 ROOT = Path(__file__).parents[2]
-FILES = sorted((ROOT / "examples").glob("*.toml")) + sorted(
-    (ROOT / "src" / "rollnip" / "web" / "data" / "nips").glob("*.toml")
+# A case that names a file of heights is no text of its own.
+FILES = sorted(
+    path
+    for folder in ("examples", "src/rollnip/web/data/nips")
+    for path in (ROOT / folder).glob("*.toml")
+    if "profile =" not in path.read_text("utf-8")
 )
 EVERYTHING = """
 title = 'A "quoted" title'
@@ -62,7 +74,15 @@ shift = { model = "wlf", c1 = 17.44, c2 = 51.6, reference = "23 degC" }
 def trees():
     yield pytest.param(tomllib.loads(EVERYTHING), id="everything")
     for path in FILES:
-        yield pytest.param(read_document(path), id=path.stem)
+        tree = read_document(path)
+        if "profile" not in tree["upper"]:
+            yield pytest.param(tree, id=path.stem)
+
+
+def test_a_measured_profile_is_too_much_for_a_text():
+    case = read_case(ROOT / "examples" / "rough-roller.toml")
+    with pytest.raises(RollnipError, match="`Profile` cannot be written as Python"):
+        case_python(case)
 
 
 def run(text):
@@ -119,3 +139,9 @@ def test_toml_leaves_out_what_is_empty_and_keeps_what_was_written():
 def test_a_wrong_case_has_no_base_tree():
     with pytest.raises(CaseFileError, match="nip: is missing"):
         base_tree({})
+
+
+def test_measured_heights_are_not_written_out():
+    case = read_case(ROOT / "examples" / "rough-roller.toml")
+    with pytest.raises(RollnipError, match="`Profile` cannot be written as Python"):
+        case_python(case)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import nnls
+from scipy.optimize import lsq_linear, nnls
 
 Array = NDArray[np.float64]
 
@@ -69,7 +69,10 @@ def non_negative(data: Reduced, times: Array) -> tuple[Array, Array]:
     design, target = data.design(times), data.target
     # columns of one size: the solver's thresholds are absolute
     scale = np.linalg.norm(design, axis=0)
-    moduli, _ = nnls(design / scale, target, maxiter=30 * scale.size)
+    try:
+        moduli, _ = nnls(design / scale, target, maxiter=30 * scale.size)
+    except RuntimeError:  # its active set cycled; slower, and as good
+        moduli = np.maximum(lsq_linear(design / scale, target, bounds=(0.0, np.inf)).x, 0.0)
     moduli = moduli / scale
     return moduli, design @ moduli - target
 

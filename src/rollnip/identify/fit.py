@@ -181,6 +181,7 @@ def fitted(
         *bound_warnings(misfit, best),
         *identifiability_warnings(misfit, best, spread, scatter.quantile, tolerance),
         *misfit_warnings(scatter.chi_square, scatter.degrees, scatter.probability, scatter.given),
+        # with the noise estimated the searches were weighed with a guess of it
         *(start_warnings(ends, misfit, spread, rise) if not any(noise.estimated) else ()),
         *_profile_warnings(profiles, rise),
     ]

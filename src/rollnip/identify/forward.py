@@ -67,6 +67,9 @@ class Forward:
         except RollnipError as problem:
             self.refused = str(problem)
             return None
+        except (ArithmeticError, np.linalg.LinAlgError) as problem:
+            self.refused = f"The solver failed: {problem}."  # at values far from any real nip
+            return None
         for part, prediction in zip(self.parts, predictions, strict=True):
             if not np.all(np.isfinite(prediction)):
                 self.refused = f"{part.quantity} is not defined in this nip."

@@ -34,10 +34,8 @@ def test_load_and_approach_are_two_ways_to_the_same_nip():
 
 
 def test_traction_and_creepage_are_two_ways_to_the_same_nip():
-    by_traction = solve(replace(NIP, tangential=rn.Traction(0.2)), Model(tolerance=1e-4))
-    by_creepage = solve(
-        replace(NIP, tangential=rn.Creepage(by_traction.creepage)), Model(tolerance=1e-4)
-    )
+    by_traction = solve(replace(NIP, tangential=rn.Traction(0.2)))
+    by_creepage = solve(replace(NIP, tangential=rn.Creepage(by_traction.creepage)))
     assert by_creepage.traction == pytest.approx(0.2, rel=1e-3)
 
 

@@ -22,6 +22,7 @@ from rollnip._errors import (
 
 if TYPE_CHECKING:
     from rollnip.identify import identify
+    from rollnip.influence import KernelCache
     from rollnip.io import Case, read_case, write_result
     from rollnip.materials import (
         WLF,
@@ -42,6 +43,7 @@ if TYPE_CHECKING:
     __version__: str
 
 _HOMES = {
+    "rollnip.influence": ("KernelCache",),
     "rollnip.io": ("Case", "read_case", "write_result"),
     "rollnip.materials": (
         "WLF",
@@ -70,6 +72,7 @@ __all__ = [
     "Elastic",
     "FractionalZener",
     "InvalidInputError",
+    "KernelCache",
     "Layer",
     "LineLoad",
     "LossFactor",

@@ -20,7 +20,7 @@ from rollnip.interior import (
     interior_field,
 )
 from rollnip.model import Model
-from rollnip.nip import Approach, Nip
+from rollnip.nip import Approach, LineLoad, Nip
 from rollnip.rolling import (
     DeformedSurfaces,
     Fields,
@@ -44,7 +44,13 @@ __all__ = ["DeformedSurfaces", "Profiles", "Solution", "SolverInfo", "Zone"]
 Array = NDArray[np.float64]
 
 # Relative change of the figures between grids of 12 to 32 points a half-width, docs/geometry.md.
-_GRID_SHARES = {"approach": 1e-3, "creepage": 5e-3, "nip_width": 2e-3, "peak_pressure": 1e-3}
+_GRID_SHARES = {
+    "approach": 1e-3,
+    "load": 1e-3,
+    "creepage": 1e-2,
+    "nip_width": 2e-3,
+    "peak_pressure": 1.5e-3,
+}
 
 
 @dataclass(frozen=True)
@@ -198,6 +204,8 @@ class Solution:
         if self.model.geometry == "finite":
             for name, share in _GRID_SHARES.items():
                 out[name] = max(out[name], share * abs(getattr(figures, name)))
+        if isinstance(self.nip.normal, LineLoad):
+            out["load"] = error.load
         if self.nip.has_half_space:
             out["approach"] = nan
         if isinstance(self.nip.normal, Approach):

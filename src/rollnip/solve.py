@@ -13,8 +13,10 @@ from importlib.metadata import PackageNotFoundError, version
 from time import perf_counter
 from typing import Literal
 
+from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.contact import Safeguarded
+from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Nip, Torque
 from rollnip.rolling import (
@@ -37,6 +39,7 @@ def solve(
     model: Model | None = None,
     *,
     method: Safeguarded | None = None,
+    cache: KernelCache | None = None,
     on_failure: Literal["raise", "return"] = "return",
 ) -> Solution:
     """Solve the steady rolling contact of two coated rollers.
@@ -49,6 +52,8 @@ def solve(
         geometry and accuracy; ``Model()`` by default.
     method :
         how each discrete contact problem is solved; ``Safeguarded()`` by default.
+    cache :
+        influence functions of solves before, to be used again where coverings are the same.
     on_failure :
         "return" a solution whose ``converged`` is False, or "raise" ConvergenceError.
 
@@ -71,11 +76,21 @@ def solve(
     if nip.has_profile:
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
     method = Safeguarded() if method is None else method
-    kernels, final = _refined(nip, model, method)
+    with one_blas_thread():
+        solution = _solved(nip, model, method, KernelCache() if cache is None else cache)
+    solution = replace(solution, solver=replace(solution.solver, seconds=perf_counter() - start))
+    if on_failure == "raise" and not solution.converged:
+        raise ConvergenceError(solution.status, solution)
+    return solution
+
+
+def _solved(nip: Nip, model: Model, method: Safeguarded, cache: KernelCache) -> Solution:
+    """The flow of one solution."""
+    kernels, final = _refined(nip, model, method, cache)
     left: tuple[str, ...] = ()
     if model.geometry == "finite" and not _is_believed(nip, model, final):
         model = replace(model, geometry="curved")
-        kernels, final = _refined(nip, model, method)
+        kernels, final = _refined(nip, model, method, cache)
         left = (
             "Strains are too large for the second order of finite strain, or it did not converge; "
             'solved with `geometry = "curved"` instead, which may then be 10 % off and more.',
@@ -84,7 +99,7 @@ def solve(
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
     converged, status = _verdict(nip, model, final)
-    solution = Solution(
+    return Solution(
         nip=nip,
         model=model,
         converged=converged,
@@ -95,15 +110,12 @@ def solve(
             iterations=final.steps,
             residual=final.residual,
             geometry_change=final.geometry_change,
-            seconds=perf_counter() - start,
+            seconds=0.0,
             version=_version(),
         ),
         final=final,
         kernels=kernels,
     )
-    if on_failure == "raise" and not converged:
-        raise ConvergenceError(status, solution)
-    return solution
 
 
 def _is_believed(nip: Nip, model: Model, final: Round) -> bool:
@@ -113,9 +125,11 @@ def _is_believed(nip: Nip, model: Model, final: Round) -> bool:
     return _verdict(nip, model, final)[0] and is_small(nip, model, final)
 
 
-def _refined(nip: Nip, model: Model, method: Safeguarded) -> tuple[PairKernels, Round]:
+def _refined(
+    nip: Nip, model: Model, method: Safeguarded, cache: KernelCache
+) -> tuple[PairKernels, Round]:
     """Influence functions and the last round of refinement."""
-    kernels = pair_kernels(nip, model.geometry)
+    kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width)
     return kernels, refine(nip, model, kernels, half_width, method)

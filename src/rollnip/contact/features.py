@@ -8,6 +8,10 @@ import numpy as np
 
 from rollnip.contact.problem import Array, ContactState, State, States
 
+# Powers of what vanishes at the end of a zone that are linear in the distance to it.
+_ROOT = 2.0  # pressure at an edge, mu p - |q| where stick turns to slip
+_SMOOTH = 2.0 / 3.0  # mu p - |q| where slip turns to stick: material that came to rest
+
 
 @dataclass(frozen=True, slots=True)
 class Zone:
@@ -28,7 +32,9 @@ def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Zone,
     """Zones from trailing to leading edge; without friction each interval is one STICK zone.
 
     Pressure goes to zero as the square root of the distance to an edge, and mu p - |q| as the
-    square root of the distance to a transition, so their squares are extrapolated linearly.
+    square root of the distance to the trailing end of a stick zone, where stick turns to slip, so
+    their squares are extrapolated linearly. At its leading end slip turns to stick, nothing is
+    singular and mu p - |q| goes as the power 3/2.
     """
     states = state.states
     states = np.minimum(states, State.STICK) if friction == 0.0 else _without_slivers(states)
@@ -54,10 +60,13 @@ def contact_intervals(zones: tuple[Zone, ...]) -> tuple[tuple[float, float], ...
 
 
 def states_on(x: Array, zones: tuple[Zone, ...]) -> States:
-    """State of each of the nodes ``x`` that lies in a zone, FREE elsewhere."""
+    """State of each of the nodes ``x`` that lies in a zone, ends included, FREE elsewhere.
+
+    A node between two zones belongs to the one that leads.
+    """
     out = np.full(x.size, State.FREE, dtype=np.int8)
     for zone in zones:
-        out[(x > zone.start) & (x < zone.stop)] = zone.state
+        out[(x >= zone.start) & (x <= zone.stop)] = zone.state
     return out
 
 
@@ -108,17 +117,17 @@ def _transition(x: Array, slack: Array, states: States, i: int) -> float:
     if states[i + 1] == State.STICK:
         return _crossing(x, slack, i + 1, -1)
     if states[i] == State.STICK:
-        return _crossing(x, slack, i, +1)
+        return _crossing(x, slack, i, +1, power=_SMOOTH)
     return 0.5 * float(x[i] + x[i + 1])
 
 
-def _crossing(x: Array, values: Array, i: int, step: int) -> float:
-    """Where values^2, extrapolated from nodes i - step and i, is zero between i and i + step."""
+def _crossing(x: Array, values: Array, i: int, step: int, *, power: float = _ROOT) -> float:
+    """Where values^power, extrapolated from nodes i - step and i, is zero, up to i + step."""
     beyond = i + step
     limit = x[beyond] if 0 <= beyond < x.size else x[i] + step * abs(x[i] - x[i - step])
     if not 0 <= i - step < x.size:
         return 0.5 * float(x[i] + limit)
-    here, before = values[i] ** 2, values[i - step] ** 2
+    here, before = np.maximum(values[[i, i - step]], 0.0) ** power
     if before <= here:
         return 0.5 * float(x[i] + limit)
     place = x[i] + (x[i] - x[i - step]) * here / (before - here)

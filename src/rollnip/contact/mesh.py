@@ -15,6 +15,11 @@ _SMALLEST_ZONE = 6  # elements in a zone, however short
 _ASKED = 0.15
 _ASKED_OF_MANY = 0.4
 _MANY = 150
+# Where a few elements at cosine places are asked to be so many times more: peaks under a stiff
+# skin, a few of its thicknesses wide.
+_ASKED_OF_PEAKS = 0.7
+_PEAKED = 2.0
+_FINER = 8  # places in an element at which the demand is looked at
 _MARGIN = np.array([1.0, 2.0, 4.0, 8.0])  # nodes outside the contact, in edge elements
 
 
@@ -98,12 +103,16 @@ def _zone_nodes(
     cosine = 0.5 * (1.0 - np.cos(np.pi * np.arange(count + 1) / count))
     if demand is None:
         return start + (stop - start) * cosine[1:]
-    fine = np.linspace(0.0, 1.0, 8 * count + 1)
+    fine = np.linspace(0.0, 1.0, _FINER * count + 1)
     places = start + (stop - start) * 0.5 * (1.0 - np.cos(np.pi * fine))
     asked = demand.up_to(places) - demand.up_to(np.array([start]))
     if not asked[-1] > 0.0:
         return start + (stop - start) * cosine[1:]
-    rank = fine + share * (asked / asked[-1] - fine)
+    asked /= asked[-1]
+    steps = 2 * _FINER  # two elements
+    if np.max(asked[steps:] - asked[:-steps]) > _PEAKED * fine[steps]:
+        share = _ASKED_OF_PEAKS
+    rank = fine + share * (asked - fine)
     nodes = np.interp(np.arange(1, count + 1) / count, rank, places)
     nodes[-1] = stop
     return nodes

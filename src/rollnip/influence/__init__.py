@@ -1,5 +1,6 @@
 """Influence functions: from compliances in the Fourier domain to displacements on a mesh."""
 
+from rollnip.influence.cache import KernelCache
 from rollnip.influence.grid import grid_displacements, grid_strains
 from rollnip.influence.hats import displacement_matrix, load_weights, strain_matrix
 from rollnip.influence.kernel import Kernel, Window, tabulate
@@ -14,6 +15,7 @@ from rollnip.influence.surface import (
 
 __all__ = [
     "Kernel",
+    "KernelCache",
     "SecondResponse",
     "SurfaceKernels",
     "Window",

@@ -41,6 +41,17 @@ class SecondOrder:
     traction: float | None
     lean: float = 0.0
 
+    def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
+        """The same terms on another mesh."""
+        middles, places = (0.5 * (m.nodes[1:-1] + m.nodes[2:]) for m in (old, new))
+        return SecondOrder(
+            np.interp(new.inner, old.inner, self.clearance),
+            new.dx * np.interp(places, middles, self.creep_length / old.dx),
+            new.dx * np.interp(places, middles, self.creep_offset / old.dx),
+            self.traction,
+            self.lean,
+        )
+
     def change(self, before: SecondOrder, approach: float, strain: Array, traction: float) -> float:
         """Largest change since ``before``, relative to an approach, strains and a traction."""
         changes = [
@@ -84,7 +95,7 @@ def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
         depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
         approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
         clearance = depth - approximate
-    if geometry in ("curved", "finite"):
+    if geometry in ("curved", "finite") and nip.friction > 0.0:
         length, offset = _stretch_terms(nip, geometry, mesh, flat, u)
     if geometry == "finite":
         lean = _lean(nip, mesh, state, u)

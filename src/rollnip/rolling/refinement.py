@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import inf, sqrt
 
 import numpy as np
@@ -13,6 +14,7 @@ from rollnip.contact import (
     Demand,
     Safeguarded,
     State,
+    States,
     Zone,
     contact_zones,
     graded_nodes,
@@ -36,13 +38,16 @@ _MOST_ROUNDS = 24
 _MOST_STEPS = 4000  # linear systems, after which what has not settled is given up
 _DIVERGED = 1e3  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
-_MOST_TRIES = 3  # meshes of one size that look for edges and transitions
+_MOST_TRIES = 2  # meshes of one size that look for edges and transitions
 _MOST_TURNS = 40
-# A turn shrinks what is left of the second-order terms at least tenfold.
+# Change of the second-order terms in a turn, over the tolerance. A turn shrinks what is left of
+# them at least tenfold; meshes that only place nodes need them less well than the last.
 _STILL = 0.1
+_NEARLY_STILL = 1.0
 _SAFETY = 1.5  # on the estimate of the error from two meshes
-# Least relative error of each of Figures, times the square of the number of elements.
-_LEAST = np.array([0.1, 0.0, 2.0, 0.1, 0.5])
+# Least relative error of each of Figures, times the square of the number of elements: measured on
+# random nips against ten times as many elements.
+_LEAST = np.array([0.1, 0.5, 2.0, 2.0, 0.5])
 _CREEPAGE, _PEAK = 2, 4  # their places among Figures
 
 
@@ -105,14 +110,16 @@ def refine(
         if count < _ENOUGH_FOR_ZONES:
             ratio = max(ratio, _zone_excess(history, model.tolerance))
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
-            latest = _checked(nip, model, kernels, latest)
+            latest = _checked(nip, model, kernels, _settled(nip, model, latest, method))
             if latest.residual <= model.tolerance or count >= _MOST_ELEMENTS:
                 return latest
             ratio = latest.residual / model.tolerance
         count, tries = _next_count(count, ratio), 0
     last = best or latest
     assert last is not None
-    return _checked(nip, model, kernels, last) if last.figures.peak_pressure > 0.0 else last
+    if not last.figures.peak_pressure > 0.0:
+        return last
+    return _checked(nip, model, kernels, _settled(nip, model, last, method))
 
 
 def _holding(kernels: PairKernels, before: Round | None) -> PairKernels:
@@ -164,9 +171,34 @@ def _solve_on(
         states[np.argmin(np.abs(mesh.inner))] = State.STICK
     second = first_guess(nip, mesh)
     if before is not None:
-        second = second_order(nip, model.geometry, mesh, _carried(before, mesh))
+        second = before.second.carried(before.mesh, mesh)
     steps = 0 if before is None else before.steps
-    allowed, change = _STILL * model.tolerance, 0.0
+    return _turned(nip, model, mesh, (states, second, steps), method, _NEARLY_STILL)
+
+
+def _settled(nip: Nip, model: Model, latest: Round, method: Safeguarded) -> Round:
+    """The round with its second-order terms as still as those of a result must be."""
+    if not latest.settled or latest.geometry_change <= _STILL * model.tolerance:
+        return latest
+    start = (latest.state.states, latest.second, latest.steps)
+    still = _turned(nip, model, latest.mesh, start, method, _STILL)
+    return replace(still, error=latest.error)
+
+
+def _turned(
+    nip: Nip,
+    model: Model,
+    mesh: Mesh,
+    start: tuple[States, SecondOrder, int],
+    method: Safeguarded,
+    still: float,
+) -> Round:
+    """Solve on one mesh in turns, until the second-order terms change by so many tolerances.
+
+    ``start`` holds states, second-order terms and the steps taken before.
+    """
+    states, second, steps = start
+    change = 0.0
     for _ in range(_MOST_TURNS):
         problem = contact_problem(nip, mesh, second)
         state = method.solve(problem, states)
@@ -176,24 +208,13 @@ def _solve_on(
         updated = second_order(nip, model.geometry, mesh, state)
         change = _change(updated, second, mesh, nip, state)
         second, states = updated, state.states
-        if not change > allowed:
+        if not change > still * model.tolerance:
             break
     zones = contact_zones(problem.x, state, nip.friction)
     unknown = Figures(inf, inf, inf, inf, inf)
     figures = _figures(problem, state, zones, second.lean)
-    settled = state.settled and change <= allowed and figures.peak_pressure > 0.0
-    return Round(mesh, problem, state, zones, figures, unknown, steps, settled, change)
-
-
-def _carried(before: Round, mesh: Mesh) -> ContactState:
-    """The last solution interpolated on a new mesh."""
-    x, state = before.problem.x, before.state
-    return replace(
-        state,
-        states=np.zeros(mesh.inner.size, dtype=np.int8),
-        pressure=np.interp(mesh.inner, x, state.pressure, left=0.0, right=0.0),
-        shear=np.interp(mesh.inner, x, state.shear, left=0.0, right=0.0),
-    )
+    settled = state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
+    return Round(mesh, problem, state, second, zones, figures, unknown, steps, settled, change)
 
 
 def _change(new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState) -> float:
@@ -238,26 +259,27 @@ def _next_breaks(latest: Round) -> Array:
 
 
 def _well_placed(breaks: Array, found: Array, count: int) -> bool:
-    """Whether edges and transitions lie where the mesh expected them, to an edge element."""
-    allowed = 2.0 * (found[-1] - found[0]) / count**2
+    """Whether edges and transitions lie where the mesh expected them, to two edge elements."""
+    allowed = 4.0 * (found[-1] - found[0]) / count**2
     return found.size == breaks.size and bool(np.all(np.abs(found - breaks) < allowed))
 
 
 def _error(nip: Nip, latest: Round, history: list[_Size]) -> Figures:
     """Estimated error of each figure from its changes between meshes (second order).
 
-    Two meshes may agree by chance. So the change before the last one counts too, shrunk as the
-    order promises and halved; no error is claimed below what interpolation leaves on a mesh of
-    this size in problems whose exact solution is known (Hertz, Carter), and none of the peak
-    below what lies between the highest node and the parabola through it.
+    Two meshes may agree by chance. So earlier changes count too, shrunk as the order promises; no
+    error is claimed below what meshes of this size leave in random nips (`_LEAST`), and none of
+    the peak below what lies between the highest node and the parabola through it.
     """
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return Figures(inf, inf, inf, inf, inf)
     change = _change_over(history[-2], history[-1])
-    if len(history) > 2:
-        earlier = _change_over(history[-3], history[-2]) * (history[-2].count / count) ** 2
-        change = np.maximum(change, 0.5 * earlier)
+    for coarse, fine in pairwise(history[:-1]):
+        earlier = _change_over(coarse, fine) * (fine.count / count) ** 2
+        if fine is not history[-2]:
+            earlier[_PEAK] = 0.0  # coarse meshes do not see the peaks under a stiff skin at all
+        change = np.maximum(change, earlier)
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     least = _LEAST * scales / count**2

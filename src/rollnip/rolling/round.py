@@ -9,6 +9,7 @@ import numpy as np
 
 from rollnip.contact import ContactProblem, ContactState, Zone
 from rollnip.nip import LineLoad, Nip
+from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.surfaces import Array, Mesh
 
 
@@ -35,7 +36,8 @@ class Round:
 
     Attributes
     ----------
-    mesh, problem, state : the discrete problem and its solution.
+    mesh, problem, state, second : the discrete problem, its solution, and the second-order terms
+        of that.
     zones : contact zones from trailing to leading edge.
     figures : approach, load, creepage, nip width, peak pressure.
     error : estimated discretisation error of each figure, in its own unit; inf where unknown.
@@ -50,6 +52,7 @@ class Round:
     mesh: Mesh
     problem: ContactProblem
     state: ContactState
+    second: SecondOrder
     zones: tuple[Zone, ...]
     figures: Figures
     error: Figures

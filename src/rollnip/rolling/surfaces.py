@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactState
 from rollnip.influence import (
+    KernelCache,
     SecondResponse,
     SurfaceKernels,
     covering_window,
     displacement_matrix,
     is_ring,
     second_response,
-    surface_kernels,
 )
 from rollnip.model import Geometry
 from rollnip.nip import Nip
@@ -96,11 +96,12 @@ class PairKernels:
         return SecondFields(tuple(functions), tuple(ends))
 
 
-def pair_kernels(nip: Nip, geometry: Geometry) -> PairKernels:
-    """Tabulate the influence functions of both rollers on one window."""
+def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None) -> PairKernels:
+    """Tabulate the influence functions of both rollers on one window, or take them from a cache."""
+    cache = KernelCache() if cache is None else cache
     window = covering_window((nip.upper, nip.lower), nip.speed)
     upper, lower = (
-        None if roller.is_rigid else surface_kernels(roller, nip.speed, geometry, window)
+        None if roller.is_rigid else cache.surface(roller, nip.speed, geometry, window)
         for roller in (nip.upper, nip.lower)
     )
     hoops = hoop_curvature(nip.upper, geometry), hoop_curvature(nip.lower, geometry)

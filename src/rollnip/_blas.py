@@ -1,0 +1,42 @@
+"""One thread for small linear systems.
+
+A second BLAS thread makes systems of a hundred unknowns ten to a thousand times slower: the
+threads wait for each other longer than they compute. A caller's process may have any number, and
+has it again afterwards.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import cache
+from threading import Lock
+from typing import Any
+
+from threadpoolctl import ThreadpoolController
+
+_lock = Lock()
+_inside: list[Any] = []  # one entry for each caller that is inside, the first holds the limits
+
+
+@contextmanager
+def one_blas_thread() -> Iterator[None]:
+    """Limit the BLAS libraries to one thread; the last to leave gives back what they had."""
+    with _lock:
+        _inside.append(None if _inside else _libraries().limit(limits=1))
+    try:
+        yield
+    finally:
+        with _lock:
+            limits = next(limit for limit in _inside if limit is not None)
+            _inside.pop()
+            if not _inside:
+                limits.restore_original_limits()
+
+
+@cache
+def _libraries() -> ThreadpoolController:
+    # Numpy and scipy each bring their own; finding them takes a millisecond.
+    import scipy.linalg  # noqa: F401
+
+    return ThreadpoolController().select(user_api="blas")

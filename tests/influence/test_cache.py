@@ -1,0 +1,73 @@
+"""Influence functions kept between solves."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+from rollnip._errors import InvalidInputError
+
+RUBBER = rn.Elastic(modulus=2.0, poisson=0.5)
+SLOW = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.007, poisson=0.5)
+
+
+def nip(material=RUBBER, radius=50.0):
+    return rn.Nip(
+        upper=rn.Roller(radius=radius, layers=[rn.Layer(2.0, material)]),
+        lower=rn.Roller(radius=25.0, layers=[rn.Layer(1.0, RUBBER)]),
+        normal=rn.LineLoad(1.0),
+        friction=0.3,
+        speed=100.0,
+    )
+
+
+@pytest.mark.parametrize("geometry", ["linear", "curved", "finite"])
+def test_results_are_the_same_to_the_last_bit(geometry):
+    cache, model = rn.KernelCache(), rn.Model(geometry=geometry)
+    for load in (1.0, 1.2):
+        case = replace(nip(), normal=rn.LineLoad(load))
+        kept, fresh = rn.solve(case, model, cache=cache), rn.solve(case, model)
+        np.testing.assert_array_equal(kept.pressure, fresh.pressure)
+        np.testing.assert_array_equal(kept.shear, fresh.shear)
+        assert kept.creepage == fresh.creepage
+    assert len(cache) == 2
+
+
+@pytest.mark.parametrize(
+    ("changed", "tables"),
+    [
+        (replace(nip(), normal=rn.LineLoad(2.0), friction=0.1), 2),
+        (replace(nip(), speed=200.0), 2),
+        (nip(SLOW), 4),  # its memory lengthens the window of both
+        (nip(radius=51.0), 3),
+    ],
+)
+def test_what_a_table_depends_on(changed, tables):
+    cache = rn.KernelCache()
+    for case in (nip(), changed):
+        rn.solve(case, rn.Model(geometry="curved"), cache=cache)
+    assert len(cache) == tables
+
+
+def test_flat_layers_do_not_depend_on_the_radius():
+    cache = rn.KernelCache()
+    for radius in (50.0, 51.0):
+        rn.solve(nip(radius=radius), rn.Model(geometry="linear"), cache=cache)
+    assert len(cache) == 2
+
+
+def test_viscoelastic_tables_depend_on_the_speed():
+    cache = rn.KernelCache()
+    for speed in (100.0, 101.0):
+        rn.solve(replace(nip(SLOW), speed=speed), rn.Model(geometry="curved"), cache=cache)
+    assert len(cache) == 3
+
+
+def test_the_oldest_tables_go_first():
+    cache = rn.KernelCache(most=2)
+    for radius in (50.0, 60.0, 70.0):
+        rn.solve(nip(radius=radius), rn.Model(geometry="curved"), cache=cache)
+    assert len(cache) == 2
+    with pytest.raises(InvalidInputError, match="`most` must be 1 or more, got 0"):
+        rn.KernelCache(most=0)

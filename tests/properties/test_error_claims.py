@@ -1,0 +1,46 @@
+"""The law of honest error estimates: no figure is further off than 3 times what is claimed."""
+
+import pytest
+from claims import judge, reference, solved
+from hypothesis import Phase, given, settings
+from hypothesis import strategies as st
+from population import random_case
+
+import rollnip as rn
+
+NUMBERS = st.integers(0, 9999)
+MOST = 1000  # elements of a reference, for time; most nips take less than 150
+
+
+def check_claims(case):
+    """True error against a solution on ten times as many elements; doubt: of that solution."""
+    solution = solved(case)
+    if not (isinstance(solution, rn.Solution) and solution.converged):
+        return False
+    pair = reference(solution, most=MOST)
+    if pair is None:
+        return False
+    figures = judge(solution, pair)
+    for figure in figures:
+        assert not figure.is_under_claimed, (case.number, case.geometry, figure)
+    return all(figure.is_certain for figure in figures)
+
+
+@pytest.mark.parametrize("examples", [4, pytest.param(40, marks=pytest.mark.slow)])
+def test_no_error_is_claimed_smaller_than_a_third_of_it(examples):
+    judged = []
+
+    # A smaller number is no simpler nip: nothing to shrink.
+    @settings(
+        max_examples=examples,
+        deadline=None,
+        derandomize=True,
+        database=None,
+        phases=[Phase.generate],
+    )
+    @given(NUMBERS)
+    def examined(number):
+        judged.append(check_claims(random_case(number)))
+
+    examined()
+    assert sum(judged) >= 0.9 * len(judged)

@@ -7,7 +7,7 @@ import pytest
 
 import rollnip as rn
 import rollnip.identify.fit  # the submodule must not hide the function of the same name
-from rollnip.identify import Approaches, Creepages, NipWidths
+from rollnip.identify import Approaches, Creepages, LeastSquares, NipWidths, Unknown
 from rollnip.identify.forward import Forward, model_of
 
 from .conftest import MODULUS, tree_of
@@ -53,6 +53,15 @@ def test_a_result_that_is_not_defined_is_no_prediction():
     forward = Forward(tree, (Creepages(at={}, measured=0.1),), {})
     assert forward.predict({MODULUS: 2.0}) is None
     assert "not defined" in forward.refused
+
+
+def test_nips_that_fall_back_to_another_geometry_are_told():
+    tree = tree_of()
+    tree["model"] = {"geometry": "finite"}
+    unknown = (Unknown(path=MODULUS, low=0.2, high=0.9, log=True),)
+    cost = NipWidths(at={"nip.load": [1.0, 25.0]}, measured=[11.1, 33.6], standard_error=1.0)
+    fit = rn.identify(tree, unknown, cost, LeastSquares(tried=0, profile=False))
+    assert any("too large for" in said for said in fit.warnings)
 
 
 def test_geometry_and_tolerance_are_those_of_the_case_or_of_the_method():

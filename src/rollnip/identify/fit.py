@@ -31,7 +31,7 @@ from rollnip.identify.search import Local, Misfit, local_search, several_starts
 from rollnip.identify.unknowns import Unknown, outer_values
 from rollnip.io import dimension_at, with_values
 from rollnip.io.document import read_document
-from rollnip.model import Geometry
+from rollnip.model import Geometry, Model
 
 Array = NDArray[np.float64]
 
@@ -129,10 +129,6 @@ def identify(
     overrides = {"model.geometry": model.geometry, "solver.tolerance": model.tolerance}
     forward = Forward(tree, parts, overrides, on_solve)
     fit = fitted(forward, found, parts, method, tolerance=model.tolerance)
-    unverified = (
-        f"{forward.unverified} of {forward.solves} solves were not verified (they did not meet "
-        f"the tolerance {model.tolerance:g}); their results were used nevertheless."
-    )
     return replace(
         fit,
         case=with_values(tree, {one.path: one.value for one in fit.estimates}),
@@ -140,7 +136,7 @@ def identify(
         model=model,
         solves=forward.solves,
         verified=forward.is_verified,
-        warnings=fit.warnings + ((unverified,) if forward.unverified else ()),
+        warnings=fit.warnings + tuple(_solver_warnings(forward, model)),
     )
 
 
@@ -252,6 +248,22 @@ def _check(
             f"`unknowns` must be at most as many as there are measurements: {len(unknowns)} "
             f"unknowns, {count} measurements."
         )
+
+
+def _solver_warnings(forward: Forward, model: Model) -> list[str]:
+    said = []
+    if forward.unverified:
+        said.append(
+            f"{forward.unverified} of {forward.solves} solves were not verified (they did not "
+            f"meet the tolerance {model.tolerance:g}); their results were used nevertheless."
+        )
+    if forward.fallbacks:
+        said.append(
+            f'Strains are too large for `geometry = "{model.geometry}"` in {forward.fallbacks} of '
+            "the nips at the fitted values; these were solved in another one, so that predictions "
+            'jump between them. Fit with `geometry = "curved"`.'
+        )
+    return said
 
 
 def _with_noise(misfit: Misfit, best: Local, noise: Noise) -> tuple[Misfit, Local, Noise]:

@@ -56,12 +56,13 @@ class Forward:
         self.unverified = 0
         self.refused = ""
         self.is_verified = True  # all nips of the last prediction
+        self.fallbacks = 0  # of them, solved with another geometry than wanted
         self._on_solve = on_solve
 
     def predict(self, values: Mapping[str, float]) -> Predictions | None:
         """Predictions of each set; None, and why in ``refused``, where a nip has no solution."""
         known: dict[str, Solution] = {}
-        self.is_verified = True
+        self.is_verified, self.fallbacks = True, 0
         try:
             predictions = tuple(self._predict(part, values, known) for part in self.parts)
         except RollnipError as problem:
@@ -90,6 +91,7 @@ class Forward:
         if key not in known:
             known[key] = solve(case.nip, case.model, on_failure="return")
             self.solves += 1
+            self.fallbacks += known[key].model.geometry != case.model.geometry
             if not known[key].converged:
                 self.unverified, self.is_verified = self.unverified + 1, False
             if self._on_solve is not None:

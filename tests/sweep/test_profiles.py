@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from rollnip._errors import RollnipError
 from rollnip.io import parse_case
 from rollnip.solve import solve
 from rollnip.sweep import read_study
@@ -43,3 +44,12 @@ def test_profiles_are_those_of_the_solutions(
             known = ~np.isnan(data["x"].values[position])
             assert np.array_equal(data["x"].values[position][known], profiles.x)
             assert np.array_equal(pressure[known], profiles.pressure)
+
+
+def test_profiles_that_were_not_kept_are_not_written(tree: dict[str, Any], tmp_path: Path) -> None:
+    study = read_study(tree)
+    with Store(None, About.of(study, "1")) as store:
+        run(OpenCases(study, store), store)
+        with pytest.raises(RollnipError, match=r"holds no profiles to write to .*a\.nc"):
+            write_profiles(store, tmp_path / "a.nc")
+    assert not (tmp_path / "a.nc").exists()

@@ -5,12 +5,14 @@ Cases have different numbers of points: every profile is a (case, point) array f
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._errors import RollnipError
 from rollnip._files import check_target, write_whole
 from rollnip.io.netcdf import PROFILE_UNITS, require_netcdf
 from rollnip.sweep.store import About, Store
@@ -35,9 +37,15 @@ def write_profiles(store: Store, path: Path) -> None:
     Raises
     ------
     RollnipError
-        where the name does not end in .nc, the extra is missing or the file cannot be written.
+        where the name does not end in .nc, the extra is missing, no profiles are held or the file
+        cannot be written.
     """
     check_profiles_target(path)
+    if next(store.profiles(), None) is None:
+        raise RollnipError(
+            f"{store.name}: holds no profiles to write to {path}; they are kept where `profiles` "
+            "or --profiles asks for them."
+        )
     write_whole(path, lambda file: _write(store, file))
 
 
@@ -46,9 +54,9 @@ def _write(store: Store, file: Path) -> None:
 
     about = store.about
     names = ("x", *(name for name in about.profiles or _ALL if name != "x"))
-    points = max((len(data) for _, data in store.profiles()), default=0) // _POINT_BYTES
+    points = max(len(data) for _, data in store.profiles()) // _POINT_BYTES
     with h5netcdf.File(file, "w") as target:
-        target.dimensions = {"case": about.count, "point": max(points, 1)}
+        target.dimensions = {"case": about.count, "point": points}
         target.attrs.update({"title": about.title, "rollnip": about.version})
         _write_parameters(store, target, about)
         variables = {name: _variable(target, name, points) for name in names}
@@ -65,7 +73,7 @@ def _variable(target: Any, name: str, points: int) -> Any:
         ("case", "point"),
         "f8",
         fillvalue=np.nan,
-        chunks=(1, max(points, 1)),
+        chunks=(1, points),
         compression="gzip",
         compression_opts=1,
     )
@@ -75,8 +83,6 @@ def _variable(target: Any, name: str, points: int) -> Any:
 
 def _write_parameters(store: Store, target: Any, about: About) -> None:
     """Each parameter that is a number, over all cases; a name in netCDF holds no slash."""
-    import json
-
     numbers = {path: i for i, path in enumerate(about.paths) if about.units[i]}
     columns: dict[str, NDArray[np.float64]] = {
         path: np.full(about.count, np.nan) for path in numbers

@@ -6,18 +6,18 @@ so that the worker processes, which need no more than the solver, start quickly.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Awaitable, Callable
+from typing import Any
 
 from rollnip.web.limits import Limits
-
-if TYPE_CHECKING:
-    from rollnip.web.guard import Guard
 
 __all__ = ["Limits", "create_app", "serve"]
 
 
-def create_app(limits: Limits | None = None, *, host: str = "127.0.0.1") -> Guard:
-    """Build the application (ASGI), for `serve`, for tests and for other servers.
+def create_app(
+    limits: Limits | None = None, *, host: str = "127.0.0.1"
+) -> Callable[[Any, Any, Any], Awaitable[None]]:
+    """Build the application, a callable as ASGI has it, for tests and for other servers.
 
     Parameters
     ----------

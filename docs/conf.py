@@ -53,9 +53,9 @@ exclude_patterns = [
 source_suffix = {".md": "myst-nb", ".rst": "restructuredtext"}
 nitpicky = True
 nitpick_ignore_regex = [
-    (r"py:.*", r"(numpy|np|scipy|matplotlib|pathlib|collections|concurrent|typing|os|pydantic|io)\..*"),
+    (r"py:.*", r"(numpy|np|scipy|matplotlib|pathlib|collections|typing|os|pydantic|io)\..*"),
     (r"py:.*", r"(Path|NDArray|ArrayLike|Array|ComplexArray|Axes|Figure|Any|TypeAliasForwardRef)"),
-    (r"py:.*", r"(enum\.IntEnum|abc\.ABC)"),
+    (r"py:.*", r"(enum\.IntEnum|abc\.ABC|concurrent\.futures\..*)"),
     # Types that modules hand to each other and no door offers.
     (r"py:.*", r"rollnip\.\w+\.\w+\.\w+"),
     (r"py:.*", r"rollnip\..*\._\w+"),

@@ -24,6 +24,7 @@ def test_a_link_holds_the_whole_state_and_leaves_saved_designs_alone(designer, b
     designer.tab("compare")
     page.click("#keep")
     designer.enter("in-nip-load", "9.5")
+    page.select_option("#compare-profile", "gap")
     page.click("#us")
     width = page.inner_text("#big")
     designer.share("copy-link")
@@ -44,6 +45,7 @@ def test_a_link_holds_the_whole_state_and_leaves_saved_designs_alone(designer, b
     assert other.page.get_attribute("#us", "aria-pressed") == "true"
     assert other.page.get_attribute("#tab-compare", "aria-selected") == "true"
     other.page.wait_for_selector("#kept-drop-0")
+    assert other.page.input_value("#compare-profile") == "gap"
     assert other.page.evaluate("localStorage.getItem('rollnip.designs')") == own
     assert other.page.is_disabled("#undo")
     watch.check()

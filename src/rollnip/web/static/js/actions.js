@@ -126,6 +126,7 @@ export class Actions {
       const { hash } = await post("/api/case", this.snapshot.tree);
       const date = new Date().toISOString().slice(0, 10);
       await fillReport(this.snapshot, this.units(), paletteOf(LIGHT), { hash, date });
+      document.documentElement.dataset.report = "yes";
       print();
     });
   }

@@ -17,6 +17,12 @@ export function sentencesOf({ message, details = [] }, place = placeInWords) {
   return details.map((one) => place(one.path) + one.message);
 }
 
+/** A single complaint without its place: for a box that holds one value. */
+export function complaintOf({ message, details = [] }) {
+  const text = details[0]?.message ?? message;
+  return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
 /** Where a nip is solved; stresses on interfaces, which cost more than the rest, are not shown here. */
 export const SOLVE = "/api/solve?interfaces=false";
 

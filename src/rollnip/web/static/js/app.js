@@ -87,6 +87,7 @@ export class App extends Actions {
       this.store.design({ case: setAt(this.store.state.case, "title", title.value.trim()) }),
     );
     addEventListener("keydown", (event) => this.shortcut(event));
+    addEventListener("afterprint", () => delete document.documentElement.dataset.report);
     addEventListener("hashchange", () => this.begin(location.hash));
     new IntersectionObserver(([entry]) =>
       byId("mini").classList.toggle("shown", !entry.isIntersecting),
@@ -118,12 +119,7 @@ export class App extends Actions {
   async restore(state) {
     const cases = [state.case, ...(state.kept ?? []).slice(0, 3)];
     const [first, ...kept] = await Promise.all(cases.map((tree) => this.checked(tree)));
-    const view = {
-      ...VIEW,
-      tab: String(state.tab ?? VIEW.tab),
-      system: state.system === "us" ? "us" : "metric",
-    };
-    this.store.replace({ case: first, kept, view });
+    this.store.replace({ case: first, kept, view: viewOf(state) });
   }
 
   async checked(tree) {
@@ -230,7 +226,7 @@ export class App extends Actions {
 
   link() {
     const { case: tree, kept, view } = this.store.state;
-    return linkOf({ case: tree, kept, system: view.system, tab: view.tab });
+    return linkOf({ case: tree, kept, ...view });
   }
 
   say(text) {
@@ -249,4 +245,14 @@ export class App extends Actions {
   get name() {
     return nameOf(this.store.state.case);
   }
+}
+
+/** How a state from outside wants to be looked at; what is missing or odd is as usual. */
+function viewOf(state) {
+  const entries = Object.entries(VIEW).map(([key, usual]) => {
+    const given = state[key] ?? usual;
+    return [key, typeof usual === "string" ? String(given) : { ...usual, ...given }];
+  });
+  const view = Object.fromEntries(entries);
+  return { ...view, system: view.system === "us" ? "us" : "metric" };
 }

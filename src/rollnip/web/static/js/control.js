@@ -1,6 +1,6 @@
 // One number of a design: a slider and a text box that takes units.
 
-import { post } from "./api.js";
+import { complaintOf, post } from "./api.js";
 import { el } from "./dom.js";
 import { getAt, idOf, setAt } from "./paths.js";
 import { inputAt } from "./quantities.js";
@@ -120,7 +120,7 @@ export class Control {
       this.set(value / factor, null);
       this.refresh(this.app.store.state.case);
     } catch (error) {
-      this.complain(error.message);
+      this.complain(complaintOf(error));
     }
   }
 

@@ -1,6 +1,6 @@
 // The other way round: which value of an input gives a wanted answer?
 
-import { isAbort, post } from "./api.js";
+import { complaintOf, isAbort, post } from "./api.js";
 import { button, el, select } from "./dom.js";
 import { getAt, setAt } from "./paths.js";
 import { inputsOf } from "./quantities.js";
@@ -104,7 +104,7 @@ export class FindView {
       this.tell(found, wanted, input, asked);
     } catch (error) {
       if (!isAbort(error))
-        this.said.replaceChildren(el("div", { class: "found not" }, el("p", { text: error.message })));
+        this.said.replaceChildren(el("div", { class: "found not" }, el("p", { text: complaintOf(error) })));
     }
   }
 

@@ -17,10 +17,6 @@ from urllib.error import URLError
 from urllib.request import urlopen
 
 import pytest
-
-if "ROLLNIP_CI" not in os.environ:
-    pytest.importorskip("playwright", reason="needs playwright: pip install 'rollnip[dev]'")
-
 from playwright.sync_api import Browser, BrowserContext, Page, Request, sync_playwright
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome")

@@ -21,7 +21,7 @@ export class CurveView {
     this.app = app;
     const place = el("div", { class: "chart", id: `chart-${id}` });
     this.chart = new Chart(place);
-    this.none = el("p", { class: "empty", text: "There is no speed in this design." });
+    this.none = el("p", { class: "empty", text: "Speeds of the surfaces need a speed and friction." });
     this.none.hidden = true;
     const exports = ["PNG", "SVG", "CSV"].map((format) =>
       button(format, () => app.exportChart(format), {

@@ -46,8 +46,8 @@ export class Units {
 
   /** {text, unit} of a value of the base system. */
   format(value, dimension, digits = DIGITS) {
-    const text = value === null || value === undefined ? "–" : number(this.shown(value, dimension), digits);
-    return { text, unit: this.name(dimension) };
+    if (value === null || value === undefined) return { text: "–", unit: "" };
+    return { text: number(this.shown(value, dimension), digits), unit: this.name(dimension) };
   }
 
   /** The same as one text. */

@@ -12,7 +12,7 @@ DOCS_STAMP := $(VENV)/.installed-docs
 CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
 
 .DEFAULT_GOAL := help
-.PHONY: help venv demo serve test test-fast check docs clean
+.PHONY: help venv demo serve test test-fast bench check docs clean
 
 help: ## list the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
@@ -46,6 +46,9 @@ test: venv ## all tests
 
 test-fast: venv ## the tests that take seconds
 	$(BIN)/python -m pytest -m "not slow"
+
+bench: venv ## how long things take, as ratios to a calibration on this machine
+	$(BIN)/python -m pytest benchmarks -q -p no:cacheprovider --benchmark-timer=time.process_time --benchmark-quiet
 
 check: venv ## style, types, floors
 	$(BIN)/ruff check .

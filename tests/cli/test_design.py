@@ -78,7 +78,6 @@ def test_find_as_json_and_as_a_case(case, tmp_path):
 
 
 def test_find_writes_toml_with_units(case, tmp_path):
-    pytest.importorskip("tomli_w")
     out = tmp_path / "found.toml"
     assert run(*ask(case), "--out", str(out)).exit_code == 0
     found = rn.read_case(out)

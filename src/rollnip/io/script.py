@@ -7,6 +7,8 @@ from dataclasses import MISSING, fields, is_dataclass
 from math import isinf
 from typing import Any
 
+import tomli_w
+
 from rollnip._errors import RollnipError
 from rollnip._units import base_unit
 from rollnip.io.case import Case, parse_case
@@ -51,20 +53,8 @@ def case_python(case: Case) -> str:
 
 
 def case_toml(tree: Mapping[str, Any]) -> str:
-    """A case as a TOML file, its values as they were written; empty keys (None) are left out.
-
-    Raises
-    ------
-    RollnipError
-        where the extra ``rollnip[web]`` is not installed.
-    """
-    try:
-        from tomli_w import dumps
-    except ImportError:
-        raise RollnipError(
-            "writing TOML needs tomli-w; install it with: pip install 'rollnip[web]'"
-        ) from None
-    return dumps(_without_none(dict(tree)))
+    """A case as a TOML file, its values as they were written; empty keys (None) are left out."""
+    return tomli_w.dumps(_without_none(dict(tree)))
 
 
 def base_tree(tree: Mapping[str, Any]) -> dict[str, Any]:

@@ -97,11 +97,11 @@ def excess(nip: Nip, latest: Round, tolerance: float) -> float:
 def creepage_scale(nip: Nip, figures: Figures) -> float:
     """Size against which an error of the creepage is measured.
 
-    The creepage itself, but not less than a hundredth of the slope of the gap at the edge: a
+    The creepage itself, but not less than a twentieth of the slope of the gap at the edge: a
     creepage that is zero by symmetry has no relative accuracy.
     """
     slope = 0.5 * figures.nip_width * nip.curvature
-    return max(abs(figures.creepage), 0.01 * slope)
+    return max(abs(figures.creepage), 0.05 * slope)
 
 
 def has_grip(latest: Round) -> bool:

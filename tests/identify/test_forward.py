@@ -55,6 +55,7 @@ def test_a_result_that_is_not_defined_is_no_prediction():
     assert "not defined" in forward.refused
 
 
+@pytest.mark.slow
 def test_nips_that_fall_back_to_another_geometry_are_told():
     tree = tree_of()
     tree["model"] = {"geometry": "finite"}

@@ -36,6 +36,7 @@ _MOST_FAILURES = 3  # fine meshes that do not settle
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
 _MOST_STEPS = 4000  # linear systems, after which what has not settled is given up
+_MOST_STEPS_IN_ALL = 700  # with a second order, settled or not: where it holds, it takes some tens
 _DIVERGED = 1e3  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
@@ -89,7 +90,7 @@ def refine(
         held = _holding(kernels, latest)
         mesh = mesh_on(graded_nodes(breaks, count, demand), held)
         latest = _solve_on(nip, model, mesh, zones, latest if best is None else best, method)
-        if _is_hopeless(latest) or failures > _MOST_FAILURES:
+        if failures > _MOST_FAILURES or _is_hopeless(latest, kernels):
             break
         if not latest.settled and count > _COARSE:
             # Another mesh of about this size may settle: what cycles hangs on single nodes.
@@ -114,6 +115,8 @@ def refine(
             if latest.residual <= model.tolerance or count >= _MOST_ELEMENTS:
                 return latest
             ratio = latest.residual / model.tolerance
+        if not kernels.is_linear and _is_out_of_reach(count, ratio):
+            break  # another geometry will have to do
         count, tries = _next_count(count, ratio), 0
     last = best or latest
     assert last is not None
@@ -134,14 +137,21 @@ def _holding(kernels: PairKernels, before: Round | None) -> PairKernels:
     return replace(kernels, held=kernels.second_fields(before.mesh.nodes, before.state))
 
 
-def _is_hopeless(latest: Round) -> bool:
+def _is_hopeless(latest: Round, kernels: PairKernels) -> bool:
     """Whether to give up: unsettled after much work, in pieces, or for want of friction."""
+    if not kernels.is_linear and latest.steps > _MOST_STEPS_IN_ALL:
+        return True
     if latest.settled:
         return False
     spent = latest.steps > _MOST_STEPS or len(latest.zones) > _MOST_ZONES
     spent = spent or not latest.figures.peak_pressure > 0.0
     spent = spent or not latest.geometry_change < _DIVERGED
     return spent or not latest.zones or not has_grip(latest)
+
+
+def _is_out_of_reach(count: int, ratio: float) -> bool:
+    """Whether an error, ``ratio`` times too large, would still be on the finest mesh."""
+    return count > _COARSE and ratio * (count / _MOST_ELEMENTS) ** 2 > 2.0
 
 
 def _next_count(count: int, ratio: float) -> int:

@@ -12,7 +12,7 @@ DOCS_STAMP := $(VENV)/.installed-docs
 CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
 
 .DEFAULT_GOAL := help
-.PHONY: help venv demo serve test test-fast bench check docs clean
+.PHONY: help venv demo serve test test-slow bench check docs clean
 
 help: ## list the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
@@ -41,11 +41,12 @@ demo: venv ## solve the paper's configuration II, print the summary, write a pic
 serve: venv ## the nip designer at http://127.0.0.1:8000
 	$(BIN)/rollnip serve
 
-test: venv ## all tests
-	$(BIN)/python -m pytest
-
-test-fast: venv ## the tests that take seconds
+test: venv ## the tests, in some minutes
 	$(BIN)/python -m pytest -m "not slow"
+
+test-slow: venv ## the tests that take more: in a browser, with killed processes, on many random nips
+	$(BIN)/python -m pytest -m slow
+
 
 bench: venv ## how long things take, as ratios to a calibration on this machine
 	$(BIN)/python -m pytest benchmarks -q -p no:cacheprovider --benchmark-timer=time.process_time --benchmark-quiet

@@ -139,8 +139,14 @@ def test_the_example_is_a_study() -> None:
             assert read_study(path).count == 24
 
 
+def heed_interrupts() -> None:
+    """A shell lets what it starts in the background ignore Ctrl-C, and so would this process."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 def start(study: Path, out: Path, **more: Any) -> subprocess.Popen[str]:
     """A process to be waited for with `communicate`."""
+    more.setdefault("preexec_fn", heed_interrupts)
     return subprocess.Popen(
         [*COMMAND, str(study), "--out", str(out), "--workers", "2"],
         stdout=subprocess.PIPE,

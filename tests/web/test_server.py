@@ -21,11 +21,22 @@ from rollnip.cli.app import app
 START = "from rollnip.cli import main; main()"
 
 
+def heed_interrupts():
+    """A shell lets what it starts in the background ignore Ctrl-C, and so would this process."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+
 @contextmanager
 def running(*options):
     """The command as a user starts it; gives the process and the address it names."""
     command = [sys.executable, "-c", START, "serve", "--no-open", "--port", "0", *options]
-    process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen(
+        command,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        preexec_fn=heed_interrupts,
+    )
     try:
         said = ""
         while "http://" not in said:

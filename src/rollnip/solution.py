@@ -205,7 +205,7 @@ class Solution:
             for name, share in _GRID_SHARES.items():
                 out[name] = max(out[name], share * abs(getattr(figures, name)))
         if isinstance(self.nip.normal, LineLoad):
-            out["load"] = error.load
+            out["load"] = 0.0
         if self.nip.has_half_space:
             out["approach"] = nan
         if isinstance(self.nip.normal, Approach):

@@ -8,6 +8,7 @@ from math import isfinite
 from typing import Any
 
 from rollnip._errors import ConvergenceError, RollnipError
+from rollnip.influence import KernelCache
 from rollnip.io import case_hash, parse_case
 from rollnip.solution import Solution
 from rollnip.solve import solve
@@ -93,13 +94,13 @@ class Attempt:
     solution: Solution | None = None
 
 
-def attempt(make: Callable[[], Mapping[str, Any]]) -> Attempt:
+def attempt(make: Callable[[], Mapping[str, Any]], cache: KernelCache | None = None) -> Attempt:
     """Solve the case whose tree ``make`` returns; what either raises is a message in the row."""
     name = None
     try:
         case = parse_case(make(), source=_NAME)
         name = case_hash(case)
-        solution = solve(case.nip, case.model, on_failure="return")
+        solution = solve(case.nip, case.model, cache=cache, on_failure="return")
         return Attempt(scalars(solution), name, solution)
     except ConvergenceError as error:
         return Attempt(without_solution("failed", str(error)), name)

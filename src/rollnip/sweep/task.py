@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from rollnip.influence import KernelCache
 from rollnip.io.netcdf import PROFILE_UNITS
 from rollnip.solution import Solution
 from rollnip.sweep.row import Row, attempt, without_solution
@@ -67,7 +68,8 @@ class Outcome:
 
 def perform(task: Task) -> list[Outcome]:
     """Solve the cases of a task; a case that goes wrong is a row with its message."""
-    return [_outcome(task, position, values) for position, values in task.cases]
+    cache = KernelCache()  # neighbours of a grid share coverings
+    return [_outcome(task, position, values, cache) for position, values in task.cases]
 
 
 def given_up(task: Task, why: str) -> list[Outcome]:
@@ -94,9 +96,9 @@ def _end_with(sentinel: int) -> None:
     os._exit(1)
 
 
-def _outcome(task: Task, position: int, values: tuple[Value, ...]) -> Outcome:
+def _outcome(task: Task, position: int, values: tuple[Value, ...], cache: KernelCache) -> Outcome:
     start = perf_counter()
-    done = attempt(lambda: case_with(task.tree, task.paths, values))
+    done = attempt(lambda: case_with(task.tree, task.paths, values), cache)
     profiles = None
     if task.with_profiles and done.solution is not None:
         profiles = _profiles(done.solution)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
 from rollnip._units import Dimension, base_unit, parse_quantity
 from rollnip.design import find
+from rollnip.influence import KernelCache
 from rollnip.io import (
     Case,
     base_tree,
@@ -68,6 +69,7 @@ class Tasks:
     def __init__(self, limits: Limits) -> None:
         self._limits = limits
         self._kept: OrderedDict[str, Solution] = OrderedDict()
+        self._kernels = KernelCache()
         self._tasks: dict[str, Callable[[Body], Reply]] = {
             "solve": self._solve,
             "surfaces": self._surfaces,
@@ -201,7 +203,7 @@ class Tasks:
     def _solution(self, case: Case) -> Solution:
         key = case_hash(case)
         kept = self._kept.pop(key, None)
-        self._kept[key] = kept = kept or solve(case.nip, case.model)
+        self._kept[key] = kept = kept or solve(case.nip, case.model, cache=self._kernels)
         if len(self._kept) > _KEPT:
             self._kept.popitem(last=False)
         return kept

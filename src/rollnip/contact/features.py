@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rollnip.contact.problem import Array, ContactState, State, States
+from rollnip.contact.problem import FREE, STICK, Array, ContactState, State, States
 
 # Powers of what vanishes at the end of a zone that are linear in the distance to it.
 _ROOT = 2.0  # pressure at an edge, mu p - |q| where stick turns to slip
@@ -37,9 +37,9 @@ def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Zone,
     singular and mu p - |q| goes as the power 3/2.
     """
     states = state.states
-    states = np.minimum(states, State.STICK) if friction == 0.0 else _without_slivers(states)
+    states = np.minimum(states, STICK) if friction == 0.0 else _without_slivers(states)
     zones = []
-    for first, last in runs(states != State.FREE):
+    for first, last in runs(states != FREE):
         edges = (
             _crossing(x, state.pressure, first, -1),
             _crossing(x, state.pressure, last, +1),
@@ -64,7 +64,7 @@ def states_on(x: Array, zones: tuple[Zone, ...]) -> States:
 
     A node between two zones belongs to the one that leads.
     """
-    out = np.full(x.size, State.FREE, dtype=np.int8)
+    out = np.zeros(x.size, dtype=np.int8)
     for zone in zones:
         out[(x >= zone.start) & (x <= zone.stop)] = zone.state
     return out
@@ -105,18 +105,20 @@ def _without_slivers(states: States) -> States:
     At an edge the pressure of the last node is as large as its error, and whether that node
     alone sticks or slips says nothing about the contact.
     """
-    padded = np.pad(states, 1, constant_values=State.FREE)
+    padded = np.zeros(states.size + 2, dtype=np.int8)  # free beyond both ends
+    padded[1:-1] = states
     before, after = padded[:-2], padded[2:]
-    alone = (states > State.STICK) & (before <= State.STICK) & (after <= State.STICK)
-    beside_stick = (before == State.STICK) | (after == State.STICK)
-    return np.where(alone & beside_stick, State.STICK, states).astype(np.int8)
+    alone = (states > STICK) & (before <= STICK) & (after <= STICK)
+    alone &= (before == STICK) | (after == STICK)
+    padded[1:-1][alone] = STICK
+    return padded[1:-1]
 
 
 def _transition(x: Array, slack: Array, states: States, i: int) -> float:
     """Place between nodes i and i + 1 where the state changes."""
-    if states[i + 1] == State.STICK:
+    if states[i + 1] == STICK:
         return _crossing(x, slack, i + 1, -1)
-    if states[i] == State.STICK:
+    if states[i] == STICK:
         return _crossing(x, slack, i, +1, power=_SMOOTH)
     return 0.5 * float(x[i] + x[i + 1])
 

@@ -19,6 +19,7 @@ from rollnip.rolling.surfaces import (
     PairKernels,
     SurfaceMatrices,
     hoop_curvature,
+    pair_matrices,
     surface_matrices,
 )
 
@@ -50,7 +51,7 @@ class Fields:
 def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
     """Evaluate a solution at points ``x``, with nothing taken over but tractions, delta and xi."""
     nodes = final.mesh.nodes
-    upper, lower = (surface_matrices(k, x, nodes) for k in (kernels.upper, kernels.lower))
+    upper, lower = pair_matrices(kernels, x, nodes)
     u = Displacements.under(upper, lower, final.state) + kernels.second(nodes, final.state, x)
     return _fields(x, nip, geometry, final, u)
 
@@ -66,7 +67,7 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     nodes = final.mesh.nodes
     away = final.figures.nip_width * _OUTSIDE
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
-    upper, lower = (surface_matrices(k, new, nodes) for k in (kernels.upper, kernels.lower))
+    upper, lower = pair_matrices(kernels, new, nodes)
     parts = (
         Displacements.under(upper, lower, final.state) + kernels.second(nodes, final.state, new),
         final.mesh.displacements(final.state),

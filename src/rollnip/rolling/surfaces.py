@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactState
 from rollnip.influence import (
+    Kernel,
     KernelCache,
     SecondResponse,
     SurfaceKernels,
@@ -63,6 +64,7 @@ class PairKernels:
     held : second-order displacements to use whatever the tractions; None: always those of the
         tractions at hand.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
+    both : the influence functions of both as channels of one kernel; None where one is rigid.
     """
 
     upper: SurfaceKernels | None
@@ -71,6 +73,7 @@ class PairKernels:
     second_lower: SecondResponse | None = None
     held: SecondFields | None = None
     hoops: tuple[float, float] = (0.0, 0.0)
+    both: Kernel | None = None
 
     @property
     def is_linear(self) -> bool:
@@ -105,7 +108,10 @@ def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None)
         for roller in (nip.upper, nip.lower)
     )
     hoops = hoop_curvature(nip.upper, geometry), hoop_curvature(nip.lower, geometry)
-    return PairKernels(upper, lower, hoops=hoops)
+    both = None
+    if upper is not None and lower is not None:
+        both = Kernel.stacked((upper.xx, upper.zz, upper.xz, lower.xx, lower.zz, lower.xz))
+    return PairKernels(upper, lower, hoops=hoops, both=both)
 
 
 def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
@@ -247,10 +253,19 @@ class Mesh:
 
 def mesh_on(nodes: Array, kernels: PairKernels) -> Mesh:
     """Evaluate the influence functions of both surfaces on a mesh."""
-    points = nodes[1:]
-    upper = surface_matrices(kernels.upper, points, nodes)
-    lower = surface_matrices(kernels.lower, points, nodes)
+    upper, lower = pair_matrices(kernels, nodes[1:], nodes)
     return Mesh(nodes, upper, lower, _influence(nodes, upper, lower, kernels.hoops), kernels)
+
+
+def pair_matrices(
+    kernels: PairKernels, points: Array, nodes: Array
+) -> tuple[SurfaceMatrices, SurfaceMatrices]:
+    """Displacements of both surfaces at ``points`` per unit traction at nodes[1:-1]."""
+    if kernels.both is not None:
+        six = displacement_matrix(kernels.both, points, nodes)
+        return SurfaceMatrices(six[:3], points.size), SurfaceMatrices(six[3:], points.size)
+    upper, lower = (surface_matrices(k, points, nodes) for k in (kernels.upper, kernels.lower))
+    return upper, lower
 
 
 def surface_matrices(

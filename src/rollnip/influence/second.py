@@ -23,7 +23,7 @@ from math import isinf, pi
 
 import numpy as np
 from scipy.fft import next_fast_len
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import CubicSpline, PPoly
 
 from rollnip.compliance import LayerFields, flat_transfer, ring_transfer
 from rollnip.influence._weights import ComplexArray
@@ -88,7 +88,7 @@ class SecondResponse:
 
     def displacement(
         self, nodes: Array, pressure: Array, shear: Array
-    ) -> tuple[CubicSpline, CubicSpline]:
+    ) -> tuple[PPoly, PPoly]:
         """Second-order (u_x, u_z) as functions of x under nodal tractions of the own frame.
 
         With the linear ones they say of the material at the abscissa x that it was at the arc
@@ -100,8 +100,9 @@ class SecondResponse:
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         """
         tractions = self._transform(nodes, np.stack([shear, pressure]))
-        along, inward = self._quadratic(tractions) + self._moved(tractions)
-        return CubicSpline(self.x, along), CubicSpline(self.x, inward)
+        both = CubicSpline(self.x, self._quadratic(tractions) + self._moved(tractions), axis=1)
+        along, inward = (np.ascontiguousarray(both.c[..., i]) for i in (0, 1))
+        return PPoly(along, both.x), PPoly(inward, both.x)
 
     def _transform(self, nodes: Array, tractions: Array) -> ComplexArray:
         """Transform of tractions (2, N-1) that are linear between nodes, exact, (2, nk).

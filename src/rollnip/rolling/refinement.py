@@ -161,7 +161,13 @@ def _next_count(count: int, ratio: float) -> int:
 
 
 def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
-    """The round with its residual, from the contact conditions on more points."""
+    """The round with its residual, from the contact conditions on more points.
+
+    Its mesh holds the second order of its own tractions from here on.
+    """
+    if not kernels.is_linear:
+        own = kernels.second_fields(latest.mesh.nodes, latest.state)
+        kernels = replace(kernels, held=own)
     latest = replace(latest, mesh=replace(latest.mesh, kernels=kernels))
     fields = fields_between(nip, model.geometry, kernels, latest)
     return replace(latest, residual=residual(nip, fields, latest))

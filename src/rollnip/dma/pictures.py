@@ -162,9 +162,22 @@ def plot_deviation(fit: DmaFit, ax: Axes | None = None, style: Style | None = No
         )
     ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
     label(ax, look, f"frequency at {fit.master.reference:g} °C [Hz]", "deviation [%]")
-    _legend(ax, look)
+    # Points are everywhere: what they are stands above them.
+    _legend(ax, look, above=True)
     return ax
 
 
-def _legend(ax: Axes, look: Look) -> None:
-    ax.legend(frameon=False, fontsize=look.small, labelcolor=look.palette.ink, loc="best")
+def _legend(ax: Axes, look: Look, *, above: bool = False) -> None:
+    ink = look.palette.ink
+    if above:
+        ax.legend(
+            frameon=False,
+            fontsize=look.small,
+            labelcolor=ink,
+            loc="lower left",
+            bbox_to_anchor=(0.0, 1.0),
+            ncols=2,
+            borderaxespad=0.2,
+        )
+    else:
+        ax.legend(frameon=False, fontsize=look.small, labelcolor=ink, loc="best")

@@ -86,9 +86,7 @@ class SecondResponse:
     adjoint: Gradients
     surface: ComplexArray
 
-    def displacement(
-        self, nodes: Array, pressure: Array, shear: Array
-    ) -> tuple[PPoly, PPoly]:
+    def displacement(self, nodes: Array, pressure: Array, shear: Array) -> tuple[PPoly, PPoly]:
         """Second-order (u_x, u_z) as functions of x under nodal tractions of the own frame.
 
         With the linear ones they say of the material at the abscissa x that it was at the arc

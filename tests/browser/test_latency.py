@@ -78,6 +78,9 @@ def test_a_burst_of_40_moves_leaves_no_lag(fresh):
 
 def test_the_page_stays_alive_while_a_what_if_runs(fresh):
     page = fresh.page
+    # The chart library is read and the first chart drawn once, after the first answer.
+    page.wait_for_selector("#chart-pressure .main-svg")
+    page.wait_for_timeout(500)
     fresh.tab("whatif")
     page.evaluate("""() => {
       window.worst = 0; let before = performance.now();

@@ -23,6 +23,18 @@ def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
         raise RollnipError(f"{path}: cannot write, the directory {folder} is not writable.")
 
 
+def make_folder(folder: Path) -> None:
+    """Make a folder and those above it; RollnipError where it is a file or cannot be made."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except FileExistsError:
+        raise RollnipError(f"{folder}: must be a folder, it is a file.") from None
+    except OSError as error:
+        raise RollnipError(
+            f"{folder}: cannot make the folder: {error.strerror or error}."
+        ) from error
+
+
 def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     """Let ``write`` fill a temporary file beside ``path``, then rename it onto ``path``.
 

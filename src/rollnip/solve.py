@@ -77,15 +77,16 @@ def solve(
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
     method = Safeguarded() if method is None else method
     with one_blas_thread():
-        solution = _solved(nip, model, method, KernelCache() if cache is None else cache)
-    solution = replace(solution, solver=replace(solution.solver, seconds=perf_counter() - start))
+        solution = _solved(nip, model, method, KernelCache() if cache is None else cache, start)
     if on_failure == "raise" and not solution.converged:
         raise ConvergenceError(solution.status, solution)
     return solution
 
 
-def _solved(nip: Nip, model: Model, method: Safeguarded, cache: KernelCache) -> Solution:
-    """The flow of one solution."""
+def _solved(
+    nip: Nip, model: Model, method: Safeguarded, cache: KernelCache, start: float
+) -> Solution:
+    """The flow of one solution; ``start``: the clock when it was asked for [s]."""
     kernels, final = _refined(nip, model, method, cache)
     left: tuple[str, ...] = ()
     if model.geometry == "finite" and not _is_believed(nip, model, final):
@@ -110,7 +111,7 @@ def _solved(nip: Nip, model: Model, method: Safeguarded, cache: KernelCache) -> 
             iterations=final.steps,
             residual=final.residual,
             geometry_change=final.geometry_change,
-            seconds=0.0,
+            seconds=perf_counter() - start,
             version=_version(),
         ),
         final=final,

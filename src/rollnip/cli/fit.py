@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
-from rollnip._errors import RollnipError
+from rollnip._files import make_folder
 
 if TYPE_CHECKING:
     from rollnip.identify import Fit
@@ -49,7 +49,7 @@ def fit(
             with _named("--geometry"):
                 method = replace(method, geometry=_geometry(geometry))
         if out is not None:
-            _make(out)
+            make_folder(out)
             case_toml(study.case)  # needs an extra: better said before the fit than after it
         with _progress() as on_solve, _named(file):
             found = identify(study.case, study.unknowns, study.cost, method, on_solve=on_solve)
@@ -83,17 +83,6 @@ def _progress() -> Iterator[Callable[[int], None] | None]:
     with Progress(*columns, console=Console(stderr=True), transient=True) as progress:
         task = progress.add_task("", total=None)
         yield lambda count: progress.update(task, completed=count)
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except FileExistsError:
-        raise RollnipError(f"{folder}: must be a folder, it is a file.") from None
-    except OSError as error:
-        raise RollnipError(
-            f"{folder}: cannot make the folder: {error.strerror or error}."
-        ) from None
 
 
 def _write(found: Fit, title: str, folder: Path) -> None:

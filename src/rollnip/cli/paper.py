@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from rollnip._errors import RollnipError
+from rollnip._files import make_folder
 
 
 def paper(
@@ -25,7 +25,7 @@ def paper(
     from rollnip.cli.app import _clear_failures
 
     with _clear_failures():
-        _make(out)
+        make_folder(out)
         from rollnip.plots.paper import save_paper
 
         written = save_paper(out)
@@ -38,14 +38,3 @@ def paper(
             written.append(path)
         sys.stdout.write("".join(f"{path}\n" for path in written))
         sys.stdout.flush()
-
-
-def _make(folder: Path) -> None:
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except FileExistsError:
-        raise RollnipError(f"{folder}: must be a folder, it is a file.") from None
-    except OSError as error:
-        raise RollnipError(
-            f"{folder}: cannot make the folder: {error.strerror or error}."
-        ) from error

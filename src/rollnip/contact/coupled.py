@@ -22,7 +22,8 @@ from rollnip.contact.problem import (
     Indices,
     Mask,
     States,
-    gap_and_creep,
+    creep,
+    gap,
     shear_signs,
 )
 
@@ -139,7 +140,7 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     states = solution.states
     out = states.copy()
     in_contact = states != FREE
-    depth, slip = gap_and_creep(problem, solution)
+    depth = gap(problem, solution)
     scale = np.max(np.abs(problem.clearance)) + abs(solution.approach)
     largest = np.max(np.abs(solution.pressure), initial=0.0)
     out[in_contact & (solution.pressure < -rounding * largest)] = FREE
@@ -151,7 +152,7 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     # The shear that would bring the creep to zero, were its own node the only one to change: it
     # tells a slipping node apart that should stick from one that should slip the other way.
     own = np.minimum(problem.creep_shear.diagonal(), -np.finfo(float).tiny)
-    sought = solution.shear - slip / own
+    sought = solution.shear - creep(problem, solution) / own
     # Within rounding a node keeps its state.
     slack = rounding * problem.friction * largest
     out[kept] = STICK

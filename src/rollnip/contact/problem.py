@@ -130,20 +130,14 @@ class ContactState:
 
 def gap(problem: ContactProblem, state: ContactState) -> Array:
     """Gap at each node [mm]."""
-    return gap_and_creep(problem, state)[0]
+    made = problem.influence[: problem.x.size] @ np.concatenate([state.pressure, state.shear])
+    return np.asarray(problem.clearance - state.approach + made)
 
 
 def creep(problem: ContactProblem, state: ContactState) -> Array:
     """Creep of each interval [mm]; the slip velocity is -V creep/length."""
-    return gap_and_creep(problem, state)[1]
-
-
-def gap_and_creep(problem: ContactProblem, state: ContactState) -> tuple[Array, Array]:
-    """Gap at each node and creep of each interval [mm]."""
-    made = problem.influence @ np.concatenate([state.pressure, state.shear])
-    n = problem.x.size
-    depth = problem.clearance - state.approach + made[:n]
-    return depth, problem.creep_offset + state.creepage * problem.creep_length + made[n:]
+    made = problem.influence[problem.x.size :] @ np.concatenate([state.pressure, state.shear])
+    return np.asarray(problem.creep_offset + state.creepage * problem.creep_length + made)
 
 
 def shear_signs(states: States) -> Array:

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from pydantic import ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, Field
 
-from rollnip._errors import CaseFileError
-from rollnip.io.messages import form_error
+from rollnip.io.messages import checked_form
 from rollnip.io.tables import Ratio, Table
 
 
@@ -132,22 +131,9 @@ _TOLERANCE: dict[str, type[Table]] = {
 
 def parse_optimise(tree: Mapping[str, Any], source: str) -> OptimiseTable:
     """Check the form. Raises CaseFileError, one line for each error."""
-    try:
-        return OptimiseTable.model_validate(dict(tree))
-    except ValidationError as error:
-        raise _refusal(error, source, _OPTIMISE, OptimiseTable) from None
+    return checked_form(tree, source, OptimiseTable, _OPTIMISE)
 
 
 def parse_tolerance(tree: Mapping[str, Any], source: str) -> ToleranceTable:
     """Check the form. Raises CaseFileError, one line for each error."""
-    try:
-        return ToleranceTable.model_validate(dict(tree))
-    except ValidationError as error:
-        raise _refusal(error, source, _TOLERANCE, ToleranceTable) from None
-
-
-def _refusal(
-    error: ValidationError, source: str, tables: Mapping[str, type[Table]], root: type[Table]
-) -> CaseFileError:
-    lines = (form_error(details, tables, root) for details in error.errors())
-    return CaseFileError("\n".join(f"{source}: {line}" for line in lines))
+    return checked_form(tree, source, ToleranceTable, _TOLERANCE)

@@ -5,10 +5,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Literal
 
-from pydantic import ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, Field
 
-from rollnip._errors import CaseFileError
-from rollnip.io.messages import form_error
+from rollnip.io.messages import checked_form
 from rollnip.io.tables import Length, Ratio, Table
 
 Kind = Literal[
@@ -100,8 +99,4 @@ def parse_fit(tree: Mapping[str, Any], source: str) -> FitTable:
     CaseFileError
         one line for each error, with the name of the file and the path of the key.
     """
-    try:
-        return FitTable.model_validate(dict(tree))
-    except ValidationError as error:
-        lines = (form_error(details, _TABLES, FitTable) for details in error.errors())
-        raise CaseFileError("\n".join(f"{source}: {line}" for line in lines)) from None
+    return checked_form(tree, source, FitTable, _TABLES)

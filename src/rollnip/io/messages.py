@@ -5,14 +5,17 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any
+from typing import Any, TypeVar
 
+from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
+from rollnip._errors import CaseFileError
 from rollnip.io.tables import TABLES, CaseTable, Table
 
 _CONTROLS = (("load", "approach"), ("traction", "creepage", "torque_lower"))
 _NAMED = re.compile(r"`(\w+)([^`]*)` (.*)", re.DOTALL)
+T = TypeVar("T", bound=Table)
 _WORDS = {"list_type": "a list", "string_type": "a text", "bool_type": "true or false"}
 
 
@@ -31,6 +34,21 @@ def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
     if "load" not in nip and "approach" not in nip:
         lines.append("nip: must hold load or approach, got neither.")
     return lines
+
+
+def checked_form(
+    tree: Mapping[str, Any], source: str, root: type[T], tables: Mapping[str, type[Table]]
+) -> T:
+    """The tree of a file as its table, where its form is right.
+
+    ``root`` is the table of the whole file, ``tables`` those below it by key. Raises
+    CaseFileError, one line for each error, with the name of the file and the path of the key.
+    """
+    try:
+        return root.model_validate(dict(tree))
+    except ValidationError as error:
+        lines = (form_error(details, tables, root) for details in error.errors())
+        raise CaseFileError("\n".join(f"{source}: {line}" for line in lines)) from None
 
 
 def form_error(

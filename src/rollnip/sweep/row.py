@@ -10,6 +10,7 @@ from typing import Any
 from rollnip._errors import ConvergenceError, RollnipError
 from rollnip.influence import KernelCache
 from rollnip.io import case_hash, parse_case
+from rollnip.io.netcdf import UNITS
 from rollnip.solution import Solution
 from rollnip.solve import solve
 from rollnip.validity import surface_strain_in_nip
@@ -17,19 +18,7 @@ from rollnip.validity import surface_strain_in_nip
 Row = dict[str, float | bool | str | None]
 
 SCALARS: Mapping[str, str] = {
-    "load": "N/mm",
-    "approach": "mm",
-    "traction": "N/mm",
-    "creepage": "1",
-    "speed_ratio": "1",
-    "nip_width": "mm",
-    "dwell_time": "s",
-    "peak_pressure": "MPa",
-    "peak_pressure_x": "mm",
-    "mean_pressure": "MPa",
-    "torque_upper": "N",
-    "torque_lower": "N",
-    "rolling_resistance": "1",
+    **UNITS,
     "dissipation.friction": "N/s",
     "dissipation.viscous": "N/s",
     "max_surface_strain": "1",

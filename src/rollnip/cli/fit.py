@@ -41,7 +41,6 @@ def fit(
         from json import dumps
 
         from rollnip.identify import fit_dict, fit_report, identify, read_fit
-        from rollnip.io import case_toml
 
         study = read_fit(file)
         method = study.method
@@ -50,7 +49,6 @@ def fit(
                 method = replace(method, geometry=_geometry(geometry))
         if out is not None:
             make_folder(out)
-            case_toml(study.case)  # needs an extra: better said before the fit than after it
         with _progress() as on_solve, _named(file):
             found = identify(study.case, study.unknowns, study.cost, method, on_solve=on_solve)
         if out is not None:

@@ -2,7 +2,7 @@
 
 from contextlib import suppress
 from fractions import Fraction
-from math import inf, nan, tau
+from math import inf, nan, pi, tau
 
 import pytest
 from hypothesis import given
@@ -46,6 +46,8 @@ DIMENSIONS = sorted(_KINDS)
         ("40 kHz", "frequency", 40000.0),
         ("1 rad/s", "frequency", 1.0 / tau),
         ("60 1/min", "frequency", 1.0),
+        ("180°", "angle", pi),
+        ("500 mrad", "angle", 0.5),
         # exact to the last bit: one rounding only
         ("0.1 in", "length", 2.54),
         ("1 ft", "length", 304.8),
@@ -134,6 +136,8 @@ def test_reads_exactly(text, dimension, expected):
         ("-inf", "length", "no number"),
         ("10 1/s", "frequency", "turns or radians"),
         ("10 s", "frequency", "that is a time"),
+        ("10", "angle", "the unit is missing"),
+        ("10 deg", "length", "that is an angle"),
     ],
 )
 def test_refuses_what_it_does_not_know(value, dimension, hint):

@@ -9,7 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from fractions import Fraction
-from math import floor, inf, isfinite, log10, tau
+from math import floor, inf, isfinite, log10, pi, tau
 from typing import Literal
 
 from rollnip._errors import InvalidInputError
@@ -26,6 +26,7 @@ Dimension = Literal[
     "ratio",
     "molar energy",
     "frequency",
+    "angle",
 ]
 
 
@@ -162,10 +163,11 @@ _TEMPERATURE = {
     "degF": (Fraction(5, 9), Fraction(-160, 9)),
 }
 _RATIO = _units({"": 1, "1": 1, "%": "1e-2"})
-# A radian a second is 1/(2 pi) Hz: no fraction, so the float nearest to it stands for it.
+# A radian a second is 1/(2 pi) Hz, a degree pi/180: no fractions, so the nearest floats stand.
 _FREQUENCY = _units(
     {"Hz": 1, "mHz": "1e-3", "kHz": 1000, "MHz": 1_000_000, "GHz": 10**9, "1/min": Fraction(1, 60)}
 ) | {"rad/s": (Fraction(1.0 / tau), Fraction(0))}
+_ANGLE = _units({"rad": 1, "mrad": "1e-3"}) | {"deg": (Fraction(pi / 180.0), Fraction(0))}
 _MOLAR = _units({"kJ/mol": 1, "J/mol": "1e-3", "kcal/mol": "4.184", "cal/mol": "4.184e-3"})
 
 _KINDS: dict[Dimension, _Kind] = {
@@ -179,6 +181,7 @@ _KINDS: dict[Dimension, _Kind] = {
     "temperature difference": _Kind("a temperature difference", "K", "51.6 K", _units({"K": 1})),
     "ratio": _Kind("a plain number", "", "0.5 %", _RATIO),
     "frequency": _Kind("a frequency", "Hz", "10 Hz", _FREQUENCY),
+    "angle": _Kind("an angle", "rad", "10 deg", _ANGLE),
     "molar energy": _Kind("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
 }
 
@@ -212,7 +215,7 @@ def parse_quantity(value: object, dimension: Dimension, *, infinite: bool = Fals
     Returns
     -------
     float
-        in mm, N/mm, N, MPa, mm/s, s, degC, 1, kJ/mol or Hz.
+        in mm, N/mm, N, MPa, mm/s, s, degC, 1, kJ/mol, Hz or rad.
 
     Raises
     ------

@@ -87,7 +87,7 @@ def test_compare_finds_itself(folder, tmp_path):
         (("simulate", CASE, "--out", "a.csv", "--geometry", "flat"), "--geometry"),
         (("simulate", CASE, "--out", "no/such/a.csv"), "there is no directory"),
         (("simulate", "none.toml", "--out", "a.csv"), "none.toml"),
-        (("estimate", "none.csv"), "cannot read"),
+        (("estimate", "none.csv"), "cannot be read"),
         (("estimate", "wrong.csv"), "no known column"),
         (("estimate", "few.csv"), "at least 5 valid bursts"),
         (("estimate", "few.csv", "--plot", "a.exe"), "must end in"),

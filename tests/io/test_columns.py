@@ -44,8 +44,49 @@ def test_a_path_may_head_a_column(table):
 
 def test_comments_are_kept_and_lines_counted(table):
     columns = read_columns(table("# roller: 7\nx [mm]\n# not this\n1\n2\n"))
-    assert columns.comments == ("roller: 7", "not this")
+    assert columns.comments == ((1, "roller: 7"), (3, "not this"))
     assert columns.lines == (4, 5)
+
+
+@pytest.mark.parametrize("head", ["x [mm]", "x"])
+@pytest.mark.parametrize("mark", [";", "\t"])
+def test_a_decimal_comma_where_commas_part_nothing(table, head, mark):
+    columns = read_columns(table(f"{head}{mark}y\n1,250{mark}0\n-1,5e2{mark}0\n"))
+    for read in (columns.numbers, columns.samples):
+        assert list(read("x", "length")) == [1.25, -150.0]
+
+
+@pytest.mark.parametrize("head", ["x [mm]", "x"])
+def test_a_comma_that_may_part_thousands_is_refused(table, head):
+    columns = read_columns(table(f'{head},y\n"1,250",0\n'))
+    for read in (columns.numbers, columns.samples):
+        with pytest.raises(InvalidInputError, match=r"the comma may mean 1250 or 1\.250"):
+            read("x", "length")
+
+
+@pytest.mark.parametrize(
+    ("unit", "dimension"),
+    [
+        ("in", "length"),
+        ("kHz", "frequency"),
+        ("degF", "temperature"),
+        ("°", "angle"),
+        ("%", "ratio"),
+    ],
+)
+def test_samples_are_the_numbers(table, unit, dimension):
+    columns = read_columns(table(f"a [{unit}]\n0.3\n-7\n1e3\n.5\n"))
+    np.testing.assert_allclose(
+        columns.samples("a", dimension), columns.numbers("a", dimension), rtol=1e-14
+    )
+
+
+def test_a_unit_may_have_to_be_said(table):
+    columns = read_columns(table("a,b [mm],c\n1,2,3 mm\n4,5,6 mm\n"))
+    for name in "bc":
+        columns.require_unit(name, "length")
+    with pytest.raises(InvalidInputError, match=r'"a" must say its unit, such as "a \[mm\]"'):
+        columns.require_unit("a", "length")
 
 
 @pytest.mark.parametrize(
@@ -62,7 +103,7 @@ def test_comments_are_kept_and_lines_counted(table):
         ("load [N/mm]\nlots\n", 'line 2: "load"'),
         ("load [N/mm],x\n,1\n", 'line 2: "load" must not be empty'),
         ("load\nnan\n", 'line 2: "load"'),
-        ("load\n1e999\n", "must be a finite number"),
+        ("load\n1e999\n", "beyond what can be computed with"),
         ("lad [N/mm]\n1\n", 'did you mean "lad"'),
     ],
 )
@@ -156,6 +197,14 @@ def test_the_first_sheet_counts_and_comments_and_blank_rows_do_not(tmp_path):
     workbook(path, {"one": [["# measured"], ["load", "note"], ["", ""], [1.5, ""]], "two": [["a"]]})
     columns = read_columns(path)
     assert columns.rows == ((1.5, ""),)
+    assert columns.lines == (4,)
+
+
+def test_comments_of_a_workbook_are_kept(tmp_path):
+    path = tmp_path / "data.xlsx"
+    workbook(path, {"one": [["# roller:", 7.0], ["x [mm]", "y"], ["#2"], [1.0, 2.0]]})
+    columns = read_columns(path)
+    assert columns.comments == ((1, "roller: 7.0"), (3, "2"))
     assert columns.lines == (4,)
 
 

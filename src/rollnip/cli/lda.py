@@ -11,6 +11,7 @@ import typer
 from rollnip._errors import InvalidInputError, RollnipError
 
 if TYPE_CHECKING:
+    from rollnip._units import Dimension
     from rollnip.io.velocities import Settings
     from rollnip.lda import Comparison, Instrument, Scan
     from rollnip.solution import Solution
@@ -180,29 +181,26 @@ def _settings(
     """What the options say; a message names the option."""
     from rollnip._units import parse_quantity
     from rollnip.cli.app import _named
-    from rollnip.io.velocities import Settings, parse_angle, parse_frequency
+    from rollnip.io.velocities import Settings
 
-    def positive(option: str, text: str | None, read: Any, *, zero: bool = False) -> float | None:
+    def read(option: str, text: str | None, kind: Dimension) -> float | None:
         if text is None:
             return None
         with _named(option):
-            value = float(read(text))
-            if not (zero or value > 0.0):
+            value = parse_quantity(text, kind)
+            if value <= 0.0 and option != "--shift":
                 raise InvalidInputError(f"must be positive, got {text}.")
         return value
-
-    def length(text: str) -> float:
-        return parse_quantity(text, "length")
 
     if roller not in (None, "upper", "lower"):
         raise InvalidInputError(f'`--roller` must be "upper" or "lower", got "{roller}".')
     return Settings(
-        wavelength=positive("--wavelength", wavelength, length),
-        beam_angle=positive("--beam-angle", beam_angle, parse_angle),
-        half_width=positive("--half-width", half_width, length),
-        sample_rate=positive("--sample-rate", sample_rate, parse_frequency),
-        shift=positive("--shift", shift, parse_frequency, zero=True),
-        roller_speed=positive("--speed", speed, lambda text: parse_quantity(text, "speed")),
+        wavelength=read("--wavelength", wavelength, "length"),
+        beam_angle=read("--beam-angle", beam_angle, "angle"),
+        half_width=read("--half-width", half_width, "length"),
+        sample_rate=read("--sample-rate", sample_rate, "frequency"),
+        shift=read("--shift", shift, "frequency"),
+        roller_speed=read("--speed", speed, "speed"),
         roller=roller,
     )
 

@@ -216,17 +216,8 @@ def _constant(columns: Columns, name: str, given: float | None) -> Array:
 
 def _numbers(columns: Columns, name: str, dimension: Dimension) -> Array:
     """A column whose unit must be said: moduli come in Pa and MPa, temperatures in degC and K."""
-    bare = any(isinstance(c, float) or not _has_letters(c) for c in columns.cells(name))
-    if not columns.unit(name) and bare:
-        wanted = {"pressure": "MPa", "frequency": "Hz", "temperature": "degC"}[dimension]
-        raise InvalidInputError(
-            f'{columns.source}: column "{name}" must say its unit, such as "{name} [{wanted}]".'
-        )
+    columns.require_unit(name, dimension)
     return columns.numbers(name, dimension)
-
-
-def _has_letters(cell: str | float) -> bool:
-    return any(letter.isalpha() and letter not in "eE" for letter in str(cell))
 
 
 def _found(heads: dict[str, str], names: Sequence[str]) -> str | None:

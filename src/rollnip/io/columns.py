@@ -1,6 +1,6 @@
 """Tables of measurements and of cases: CSV or Excel, units in the column heads.
 
-    # anything after a hash is a comment
+    # lines behind a hash are comments
     load [N/mm]; nip width [mm]
     1,5;         4,2
 
@@ -14,18 +14,17 @@ import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
-from io import StringIO
-from math import isfinite
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, RollnipError
-from rollnip._units import Dimension, parse_quantity
+from rollnip._units import Dimension, base_unit, parse_quantity
 
 Array = NDArray[np.float64]
 Cell = str | float
+_Line = tuple[int, list[Cell]]
 
 LARGEST = 64 * 2**20  # bytes
 EXCEL = (".xlsx", ".xls", ".xlsb", ".ods")
@@ -42,7 +41,8 @@ class Columns:
     units : as in the head, empty where there is none.
     rows : (n, len(names)) cells; an empty one is "".
     lines : (n,) line of the file, or row of the sheet, each row stands in.
-    comments : lines behind a hash, without it.
+    comments : (line, text) behind each hash, without it.
+    decimal_comma : whether a comma in a number can only be a decimal one.
     """
 
     source: str
@@ -50,7 +50,8 @@ class Columns:
     units: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
     lines: tuple[int, ...]
-    comments: tuple[str, ...] = ()
+    comments: tuple[tuple[int, str], ...] = ()
+    decimal_comma: bool = False
 
     def cells(self, name: str) -> tuple[Cell, ...]:
         """The cells of one column. Raises InvalidInputError where there is no such column."""
@@ -80,13 +81,34 @@ class Columns:
             naming file, line and column: no such column, a unit of another kind, a cell that is
             empty or no number.
         """
-        unit = self.unit(name)
-        self._check_unit(name, unit, dimension)
+        self._scale(name, dimension)
         values = [
-            self._number(cell, line, name, unit, dimension)
+            self._number(cell, line, name, dimension)
             for cell, line in zip(self.cells(name), self.lines, strict=True)
         ]
         return np.array(values, dtype=float)
+
+    def samples(self, name: str, dimension: Dimension) -> Array:
+        """As `numbers`, for the many readings of an instrument: ten times as fast.
+
+        All plain numbers are converted at once, which rounds each once more.
+        """
+        scale, offset = self._scale(name, dimension)
+        try:
+            plain = np.array([_plain(cell) for cell in self.cells(name)], dtype=float)
+        except ValueError:
+            return self.numbers(name, dimension)
+        values = scale * plain + offset
+        return values if np.all(np.isfinite(values)) else self.numbers(name, dimension)
+
+    def require_unit(self, name: str, dimension: Dimension) -> None:
+        """Raise InvalidInputError unless the head, or every cell, says its unit."""
+        if self.unit(name) or not any(_is_plain(cell) for cell in self.cells(name)):
+            return
+        raise InvalidInputError(
+            f'{self.source}: column "{name}" must say its unit, such as '
+            f'"{name} [{base_unit(dimension)}]".'
+        )
 
     def _index(self, name: str) -> int:
         if name in self.names:
@@ -95,23 +117,27 @@ class Columns:
         hint = f'did you mean "{near[0]}"?' if near else f"has {', '.join(self.names)}."
         raise InvalidInputError(f'{self.source}: has no column "{name}"; {hint}')
 
-    def _check_unit(self, name: str, unit: str, dimension: Dimension) -> None:
+    def _scale(self, name: str, dimension: Dimension) -> tuple[float, float]:
+        """Scale and offset from the unit in the head to the base unit."""
+        unit = self.unit(name)
+        if not unit:
+            return 1.0, 0.0
         try:
-            parse_quantity(f"1 {unit}" if unit else 1.0, dimension)
+            offset = parse_quantity(f"0 {unit}", dimension)
+            return parse_quantity(f"1 {unit}", dimension) - offset, offset
         except InvalidInputError as problem:
             raise InvalidInputError(f'{self.source}: unit of column "{name}" {problem}') from None
 
-    def _number(self, cell: Cell, line: int, name: str, unit: str, dimension: Dimension) -> float:
+    def _number(self, cell: Cell, line: int, name: str, dimension: Dimension) -> float:
         where = f'{self.source}, line {line}: "{name}"'
         if cell == "":
             raise InvalidInputError(f"{where} must not be empty.")
         written = f"{cell!r}" if isinstance(cell, float) else cell
-        if unit:
-            written = f"{written} {unit}"
-        elif _is_plain(written):
-            return _finite(written, where)
+        if self.decimal_comma and written.count(",") == 1 and "." not in written:
+            written = written.replace(",", ".")
+        unit = self.unit(name) or (base_unit(dimension) if _is_plain(cell) else "")
         try:
-            return parse_quantity(written, dimension)
+            return parse_quantity(f"{written} {unit}".rstrip(), dimension)
         except InvalidInputError as problem:
             raise InvalidInputError(f"{where} {problem}") from None
 
@@ -134,14 +160,14 @@ def read_columns(path: str | Path, *, sheet: str | None = None) -> Columns:
     """
     file = Path(path)
     _check_size(file)
-    comments: list[str] = []
+    decimal_comma = False
     if file.suffix.lower() in EXCEL:
-        numbered = _sheet_rows(file, sheet)
+        numbered = list(_sheet_rows(file, sheet))
     else:
         if sheet is not None:
             raise InvalidInputError(f"{path}: is a text file and has no sheets; leave out `sheet`.")
-        numbered, comments = _text_rows(file)
-    return _columns(str(path), list(numbered), comments)
+        numbered, decimal_comma = _text_rows(file)
+    return _columns(str(path), numbered, decimal_comma)
 
 
 def _check_size(file: Path) -> None:
@@ -156,29 +182,28 @@ def _check_size(file: Path) -> None:
         raise InvalidInputError(f"{file}: must be at most {LARGEST >> 20} MiB large.")
 
 
-def _text_rows(file: Path) -> tuple[Iterator[tuple[int, list[Cell]]], list[str]]:
+def _text_rows(file: Path) -> tuple[list[_Line], bool]:
+    """Lines parted into cells (a comment is one cell), and whether a comma is a decimal one."""
     try:
         text = file.read_text("utf-8-sig")
     except OSError as problem:
         raise InvalidInputError(f"{file}: cannot be read: {problem.strerror}.") from None
     except UnicodeDecodeError:
         raise InvalidInputError(f"{file}: must be a text file in UTF-8.") from None
-    comments, body = [], []
-    for number, line in enumerate(text.splitlines(), start=1):
-        if line.lstrip().startswith("#"):
-            comments.append(line.lstrip().lstrip("#").strip())
-        elif line.strip():
-            body.append((number, line))
-    head = body[0][1] if body else ""
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+    head = next((line for _, line in lines if not _is_comment(line)), "")
     mark = next((mark for mark in (";", "\t") if mark in head), ",")
-    return ((number, _split(line, mark)) for number, line in body), comments
+    parted: list[_Line] = [
+        (number, [line] if _is_comment(line) else _split(line, mark)) for number, line in lines
+    ]
+    return parted, mark != ","
 
 
 def _split(line: str, mark: str) -> list[Cell]:
-    return [cell.strip() for cell in next(csv.reader(StringIO(line), delimiter=mark))]
+    return [cell.strip() for cell in next(csv.reader([line], delimiter=mark))]
 
 
-def _sheet_rows(file: Path, sheet: str | None) -> Iterator[tuple[int, list[Cell]]]:
+def _sheet_rows(file: Path, sheet: str | None) -> Iterator[_Line]:
     try:
         from python_calamine import CalamineError, CalamineWorkbook
     except ImportError:
@@ -194,7 +219,7 @@ def _sheet_rows(file: Path, sheet: str | None) -> Iterator[tuple[int, list[Cell]
         raise InvalidInputError(f"{file}: cannot be read as a workbook: {problem}.") from None
     for number, row in enumerate(rows, start=1):
         cells = [_cell(value) for value in row]
-        if any(cell != "" for cell in cells) and not str(cells[0]).startswith("#"):
+        if any(cell != "" for cell in cells):
             yield number, cells
 
 
@@ -214,9 +239,13 @@ def _cell(value: object) -> Cell:
     return str(value).strip()
 
 
-def _columns(
-    source: str, numbered: list[tuple[int, list[Cell]]], comments: Sequence[str]
-) -> Columns:
+def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> Columns:
+    comments = tuple(
+        (number, " ".join(map(str, cells)).strip().lstrip("#").strip())
+        for number, cells in lines
+        if _is_comment(cells[0])
+    )
+    numbered = [(number, cells) for number, cells in lines if not _is_comment(cells[0])]
     if len(numbered) < 2:
         raise InvalidInputError(f"{source}: must hold a line of column names and rows below it.")
     heads = [str(head) for head in numbered[0][1]]
@@ -227,8 +256,15 @@ def _columns(
     if twice is not None:
         raise InvalidInputError(f'{source}: column "{twice}" must not be there twice.')
     rows = [_row(source, line, cells, len(names)) for line, cells in numbered[1:]]
-    lines = tuple(line for line, _ in numbered[1:])
-    return Columns(source, names, units, tuple(rows), lines, tuple(comments))
+    return Columns(
+        source=source,
+        names=names,
+        units=units,
+        rows=tuple(rows),
+        lines=tuple(line for line, _ in numbered[1:]),
+        comments=comments,
+        decimal_comma=decimal_comma,
+    )
 
 
 def _head(head: str, source: str) -> tuple[str, str]:
@@ -252,15 +288,19 @@ def _row(source: str, line: int, cells: list[Cell], count: int) -> tuple[Cell, .
     return tuple(cells)
 
 
-def _is_plain(text: str) -> bool:
-    return not any(letter.isalpha() and letter not in "eE" for letter in text) and "%" not in text
+def _is_comment(cell: Cell) -> bool:
+    return str(cell).lstrip().startswith("#")
 
 
-def _finite(text: str, where: str) -> float:
-    try:
-        value = float(text.replace(",", ".") if text.count(",") == 1 and "." not in text else text)
-    except ValueError:
-        value = float("nan")
-    if not isfinite(value):
-        raise InvalidInputError(f'{where} must be a finite number, got "{text[:60]}".')
-    return value
+def _is_plain(cell: Cell) -> bool:
+    """Whether a cell holds no unit."""
+    return not any(
+        (letter.isalpha() and letter not in "eE") or letter in "%°" for letter in str(cell)
+    )
+
+
+def _plain(cell: Cell) -> float:
+    """A cell that is a number; raises ValueError where only a closer look can say so."""
+    if isinstance(cell, str) and "_" in cell:
+        raise ValueError(cell)
+    return float(cell)

@@ -10,11 +10,9 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
-from rollnip._units import parse_quantity
-from rollnip.io.columns import Columns, read_columns
+from rollnip.io.columns import read_columns
 from rollnip.rollers import Profile
 
 
@@ -31,21 +29,10 @@ def read_profile(path: str | Path) -> Profile:
         empty or no number, places do not run in one direction, samples are too many.
     """
     table = read_columns(path)
-    x, height = _lengths(table, "x"), _lengths(table, "height")
+    x, height = table.samples("x", "length"), table.samples("height", "length")
     if x.size > 1 and np.all(np.diff(x) < 0.0):
         x, height = x[::-1], height[::-1]
     try:
         return Profile(x=x, height=height)
     except InvalidInputError as problem:
         raise InvalidInputError(f"{table.source}: {problem}") from None
-
-
-def _lengths(table: Columns, name: str) -> NDArray[np.float64]:
-    """One column in mm; all at once where every cell is a plain number, ten times as fast."""
-    unit = table.unit(name)
-    try:
-        scale = parse_quantity(f"1 {unit}" if unit else 1.0, "length")
-        plain = scale * np.array(table.cells(name), dtype=float)
-    except ValueError:
-        return table.numbers(name, "length")
-    return plain if np.all(np.isfinite(plain)) else table.numbers(name, "length")

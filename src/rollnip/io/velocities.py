@@ -1,4 +1,4 @@
-"""Measured velocities as CSV: units in the column heads, the instrument in comment lines.
+"""Measured velocities as tables: units in the column heads, the instrument in comment lines.
 
     # wavelength: 632.8 nm
     # beam angle: 10 deg
@@ -7,16 +7,15 @@
 
 A column is ``x`` and one of ``velocity`` and ``frequency``, and may be ``stay`` (of the scatterer
 in the volume), ``error`` (a standard error, in the column's own unit; each row is then a mean)
-and ``snr``. Rows are single bursts unless ``error`` is there.
+and ``snr``, which is passed over. Rows are single bursts unless ``error`` is there.
 """
 
 from __future__ import annotations
 
-import csv
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from difflib import get_close_matches
-from math import degrees, inf, isfinite, radians
+from math import degrees, inf
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +23,7 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension, parse_quantity
+from rollnip.io.columns import Columns, read_columns
 from rollnip.lda import (
     Instrument,
     Scan,
@@ -37,18 +37,13 @@ from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
 
-_FREQUENCY = {"Hz": 1.0, "kHz": 1e3, "MHz": 1e6, "GHz": 1e9, "1/s": 1.0}
-_ANGLE = {"rad": 1.0, "mrad": 1e-3, "deg": radians(1.0), "°": radians(1.0)}
-_COLUMNS = {
+_COLUMNS: Mapping[str, Dimension] = {
     "x": "length",
-    "position": "length",
     "velocity": "speed",
     "frequency": "frequency",
     "stay": "time",
-    "error": "",
-    "snr": "ratio",
 }
-_LARGEST = 64 * 2**20  # bytes
+_NAMES = ("x", "position", "velocity", "frequency", "stay", "error", "snr")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -155,9 +150,9 @@ class Readings:
 
 
 def read_velocities(path: str | Path) -> Readings:
-    """Read a CSV file of positions and velocities or frequencies, one row per burst or mean.
+    """Read a table of positions and velocities or frequencies, one row per burst or mean.
 
-    Parts are separated by commas, semicolons or tabs; a decimal comma needs one of the latter.
+    CSV, or a workbook, as `rollnip.io.read_columns` reads them.
 
     Raises
     ------
@@ -165,29 +160,21 @@ def read_velocities(path: str | Path) -> Readings:
         naming file, line and column: it cannot be read, columns are wrong or twice there, a unit
         is missing or of the wrong kind, a cell is empty or no number.
     """
-    source = str(path)
-    text = _text(Path(path))
-    comments, body = [], []
-    for number, line in enumerate(text.splitlines(), start=1):
-        if line.lstrip().startswith("#"):
-            comments.append((number, line.lstrip().lstrip("#").strip()))
-        elif line.strip():
-            body.append((number, line))
-    if not body:
-        raise InvalidInputError(f"{source}: must hold a line of column names and rows, has none.")
-    head = body[0][1]
-    delimiter = next((mark for mark in (";", "\t") if mark in head), ",")
-    names, scales = _columns(next(csv.reader([head], delimiter=delimiter)), source)
-    if len(body) == 1:
-        raise InvalidInputError(f"{source}: must hold rows below the column names, has none.")
-    rows = [_row(line, number, delimiter, names, source) for number, line in body[1:]]
-    table = dict(zip(names, np.array(rows, dtype=float).T * np.array(scales)[:, None], strict=True))
+    table = read_columns(path)
+    heads = _heads(table)
+    kinds = dict(_COLUMNS)
+    kinds["error"] = kinds["velocity" if "velocity" in heads else "frequency"]
+    read = {}
+    for name, kind in kinds.items():
+        if name in heads:
+            table.require_unit(heads[name], kind)
+            read[name] = table.samples(heads[name], kind)
     return Readings(
-        source=source,
-        settings=_settings(comments, source),
-        simulated=any(said.lower().startswith("simulated") for _, said in comments),
-        x=table["x"],
-        **{name: table.get(name) for name in ("velocity", "frequency", "stay", "error")},
+        source=table.source,
+        settings=_settings(table),
+        simulated=any(said.lower().startswith("simulated") for _, said in table.comments),
+        x=read["x"],
+        **{name: read.get(name) for name in ("velocity", "frequency", "stay", "error")},
     )
 
 
@@ -243,56 +230,27 @@ def profile_csv(profile: VelocityProfile) -> str:
     return "\n".join([*lines, *(",".join(f"{v:.8g}" for v in row) for row in rows)]) + "\n"
 
 
-def parse_frequency(text: str) -> float:
-    """Read "40 kHz" as 40000 [Hz]. Raises InvalidInputError."""
-    return _scaled(text, _FREQUENCY, "a frequency such as 40 kHz")
-
-
-def parse_angle(text: str) -> float:
-    """Read "10 deg" as 0.1745 [rad]. Raises InvalidInputError."""
-    return _scaled(text, _ANGLE, "an angle such as 10 deg")
-
-
-def _scaled(text: str, units: dict[str, float], what: str) -> float:
-    cleaned = text.strip()
-    for unit in sorted(units, key=len, reverse=True):
-        if cleaned.endswith(unit):
-            try:
-                return parse_quantity(cleaned.removesuffix(unit).strip(), "ratio") * units[unit]
-            except InvalidInputError:
-                break
-    raise InvalidInputError(f'must be {what}, got "{text[:60]}".')
-
-
 def _roller(text: str) -> str:
     if text not in ("upper", "lower"):
         raise InvalidInputError(f'must be "upper" or "lower", got "{text[:60]}".')
     return text
 
 
-def _length(text: str) -> float:
-    return parse_quantity(text, "length")
-
-
-def _speed(text: str) -> float:
-    return parse_quantity(text, "speed")
-
-
-_SAID: dict[str, Callable[[str], float | str]] = {
-    "wavelength": _length,
-    "beam angle": parse_angle,
-    "half width": _length,
-    "sample rate": parse_frequency,
-    "shift": parse_frequency,
-    "roller speed": _speed,
+_SAID: Mapping[str, Callable[[str], float | str]] = {
+    "wavelength": lambda text: parse_quantity(text, "length"),
+    "beam angle": lambda text: parse_quantity(text, "angle"),
+    "half width": lambda text: parse_quantity(text, "length"),
+    "sample rate": lambda text: parse_quantity(text, "frequency"),
+    "shift": lambda text: parse_quantity(text, "frequency"),
+    "roller speed": lambda text: parse_quantity(text, "speed"),
     "roller": _roller,
 }
 
 
-def _settings(comments: list[tuple[int, str]], source: str) -> Settings:
+def _settings(table: Columns) -> Settings:
     """What comment lines of the form ``key: value`` say; others are only comments."""
     said: dict[str, float | str] = {}
-    for number, line in comments:
+    for number, line in table.comments:
         key, colon, value = line.partition(":")
         key = key.strip().lower()
         if not colon or key not in _SAID:
@@ -300,79 +258,26 @@ def _settings(comments: list[tuple[int, str]], source: str) -> Settings:
         try:
             said[key.replace(" ", "_")] = _SAID[key](value.strip())
         except InvalidInputError as problem:
-            raise InvalidInputError(f"{source}, line {number}: `{key}` {problem}") from None
+            raise InvalidInputError(f"{table.source}, line {number}: `{key}` {problem}") from None
     return Settings(**said)  # type: ignore[arg-type]
 
 
-def _text(path: Path) -> str:
-    try:
-        if path.stat().st_size > _LARGEST:
-            raise InvalidInputError(f"{path}: must be at most {_LARGEST >> 20} MiB large.")
-        return path.read_text("utf-8-sig")
-    except OSError as problem:
-        raise InvalidInputError(f"{path}: cannot read: {problem.strerror or problem}.") from None
-    except UnicodeDecodeError:
-        raise InvalidInputError(f"{path}: must be a text file in UTF-8.") from None
-
-
-def _columns(heads: list[str], source: str) -> tuple[list[str], list[float]]:
-    """Names of the columns, and what their numbers are multiplied with."""
-    names: list[str] = []
-    units: dict[str, str] = {}
-    for head in heads:
-        name, _, rest = head.strip().partition("[")
-        name = name.strip().lower()
-        if name not in _COLUMNS:
-            near = get_close_matches(name, _COLUMNS, n=1)
-            hint = f"did you mean `{near[0]}`?" if near else f"known are {', '.join(_COLUMNS)}."
-            raise InvalidInputError(f"{source}: `{name or head}` is no known column; {hint}")
+def _heads(table: Columns) -> dict[str, str]:
+    """Names of the columns as they stand in the table, by what they hold."""
+    heads: dict[str, str] = {}
+    for head in table.names:
+        name = head.lower()
+        if name not in _NAMES:
+            near = get_close_matches(name, _NAMES, n=1)
+            hint = f'did you mean "{near[0]}"?' if near else f"known are {', '.join(_NAMES)}."
+            raise InvalidInputError(f'{table.source}: "{head}" is no known column; {hint}')
         name = "x" if name == "position" else name
-        if name in names:
-            raise InvalidInputError(f"{source}: column `{name}` must not be there twice.")
-        names.append(name)
-        units[name] = rest.strip().removesuffix("]").strip()
-    if "x" not in names or ("velocity" in names) == ("frequency" in names):
+        if name in heads:
+            raise InvalidInputError(f'{table.source}: column "{name}" must not be there twice.')
+        heads[name] = head
+    if "x" not in heads or ("velocity" in heads) == ("frequency" in heads):
         raise InvalidInputError(
-            f"{source}: must have the columns `x` and either `velocity` or `frequency`, has "
-            f"{', '.join(names)}."
+            f'{table.source}: must have the columns "x" and either "velocity" or "frequency", has '
+            f"{', '.join(table.names)}."
         )
-    kind = "velocity" if "velocity" in names else "frequency"
-    scales = []
-    for name in names:
-        dimension = _COLUMNS[kind if name == "error" else name]
-        try:
-            scales.append(_scale(units[name], dimension))
-        except InvalidInputError as problem:
-            raise InvalidInputError(f"{source}: unit of column `{name}` {problem}") from None
-    return names, scales
-
-
-def _scale(unit: str, dimension: str) -> float:
-    if dimension == "frequency":
-        return parse_frequency(f"1 {unit}")
-    known: dict[str, Dimension] = {
-        "length": "length", "speed": "speed", "time": "time", "ratio": "ratio"
-    }  # fmt: skip
-    return parse_quantity(f"1 {unit}".strip(), known[dimension])
-
-
-def _row(line: str, number: int, delimiter: str, names: list[str], source: str) -> list[float]:
-    cells = [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter))]
-    if len(cells) != len(names):
-        raise InvalidInputError(
-            f"{source}, line {number}: must have {len(names)} cells, has {len(cells)}."
-        )
-    values = []
-    for name, cell in zip(names, cells, strict=True):
-        if not cell:
-            raise InvalidInputError(f"{source}, line {number}: `{name}` must not be empty.")
-        try:
-            value = float(cell.replace(",", ".") if delimiter != "," else cell)
-        except ValueError:
-            value = float("nan")
-        if not isfinite(value):
-            raise InvalidInputError(
-                f'{source}, line {number}: `{name}` must be a finite number, got "{cell[:60]}".'
-            )
-        values.append(value)
-    return values
+    return heads

@@ -26,6 +26,7 @@ _SHOWN: dict[Dimension, tuple[str, str]] = {
     "ratio": ("", ""),
     "molar energy": ("kJ/mol", "kcal/mol"),
     "frequency": ("Hz", "Hz"),
+    "angle": ("deg", "deg"),
 }
 
 

@@ -87,6 +87,8 @@ def test_compare_finds_itself(folder, tmp_path):
         (("simulate", CASE, "--out", "a.csv", "--geometry", "flat"), "--geometry"),
         (("simulate", CASE, "--out", "no/such/a.csv"), "there is no directory"),
         (("simulate", "none.toml", "--out", "a.csv"), "none.toml"),
+        (("simulate", "none.toml", "--out", "folder"), "none.toml"),
+        (("simulate", CASE, "--out", "wrong.txt"), "wrong.txt: must be a folder, it is a file."),
         (("estimate", "none.csv"), "cannot be read"),
         (("estimate", "wrong.csv"), "no known column"),
         (("estimate", "few.csv"), "at least 5 valid bursts"),
@@ -100,6 +102,7 @@ def test_compare_finds_itself(folder, tmp_path):
 def test_wrong_input_is_one_line_and_exit_2(tmp_path, monkeypatch, arguments, hint):
     monkeypatch.chdir(tmp_path)
     Path("wrong.csv").write_text("x [mm],speed [mm/s]\n1,2\n", "utf-8")
+    Path("wrong.txt").touch()
     Path("few.csv").write_text("x [mm],velocity [mm/s]\n1,2\n", "utf-8")
     far = "".join(f"{x},100,1\n" for x in range(50, 60))
     Path("outside.csv").write_text("x [mm],velocity [mm/s],error [mm/s]\n" + far, "utf-8")

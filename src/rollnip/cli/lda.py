@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 
 import typer
 
-from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._errors import InvalidInputError
 
 if TYPE_CHECKING:
     from rollnip._units import Dimension
@@ -70,8 +70,8 @@ def simulate(
         seeding = Seeding(bursts=bursts, snr=snr, spread=fraction)
         if seed < 0:
             raise InvalidInputError(f"`--seed` must be zero or positive, got {seed}.")
-        _check_out(out)
         solution, source = _solved(case, geometry)
+        _make_ready(out)
         with _named(source):
             scan = simulate_scan(
                 solution, instrument, seeding, side=_side(known), positions=positions, seed=seed
@@ -249,14 +249,14 @@ def _check_targets(out: Path | None, plot: Path | None) -> None:
         check_target(plot, (".png", ".svg", ".pdf"))
 
 
-def _check_out(out: Path) -> None:
-    """Raise RollnipError unless ``out`` is a possible file name.csv or folder."""
-    from rollnip._files import check_target
+def _make_ready(out: Path) -> None:
+    """Raise RollnipError unless ``out`` is a possible file name.csv, or a folder, made if need be."""
+    from rollnip._files import check_target, make_folder
 
     if out.suffix.lower() == ".csv":
         check_target(out, (".csv",))
-    elif out.exists() and not out.is_dir():
-        raise RollnipError(f"{out}: must be a folder or a name that ends in .csv.")
+    else:
+        make_folder(out)
 
 
 def _write_text(path: Path, text: str) -> None:
@@ -271,10 +271,6 @@ def _write_scan(scan: Scan, solution: Solution, out: Path) -> None:
     if out.suffix.lower() == ".csv":
         _write_text(out, scan_csv(scan))
         return
-    try:
-        out.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise RollnipError(f"{out}: cannot make the folder: {error.strerror or error}.") from error
     from rollnip.plots.lda import save_record
 
     _write_text(out / "bursts.csv", scan_csv(scan))

@@ -250,7 +250,7 @@ def _check_targets(out: Path | None, plot: Path | None) -> None:
 
 
 def _make_ready(out: Path) -> None:
-    """Raise RollnipError unless ``out`` is a possible file name.csv, or a folder, made if need be."""
+    """Make ``out`` a folder unless it is a file name.csv; RollnipError where it can be neither."""
     from rollnip._files import check_target, make_folder
 
     if out.suffix.lower() == ".csv":

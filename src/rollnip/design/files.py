@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
+from itertools import chain
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, TypeVar
 
 from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip.design.aims import AtLeast, AtMost, Limit, Maximise, Minimise, Objective
@@ -26,6 +28,8 @@ from rollnip.design.scatter import Sampling
 from rollnip.design.search import Search
 from rollnip.io import value_at
 from rollnip.io.designs import (
+    BoundsTable,
+    CorrelationTable,
     LimitTable,
     ObjectiveTable,
     SamplingPlanTable,
@@ -36,6 +40,9 @@ from rollnip.io.designs import (
 )
 from rollnip.io.document import read_document
 from rollnip.io.messages import placed
+
+_Entry = TypeVar("_Entry")
+_Read = TypeVar("_Read")
 
 _KEYS = {
     "normal": ("mean", "deviation"),
@@ -85,15 +92,10 @@ def read_optimise(path: str | Path) -> OptimiseStudy:
     source = str(path)
     table = parse_optimise(read_document(path), source)
     case = _case(table.case, path)
-    parameters = []
-    for index, one in enumerate(table.parameters):
-        with _at(source, f"parameters[{index}]"):
-            parameters.append(Bounds(one.path, one.low, one.high))
-            interval(case, parameters[-1])
     return OptimiseStudy(
         title=table.title or str(case.get("title", "")),
         case=case,
-        parameters=tuple(parameters),
+        parameters=_each(table.parameters, source, "parameters", partial(_bounds, case)),
         objective=_objective(table.objective, source),
         limits=_limits(table.limits, source),
         search=_search(table.search, source),
@@ -115,33 +117,26 @@ def read_tolerance(path: str | Path) -> ToleranceStudy:
     source = str(path)
     table = parse_tolerance(read_document(path), source)
     case = _case(table.case, path)
-    parameters = []
-    for index, one in enumerate(table.parameters):
-        with _at(source, f"parameters[{index}]"):
-            dimension = parameter_dimension(case, one.path)
-            parameters.append(Varied(one.path, _distribution(one, case)))
-            frozen(parameters[-1].distribution, dimension)
-    for index, name in enumerate(table.results):
-        with _at(source, f"results[{index}]"):
-            _require_result(name)
-    correlations = []
-    for index, pair in enumerate(table.correlations):
-        with _at(source, f"correlations[{index}]"):
-            if len(pair.between) != 2:
-                raise InvalidInputError(
-                    f"`between` must name two parameters, got {len(pair.between)}."
-                )
-            one_path, other_path = pair.between
-            correlations.append(Correlation(one_path, other_path, pair.coefficient))
     return ToleranceStudy(
         title=table.title or str(case.get("title", "")),
         case=case,
-        parameters=tuple(parameters),
-        results=tuple(table.results),
+        parameters=_each(table.parameters, source, "parameters", partial(_varied, case)),
+        results=_each(table.results, source, "results", _result),
         limits=_limits(table.limits, source),
-        correlations=tuple(correlations),
+        correlations=_each(table.correlations, source, "correlations", _correlation),
         sampling=_sampling(table.sampling, source),
     )
+
+
+def _each(
+    entries: Sequence[_Entry], source: str, key: str, read: Callable[[_Entry], _Read]
+) -> tuple[_Read, ...]:
+    """What each entry of a list says; a fault carries the file and the place in it."""
+    found = []
+    for index, entry in enumerate(entries):
+        with _at(source, f"{key}[{index}]"):
+            found.append(read(entry))
+    return tuple(found)
 
 
 @contextmanager
@@ -175,24 +170,47 @@ def _objective(table: ObjectiveTable, source: str) -> Objective:
         return Maximise(str(table.maximise))
 
 
+def _bounds(case: Mapping[str, Any], table: BoundsTable) -> Bounds:
+    bounds = Bounds(table.path, table.low, table.high)
+    interval(case, bounds)
+    return bounds
+
+
+def _varied(case: Mapping[str, Any], table: VariedTable) -> Varied:
+    dimension = parameter_dimension(case, table.path)
+    varied = Varied(table.path, _distribution(table, case))
+    frozen(varied.distribution, dimension)
+    return varied
+
+
 def _limits(tables: Sequence[LimitTable], source: str) -> tuple[Limit, ...]:
+    return tuple(chain.from_iterable(_each(tables, source, "limits", _both_limits)))
+
+
+def _both_limits(table: LimitTable) -> list[Limit]:
+    if table.at_least is None and table.at_most is None:
+        raise InvalidInputError("must hold at_least, at_most or both, got neither.")
     limits: list[Limit] = []
-    for index, table in enumerate(tables):
-        with _at(source, f"limits[{index}]"):
-            if table.at_least is None and table.at_most is None:
-                raise InvalidInputError("must hold at_least, at_most or both, got neither.")
-            if table.at_least is not None:
-                limits.append(AtLeast(table.result, table.at_least))
-            if table.at_most is not None:
-                limits.append(AtMost(table.result, table.at_most))
-    return tuple(limits)
+    if table.at_least is not None:
+        limits.append(AtLeast(table.result, table.at_least))
+    if table.at_most is not None:
+        limits.append(AtMost(table.result, table.at_most))
+    return limits
 
 
-def _require_result(name: str) -> None:
+def _correlation(table: CorrelationTable) -> Correlation:
+    if len(table.between) != 2:
+        raise InvalidInputError(f"`between` must name two parameters, got {len(table.between)}.")
+    one, other = table.between
+    return Correlation(one, other, table.coefficient)
+
+
+def _result(name: str) -> str:
     try:
         require_quantity(name)
     except InvalidInputError as error:
         raise InvalidInputError(str(error).removeprefix("`quantity` ")) from None
+    return name
 
 
 def _search(table: SearchTable, source: str) -> Search:

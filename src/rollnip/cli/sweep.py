@@ -88,7 +88,7 @@ def run(
         from rollnip.sweep.store import About, Store
         from rollnip.sweep.study_file import read_study
         from rollnip.sweep.table import check_table_target
-        from rollnip.sweep.task import own_version
+        from rollnip.sweep.version import own_version
 
         part = _shard(shard)
         table = out or Path(f"{'study' if study == '-' else Path(study).stem}.csv")

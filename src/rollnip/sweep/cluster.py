@@ -8,9 +8,9 @@ from contextlib import contextmanager
 from typing import Any
 
 from rollnip._errors import RollnipError
-from rollnip.sweep import task
+from rollnip.sweep import version
 from rollnip.sweep.crew import Given, one_thread_each
-from rollnip.sweep.task import own_version
+from rollnip.sweep.version import own_version
 
 _ADDRESS = re.compile(r"([a-z]+://)?\S+:\d+")
 _CHUNK_SECONDS = 0.25  # a task costs Dask some milliseconds
@@ -74,8 +74,8 @@ def _checked(client: Any, name: str) -> Given:
     if not threads:
         raise RollnipError(f"{name}: the Dask scheduler has no workers.")
     ours = own_version()
-    for worker, version in client.run(task.own_version, on_error="return").items():
-        if version != ours:
-            has = f"rollnip {version}" if isinstance(version, str) else f"no rollnip ({version})"
+    for worker, theirs in client.run(version.own_version, on_error="return").items():
+        if theirs != ours:
+            has = f"rollnip {theirs}" if isinstance(theirs, str) else f"no rollnip ({theirs})"
             raise RollnipError(f"{name}: worker {worker} has {has}, this is {ours}.")
     return Given(client.get_executor(), threads, _CHUNK_SECONDS)

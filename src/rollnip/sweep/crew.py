@@ -12,7 +12,9 @@ from multiprocessing import get_context
 from typing import Protocol
 
 from rollnip._errors import RollnipError
-from rollnip.sweep.task import Outcome, Task, own_version, perform, stand_alone
+from rollnip.sweep import version
+from rollnip.sweep.task import Outcome, Task, perform, stand_alone
+from rollnip.sweep.version import own_version
 
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
@@ -72,13 +74,19 @@ class Processes:
         )
         try:
             with _deaf_to_interrupts():
-                answers = [pool.submit(own_version) for _ in range(self._count)]
-            answers[0].result()
+                answers = [pool.submit(version.own_version) for _ in range(self._count)]
+            theirs = answers[0].result()
         except BrokenExecutor:
             raise RollnipError(
                 "worker processes cannot be started. In a script, call the sweep below "
                 '`if __name__ == "__main__":`, or choose `workers=1`.'
             ) from None
+        if theirs != own_version():
+            pool.shutdown(wait=True, cancel_futures=True)
+            raise RollnipError(
+                f"new worker processes have rollnip {theirs}, this is {own_version()}: its code "
+                "changed since this process began; start it again."
+            )
         return pool
 
 

@@ -48,7 +48,7 @@ class About:
 
     Attributes
     ----------
-    version : of rollnip.
+    version : of rollnip and of its code, as `own_version` has it.
     study : digest of the study.
     title, count : of the study.
     paths, units : of the parameters.

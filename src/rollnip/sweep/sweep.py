@@ -15,7 +15,7 @@ from rollnip.sweep.store import About, Store
 from rollnip.sweep.study import Study
 from rollnip.sweep.study_file import read_study
 from rollnip.sweep.table import Table, check_table_target, read_table, write_table
-from rollnip.sweep.task import own_version
+from rollnip.sweep.version import own_version
 
 
 def sweep(

@@ -7,7 +7,6 @@ import signal
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from importlib.metadata import version
 from multiprocessing import parent_process
 from multiprocessing.connection import wait
 from time import perf_counter
@@ -76,11 +75,6 @@ def given_up(task: Task, why: str) -> list[Outcome]:
     """Outcomes of a task whose worker did not live to tell."""
     row = without_solution("lost", why)
     return [Outcome(position, values, None, row, 0.0) for position, values in task.cases]
-
-
-def own_version() -> str:
-    """The version of rollnip in this process."""
-    return version("rollnip")
 
 
 def stand_alone() -> None:

@@ -1,0 +1,44 @@
+"""Which code solves: two rows belong together only where the same code made both."""
+
+from __future__ import annotations
+
+from functools import cache
+from hashlib import sha256
+from importlib.metadata import version
+from pathlib import Path
+
+_PACKAGE = Path(__file__).parents[1]
+# These only ask for solutions or show them; all the rest of the package decides the numbers.
+BESIDE = frozenset(
+    {"cli", "web", "plots", "design", "identify", "dma", "lda", "paper", "verification"}
+)
+_DIGITS = 10
+
+
+@cache
+def own_version() -> str:
+    """The version of rollnip in this process and the fingerprint of its code.
+
+    Such as "0.1.0 (code 3f9a1c20d4)"; "0.1.0" where the sources cannot be read.
+    """
+    release = version("rollnip")
+    try:
+        code = fingerprint(_PACKAGE)
+    except OSError:
+        code = ""
+    return f"{release} (code {code})" if code else release
+
+
+def fingerprint(package: Path) -> str:
+    """Some hexadecimal digits of the sources that decide the numbers; empty where there are none.
+
+    The same on every system: lines may end as they like. Raises OSError where one cannot be read.
+    """
+    digest = sha256()
+    names = sorted(path.relative_to(package).as_posix() for path in package.rglob("*.py"))
+    names = [name for name in names if name.partition("/")[0] not in BESIDE]
+    for name in names:
+        source = (package / name).read_bytes().replace(b"\r\n", b"\n")
+        digest.update(f"{name}:{len(source)}:".encode())
+        digest.update(source)
+    return digest.hexdigest()[:_DIGITS] if names else ""

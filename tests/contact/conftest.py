@@ -27,7 +27,7 @@ def _half_spaces(
     window = Window(points=(-30, 8), octaves=(-11, 33))
     log, step = tabulate(
         lambda w: (1.0 / w + 0j, 0.5j * mismatch / w), window, low_limit=(1.0, 0.5j * mismatch)
-    )
+    ).channels
     even = displacement_matrix(log, nodes[1:], nodes)
     odd = 2.0 * displacement_matrix(step, nodes[1:], nodes)
     return ContactProblem(

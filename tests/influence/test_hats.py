@@ -7,8 +7,10 @@ import pytest
 from scipy.integrate import quad
 
 from rollnip.influence import (
+    Kernel,
     Window,
     displacement_matrix,
+    displacement_under,
     load_weights,
     strain_matrix,
     tabulate,
@@ -22,14 +24,14 @@ PLACES = np.array([-7.0, -2.0, -1.9, -1.5, 0.0, 3e-5, 0.3, 0.7, 2.5, 9.0])
 def half_space():
     """-(ln|x| + gamma)/pi."""
     window = Window(points=(-24, 6), octaves=(-9, 26))
-    return tabulate(lambda w: (1.0 / w + 0j,), window, low_limit=(1.0,))[0]
+    return tabulate(lambda w: (1.0 / w + 0j,), window, low_limit=(1.0,)).channels[0]
 
 
 @pytest.fixture(scope="module")
 def odd():
     """-(1/2) sign(x) e^{-|x|}."""
     window = Window(points=(-24, 6), octaves=(-9, 26))
-    return tabulate(lambda w: (1j * w / (w * w + 1.0),), window, low_limit=(0.0,))[0]
+    return tabulate(lambda w: (1j * w / (w * w + 1.0),), window, low_limit=(0.0,)).channels[0]
 
 
 def under_ramp(x, start, stop, left, right):
@@ -130,3 +132,27 @@ def test_hertz(half_space):
         x = np.array([0.0, 0.31, -0.7, 0.95])
         u = displacement_matrix(half_space, x, nodes) @ pressure
         np.testing.assert_allclose(u[0] - u[1:], 0.5 * x[1:] ** 2, rtol=0.0, atol=tolerance / 2)
+
+
+@pytest.mark.parametrize("name", ["half_space", "odd"])
+def test_under_given_tractions_without_the_matrix(name, request):
+    """The same sum, ordered by nodes rather than by hats; several channels at once, too."""
+    kernel = request.getfixturevalue(name)
+    tractions = np.random.default_rng(3).normal(size=(NODES.size - 2, 2))
+    rounding = 5e-10  # 1e-16 of a double integral of 80, slopes of 1e4 on the shortest element
+    expected = displacement_matrix(kernel, PLACES, NODES) @ tractions
+    found = displacement_under(kernel, PLACES, NODES, tractions)
+    np.testing.assert_allclose(found, expected, rtol=0.0, atol=rounding)
+    two = Kernel.stacked((kernel, kernel * 2.0))
+    for factor, part in zip(
+        (1.0, 2.0), displacement_under(two, PLACES, NODES, tractions), strict=True
+    ):
+        np.testing.assert_allclose(part, factor * expected, rtol=0.0, atol=rounding)
+
+
+def test_channels_are_those_of_each_kernel_alone(half_space, odd):
+    both = Kernel.stacked((half_space, odd))
+    for matrix in (displacement_matrix, strain_matrix):
+        together = matrix(both, PLACES, NODES)
+        for part, kernel in zip(together, (half_space, odd), strict=True):
+            np.testing.assert_array_equal(part, matrix(kernel, PLACES, NODES))

@@ -2,7 +2,12 @@
 
 from rollnip.influence.cache import KernelCache
 from rollnip.influence.grid import grid_displacements, grid_strains
-from rollnip.influence.hats import displacement_matrix, load_weights, strain_matrix
+from rollnip.influence.hats import (
+    displacement_matrix,
+    displacement_under,
+    load_weights,
+    strain_matrix,
+)
 from rollnip.influence.kernel import Kernel, Window, tabulate
 from rollnip.influence.second import SecondResponse, second_response
 from rollnip.influence.surface import (
@@ -21,6 +26,7 @@ __all__ = [
     "Window",
     "covering_window",
     "displacement_matrix",
+    "displacement_under",
     "grid_displacements",
     "grid_strains",
     "is_ring",

@@ -31,13 +31,44 @@ def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
     return _kinks(kernel.integral(x[:, None] - nodes[None, :]), nodes)
 
 
+def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array) -> Array:
+    """Displacement at ``x`` (m,) under ``tractions`` (N-1, s), s sets of values at nodes[1:-1].
+
+    What `displacement_matrix` times the tractions gives, without the matrix: (m, s) [mm]; of a
+    kernel with channels (channels, m, s).
+    """
+    padded = np.zeros((nodes.size, tractions.shape[1]))
+    padded[1:-1] = tractions
+    slopes = np.diff(padded, axis=0) / np.diff(nodes)[:, None]
+    values = kernel.double_integral(x[:, None] - nodes[None, :])
+    if values.ndim == 3:
+        values = np.moveaxis(values, -1, 0)
+    out = values.reshape(-1, nodes.size) @ np.diff(slopes, axis=0, prepend=0.0, append=0.0)
+    return out.reshape(*values.shape[:-1], -1)
+
+
 def load_weights(nodes: Array) -> Array:
     """Load of each hat, int hat dx, shape (N-1,) [mm]."""
     return 0.5 * (nodes[2:] - nodes[:-2])
 
 
 def _kinks(values: Array, nodes: Array) -> Array:
-    """Combine values at the nodes (columns) into hats: a hat is three changes of slope."""
-    inverse = 1.0 / np.diff(nodes)
-    steps = (values[..., 1:] - values[..., :-1]) * inverse
-    return np.asarray(steps[..., 1:] - steps[..., :-1])
+    """Combine values at the nodes (m, N+1, ...) into hats: a hat is three changes of slope.
+
+    A last axis of channels becomes the first.
+    """
+    channels = values[0, 0].size
+    inverse = np.append(1.0 / np.diff(nodes), 0.0)
+    # Differences of all rows as of one long row are three times faster than row by row; those
+    # from the end of a row to the start of the next are left out at last.
+    steps = np.zeros(values.shape)
+    _differences(values.reshape(-1), channels, steps.reshape(-1))
+    steps.reshape(values.shape[0], -1)[:] *= np.repeat(inverse, channels)
+    _differences(steps.reshape(-1), channels, steps.reshape(-1))
+    hats = steps[:, :-2]
+    return np.ascontiguousarray(hats if values.ndim == 2 else np.moveaxis(hats, -1, 0))
+
+
+def _differences(row: Array, distance: int, out: Array) -> None:
+    """What lies ``distance`` ahead less what is here, into the start of ``out``."""
+    np.subtract(row[distance:], row[:-distance], out=out[:-distance])

@@ -59,16 +59,17 @@ class Kernel:
     part has to be split off. G is a displacement per unit of line load [mm/(N/mm)].
 
     A kernel may carry several channels (the influence functions of one surface), which are then
-    evaluated together: results have a first axis of channels, then the shape of x.
+    evaluated together: results have the shape of x, then an axis of channels.
 
     Attributes
     ----------
     points_per_octave, first :
         the grid is |x| = 2^((first + j)/points_per_octave).
     coefficients :
-        (6, 2 cells) or (6, channels, 2 cells): polynomials in the fraction of a cell, those of
-        x > 0 before those of x < 0. On either side the first and the last cell go on linearly in
-        ln|x|, below and beyond the grid.
+        (6, 2 cells) or (6, 2 cells, channels): polynomials in the fraction of a cell, counted
+        from its end nearer to 0; cells in the order of x, those of x < 0 before those of x > 0.
+        On either side the first and the last cell go on linearly in ln|x|, below and beyond the
+        grid.
     """
 
     points_per_octave: int
@@ -77,27 +78,35 @@ class Kernel:
 
     @classmethod
     def stacked(cls, kernels: tuple[Kernel, ...]) -> Kernel:
-        """One kernel with a channel for each of some kernels on the same grid."""
-        coefficients = np.stack([kernel.coefficients for kernel in kernels], axis=1)
-        return cls(kernels[0].points_per_octave, kernels[0].first, coefficients)
+        """One kernel with the channels of some kernels on the same grid, in their order."""
+        parts = [k.coefficients.reshape(*k.coefficients.shape[:2], -1) for k in kernels]
+        return cls(kernels[0].points_per_octave, kernels[0].first, np.concatenate(parts, axis=2))
+
+    @property
+    def channels(self) -> tuple[Kernel, ...]:
+        """Each channel as a kernel of its own."""
+        parts = np.moveaxis(self.coefficients, 2, 0)
+        return tuple(Kernel(self.points_per_octave, self.first, part) for part in parts)
 
     @property
     def reach(self) -> float:
         """Largest |x| of the table [mm]."""
-        cells = self.coefficients.shape[-1] // 2 - 2
+        cells = self.coefficients.shape[1] // 2 - 2
         return float(2.0 ** ((self.first + cells) / self.points_per_octave))
 
     def double_integral(self, x: Array) -> Array:
-        """int_0^x int_0^t G(s) ds dt, shape of ``x`` [mm] (after channels)."""
-        return 0.5 * x * x * self._jet(x, 0)[0]
+        """int_0^x int_0^t G(s) ds dt, shape of ``x`` [mm] (then channels)."""
+        (value,) = self._jet(x, 0)
+        value *= _for_channels(0.5 * x * x, value)
+        return value
 
     def integral(self, x: Array) -> Array:
-        """int_0^x G(t) dt, shape of ``x`` [mm] (after channels): H of theory section 4."""
+        """int_0^x G(t) dt, shape of ``x`` [mm] (then channels): H of theory section 4."""
         value, slope = self._jet(x, 1)
-        return x * (value + 0.5 * slope)
+        return np.asarray(_for_channels(x, value) * (value + 0.5 * slope))
 
     def value(self, x: Array) -> Array:
-        """G(x) [mm/(N/mm)], shape of ``x`` [mm] (after channels); large where singular at 0."""
+        """G(x) [mm/(N/mm)], shape of ``x`` [mm] (then channels); large where singular at 0."""
         value, slope, bend = self._jet(x, 2)
         return value + 1.5 * slope + 0.5 * bend
 
@@ -112,29 +121,53 @@ class Kernel:
 
     def _jet(self, x: Array, order: int) -> list[Array]:
         """F_2 and its derivatives to ln|x| up to ``order``."""
-        cells = self.coefficients.shape[-1] // 2
-        position = np.log2(np.maximum(np.abs(x), 1e-300)) * self.points_per_octave - self.first
-        # Row 0 is what lies below the grid: a cell that ends at its first point.
-        cell = np.minimum(np.maximum(np.floor(position), -1.0), cells - 2.0).astype(np.intp)
-        fraction = position - np.maximum(cell, 0)
-        row = cell + 1 + cells * (x < 0.0)
+        jet = _horner(self.coefficients, *self._cells(x), order)
         per_log = self.points_per_octave / log(2.0)
-        scales = (1.0, per_log, 2.0 * per_log**2)
-        jet = _horner(self.coefficients, row, fraction, order)
-        return [scale * part for scale, part in zip(scales, jet, strict=False)]
+        for scale, part in zip((per_log, 2.0 * per_log**2), jet[1:], strict=False):
+            part *= scale
+        return jet
+
+    def _cells(self, x: Array) -> tuple[Indices, Array]:
+        """The cell of each place, and the fraction of it that lies between the place and 0."""
+        cells = self.coefficients.shape[1] // 2
+        position = np.log2(x * x + np.finfo(float).tiny)
+        position *= 0.5 * self.points_per_octave
+        position -= self.first
+        # Cell -1 is what lies below the grid.
+        cell = np.floor(position)
+        np.maximum(cell, -1.0, out=cell)
+        np.minimum(cell, cells - 2.0, out=cell)
+        position -= cell
+        # The middle of the cell, counted from 0 to either side, then from the lowest x up.
+        cell += 1.5
+        middle = np.copysign(cell, x, out=cell)
+        middle += cells
+        return middle.astype(np.intp), position
 
 
-def _horner(coefficients: Array, row: Indices, fraction: Array, order: int) -> list[Array]:
-    """Polynomials of some rows with their first two derivatives (the second halved)."""
-    top = coefficients[5].take(row, axis=-1)
+def _horner(coefficients: Array, cell: Indices, fraction: Array, order: int) -> list[Array]:
+    """Polynomials of some cells with their first two derivatives (the second halved)."""
+    top = coefficients[5].take(cell, axis=0)
+    fraction = _for_channels(fraction, top)
     jet = [top] + [np.zeros(top.shape) for _ in range(order)]
     for n in range(4, -1, -1):
         for m in range(order, 0, -1):
             jet[m] *= fraction
             jet[m] += jet[m - 1]
         jet[0] *= fraction
-        jet[0] += coefficients[n].take(row, axis=-1)
+        jet[0] += coefficients[n].take(cell, axis=0)
     return jet
+
+
+def _for_channels(values: Array, like: Array) -> Array:
+    """Values at some places, each repeated for every channel of ``like``.
+
+    Numpy is several times faster at that and a product of two plain arrays than at a product
+    that repeats a value over an axis of few channels.
+    """
+    if values.ndim == like.ndim:
+        return values
+    return np.repeat(values, like.shape[-1]).reshape(like.shape)
 
 
 Compliance = Callable[[Array], tuple[ComplexArray, ...]]
@@ -147,7 +180,7 @@ def tabulate(
     low_limit: tuple[complex, ...],
     tolerance: float = 1e-7,
     nodes: int = _NODES,
-) -> tuple[Kernel, ...]:
+) -> Kernel:
     """Influence functions of compliances, by the non-equidistant inverse Fourier transform.
 
     G(x) = (1/2 pi) int C(w) e^{iwx} dw = (1/pi) int_0^inf Re[C(w) e^{iwx}] dw. Wave numbers are
@@ -172,7 +205,7 @@ def tabulate(
 
     Returns
     -------
-    tuple of Kernel, one for each compliance.
+    Kernel with a channel for each compliance.
     """
     per_octave = 1
     limit = np.array(low_limit, dtype=complex)
@@ -181,10 +214,7 @@ def tabulate(
         per_octave *= 2
         samples, roughness = _sample(compliance, window, per_octave, nodes)
     means = _transform(samples, limit, window, per_octave, nodes)
-    first = window.points[0] * _POINTS_PER_OCTAVE
-    return tuple(
-        Kernel(_POINTS_PER_OCTAVE, first, _hermite(means[:, :, c])) for c in range(limit.size)
-    )
+    return Kernel(_POINTS_PER_OCTAVE, window.points[0] * _POINTS_PER_OCTAVE, _hermite(means))
 
 
 def _sample(
@@ -226,28 +256,21 @@ def _product(matrix: Array, columns: Array) -> Array:
 
 
 def _hermite(means: Array) -> Array:
-    """Coefficients (6, 2 cells) from F_0, F_1, F_2 of shape (3, points, 2)."""
+    """Coefficients (6, 2 cells, channels) from F_0, F_1, F_2 of shape (3, points, channels, 2)."""
     step = log(2.0) / _POINTS_PER_OCTAVE
-    f_0, f_1, f_2 = np.moveaxis(means, -1, 1)
-    slope = 2.0 * (f_1 - f_2)
-    bend = 2.0 * (f_0 - f_1) - 2.0 * slope
-    v0, v1 = f_2[:, :-1], f_2[:, 1:]
-    s0, s1 = slope[:, :-1] * step, slope[:, 1:] * step
-    b0, b1 = bend[:, :-1] * step**2, bend[:, 1:] * step**2
-    rise = v1 - v0 - s0 - 0.5 * b0
-    turn = s1 - s0 - b0
-    curl = b1 - b0
-    inner = np.stack(
-        [
-            v0,
-            s0,
-            0.5 * b0,
-            10.0 * rise - 4.0 * turn + 0.5 * curl,
-            -15.0 * rise + 7.0 * turn - curl,
-            6.0 * rise - 3.0 * turn + 0.5 * curl,
-        ]
-    )
-    below, above = np.zeros((2, 6, 2, 1))
-    below[0, :, 0], below[1, :, 0] = v0[:, 0], s0[:, 0]
-    above[0, :, 0], above[1, :, 0] = v1[:, -1], s1[:, -1]
-    return np.concatenate([below, inner, above], axis=2).reshape(6, -1)
+    f_0, f_1, f_2 = means
+    slope = (2.0 * step) * (f_1 - f_2)
+    bend = (2.0 * step**2) * (f_0 - f_1) - (2.0 * step) * slope
+    v0, s0, half = f_2[:-1], slope[:-1], 0.5 * bend[:-1]
+    curl = 0.5 * bend[1:] - half
+    turn = slope[1:] - s0 - 2.0 * half
+    rise = f_2[1:] - v0 - s0 - half
+    cells, channels = f_2.shape[0] + 1, f_2.shape[1]
+    out = np.zeros((6, cells, channels, 2))
+    out[:2, 0] = v0[0] - s0[0], s0[0]
+    out[0, 1:-1], out[1, 1:-1], out[2, 1:-1] = v0, s0, half
+    out[3, 1:-1] = 10.0 * rise - 4.0 * turn + curl
+    out[4, 1:-1] = -15.0 * rise + 7.0 * turn - 2.0 * curl
+    out[5, 1:-1] = 6.0 * rise - 3.0 * turn + curl
+    out[:2, -1] = f_2[-1], slope[-1]
+    return np.concatenate([out[:, ::-1, :, 1], out[..., 0]], axis=1)

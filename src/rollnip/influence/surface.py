@@ -89,10 +89,11 @@ def surface_kernels(
         modulus = moduli(core, lowest, speed)
         a, b = half_space_limit(modulus, core.poisson)
         low = (complex(a[0]), complex(a[0]), 1j * complex(b[0]))
-    xx, zz, xz = tabulate(
+    together = tabulate(
         surface_compliance(roller, speed, geometry), window, low_limit=low, tolerance=tolerance
     )
-    return SurfaceKernels(xx=xx, zz=zz, xz=xz, together=Kernel.stacked((xx, zz, xz)))
+    xx, zz, xz = together.channels
+    return SurfaceKernels(xx=xx, zz=zz, xz=xz, together=together)
 
 
 def surface_compliance(

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rollnip.contact import State, Zone
-from rollnip.influence import strain_matrix
+from rollnip.contact import ContactState, State, Zone
+from rollnip.influence import displacement_under, strain_matrix
 from rollnip.influence.surface import SurfaceKernels
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
@@ -19,7 +19,6 @@ from rollnip.rolling.surfaces import (
     PairKernels,
     SurfaceMatrices,
     hoop_curvature,
-    pair_matrices,
     surface_matrices,
 )
 
@@ -51,9 +50,7 @@ class Fields:
 def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
     """Evaluate a solution at points ``x``, with nothing taken over but tractions, delta and xi."""
     nodes = final.mesh.nodes
-    upper, lower = pair_matrices(kernels, x, nodes)
-    u = Displacements.under(upper, lower, final.state) + kernels.second(nodes, final.state, x)
-    return _fields(x, nip, geometry, final, u)
+    return _fields(x, nip, geometry, final, _displacements(x, nodes, kernels, final.state))
 
 
 def fields_on_mesh(nip: Nip, geometry: Geometry, final: Round) -> Fields:
@@ -67,9 +64,8 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     nodes = final.mesh.nodes
     away = final.figures.nip_width * _OUTSIDE
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
-    upper, lower = pair_matrices(kernels, new, nodes)
     parts = (
-        Displacements.under(upper, lower, final.state) + kernels.second(nodes, final.state, new),
+        _displacements(new, nodes, kernels, final.state),
         final.mesh.displacements(final.state),
     )
     x = np.concatenate([new, nodes[1:]])
@@ -77,6 +73,34 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     names = ("x_upper", "z_upper", "x_lower", "z_lower")
     merged = (np.concatenate([getattr(part, name) for part in parts])[order] for name in names)
     return _fields(x[order], nip, geometry, final, Displacements(*merged))
+
+
+def _displacements(
+    x: Array, nodes: Array, kernels: PairKernels, state: ContactState
+) -> Displacements:
+    """Displacements of both surfaces at ``x``, to the order of the model."""
+    tractions = np.stack([state.pressure, state.shear], axis=1)
+    if kernels.both is not None:
+        six = displacement_under(kernels.both, x, nodes, tractions)
+        upper, lower = six[:3], six[3:]
+    else:
+        upper, lower = (
+            np.zeros((3, x.size, 2))
+            if surface is None
+            else displacement_under(surface.together, x, nodes, tractions)
+            for surface in (kernels.upper, kernels.lower)
+        )
+    linear = Displacements(*_of_surface(upper, 1.0), *_of_surface(lower, -1.0))
+    return linear if kernels.is_linear else linear + kernels.second(nodes, state, x)
+
+
+def _of_surface(made: Array, sign: float) -> tuple[Array, Array]:
+    """u_x and u_z of a surface that sees the shear with a sign.
+
+    ``made``, (3, n, 2): the parts by the functions xx, zz, xz, of the pressure and of the shear.
+    """
+    (_, xx), (zz, _), (xz, zx) = made.transpose(0, 2, 1)
+    return xz + sign * xx, zz - sign * zx
 
 
 def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacements) -> Fields:

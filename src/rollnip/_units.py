@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import lru_cache
 from math import floor, inf, isfinite, log10, pi, tau
 from typing import Literal
 
@@ -228,6 +229,11 @@ def parse_quantity(value: object, dimension: Dimension, *, infinite: bool = Fals
         raise _refusal(dimension, value, "it is neither a number nor a text")
     if infinite and value.strip() in ("inf", "+inf"):
         return inf
+    return _read(value, dimension)
+
+
+@lru_cache(maxsize=1024)  # the cases of a sweep hold the same few texts, over and over
+def _read(value: str, dimension: Dimension) -> float:
     if len(value) > _LONGEST:
         raise _refusal(dimension, value[:20] + "...", f"it is longer than {_LONGEST} characters")
     match = _QUANTITY.fullmatch(value.translate(_MINUS))

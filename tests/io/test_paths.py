@@ -6,6 +6,7 @@ import pytest
 
 from rollnip._errors import InvalidInputError
 from rollnip.io import dimension_at, parse_case, value_at, with_values
+from rollnip.io.paths import with_shared
 
 CASE = {
     "nip": {"load": "7 N/mm", "traction": "1 N/mm", "friction": 2.7, "speed": "100 mm/s"},
@@ -111,3 +112,12 @@ def test_tables_that_a_file_may_leave_out_are_made():
     changed = with_values(CASE, {"solver.tolerance": 1e-4, "model.geometry": "linear"})
     model = parse_case(changed).model
     assert (model.tolerance, model.geometry) == (1e-4, "linear")
+
+
+def test_what_changed_may_share_the_rest_but_never_the_change() -> None:
+    before = deepcopy(CASE)
+    path = "upper.layers[0].material.modulus"
+    shared, own = with_shared(CASE, {path: 3.0}), with_values(CASE, {path: 3.0})
+    assert shared == own != before == CASE
+    assert shared["lower"] is CASE["lower"]
+    assert own["lower"] is not CASE["lower"]

@@ -82,7 +82,7 @@ def case_hash(case: Case) -> str:
     Of the values in base units, not of how they were written; neither the title nor the name of
     the file counts. The version of rollnip is not part of it.
     """
-    problem = replace(case.nip, title="")
+    problem = replace(case.nip, title="") if case.nip.title else case.nip
     return sha256(repr((problem, case.model)).encode()).hexdigest()[:16]
 
 

@@ -10,6 +10,7 @@ import types
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from difflib import get_close_matches
+from functools import cache, lru_cache
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from pydantic import BaseModel
@@ -58,7 +59,12 @@ def with_values(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str
     InvalidInputError
         where a path leads nowhere, or to no key that a case may hold.
     """
-    out = deepcopy(dict(tree))
+    return deepcopy(with_shared(tree, changes))
+
+
+def with_shared(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
+    """As `with_values`, but what did not change is shared with ``tree``: only to be read."""
+    out = dict(tree)
     for path, value in changes.items():
         dimension_at(out, path)
         *above, last = _parts(path)
@@ -67,7 +73,10 @@ def with_values(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str
         for depth, part in enumerate(above):
             if depth == 0 and part in ("model", "solver"):
                 out.setdefault(part, {})  # the two tables a file may leave out
-            here = _step(here, part, path, walked)
+            below = _step(here, part, path, walked)
+            if isinstance(below, dict | list):
+                below = here[part] = below.copy()
+            here = below
             walked = _joined(walked, part)
         if isinstance(last, int):
             _step(here, last, path, walked)
@@ -96,7 +105,8 @@ def dimension_at(tree: Mapping[str, Any], path: str) -> Dimension | None:
     return found[0].dimension if found else None
 
 
-def _parts(path: str) -> list[str | int]:
+@lru_cache(maxsize=256)  # a sweep asks for the same few, case after case
+def _parts(path: str) -> tuple[str | int, ...]:
     parts: list[str | int] = []
     for piece in path.strip().split("."):
         match = _PART.fullmatch(piece)
@@ -106,7 +116,7 @@ def _parts(path: str) -> list[str | int]:
             )
         parts.append(match[1])
         parts.extend(int(index) for index in re.findall(r"\d+", match[2]))
-    return parts
+    return tuple(parts)
 
 
 def _joined(walked: str, part: str | int) -> str:
@@ -157,12 +167,7 @@ def _kind_below(kind: Any, part: str | int, tree: Any, path: str, walked: str) -
         tables = _chosen(tables, tree, walked, path)
     for table in tables:
         if part in table.model_fields:
-            field = table.model_fields[part]
-            return (
-                Annotated[(field.annotation, *field.metadata)]
-                if field.metadata
-                else (field.annotation)
-            )
+            return _field(table, part)
     known = [name for table in tables for name in table.model_fields]
     raise _nowhere(path, _unknown(part, known, walked))
 
@@ -180,23 +185,32 @@ def _chosen(tables: Sequence[Any], tree: Any, walked: str, path: str) -> list[An
     return literal or list(tables)
 
 
-def _options(kind: Any) -> list[Any]:
+@cache  # as many as a case file has types
+def _field(table: type[BaseModel], name: str) -> Any:
+    """Type of a key of a table, with its annotations."""
+    field = table.model_fields[name]
+    return Annotated[(field.annotation, *field.metadata)] if field.metadata else field.annotation
+
+
+@cache
+def _options(kind: Any) -> tuple[Any, ...]:
     """The members of a union, without None and without annotations."""
     if get_origin(kind) is Annotated:
         return _options(get_args(kind)[0])
     if get_origin(kind) in (Union, types.UnionType):
-        return [o for member in get_args(kind) for o in _options(member)]
-    return [] if kind is type(None) else [kind]
+        return tuple(o for member in get_args(kind) for o in _options(member))
+    return () if kind is type(None) else (kind,)
 
 
-def _marks(kind: Any) -> list[Any]:
+@cache
+def _marks(kind: Any) -> tuple[Any, ...]:
     """All annotations of a type and of the members of a union."""
     if get_origin(kind) is Annotated:
         inner, *marks = get_args(kind)
-        return [*marks, *_marks(inner)]
+        return (*marks, *_marks(inner))
     if get_origin(kind) in (Union, types.UnionType):
-        return [mark for member in get_args(kind) for mark in _marks(member)]
-    return []
+        return tuple(mark for member in get_args(kind) for mark in _marks(member))
+    return ()
 
 
 def _unknown(part: str, known: Sequence[str], walked: str) -> str:

@@ -110,14 +110,15 @@ def scalars(solution: Solution) -> Row:
         "converged": bool(solution.converged),
         "geometry": solution.model.geometry,
     }
-    row |= {name: _number(_value(solution, name)) for name in SCALARS}
+    error = solution.error
+    row |= {name: _number(_value(solution, name, error)) for name in SCALARS}
     return row | {"warnings": " ".join(solution.warnings)}
 
 
-def _value(solution: Solution, name: str) -> float | None:
+def _value(solution: Solution, name: str, error: Mapping[str, float]) -> float | None:
     table, _, key = name.rpartition(".")
     if table == "error":
-        return solution.error.get(key)
+        return error.get(key)
     if table == "dissipation":
         return getattr(solution, f"dissipation_{key}")  # type: ignore[no-any-return]
     if table == "solver":

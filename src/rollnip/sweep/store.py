@@ -137,8 +137,13 @@ class Store:
 
     def write(self, outcome: Outcome) -> None:
         """Commit one case. Raises RollnipError where the disk does not take it."""
-        with self._spoken(), self._transaction():
-            self._write(outcome)
+        with self._spoken():
+            if outcome.profiles is None:
+                self._write(outcome)  # one statement is a transaction of its own
+                return
+            with self._transaction():
+                self._write(outcome)
+                self._base.execute(_INSERT_PROFILES, (outcome.position, outcome.profiles))
 
     def held(self, *, with_profiles: bool) -> NDArray[np.bool_]:
         """Which cases need not be solved again, (count,): one byte a case."""
@@ -261,8 +266,6 @@ class Store:
             "seconds": outcome.seconds,
         }
         self._base.execute(_INSERT, [values[n] if n in values else row[n] for n in _NAMES])
-        if outcome.profiles is not None:
-            self._base.execute(_INSERT_PROFILES, (outcome.position, outcome.profiles))
 
     @contextmanager
     def _transaction(self) -> Iterator[None]:

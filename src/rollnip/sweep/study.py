@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.io import with_values
+from rollnip.io.paths import with_shared
 
 Array = NDArray[np.float64]
 Value = float | str
@@ -102,7 +102,10 @@ class Study:
         return tuple(value for values in reversed(steps) for value in values)
 
     def case(self, position: int) -> dict[str, Any]:
-        """The tree of one case. Raises InvalidInputError where a path leads nowhere."""
+        """The tree of one case, only to be read.
+
+        Raises InvalidInputError where a path leads nowhere.
+        """
         return case_with(self.tree, self.paths, self.values(position))
 
     @cached_property
@@ -121,6 +124,6 @@ class Study:
 def case_with(
     tree: Mapping[str, Any], paths: Sequence[str], values: Sequence[Value]
 ) -> dict[str, Any]:
-    """The case with other values at some paths; texts are JSON."""
+    """The case with other values at some paths; texts are JSON. It is only to be read."""
     read = (json.loads(value) if isinstance(value, str) else value for value in values)
-    return with_values(tree, dict(zip(paths, read, strict=True)))
+    return with_shared(tree, dict(zip(paths, read, strict=True)))

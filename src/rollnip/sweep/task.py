@@ -7,6 +7,7 @@ import signal
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from multiprocessing import parent_process
 from multiprocessing.connection import wait
 from time import perf_counter
@@ -67,8 +68,13 @@ class Outcome:
 
 def perform(task: Task) -> list[Outcome]:
     """Solve the cases of a task; a case that goes wrong is a row with its message."""
-    cache = KernelCache()  # neighbours of a grid share coverings
-    return [_outcome(task, position, values, cache) for position, values in task.cases]
+    return [_outcome(task, position, values) for position, values in task.cases]
+
+
+@cache
+def own_kernels() -> KernelCache:
+    """What this process keeps from case to case, for neighbours in a study share coverings."""
+    return KernelCache()
 
 
 def given_up(task: Task, why: str) -> list[Outcome]:
@@ -90,9 +96,9 @@ def _end_with(sentinel: int) -> None:
     os._exit(1)
 
 
-def _outcome(task: Task, position: int, values: tuple[Value, ...], cache: KernelCache) -> Outcome:
+def _outcome(task: Task, position: int, values: tuple[Value, ...]) -> Outcome:
     start = perf_counter()
-    done = attempt(lambda: case_with(task.tree, task.paths, values), cache)
+    done = attempt(lambda: case_with(task.tree, task.paths, values), own_kernels())
     profiles = None
     if task.with_profiles and done.solution is not None:
         profiles = _profiles(done.solution)

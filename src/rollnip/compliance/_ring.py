@@ -10,7 +10,7 @@ Their minors (theory of ``SurfaceState``), scaled by powers of h = max(n, 1) as
 
     det = h^2 (UW),  xz = h (Us) = -h (Wq),  xx = -h (Uq),  zz = h (Ws),  one = (sq),
 
-obey a constant 5x5 system in t = h log r, written in ``_slope``: eigenvalues 0, +-2/h, +-2n/h.
+obey a constant 5x5 system in t = h log r, written in ``_generator``: eigenvalues 0, +-2/h, +-2n/h.
 With 1/h = 0 and n/h = 1 it is that of the flat layer.
 """
 
@@ -37,6 +37,11 @@ _DEEPEST = 400.0
 """Beyond this t the layer below is invisible in double precision: exp(-2 * 400) = 0."""
 LARGEST_STEP = 0.5
 """Largest log ratio of radii climbed at once; keeps the eigenvalues +-2 apart from large ones."""
+_INVERSE_FACTORIALS = np.array([1.0 / factorial(n) for n in range(32)])
+_FIRST_SERIES = np.stack([_INVERSE_FACTORIALS[f::2][:9] for f in (2, 3)])
+"""Coefficients of x^(2j) in (cosh x - 1)/x^2 and (sinh x - x)/x^3, enough for x <= 1."""
+_TERMS = 12
+"""Of the series of ``symmetric_series``."""
 
 
 def ring_compliance(
@@ -151,40 +156,41 @@ def climb_ring_layer(
     """Minors at ``log_ratio`` = log(r/r_0) above ``state`` within one medium, up to a factor."""
     steps = max(1, ceil(log_ratio / LARGEST_STEP))
     weights = _power_weights(np.minimum(wave.h * (log_ratio / steps), _DEEPEST), wave)
-    state = _climb_step(state, weights, poisson, wave)
-    for _ in range(steps - 1):
-        state = _climb_step(rescaled(state, 1.0), weights, poisson, wave)
+    generator = _generator(poisson, wave)
+    for step in range(steps):
+        state = _climb_step(rescaled(state, 1.0) if step else state, weights, generator)
     return state
 
 
 def _climb_step(
-    state: SurfaceState, weights: tuple[FloatArray, ...], poisson: float, wave: RingWave
+    state: SurfaceState, weights: tuple[FloatArray, ...], generator: FloatArray
 ) -> SurfaceState:
     """exp(t L) state = sum of weights * L^j state, j = 0..4."""
-    power = state
-    total = [weights[0] * part for part in state]
+    power = np.empty((5, weights[0].size), dtype=np.result_type(*state, float))
+    for row, part in zip(power, state, strict=True):
+        row[:] = part
+    total = weights[0] * power
     for weight in weights[1:]:
-        power = _slope(power, poisson, wave)
-        total = [old + weight * new for old, new in zip(total, power, strict=True)]
+        power = np.einsum("ijn,jn->in", generator, power)
+        total += weight * power
     return SurfaceState(*total)
 
 
-def _slope(state: SurfaceState, poisson: float, wave: RingWave) -> SurfaceState:
-    """Return L state: the derivative of the scaled minors with respect to t = h log r."""
-    det, xz, xx, zz, one = state
+def _generator(poisson: float, wave: RingWave) -> FloatArray:
+    """L (5, 5, n), d(state)/dt = L state with respect to t = h log r of the scaled minors."""
     b = poisson / (1.0 - poisson)
     m = 1.0 / (1.0 - poisson)
     a = (1.0 - 2.0 * poisson) / (1.0 - poisson)  # 1 - b, exactly 0 at nu = 0.5
     c, e = wave.c, wave.e
-    hoop = e * det
-    twice = 2.0 * c * xz
-    return SurfaceState(
-        det=a * (hoop + xx) + 2.0 * zz,
-        xz=c * (zz - b * xx - m * hoop),
-        xx=m * e * (hoop + xx) + twice + 2.0 * one,
-        zz=m * (c * c * det - e * zz) - b * twice + a * one,
-        one=m * (c * c * xx + e * (twice + e * zz)) - a * e * one,
-    )
+    me, mee, mcc, mce = m * e, m * e * e, m * c * c, m * c * e
+    out = np.zeros((5, 5, wave.n.size))
+    det, xz, xx, zz, one = range(5)
+    out[det, det], out[det, xx], out[det, zz] = a * e, a, 2.0
+    out[xz, det], out[xz, xx], out[xz, zz] = -mce, -b * c, c
+    out[xx, det], out[xx, xz], out[xx, xx], out[xx, one] = mee, 2.0 * c, me, 2.0
+    out[zz, det], out[zz, xz], out[zz, zz], out[zz, one] = mcc, -2.0 * b * c, -me, a
+    out[one, xz], out[one, xx], out[one, zz], out[one, one] = 2.0 * mce, mcc, mee, -a * e
+    return out
 
 
 def _power_weights(t: FloatArray, wave: RingWave) -> tuple[FloatArray, ...]:
@@ -209,14 +215,12 @@ def _power_weights(t: FloatArray, wave: RingWave) -> tuple[FloatArray, ...]:
     )
 
 
-def _first_differences(x2: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """(cosh x - 1)/x^2 and (sinh x - x)/x^3 for x <= 1, from their series."""
-    even = np.ones_like(x2)
-    odd = np.ones_like(x2)
-    for j in range(18, 2, -2):
-        even = 1.0 + even * x2 * (1.0 / (j * (j - 1)))
-        odd = 1.0 + odd * x2 * (1.0 / (j * (j + 1)))
-    return 0.5 * even, odd / 6.0
+def _first_differences(x2: FloatArray) -> FloatArray:
+    """(cosh x - 1)/x^2 and (sinh x - x)/x^3 for x <= 1, from their series; shape (2, n)."""
+    powers = np.ones((_FIRST_SERIES.shape[1], x2.size))
+    for j in range(1, len(powers)):
+        np.multiply(powers[j - 1], x2, out=powers[j])
+    return np.asarray(_FIRST_SERIES @ powers)
 
 
 def _second_differences(
@@ -227,8 +231,8 @@ def _second_differences(
     span = 1.0 / (thick * thick - x2)
     even = (0.5 * (np.expm1(-y) / thick) ** 2 - decay * even1) * span
     odd = ((0.5 * (1.0 - decay * decay) - y * decay) / thick**3 - decay * odd1) * span
-    thin = y < 2.0
-    if np.any(thin):
+    thin = np.flatnonzero(y < 2.0)
+    if thin.size:
         series = symmetric_series(x2[thin], y[thin] ** 2, (4, 5))
         even[thin], odd[thin] = (decay[thin] * part for part in series)
     return even, odd
@@ -242,14 +246,11 @@ def symmetric_series(
     The divided difference between x^2 and y^2 of the tail of cosh sqrt (f even) or
     sinh sqrt / sqrt (f odd); complete to double precision for x <= y <= 2.
     """
-    symmetric = np.ones_like(x2)
+    symmetric = np.ones((_TERMS, *x2.shape))
     power = np.ones_like(x2)
-    totals = [np.full_like(x2, 1.0 / factorial(first)) for first in firsts]
-    for j in range(1, 12):
-        power = power * x2
-        symmetric = symmetric * y2 + power
-        totals = [
-            total + symmetric * (1.0 / factorial(2 * j + first))
-            for total, first in zip(totals, firsts, strict=True)
-        ]
-    return tuple(totals)
+    for j in range(1, _TERMS):
+        power *= x2
+        np.multiply(symmetric[j - 1], y2, out=symmetric[j])
+        symmetric[j] += power
+    series = np.stack([_INVERSE_FACTORIALS[f::2][:_TERMS] for f in firsts])
+    return tuple((series @ symmetric.reshape(_TERMS, -1)).reshape(-1, *x2.shape))

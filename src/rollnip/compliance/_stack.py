@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import NamedTuple
 
 import numpy as np
@@ -42,9 +43,9 @@ def checked_stack(
     wave = np.asarray(k, dtype=float)
     depth = np.asarray(thickness, dtype=float)
     ratio = np.asarray(poisson, dtype=float)
-    if wave.ndim != 1 or not np.all((wave >= 0.0) & (wave < np.inf)):
+    if wave.ndim != 1 or not _is_finite_from(0.0, wave):
         raise InvalidInputError("`k` must be one-dimensional, zero or positive and finite.")
-    if depth.ndim != 1 or not np.all((depth > 0.0) & (depth < np.inf)):
+    if depth.ndim != 1 or not all(0.0 < d < inf for d in depth.tolist()):
         raise InvalidInputError(f"`thickness` must be positive and finite, got {thickness!r}.")
     if ratio.shape != depth.shape:
         raise InvalidInputError(f"`poisson` must have one value per layer, got {poisson!r}.")
@@ -78,13 +79,18 @@ def _twice_shear(modulus: ArrayLike, poisson: FloatArray, size: int) -> list[Arr
 
 def _require_moduli(name: str, young: Array) -> None:
     if np.isrealobj(young):
-        fine = np.all((young > 0.0) & (young < np.inf))
+        fine = _is_finite_from(np.finfo(float).smallest_subnormal, young)
     else:
-        fine = np.all(np.isfinite(young)) and np.all(young != 0.0) and np.all(young.real >= 0.0)
+        fine = bool(np.all(np.isfinite(young) & (young != 0.0) & (young.real >= 0.0)))
     if not fine:
         raise InvalidInputError(f"`{name}` must be finite, not zero, with a real part >= 0.")
 
 
 def _require_poisson(name: str, poisson: FloatArray) -> None:
-    if not np.all((poisson > -1.0) & (poisson <= 0.5)):
+    if not all(-1.0 < nu <= 0.5 for nu in poisson.ravel().tolist()):
         raise InvalidInputError(f"`{name}` must lie in (-1, 0.5], got {poisson!r}.")
+
+
+def _is_finite_from(least: float, values: Array) -> bool:
+    """Whether no value is below ``least``, infinite or nan."""
+    return values.size == 0 or bool(values.min() >= least and values.max() < inf)

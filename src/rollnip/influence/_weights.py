@@ -173,6 +173,7 @@ def _lowest_panel(octave: int, log_x: Array, nodes: int) -> ComplexArray:
     return half * gauss * multipliers(np.multiply.outer(2.0**log_x, half * (1.0 + t)))
 
 
+@lru_cache(maxsize=8)
 def sample_points(octaves: tuple[int, int], panels_per_octave: int, nodes: int) -> Array:
     """Wave numbers [1/mm] of the lowest panel, of all others, and w_c; in increasing order."""
     t, _, _ = gauss_legendre(nodes)

@@ -85,8 +85,11 @@ class Kernel:
     @property
     def channels(self) -> tuple[Kernel, ...]:
         """Each channel as a kernel of its own."""
-        parts = np.moveaxis(self.coefficients, 2, 0)
-        return tuple(Kernel(self.points_per_octave, self.first, part) for part in parts)
+        return tuple(self.channel(i) for i in range(self.coefficients.shape[2]))
+
+    def channel(self, number: int) -> Kernel:
+        """One channel as a kernel of its own."""
+        return Kernel(self.points_per_octave, self.first, self.coefficients[:, :, number])
 
     @property
     def reach(self) -> float:
@@ -220,16 +223,16 @@ def tabulate(
 def _sample(
     compliance: Compliance, window: Window, per_octave: int, nodes: int
 ) -> tuple[ComplexArray, float]:
-    """C at all sample points, shape (n, compliances), and what its polynomials leave out."""
+    """C at all sample points, shape (compliances, n), and what its polynomials leave out."""
     w = sample_points(window.octaves, per_octave, nodes)
-    values = np.stack(compliance(w), axis=-1)
+    values = np.stack(compliance(w))
     _, _, to_coefficients = gauss_legendre(nodes)
-    scaled = (values * w[:, None])[:-1].reshape(-1, nodes, values.shape[1])
-    coefficients = np.abs(np.einsum("mn,pnc->pmc", to_coefficients[-2:], scaled))
-    largest = np.maximum(np.abs(scaled).max(axis=(0, 1)), np.finfo(float).tiny)
+    scaled = (values * w)[:, :-1].reshape(-1, nodes)
+    coefficients = np.abs(scaled @ to_coefficients[-2:].T).reshape(len(values), -1)
+    largest = np.abs(scaled).reshape(len(values), -1).max(axis=1)
     # A kernel that is small beside the others need not be resolved to its own size.
-    largest = np.maximum(largest, 1e-3 * largest.max())
-    return values, float((coefficients.max(axis=(0, 1)) / largest).max())
+    largest = np.maximum(largest, max(1e-3 * largest.max(), np.finfo(float).tiny))
+    return values, float((coefficients.max(axis=1) / largest).max())
 
 
 def _transform(
@@ -239,19 +242,21 @@ def _transform(
     n = _POINTS_PER_OCTAVE
     even, odd = transform_matrix(window.octaves, window.points, (n, per_octave), nodes)
     w = sample_points(window.octaves, per_octave, nodes)
-    columns = np.vstack([samples[:-1], low_limit, w[-1] * samples[-1]])
-    columns[:nodes] -= low_limit / w[:nodes, None]
-    sums = _product(even, columns.real), _product(odd, columns.imag)
-    both = np.stack([sums[0] + sums[1], sums[0] - sums[1]], axis=-1)
+    rows = np.empty((low_limit.size, w.size + 1), dtype=complex)
+    rows[:, :-2] = samples[:, :-1]
+    rows[:, :nodes] -= low_limit[:, None] / w[:nodes]
+    rows[:, -2], rows[:, -1] = low_limit, w[-1] * samples[:, -1]
+    same, opposite = _product(even, rows.real), _product(odd, rows.imag)
+    both = np.stack([same + opposite, same - opposite], axis=-1)
     return both.reshape(3, -1, low_limit.size, 2)
 
 
-def _product(matrix: Array, columns: Array) -> Array:
-    """Matrix @ columns, leaving out columns that are zero throughout."""
-    out = np.zeros((matrix.shape[0], columns.shape[1]))
-    used = np.any(columns != 0.0, axis=0)
-    if np.any(used):
-        out[:, used] = matrix @ np.ascontiguousarray(columns[:, used])
+def _product(matrix: Array, rows: Array) -> Array:
+    """Matrix @ rows.T, leaving out rows that are zero throughout."""
+    out = np.zeros((matrix.shape[0], rows.shape[0]))
+    used = np.flatnonzero(rows.any(axis=1))
+    if used.size:
+        out[:, used] = matrix @ rows[used].T
     return out
 
 
@@ -260,17 +265,15 @@ def _hermite(means: Array) -> Array:
     step = log(2.0) / _POINTS_PER_OCTAVE
     f_0, f_1, f_2 = means
     slope = (2.0 * step) * (f_1 - f_2)
-    bend = (2.0 * step**2) * (f_0 - f_1) - (2.0 * step) * slope
-    v0, s0, half = f_2[:-1], slope[:-1], 0.5 * bend[:-1]
-    curl = 0.5 * bend[1:] - half
-    turn = slope[1:] - s0 - 2.0 * half
-    rise = f_2[1:] - v0 - s0 - half
-    cells, channels = f_2.shape[0] + 1, f_2.shape[1]
-    out = np.zeros((6, cells, channels, 2))
-    out[:2, 0] = v0[0] - s0[0], s0[0]
-    out[0, 1:-1], out[1, 1:-1], out[2, 1:-1] = v0, s0, half
+    half = step**2 * (f_0 - f_1) - step * slope  # of the second derivative
+    curl = np.diff(half, axis=0)
+    turn = np.diff(slope, axis=0) - 2.0 * half[:-1]
+    rise = np.diff(f_2, axis=0) - slope[:-1] - half[:-1]
+    out = np.zeros((6, f_2.shape[0] + 1, *f_2.shape[1:]))
+    out[0, 1:], out[1, 1:], out[2, 1:-1] = f_2, slope, half[:-1]
     out[3, 1:-1] = 10.0 * rise - 4.0 * turn + curl
     out[4, 1:-1] = -15.0 * rise + 7.0 * turn - 2.0 * curl
     out[5, 1:-1] = 6.0 * rise - 3.0 * turn + curl
-    out[:2, -1] = f_2[-1], slope[-1]
+    # Below the grid the fraction of the cell is 1 at the first point.
+    out[0, 0], out[1, 0] = f_2[0] - slope[0], slope[0]
     return np.concatenate([out[:, ::-1, :, 1], out[..., 0]], axis=1)

@@ -23,14 +23,25 @@ class SurfaceKernels:
 
     Attributes
     ----------
-    xx, zz, xz : each alone.
-    together : the three as channels of one kernel, in this order.
+    together : xx, zz and xz as channels of one kernel, in this order.
     """
 
-    xx: Kernel
-    zz: Kernel
-    xz: Kernel
     together: Kernel
+
+    @property
+    def xx(self) -> Kernel:
+        """u_x of t_x."""
+        return self.together.channel(0)
+
+    @property
+    def zz(self) -> Kernel:
+        """u_z of t_z."""
+        return self.together.channel(1)
+
+    @property
+    def xz(self) -> Kernel:
+        """u_x of t_z."""
+        return self.together.channel(2)
 
 
 def is_ring(roller: Roller, geometry: str) -> bool:
@@ -92,8 +103,7 @@ def surface_kernels(
     together = tabulate(
         surface_compliance(roller, speed, geometry), window, low_limit=low, tolerance=tolerance
     )
-    xx, zz, xz = together.channels
-    return SurfaceKernels(xx=xx, zz=zz, xz=xz, together=together)
+    return SurfaceKernels(together)
 
 
 def surface_compliance(

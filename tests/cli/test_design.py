@@ -10,6 +10,7 @@ from typer.testing import CliRunner
 import rollnip as rn
 from rollnip.cli.app import app
 from rollnip.closed_forms import contact_modulus, effective_radius
+from rollnip.sweep import row as row_module
 
 # Hertz: a^2 = 4 F R / (pi E*), Johnson (1985), eq. 4.43
 LOAD = pi * contact_modulus(210e3, 0.3, 210e3, 0.3) * 0.2**2 / (4.0 * effective_radius(50.0, 25.0))
@@ -256,3 +257,73 @@ def test_study_files_that_are_wrong(command, study, tmp_path):
     assert 'parameter: is not a known key; did you mean "parameters"?' in result.stderr
     assert "parameters: is missing." in result.stderr
     assert "there is no such file" in refused(command, str(tmp_path / "none.toml"))
+
+
+@pytest.fixture(params=["find", "optimise", "tolerance"])
+def solving(request, case, study):
+    """A command that solves many cases."""
+    if request.param == "find":
+        return ask(case)
+    text = OPTIMISE if request.param == "optimise" else TOLERANCE.format(limit="0.3 mm")
+    command = (request.param, study(text), "--geometry", "linear")
+    return (*command, "--workers", "1") if request.param == "tolerance" else command
+
+
+class Solves:
+    """Counts solves, and stops at one of them as Ctrl-C does."""
+
+    def __init__(self, monkeypatch):
+        self.count, self.stop_at = 0, 0
+        self._solve = row_module.solve
+        monkeypatch.setattr(row_module, "solve", self)
+
+    def __call__(self, *arguments, **options):
+        if self.count == self.stop_at - 1:
+            raise KeyboardInterrupt
+        self.count += 1
+        return self._solve(*arguments, **options)
+
+
+def test_what_was_stopped_goes_on_where_it_was(solving, tmp_path, monkeypatch):
+    database = tmp_path / "kept.db"
+    solves = Solves(monkeypatch)
+    wanted = run(*solving)
+    once, solves.count, solves.stop_at = solves.count, 0, 5
+    stopped = run(*solving, "--database", str(database))
+    assert (stopped.exit_code, stopped.stdout) == (130, "")
+    assert stopped.stderr.startswith("rollnip: interrupted; 4 ")
+    assert "are in " in stopped.stderr
+    assert stopped.stderr.endswith(f"{database}: the same command goes on from there.\n")
+    solves.count, solves.stop_at = 0, 0
+    resumed = run(*solving, "--database", str(database))
+    assert (resumed.exit_code, resumed.stdout) == (wanted.exit_code, wanted.stdout)
+    assert solves.count <= once - 4  # a place asked for twice is solved once
+    solves.stop_at = solves.count + 1
+    assert run(*solving, "--database", str(database)).stdout == wanted.stdout
+
+
+def test_without_a_database_an_interrupt_promises_nothing(solving, monkeypatch):
+    Solves(monkeypatch).stop_at = 3
+    stopped = run(*solving)
+    assert (stopped.exit_code, stopped.stderr) == (130, "rollnip: interrupted.\n")
+
+
+def test_a_database_of_another_question_is_refused(solving, case, tmp_path):
+    database = tmp_path / "kept.db"
+    assert run(*solving, "--database", str(database)).exit_code == 0
+    Path(case).write_text(HERTZ.replace("50 mm", "60 mm"))
+    said = refused(*solving, "--database", str(database))
+    assert f'{database}: holds another study ("Steel on steel", ' in said
+    assert "of nip.load): its case or its parameters differ" in said
+    database.write_text("no database, but a text that is long enough to have been one")
+    assert "is no database of a sweep" in refused(*solving, "--database", str(database))
+
+
+def test_what_is_wanted_may_change_without_a_new_solve(case, tmp_path, monkeypatch):
+    database = ("--database", str(tmp_path / "kept.db"))
+    solves = Solves(monkeypatch)
+    first = run(*ask(case), *database)
+    before = solves.count
+    again = run(*ask(case, wanted="peak_pressure=800 MPa"), *database)
+    assert first.exit_code == again.exit_code == 0
+    assert solves.count - before <= before - 5  # the five from limit to limit were there

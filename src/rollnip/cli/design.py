@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,11 +16,15 @@ from rollnip._errors import InvalidInputError
 if TYPE_CHECKING:
     from rollnip.design import Found
     from rollnip.io import Columns
+    from rollnip.sweep import Study, Table
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
 _GEOMETRY = typer.Option(help="linear, corrected, curved or finite; overrides the file.")
 _STUDY = typer.Argument(help="Study file, TOML or JSON; - is the standard input.")
 _JSON = typer.Option("--json", help="Print the answer as JSON.")
+_DATABASE = typer.Option(
+    help="Takes each case as it ends, name.db: the same command goes on from there."
+)
 _CASE_OUT = typer.Option(help="Write the case found: name.toml or name.json.")
 
 
@@ -41,6 +46,7 @@ def find(
     geometry: Annotated[str | None, _GEOMETRY] = None,
     json: Annotated[bool, _JSON] = False,
     out: Annotated[Path | None, _CASE_OUT] = None,
+    database: Annotated[Path | None, _DATABASE] = None,
 ) -> None:
     """Find the value of a parameter that gives a wanted result.
 
@@ -60,8 +66,17 @@ def find(
         if out is not None:
             _check_case_target(out)
         tree = _with_geometry(read_document(case), geometry)
-        with _named(case):
-            found = search(tree, path, quantity, value, *between, tolerance=share, points=points)
+        with _named(case), _evaluating(database, tree, [path]) as evaluate:
+            found = search(
+                tree,
+                path,
+                quantity,
+                value,
+                *between,
+                tolerance=share,
+                points=points,
+                evaluate=evaluate,
+            )
         if out is not None and found.value is not None:
             _write_case(found.case, {path: (found.value, found.unit)}, out)
         sys.stdout.write(_json(found.as_dict()) if json else _text(found, between[0]))
@@ -75,6 +90,7 @@ def optimise(
     geometry: Annotated[str | None, _GEOMETRY] = None,
     json: Annotated[bool, _JSON] = False,
     out: Annotated[Path | None, _CASE_OUT] = None,
+    database: Annotated[Path | None, _DATABASE] = None,
 ) -> None:
     """Find the values of a few parameters that make one result small or large, within limits.
 
@@ -88,13 +104,17 @@ def optimise(
         from rollnip.design import optimise as search
         from rollnip.design.files import read_optimise
         from rollnip.design.report import optimum_report
-        from rollnip.sweep import evaluate
 
         question = read_optimise(study)
         if out is not None:
             _check_case_target(out)
         tree = _with_geometry(question.case, geometry)
-        with progress(question.search.solves + 1, "solving") as advance, _named(study):
+        paths = [one.path for one in question.parameters]
+        with (
+            _named(study),
+            _evaluating(database, tree, paths) as evaluate,
+            progress(question.search.solves + 1, "solving") as advance,
+        ):
 
             def counted(case: Mapping[str, Any]) -> Mapping[str, Any]:
                 row = evaluate(case)
@@ -126,6 +146,7 @@ def tolerance(
     workers: Annotated[
         int | None, typer.Option(help="Processes; by default one for each core.", min=1)
     ] = None,
+    database: Annotated[Path | None, _DATABASE] = None,
 ) -> None:
     """Compute how results scatter where parameters do, and how often specifications are met."""
     from rollnip.cli.app import _clear_failures, _named
@@ -133,28 +154,24 @@ def tolerance(
     with _clear_failures():
         from functools import partial
 
-        from rollnip.cli.progress import progress
         from rollnip.design import tolerance as scatter
         from rollnip.design.files import read_tolerance
         from rollnip.design.report import plot_tolerance, tolerance_report
         from rollnip.plots import check_figure_target, save_figure
-        from rollnip.sweep import sweep
 
         question = read_tolerance(study)
         if plot is not None:
             check_figure_target(plot)
         tree = _with_geometry(question.case, geometry)
-        plan = question.sampling
-        total = plan.count + plan.sobol * (len(question.parameters) + 2)
-        with progress(total, "solving") as advance, _named(study):
+        with _named(study):
             found = scatter(
                 tree,
                 question.parameters,
                 results=question.results,
                 limits=question.limits,
                 correlations=question.correlations,
-                sampling=plan,
-                solve=partial(sweep, workers=workers, report=lambda _: advance()),
+                sampling=question.sampling,
+                solve=partial(_solved, database=database, workers=workers),
             )
         if plot is not None:
             save_figure(plot_tolerance(found), plot)
@@ -219,6 +236,34 @@ def pareto(
         else:
             write_whole(out, lambda file: file.write_text(text, "utf-8"))
         sys.stdout.flush()
+
+
+@contextmanager
+def _evaluating(
+    database: Path | None, tree: Mapping[str, Any], paths: Sequence[str]
+) -> Iterator[Callable[[Mapping[str, Any]], Mapping[str, Any]]]:
+    """What solves one case; with a database, what it holds is not solved again."""
+    from rollnip.cli.kept import interrupts_told
+    from rollnip.sweep import evaluate, recalling
+
+    if database is None:
+        yield evaluate
+        return
+    with recalling(database, tree, paths) as recall, interrupts_told(recall.store):
+        yield recall
+
+
+def _solved(study: Study, *, database: Path | None, workers: int | None) -> Table:
+    """All cases of a study; what a database holds is not solved again."""
+    from rollnip.cli.sweep import solve_open
+    from rollnip.sweep.run import OpenCases
+    from rollnip.sweep.store import About, Store
+    from rollnip.sweep.table import read_table
+    from rollnip.sweep.version import own_version
+
+    with Store(database, About.of(study, own_version())) as store:
+        solve_open(OpenCases(study, store), store, workers)
+        return read_table(store)
 
 
 def _head(table: Columns, name: str) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import signal
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,6 +14,7 @@ import typer
 from typer.core import TyperGroup
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip.cli.kept import interrupts_told, kept
 
 if TYPE_CHECKING:
     from rollnip.sweep.crew import Crew
@@ -105,7 +105,12 @@ def run(
             if known:
                 _say(f"{taken:,} cases taken over")
             cases = OpenCases(plan, store, with_profiles=profiles is not None)
-            _solve(cases, store, workers, dask)
+            start = perf_counter()
+            solve_open(cases, store, workers, dask)
+            if cases.count:
+                seconds = perf_counter() - start
+                rate = cases.count / seconds
+                _say(f"{cases.count:,} cases in {seconds:.3g} s, {rate:.3g} a second")
             if part == (1, 1):
                 _finish(store, table, profiles)
             else:
@@ -133,41 +138,25 @@ def merge(
             _finish(store, out, profiles)
 
 
-def _solve(cases: OpenCases, store: Store, workers: int | None, dask: str | None) -> None:
+def solve_open(
+    cases: OpenCases, store: Store, workers: int | None, dask: str | None = None
+) -> None:
     """Solve what is open; what stops it says how much is kept, and how to go on."""
-    total = len(store.about.positions)
-    start = perf_counter()
-    try:
-        with _terminated_as_interrupted():
-            _run(cases, store, workers, dask)
-    except KeyboardInterrupt:
-        sys.stderr.write(f"rollnip: interrupted; {_kept(store, total)}.\n")
-        raise typer.Exit(130) from None
-    except RollnipError as error:
-        raise RollnipError(f"{error} ({_kept(store, total)})") from None
-    if cases.count:
-        seconds = perf_counter() - start
-        _say(f"{cases.count:,} cases in {seconds:.3g} s, {cases.count / seconds:.3g} a second")
-
-
-def _run(cases: OpenCases, store: Store, workers: int | None, dask: str | None) -> None:
     from rollnip.cli.progress import progress
     from rollnip.sweep.run import run as run_cases
 
-    known = len(store.about.positions) - cases.count
+    total = len(store.about.positions)
+    known = total - cases.count
     label = f"{known:,} known" if known else ""
-    with _crew(workers, dask, cases.count) as crew, progress(cases.count, label) as step:
-        run_cases(cases, store, crew, lambda _: step())
-
-
-@contextmanager
-def _terminated_as_interrupted() -> Iterator[None]:
-    """What a batch queue sends before it kills ends the sweep as Ctrl-C does."""
-    handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        yield
-    finally:
-        signal.signal(signal.SIGTERM, handler)
+        with (
+            interrupts_told(store, total),
+            _crew(workers, dask, cases.count) as crew,
+            progress(cases.count, label) as step,
+        ):
+            run_cases(cases, store, crew, lambda _: step())
+    except RollnipError as error:
+        raise RollnipError(f"{error}{kept(store, total, ' (', ')')}") from None
 
 
 def _finish(store: Store, table: Path, profiles: Path | None) -> None:
@@ -222,11 +211,6 @@ def _require_meant(study: str, count: int, yes: bool) -> None:
         raise InvalidInputError(
             f"{study}: makes {count:,} cases, more than {_MANY:,}; say --yes if that is meant."
         )
-
-
-def _kept(store: Store, total: int) -> str:
-    done = sum(store.tally().values())
-    return f"{done:,} of {total:,} cases are in {store.name}: the same command goes on from there"
 
 
 def _say(line: str) -> None:

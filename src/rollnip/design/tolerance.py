@@ -57,7 +57,8 @@ class _Question:
         errors = [f"error.{name}" for name in self.results if f"error.{name}" in SCALARS]
         columns = tuple(np.ascontiguousarray(column) for column in samples.T)
         axis = Axis(self.paths, tuple(unit or "1" for unit in self.units), columns)
-        return self.solve(Study("", self.case, (axis,), (*self.results, *errors)))
+        title = str(self.case.get("title", ""))
+        return self.solve(Study(title, self.case, (axis,), (*self.results, *errors)))
 
 
 def tolerance(
@@ -81,7 +82,8 @@ def tolerance(
     correlations : between parameters; none: they are independent.
     sampling : how many samples and which intervals; ``Sampling()`` by default.
     solve : solves a study; `rollnip.sweep.sweep` in this process by default. For more processes
-        ``functools.partial(sweep, workers=8)``, with ``database=...`` it can be resumed.
+        ``functools.partial(sweep, workers=8)``; with ``database="tolerance.db"`` a run that was
+        stopped goes on from there.
 
     Raises
     ------
@@ -98,7 +100,9 @@ def tolerance(
     )
     plan = question.sampling
     samples = hypercube(question.distributions, plan.count, question.scores, plan.seed)
-    table = question.solved(samples)
+    # one study, so that one database holds all of it
+    whole = question.solved(np.concatenate([samples, _mixed(question)]))
+    table, mixed = _rows(whole, slice(plan.count)), _rows(whole, slice(plan.count, None))
     is_solved = np.asarray(table["converged"]) == 1.0
     for name in question.results:
         is_solved &= np.isfinite(table[name])
@@ -108,7 +112,7 @@ def tolerance(
             f"only {int(is_solved.sum())} of {plan.count} samples could be solved, at least "
             f"{FEWEST} must be" + (f"; one of them: {failures[0][1]}" if failures else ".")
         )
-    sobol, notes = _sobol(question)
+    sobol, notes = _sobol(question, mixed)
     scatters = tuple(
         _scatter(question, name, samples[is_solved], table[name][is_solved], sobol.get(name))
         for name in question.results
@@ -246,12 +250,23 @@ def _chance(question: _Question, table: Table, is_solved: Any, limits: tuple[Lim
     )
 
 
-def _sobol(question: _Question) -> tuple[dict[str, SobolIndices], list[str]]:
+def _mixed(question: _Question) -> Array:
+    """The samples that Sobol indices need; none where they are not wanted."""
     plan, dimensions = question.sampling, len(question.paths)
     if not plan.sobol:
+        return np.empty((0, dimensions))
+    return placed(question.distributions, sobol_places(plan.sobol, dimensions, plan.seed))
+
+
+def _rows(table: Table, which: slice) -> Table:
+    """Some rows of a table."""
+    return Table({name: column[which] for name, column in table.columns.items()}, table.units)
+
+
+def _sobol(question: _Question, table: Table) -> tuple[dict[str, SobolIndices], list[str]]:
+    plan = question.sampling
+    if not plan.sobol:
         return {}, []
-    places = sobol_places(plan.sobol, dimensions, plan.seed)
-    table = question.solved(placed(question.distributions, places))
     is_solved = np.asarray(table["converged"]) == 1.0
     found, notes = {}, []
     for name in question.results:

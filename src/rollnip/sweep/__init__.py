@@ -1,5 +1,6 @@
 """Many cases: studies, one case to one row, sweeps over many cores and machines."""
 
+from rollnip.sweep.recall import recalling
 from rollnip.sweep.row import SCALARS, STATUSES, evaluate, scalars
 from rollnip.sweep.study import Axis, Study
 from rollnip.sweep.study_file import read_study
@@ -16,6 +17,7 @@ __all__ = [
     "Table",
     "evaluate",
     "read_study",
+    "recalling",
     "scalars",
     "sweep",
 ]

@@ -33,6 +33,7 @@ def merged(databases: Sequence[Path]) -> Iterator[Store]:
         try:
             for path in databases:
                 with Store(path) as shard:
+                    _require_study(path, shard.about)
                     if target is None:
                         whole = replace(shard.about, shard=(1, 1))
                         target = Store(Path(folder) / "merged.db", whole)
@@ -86,6 +87,11 @@ def _hash(study: Study, position: int) -> str:
         return case_hash(parse_case(study.case(position)))
     except RollnipError:
         return ""
+
+
+def _require_study(path: Path, about: About) -> None:
+    if not about.count:
+        raise RollnipError(f"{path}: holds the cases of a search, no study to be merged.")
 
 
 def _require_same(path: Path, found: About, first: Path, about: About) -> None:

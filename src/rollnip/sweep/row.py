@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from math import isfinite
 from typing import Any
 
@@ -64,7 +65,13 @@ def evaluate(tree: Mapping[str, Any]) -> Row:
       surface in the contact, mean over an element;
     - ``warnings``: reservations, parted by blanks.
     """
-    return attempt(lambda: tree).row
+    return attempt(lambda: tree, own_kernels()).row
+
+
+@cache
+def own_kernels() -> KernelCache:
+    """What this process keeps from case to case, for neighbours share coverings."""
+    return KernelCache()
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,7 +82,7 @@ class Attempt:
     ----------
     row : as `evaluate` returns it.
     case : its hash; None where it is no case.
-    solution : None where there is none.
+    solution : None where there is none, or the row was known.
     """
 
     row: Row
@@ -83,13 +90,23 @@ class Attempt:
     solution: Solution | None = None
 
 
-def attempt(make: Callable[[], Mapping[str, Any]], cache: KernelCache | None = None) -> Attempt:
-    """Solve the case whose tree ``make`` returns; what either raises is a message in the row."""
+def attempt(
+    make: Callable[[], Mapping[str, Any]],
+    kernels: KernelCache | None = None,
+    recall: Callable[[str], Row | None] = lambda _: None,
+) -> Attempt:
+    """Solve the case whose tree ``make`` returns; what either raises is a message in the row.
+
+    ``recall`` may know the row of a case by its hash.
+    """
     name = None
     try:
         case = parse_case(make(), source=_NAME)
         name = case_hash(case)
-        solution = solve(case.nip, case.model, cache=cache, on_failure="return")
+        known = recall(name)
+        if known is not None:
+            return Attempt(known, name)
+        solution = solve(case.nip, case.model, cache=kernels, on_failure="return")
         return Attempt(scalars(solution), name, solution)
     except ConvergenceError as error:
         return Attempt(without_solution("failed", str(error)), name)

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -19,8 +19,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import RollnipError
-from rollnip.sweep.row import SCALARS
-from rollnip.sweep.study import Study
+from rollnip.sweep.row import SCALARS, Row
+from rollnip.sweep.study import Study, case_digest
 from rollnip.sweep.task import Outcome
 
 FORMAT = 1
@@ -50,7 +50,7 @@ class About:
     ----------
     version : of rollnip and of its code, as `own_version` has it.
     study : digest of the study.
-    title, count : of the study.
+    title, count : of the study; 0 cases: of a search, whose cases come as it asks for them.
     paths, units : of the parameters.
     results, profiles : that are wanted.
     shard : (which, of how many), counted from 1.
@@ -81,6 +81,20 @@ class About:
             shard=shard,
         )
 
+    @classmethod
+    def of_search(cls, case: Mapping[str, Any], paths: Sequence[str], version: str) -> About:
+        """What the database of a search says: whose case, and which of its values change."""
+        return cls(
+            version=version,
+            study=case_digest(case, "search", *paths),
+            title=str(case.get("title", "")),
+            count=0,
+            paths=tuple(paths),
+            units=(),
+            results=(),
+            profiles=(),
+        )
+
     @property
     def positions(self) -> range:
         """Positions of its cases in the study."""
@@ -107,6 +121,7 @@ class Store:
 
     def __init__(self, path: Path | None, about: About | None = None) -> None:
         self.name = "the database" if path is None else str(path)
+        self.is_in_memory = path is None
         if path is not None and about is None and not path.is_file():
             raise RollnipError(f"{path}: there is no such file.")
         try:
@@ -158,6 +173,23 @@ class Store:
             for (position,) in self._base.execute(query):
                 found[position] = True
         return found
+
+    @property
+    def size(self) -> int:
+        """Number of cases it holds."""
+        return sum(self.tally().values())
+
+    def row(self, position: int) -> Row:
+        """The row of one case, as `rollnip.sweep.evaluate` returned it."""
+        names = ("status", "message", "status", "geometry", *SCALARS, "warnings")
+        wanted = ", ".join(f'"{name}"' for name in names)
+        with self._spoken():
+            found = self._base.execute(
+                f"SELECT {wanted} FROM cases WHERE position = ?", (position,)
+            ).fetchone()
+        keys = ("status", "message", "converged", "geometry", *SCALARS, "warnings")
+        row: Row = dict(zip(keys, found, strict=True))
+        return row | {"converged": row["status"] == "solved"}
 
     def tally(self) -> dict[str, int]:
         """Number of cases by status."""
@@ -302,7 +334,7 @@ def _plain(error: sqlite3.Error) -> str:
 
 
 def _require_same(name: str, found: About, wanted: About) -> None:
-    hint = "choose another name for the results, or delete it."
+    hint = "choose another name for the results or the database, or delete it."
     if found.version != wanted.version:
         raise RollnipError(
             f"{name}: was made by rollnip {found.version}, this is {wanted.version}; results of "
@@ -310,9 +342,10 @@ def _require_same(name: str, found: About, wanted: About) -> None:
         )
     if found.study != wanted.study:
         title = f'"{found.title}", ' if found.title else ""
+        kind = f"{found.count} cases" if found.count else "a search"
         raise RollnipError(
-            f"{name}: holds another study ({title}{found.count} cases of {', '.join(found.paths)}):"
-            f" its case or its parameters differ; {hint}"
+            f"{name}: holds another study ({title}{kind} of {', '.join(found.paths)}): its case or "
+            f"its parameters differ; {hint}"
         )
     if found.shard != wanted.shard:
         ours, theirs = ("/".join(map(str, one.shard)) for one in (wanted, found))

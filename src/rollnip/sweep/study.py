@@ -23,6 +23,8 @@ Array = NDArray[np.float64]
 Value = float | str
 Column = Array | tuple[str, ...]
 
+_DIGITS = 16
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Axis:
@@ -114,11 +116,23 @@ class Study:
 
         Neither the titles nor which results and profiles are wanted are part of it.
         """
-        tree = {key: value for key, value in self.tree.items() if key != "title"}
-        digest = sha256(json.dumps(tree, sort_keys=True, default=str).encode())
+        digest = _fed_with(self.tree)
         for axis in self.axes:
             axis.feed(digest)
-        return digest.hexdigest()[:16]
+        return str(digest.hexdigest()[:_DIGITS])
+
+
+def case_digest(case: Mapping[str, Any], *words: str) -> str:
+    """What tells a case, its title aside, and what is done with it from others."""
+    digest = _fed_with(case)
+    digest.update(json.dumps(words).encode())
+    return str(digest.hexdigest()[:_DIGITS])
+
+
+def _fed_with(case: Mapping[str, Any]) -> Any:
+    """A hash that holds a case; its title does not count."""
+    tree = {key: value for key, value in case.items() if key != "title"}
+    return sha256(json.dumps(tree, sort_keys=True, default=str).encode())
 
 
 def case_with(

@@ -7,7 +7,6 @@ import signal
 import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from functools import cache
 from multiprocessing import parent_process
 from multiprocessing.connection import wait
 from time import perf_counter
@@ -15,10 +14,9 @@ from typing import Any
 
 import numpy as np
 
-from rollnip.influence import KernelCache
 from rollnip.io.netcdf import PROFILE_UNITS
 from rollnip.solution import Solution
-from rollnip.sweep.row import Row, attempt, without_solution
+from rollnip.sweep.row import Row, attempt, own_kernels, without_solution
 from rollnip.sweep.study import Value, case_with
 
 
@@ -69,12 +67,6 @@ class Outcome:
 def perform(task: Task) -> list[Outcome]:
     """Solve the cases of a task; a case that goes wrong is a row with its message."""
     return [_outcome(task, position, values) for position, values in task.cases]
-
-
-@cache
-def own_kernels() -> KernelCache:
-    """What this process keeps from case to case, for neighbours in a study share coverings."""
-    return KernelCache()
 
 
 def given_up(task: Task, why: str) -> list[Outcome]:

@@ -1,0 +1,75 @@
+"""Cases that come one by one, as a search asks for them: none is solved twice."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+from rollnip.sweep.row import Row, attempt, own_kernels
+from rollnip.sweep.store import About, Store
+from rollnip.sweep.task import Outcome
+from rollnip.sweep.version import own_version
+
+
+@contextmanager
+def recalling(
+    database: str | Path, case: Mapping[str, Any], paths: Sequence[str]
+) -> Iterator[Recall]:
+    """`evaluate` with a database, for searches that are to go on where they were stopped.
+
+    A case that the database holds, by its hash, is taken from there; any other is solved and
+    committed before the search goes on::
+
+        with recalling("find.db", case, ["nip.load"]) as evaluate:
+            find(case, "nip.load", "nip_width", "8 mm", 1.0, 20.0, evaluate=evaluate)
+
+    Parameters
+    ----------
+    database :
+        SQLite file, made where it is not there.
+    case :
+        tree of the case in which the search changes values.
+    paths :
+        of what it changes; their limits and the results wanted may change from run to run.
+
+    Raises
+    ------
+    RollnipError
+        where the database cannot be opened or written, is in use, or is of another version or
+        of other questions.
+    """
+    with Store(Path(database), About.of_search(case, paths, own_version())) as store:
+        yield Recall(store)
+
+
+class Recall:
+    """Rows of cases from a database, where it holds them; else solved, and committed to it.
+
+    Parameters
+    ----------
+    store :
+        of a search.
+    """
+
+    def __init__(self, store: Store) -> None:
+        self.store = store
+        self._known = store.known()
+        self._next = store.size
+
+    def __call__(self, tree: Mapping[str, Any]) -> Row:
+        """As `evaluate`. Raises RollnipError where the database cannot be written."""
+        start = perf_counter()
+        done = attempt(lambda: tree, own_kernels(), self._recalled)
+        if done.case is not None and done.case not in self._known:
+            seconds = perf_counter() - start
+            self.store.write(Outcome(self._next, (), done.case, done.row, seconds))
+            self._known[done.case] = self._next
+            self._next += 1
+        return done.row
+
+    def _recalled(self, case: str) -> Row | None:
+        position = self._known.get(case)
+        return None if position is None else self.store.row(position)

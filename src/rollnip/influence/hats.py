@@ -39,12 +39,13 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     """
     padded = np.zeros((nodes.size, tractions.shape[1]))
     padded[1:-1] = tractions
-    slopes = np.diff(padded, axis=0) / np.diff(nodes)[:, None]
+    slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
+    slopes[1:-1] = (padded[1:] - padded[:-1]) / (nodes[1:] - nodes[:-1])[:, None]
+    kinks = slopes[1:] - slopes[:-1]
     values = kernel.double_integral(x[:, None] - nodes[None, :])
-    if values.ndim == 3:
-        values = np.moveaxis(values, -1, 0)
-    out = values.reshape(-1, nodes.size) @ np.diff(slopes, axis=0, prepend=0.0, append=0.0)
-    return out.reshape(*values.shape[:-1], -1)
+    if values.ndim == 2:
+        return np.asarray(values @ kinks)
+    return np.moveaxis(kinks.T @ values, 2, 0)
 
 
 def load_weights(nodes: Array) -> Array:

@@ -9,8 +9,8 @@ from rollnip.influence import Kernel
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.surfaces import Array, PairKernels
 
-_CANDIDATES = 40
-_SMALLEST = 1e-9  # of the smaller radius
+_CANDIDATES = np.geomspace(1e-9, 1.0, 40)  # half-widths, of the smaller radius
+_ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 25)
 
 
 def half_width_guess(nip: Nip, kernels: PairKernels) -> float:
@@ -24,7 +24,7 @@ def half_width_guess(nip: Nip, kernels: PairKernels) -> float:
         where the load or approach asks for a contact as wide as the smaller roller.
     """
     radius = min(nip.upper.radius, nip.lower.radius)
-    half_widths = radius * np.geomspace(_SMALLEST, 1.0, _CANDIDATES)
+    half_widths = radius * _CANDIDATES
     centre, edge = _elliptic_displacements(_normal_kernel(kernels), half_widths)
     drop = np.maximum(centre - edge, np.finfo(float).tiny)
     peak = 0.5 * nip.curvature * half_widths**2 / drop
@@ -50,11 +50,11 @@ def _normal_kernel(kernels: PairKernels) -> Kernel:
 
 def _elliptic_displacements(kernel: Kernel, half_widths: Array) -> tuple[Array, Array]:
     """u_z at the centre and the edge under p = sqrt(1 - x^2/a^2), for each a [mm/MPa]."""
-    angles = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 25)
-    nodes, pressure = np.sin(angles), np.cos(angles)
+    nodes, pressure = np.sin(_ANGLES), np.cos(_ANGLES)
     # The changes of slope of the pressure for a = 1; u is the sum of changes * int int G.
-    slopes = np.concatenate([[0.0], np.diff(pressure) / np.diff(nodes), [0.0]])
+    slopes = np.zeros(nodes.size + 1)
+    slopes[1:-1] = (pressure[1:] - pressure[:-1]) / (nodes[1:] - nodes[:-1])
     distances = np.array([0.0, 1.0])[:, None] - nodes
     values = kernel.double_integral(np.multiply.outer(half_widths, distances))
-    centre, edge = (values @ np.diff(slopes)).T / half_widths
+    centre, edge = (values @ (slopes[1:] - slopes[:-1])).T / half_widths
     return centre, edge

@@ -132,7 +132,7 @@ def _refined(
     """Influence functions and the last round of refinement."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
-    kernels = with_second_order(kernels, nip, model.geometry, half_width)
+    kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     return kernels, refine(nip, model, kernels, half_width, method)
 
 

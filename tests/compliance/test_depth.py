@@ -7,9 +7,11 @@ import pytest
 
 from rollnip._errors import InvalidInputError
 from rollnip.compliance import (
+    flat_amplitudes,
     flat_compliance,
     flat_fields,
     flat_transfer,
+    ring_amplitudes,
     ring_compliance,
     ring_fields,
     ring_transfer,
@@ -289,3 +291,20 @@ def test_wrong_depth_is_named(z, keywords, name):
 def test_wrong_traction_is_named(t_x, name):
     with pytest.raises(InvalidInputError, match=name):
         flat_fields([1.0], [0.5], t_x, 1.0, [1.0], [1.0], [0.5])
+
+
+@pytest.mark.parametrize("moduli", [[9.0, 1.0, 40.0], [9.0 - 6.0j, 1.0 - 0.9j, 40.0]])
+def test_amplitudes_are_the_transfer_without_the_factors_i(moduli):
+    z, layers = np.linspace(0.0, 1.8, 7), (LAYERS[0], moduli, LAYERS[2])
+    pairs = (
+        (flat_amplitudes(K, z, *layers), flat_transfer(K, z, *layers)),
+        (ring_amplitudes(K, z, 2.5, *layers), ring_transfer(K, z, 2.5, *layers)),
+    )
+    for amplitudes, transfer in pairs:
+        assert np.iscomplexobj(amplitudes) == np.iscomplexobj(np.array(moduli))
+        fields = np.array(transfer)  # (2, 5, nz, n)
+        fields[:, [0, 4]] /= 1j  # u_x and s_xz
+        fields[0] /= 1j  # per unit i t_x
+        expected = fields.transpose(3, 2, 1, 0)
+        scale = np.max(np.abs(expected), axis=(0, 1), keepdims=True)
+        assert np.max(np.abs(amplitudes - expected) / scale) < 1e-14

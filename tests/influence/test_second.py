@@ -1,10 +1,16 @@
 """Second-order response: limits that finite strain must keep, and two rollers as one on a plane."""
 
+from itertools import pairwise
+
 import numpy as np
 import pytest
+from scipy.integrate import quad
+from scipy.interpolate import CubicSpline
 
 import rollnip as rn
-from rollnip.influence import second_response
+from rollnip.compliance import flat_transfer, ring_transfer
+from rollnip.influence import second, second_response
+from rollnip.influence.surface import moduli
 
 RUBBER = rn.Elastic(modulus=1.0, poisson=0.5)
 FOAM = rn.Elastic(modulus=1.0, poisson=0.3)
@@ -25,6 +31,61 @@ def covered(radius, thickness, material=RUBBER):
 
 
 FINITE = rn.Model(geometry="finite")
+SLOW = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.01, poisson=0.4)
+MANY = (rn.Layer(0.5, FOAM), rn.Layer(1.5, SLOW), rn.Layer(1.0, RUBBER))
+SPEED = 100.0
+
+
+def tractions(half_width=2.0, peak=0.05):
+    """Nodes, and pressure and shear with a kink between them."""
+    nodes = half_width * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 61))
+    x = nodes[1:-1]
+    pressure = peak * np.sqrt(1.0 - (x / half_width) ** 2)
+    return nodes, pressure, pressure * np.where(x > 0.3, 0.4, 0.1 * x)
+
+
+def transfer(roller, k, z, sign):
+    """H (xx, xz, zx, zz), tr H and 2 G per unit traction, of the moduli or their conjugates."""
+    thickness = [layer.thickness for layer in roller.layers]
+    owner = np.searchsorted(np.cumsum(thickness), z)
+    poisson = np.array([layer.material.poisson for layer in roller.layers])
+    young = np.array([moduli(layer.material, k, SPEED) for layer in roller.layers])
+    young = np.conj(young) if sign < 0 else young
+    if np.isinf(roller.radius):
+        both = flat_transfer(k, z, thickness, young, poisson)
+    else:
+        both = ring_transfer(k, z, roller.radius, thickness, young, poisson)
+    shrunk = (1.0 - roller.curvature * z)[:, None]
+    nu, twice_shear = poisson[owner][:, None], young[owner] / (1.0 + poisson[owner][:, None])
+    out = []
+    for u_x, u_z, s_xx, s_zz, s_xz in both:
+        xx = (1j * k * u_x - roller.curvature * u_z) / shrunk
+        zx = (1j * k * u_z + roller.curvature * u_x) / shrunk
+        dilation = (1.0 - 2.0 * nu) * (s_xx + s_zz) / twice_shear
+        pressing = nu * (s_xx + s_zz)  # lambda tr H
+        out.append((xx, 2.0 * s_xz / twice_shear - zx, zx, dilation - xx, dilation, pressing))
+    return [np.array(parts) for parts in zip(*out, strict=True)], twice_shear
+
+
+def work_of_quadratic_stress(roller, response, t, z, weight):
+    """Surface displacement -int N : grad g dV, term by term as the stress N is written."""
+    k = np.maximum(response.k, 1e-6 * response.k[1])
+    fields, twice_shear = transfer(roller, k, z, +1)
+    xx, xz, zx, zz, dilation, pressing = (
+        np.fft.irfft(np.sum(f * t.T[:, None, :], axis=0)) for f in fields
+    )
+    tests, _ = transfer(roller, k, z, -1)
+    g = [np.conj(f) for f in tests]
+    shear = 0.5 * twice_shear
+    det = xx * zz - xz * zx
+    whole = pressing + np.fft.irfft(shear * np.fft.rfft(dilation))  # (lambda + G) tr H
+    isotropic = shear * np.fft.rfft(det - dilation**2) - 1.5 * np.fft.rfft(pressing * dilation)
+    work = (np.fft.rfft(whole * zz) + isotropic) * g[0] + (np.fft.rfft(whole * xx) + isotropic) * g[
+        3
+    ]
+    work -= np.fft.rfft(whole * zx) * g[1] + np.fft.rfft(whole * xz) * g[2]
+    work += np.fft.rfft(det) * g[5]
+    return -np.sum((weight * (1.0 - roller.curvature * z))[:, None] * work, axis=1).T
 
 
 @pytest.mark.parametrize("material", [RUBBER, FOAM])
@@ -46,6 +107,84 @@ def test_is_of_second_order(material):
         large, small = (flat.displacement(nodes, f * p, f * q)[part](x) for f in (1.0, 0.1))
         np.testing.assert_allclose(0.01 * large, small, atol=1e-9 * np.max(np.abs(large)))
     assert np.max(np.abs(twice[1])) < 0.11 * np.max(np.abs(once[1]))
+
+
+@pytest.mark.parametrize("radius", [25.0, np.inf])
+@pytest.mark.parametrize("layers", [MANY, MANY[1:2], MANY[2:]])
+def test_work_of_the_quadratic_stress(radius, layers):
+    roller = rn.Roller(radius=radius, layers=layers)
+    response = second_response(roller, SPEED, 2.0)
+    nodes, pressure, shear = tractions()
+    amplitudes = response._transform(nodes, np.stack([1j * shear, pressure], axis=1))
+    z, weight, _ = second._depths(roller, second.table_size(2.0))
+    t = amplitudes * (-1j, 1.0)
+    expected = work_of_quadratic_stress(roller, response, t, z, weight)
+    found = response._quadratic(amplitudes)
+    found, expected = (np.fft.irfft(u, axis=0) for u in (found, expected))
+    np.testing.assert_allclose(found, expected, atol=1e-10 * np.max(np.abs(expected)))
+
+
+def test_transform_of_the_tractions_is_exact():
+    response = second_response(covered(25.0, 3.0), None, 2.0)
+    nodes, pressure, shear = tractions()
+    found = response._transform(nodes, np.stack([shear, pressure], axis=1) + 0j)
+    step = 2.0 * (response.x[1] - response.x[0])
+    kept = np.exp(-36.0 * (response.k / (16.5 * np.pi / 2.0)) ** 6)
+    for i in (0, 1, 7, 40):
+        for part, values in enumerate((shear, pressure)):
+
+            def wave(x, values=values, k=response.k[i]):
+                return np.interp(x, nodes, [0.0, *values, 0.0]) * np.exp(-1j * k * x)
+
+            whole = sum(quad(wave, a, b, complex_func=True)[0] for a, b in pairwise(nodes))
+            whole *= np.exp(1j * response.k[i] * response.x[0]) * kept[i] / step
+            assert found[i, part] == pytest.approx(whole, abs=1e-11 * abs(found[0, part]))
+
+
+def test_splines_are_those_of_scipy():
+    x = np.linspace(-2.0, 3.0, 41)
+    values = np.stack([np.exp(x), np.sin(3.0 * x)], axis=1)
+    at = np.linspace(-2.0, 3.0, 333)
+    for found, column in zip(second._splines(x, values), values.T, strict=True):
+        expected = CubicSpline(x, column)
+        for order in (0, 1):
+            np.testing.assert_allclose(found(at, order), expected(at, order), atol=1e-11)
+
+
+@pytest.mark.parametrize("half_width", [0.2, 2.0, 20.0])
+@pytest.mark.parametrize("layers", [MANY, MANY[2:]])
+def test_depths_integrate_what_decays(layers, half_width):
+    roller = rn.Roller(radius=25.0, layers=layers)
+    z, weight, owner = second._depths(roller, half_width)
+    bounds = [0.0, *roller.interfaces]
+    for i, layer in enumerate(layers):
+        assert np.sum(weight[owner == i]) == pytest.approx(layer.thickness, rel=1e-6)
+        assert np.all((z[owner == i] > bounds[i]) & (z[owner == i] < bounds[i + 1]))
+    near = min(2.0 * half_width, roller.coating_thickness)
+    for length in (0.02 * near, 0.1 * near, near):
+        exact = length * -np.expm1(-roller.coating_thickness / length)
+        assert np.sum(weight * np.exp(-z / length)) == pytest.approx(exact, rel=1e-5)
+
+
+@pytest.mark.parametrize("share", [0.3, 0.99])
+@pytest.mark.parametrize("layers", [MANY, MANY[2:]])
+def test_a_shared_table_is_as_good_as_one_of_its_own(layers, share):
+    roller = rn.Roller(radius=25.0, layers=layers)
+    half_width = 2.0 * 2.0 ** (0.25 * share)
+    nodes, pressure, shear = tractions(half_width)
+    shared = second_response(roller, SPEED, half_width)
+    own = second.second_table(roller, SPEED, half_width)
+    assert shared.x.size != own.x.size or shared.x[0] != own.x[0]
+    x = np.linspace(-1.5 * half_width, 1.5 * half_width, 301)
+    for one, other in zip(
+        shared.displacement(nodes, pressure, shear),
+        own.displacement(nodes, pressure, shear),
+        strict=True,
+    ):
+        # Of a twentieth of the whole: 1e-4 in the figures. Slopes are rougher than values.
+        for order, near in ((0, 5e-4), (1, 2e-3)):
+            scale = np.max(np.abs(own_values := other(x, order)))
+            np.testing.assert_allclose(one(x, order), own_values, atol=near * scale)
 
 
 def test_plies_of_a_layer_are_the_layer():

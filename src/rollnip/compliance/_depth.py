@@ -140,11 +140,24 @@ def fields_at_depth(
     body: Body, z: FloatArray, t_x: ComplexArray, t_z: ComplexArray, side: Side
 ) -> ComplexArray:
     """u_x, u_z, s_xx, s_zz, s_xz at the depths ``z`` under tractions (q, n): (5, q, nz, n)."""
+    amplitudes = amplitudes_at_depth(body, z, np.stack((1j * t_x, t_z)), side)
+    out = np.ascontiguousarray(amplitudes.transpose(2, 3, 1, 0))
+    out[0] *= 1j
+    out[4] *= 1j
+    return out
+
+
+def amplitudes_at_depth(body: Body, z: FloatArray, traction: Array, side: Side) -> Array:
+    """U, u_z, s_xx, s_zz, S at the depths ``z``, where u_x = i U and s_xz = i S: (n, nz, 5, q).
+
+    Under the tractions (i t_x, t_z) of shape (2, q, n). Real where they and all moduli are.
+    """
     owner = _owners(body, z, side)
-    out = np.zeros((5, t_x.shape[0], z.size, t_x.shape[1]), dtype=complex)
+    dtype = np.result_type(traction, *(ply.twice_shear for ply in body.plies))
+    out = np.zeros((traction.shape[2], z.size, 5, traction.shape[1]), dtype=dtype)
     radius = body.plies[0].outer
     unit = body.plies[0].twice_shear * body.wave.h / (1.0 if isinf(radius) else radius)
-    traction = np.stack((1j * t_x / unit, -t_z / unit))
+    traction = np.stack((traction[0] / unit, -traction[1] / unit))
     for i, ply in enumerate(body.plies[: 1 + int(owner.max(initial=0))]):
         top = _state_vector(body.tops[i], traction)
         bottom = None
@@ -214,7 +227,7 @@ def _scaled_weights(t: FloatArray, wave: RingWave) -> list[FloatArray]:
 
 
 def _fill(
-    out: ComplexArray,
+    out: Array,
     rows: Array,
     z: FloatArray,
     ply: Ply,
@@ -236,8 +249,7 @@ def _fill(
             foot = None if bottom is None else bottom[..., columns]
             terms = _thick_terms(z, ply, part, head, foot)
         unit = scale[columns]
-        for component, values in enumerate(_combined(terms, ply, part, unit, z)):
-            out[component][:, rows[:, None], columns] = values
+        out[columns[:, None], rows] = _combined(terms, ply, part, unit, z)
 
 
 Terms = list[tuple[FloatArray, Array]]
@@ -260,16 +272,18 @@ def _thick_terms(
     exp(-ct) [cosh et + sinh(et)/e (c - M)] times the part of y(top) that decays with depth, and
     the mirror image times the part of y(bottom) that decays upwards.
     """
-    nu = ply.poisson
-    decaying = top if bottom is None else 0.5 * (top + sign_of(top, nu, wave))
-    sideways = wave.c * decaying - slope(decaying, nu, wave)
-    level, lever = _decay_functions(_distance(z - ply.top, ply.outer), ply, wave)
-    terms = [(level, decaying), (lever, sideways)]
-    if bottom is not None:
-        rising = 0.5 * (bottom - sign_of(bottom, nu, wave))
-        sideways = wave.c * rising + slope(rising, nu, wave)
-        level, lever = _decay_functions(-_distance(z - ply.bottom, ply.inner), ply, wave)
-        terms += [(level, rising), (lever, sideways)]
+    inwards = np.array([1.0, -1.0])[:, None, None]
+    if bottom is None:
+        inwards, parts = inwards[:1], top[:, None]
+    else:
+        ends = np.stack([top, bottom], axis=1)
+        parts = 0.5 * (ends + inwards * sign_of(ends, ply.poisson, wave))
+    sideways = wave.c * parts - inwards * slope(parts, ply.poisson, wave)
+    distances = [_distance(z - ply.top, ply.outer), -_distance(z - ply.bottom, ply.inner)]
+    terms: Terms = []
+    for i, distance in enumerate(distances[: inwards.size]):
+        level, lever = _decay_functions(distance, ply, wave)
+        terms += [(level, parts[:, i]), (lever, sideways[:, i])]
     return terms
 
 
@@ -289,20 +303,18 @@ def _decay_functions(
     return decay * np.cosh(column), decay * (wave.h * np.sinh(column))
 
 
-def _combined(
-    terms: Terms, ply: Ply, wave: RingWave, unit: Array, z: FloatArray
-) -> list[ComplexArray]:
-    """Sum the terms into u_x, u_z, s_xx, s_zz, s_xz, each (q, nz, n)."""
-    coefficients = [
-        (y[0] * 1j, y[1], hoop_stress(y, ply.poisson, wave) * unit, y[3] * unit, y[2] * (1j * unit))
+def _combined(terms: Terms, ply: Ply, wave: RingWave, unit: Array, z: FloatArray) -> Array:
+    """Sum the terms into U, u_z, s_xx, s_zz, S: (n, nz, 5, q)."""
+    functions = np.stack([function for function, _ in terms], axis=-1).transpose(1, 0, 2)
+    parts = [
+        (y[0], y[1], hoop_stress(y, ply.poisson, wave) * unit, y[3] * unit, y[2] * unit)
         for _, y in terms
     ]
-    fields = []
-    for component in range(5):
-        total = terms[0][0] * coefficients[0][component][:, None, :]
-        for (function, _), values in zip(terms[1:], coefficients[1:], strict=True):
-            total += function * values[component][:, None, :]
-        if component >= 2 and not isinf(ply.outer):
-            total /= (ply.outer - (z - ply.top))[:, None]
-        fields.append(total)
+    coefficients = np.ascontiguousarray(np.array(parts).transpose(3, 0, 1, 2))
+    n, _, _, q = coefficients.shape
+    # The functions are real: complex coefficients are twice as many real ones.
+    columns = coefficients.reshape(n, len(terms), -1).view(float)
+    fields: Array = (functions @ columns).view(coefficients.dtype).reshape(n, z.size, 5, q)
+    if not isinf(ply.outer):
+        fields[:, :, 2:] /= (ply.outer - (z - ply.top))[:, None, None]
     return fields

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from collections import OrderedDict
+from collections.abc import Callable
+from functools import partial
+from typing import TypeVar
 
 from rollnip._errors import InvalidInputError
 from rollnip.influence.kernel import Window
+from rollnip.influence.second import SecondResponse, second_table, table_size
 from rollnip.influence.surface import SurfaceKernels, is_ring, surface_kernels
 from rollnip.rollers import Roller
 
 _Key = tuple[object, ...]
+_Table = TypeVar("_Table")
 
 
 class KernelCache:
@@ -17,14 +22,17 @@ class KernelCache:
 
     They depend on the layers and the core, on the speed where something is viscoelastic, on the
     radius where the layers are rings, and on the lengths the table covers; not on load, traction,
-    friction or the other roller's covering. A result is the same to the last bit with a cache and
-    without. Pass one object to several `rollnip.solve`; the oldest tables go first. It may be used
-    by several threads; between processes it is not shared.
+    friction or the other roller's covering. The second order of `geometry = "finite"` has tables
+    of its own, which serve contacts of about the same size: within a fifth. A result is the same
+    to the last bit with a cache and without. Pass one object to several `rollnip.solve`; the
+    oldest tables go first. It may be used by several threads; between processes it is not shared.
 
     Parameters
     ----------
     most :
-        tables kept, one for each covering; each is some 100 kB.
+        linear tables kept, one for each covering; each is some 100 kB. Of the second order a
+        quarter as many are kept, but at least two; each is 0.1 to 2 MB, 10 MB where a viscoelastic
+        covering is many times thicker than the nip is wide.
 
     Raises
     ------
@@ -37,26 +45,46 @@ class KernelCache:
             raise InvalidInputError(f"`most` must be 1 or more, got {most}.")
         self.most = most
         self._tables: OrderedDict[_Key, SurfaceKernels] = OrderedDict()
+        self._second: OrderedDict[_Key, SecondResponse] = OrderedDict()
 
     def __len__(self) -> int:
-        return len(self._tables)
+        return len(self._tables) + len(self._second)
 
     def surface(
         self, roller: Roller, speed: float | None, geometry: str, window: Window
     ) -> SurfaceKernels:
         """Influence functions of a roller that is not a bare rigid one; see `surface_kernels`."""
-        is_elastic = all(material.is_elastic for material in roller.materials)
         key: _Key = (
             roller.layers,
             roller.core,
             roller.radius if is_ring(roller, geometry) else None,
-            None if is_elastic else speed,
+            _speed_that_counts(roller, speed),
             window,
         )
-        table = self._tables.pop(key, None)
-        if table is None:
-            table = surface_kernels(roller, speed, geometry, window)
-        self._tables[key] = table
-        while len(self._tables) > self.most:
-            self._tables.popitem(last=False)
-        return table
+        make = partial(surface_kernels, roller, speed, geometry, window)
+        return _kept(self._tables, key, make, self.most)
+
+    def second(self, roller: Roller, speed: float | None, half_width: float) -> SecondResponse:
+        """Second-order response of a roller with layers on a rigid core; see `second_response`."""
+        size = table_size(half_width)
+        key: _Key = (roller.layers, roller.radius, _speed_that_counts(roller, speed), size)
+        make = partial(second_table, roller, speed, size)
+        return _kept(self._second, key, make, max(2, self.most // 4)).fitted(half_width)
+
+
+def _speed_that_counts(roller: Roller, speed: float | None) -> float | None:
+    """The speed where a material of the roller is viscoelastic, else None."""
+    return None if all(material.is_elastic for material in roller.materials) else speed
+
+
+def _kept(
+    tables: OrderedDict[_Key, _Table], key: _Key, make: Callable[[], _Table], most: int
+) -> _Table:
+    """The table of a key, made where it is not kept; the oldest beyond ``most`` go."""
+    table = tables.pop(key, None)
+    if table is None:
+        table = make()
+    tables[key] = table
+    while len(tables) > most:
+        tables.popitem(last=False)
+    return table

@@ -10,81 +10,85 @@ is its linear part plus a stress N that is quadratic in H,
     N = (lambda + G) t K + [lambda (D - 3 t^2/2) + G (D - t^2)] 1,
 
 and N acts on the surface as a load does: by reciprocity its displacement there is
--int N : grad g dV, g the linear response to a unit load on the surface.  lambda t and, in grad g,
-lambda tr(grad g) stay finite at nu = 0.5, where lambda D is the source of volume det H that
-J = 1 leaves to the second order.  The loads are turned with the surface; at last everything is
-referred to where the material is now, not where it came from.
+-int N : grad g dV, g the linear response to a unit load on the surface.  With m = (lambda + G) t,
+the mean of the linear stresses in the plane, and the same marked ' of g,
+
+    N : grad g = [D - (1 - 2 nu) t^2] m' + m (t - 2 H_xx) g_xx + m (H_xx - 3 nu t) t'
+                 - m H_zx g_xz - m H_xz g_zx,
+
+which holds at nu = 0.5 as it stands: there t = t' = 0, and m is minus the pressure.  The loads
+are turned with the surface; at last everything is referred to where the material is now, not
+where it came from.
+
+In the transform u_x is i times an amplitude where u_z is an amplitude, and t_x where t_z: elastic
+layers have real amplitudes.  Those of g are the same ones, at viscoelastic layers too: the wave
+that tests the surface runs the other way, with conjugate moduli, and is conjugated once more.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from math import isinf, pi
 
 import numpy as np
 from scipy.fft import next_fast_len
-from scipy.interpolate import CubicSpline, PPoly
+from scipy.interpolate import PPoly
+from scipy.linalg import solve_banded
 
-from rollnip.compliance import LayerFields, flat_transfer, ring_transfer
-from rollnip.influence._weights import ComplexArray
+from rollnip.compliance import flat_amplitudes, ring_amplitudes
+from rollnip.influence._weights import ComplexArray, gauss_legendre
 from rollnip.influence.kernel import Array
 from rollnip.influence.surface import moduli
 from rollnip.rollers import Roller
 
-_PER_HALF_WIDTH = 16  # of the grid; a finer one sees what is not small any more
-_REACH = 10.0  # of the window beyond the contact, in thicknesses
+_SIZES_PER_OCTAVE = 4  # half-widths that have a table
+_PER_HALF_WIDTH = 18.0  # points of the grid on which fields at depth are multiplied
+_FINER = 2  # points for one of that on the grid of the surface, which is interpolated
+_FINEST = 16.5  # largest wave number, in pi per half-width; larger see what is not small any more
+_REACH = 7.0  # of the window beyond the contact, in thicknesses of a single elastic layer
+_FARTHEST = 10.0  # the same of any layers
 _DEEPEST = 8.0  # thickness that counts at most, in half-widths
-_DEPTHS = np.array([0.0, 0.004, 0.015, 0.05, 0.13, 0.3, 0.6, 1.0])  # plies for the integral
+_FOLDS = 3.0  # of e in depth, from the surface to twice the half-width or the core
+_PER_FOLD = 3.0  # depths, besides ...
+_FEWEST = 4  # ... so many in every layer
 _NEAR = 4.0  # half-widths beyond which present places are taken as those of the tangent
 _SOFT = 36.0  # exponent of the filter at the largest wave number
-_GAUSS = 4  # depths in a ply
-
-
-@dataclass(frozen=True, slots=True)
-class Gradients:
-    """Linear fields at depth per unit surface traction t_x and t_z, each (2, nz, nk).
-
-    Attributes
-    ----------
-    xx, xz, zx, zz : H, the derivative of u_first along second; x the tangent.
-    volume : lambda tr H; -(pressure) where nu = 0.5 [per MPa].
-    dilation : tr H.
-    """
-
-    xx: ComplexArray
-    xz: ComplexArray
-    zx: ComplexArray
-    zz: ComplexArray
-    volume: ComplexArray
-    dilation: ComplexArray
 
 
 @dataclass(frozen=True, slots=True)
 class SecondResponse:
     """What is needed to compute the second-order displacement of one surface.
 
+    Amplitudes are those of linear fields per unit i t_x and t_z, on the last axis.
+
     Attributes
     ----------
-    x : (n,) uniform periodic grid [mm].
-    k : (n/2+1,) wave numbers [1/mm].
+    x : (n,) uniform periodic grid of the surface [mm].
+    k : (nk,) wave numbers, nk = n/4 + 1: those of every second point [1/mm].
     curvature : 1/R [1/mm].
-    reach : how far from the middle the contact lies at most [mm].
-    weight : (nz, 1) of the integral over depth [mm].
-    shear : (nz, nk) shear moduli [MPa].
-    inside : linear fields at depth.
-    adjoint : the same, conjugate, of the conjugate moduli: the loads that test the surface.
-    surface : u_x, u_z, and rotation du_z/dx + u_x/R at the surface, (3, 2, nk).
+    half_width : of the contact, roughly [mm]: it sets what is too short to count.
+    weight : (nz,) of the integral over depth [mm].
+    poisson : (nz,) Poisson ratios.
+    even : (nk, 2 nz or 3 nz, 2) amplitudes at depth of the mean stress in the plane, H_xx and,
+        unless all layers are incompressible, tr H.
+    odd : (nk, 2 nz, 2) amplitudes at depth of H_xz/i and H_zx/i.
+    surface : (nk, 5, 2) u_x, u_z, rotation du_z/dx + u_x/R, du_x/dx, du_z/dx at the surface.
     """
 
     x: Array
     k: Array
     curvature: float
-    reach: float
+    half_width: float
     weight: Array
-    shear: ComplexArray
-    inside: Gradients
-    adjoint: Gradients
+    poisson: Array
+    even: Array | ComplexArray
+    odd: Array | ComplexArray
     surface: ComplexArray
+
+    def fitted(self, half_width: float) -> SecondResponse:
+        """The same table for another contact, of a half-width [mm] that it resolves."""
+        return replace(self, half_width=half_width)
 
     def displacement(self, nodes: Array, pressure: Array, shear: Array) -> tuple[PPoly, PPoly]:
         """Second-order (u_x, u_z) as functions of x under nodal tractions of the own frame.
@@ -97,67 +101,106 @@ class SecondResponse:
         nodes : (N+1,) of the mesh [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         """
-        tractions = self._transform(nodes, np.stack([shear, pressure]))
-        both = CubicSpline(self.x, self._quadratic(tractions) + self._moved(tractions), axis=1)
-        along, inward = (np.ascontiguousarray(both.c[..., i]) for i in (0, 1))
-        return PPoly(along, both.x), PPoly(inward, both.x)
+        tractions = self._transform(nodes, np.stack([1j * shear, pressure], axis=1))
+        moved, loads = self._moved(tractions)
+        moved += self._back(self._quadratic(tractions) + _times(self.surface[:, :2], loads))
+        return _splines(self.x, moved)
 
-    def _transform(self, nodes: Array, tractions: Array) -> ComplexArray:
-        """Transform of tractions (2, N-1) that are linear between nodes, exact, (2, nk).
+    def _transform(self, nodes: Array, tractions: ComplexArray) -> ComplexArray:
+        """Transform of tractions (N-1, 2) that are linear between nodes, exact, (nk, 2).
 
-        The second derivative is a row of impulses, the changes of slope at the nodes.
+        The second derivative is a row of impulses, the changes of slope at the nodes. Their waves
+        exp(-i k x) are products of those of a few small and a few large wave numbers.
         """
-        values = np.pad(tractions, ((0, 0), (1, 1)))
-        kinks = np.diff(np.diff(values) / np.diff(nodes), prepend=0.0, append=0.0)
-        step = self.x[1] - self.x[0]
-        out = np.empty((2, self.k.size), dtype=complex)
-        waves = np.exp(-1j * self.k[1:, None] * (nodes - self.x[0]))
-        out[:, 1:] = -(kinks @ waves.T) / (step * self.k[1:] ** 2)
-        out[:, 0] = tractions @ (0.5 * (nodes[2:] - nodes[:-2])) / step
-        # What the grid cannot resolve is left out, softly: products of it would come back wrong.
-        return np.asarray(out * np.exp(-_SOFT * (self.k / self.k[-1]) ** 6))
+        slopes = np.zeros((nodes.size + 1, 2), dtype=complex)
+        slopes[1:-2] = tractions
+        slopes[2:-1] -= tractions
+        slopes[1:-1] /= np.diff(nodes)[:, None]
+        kinks = slopes[1:] - slopes[:-1]
+        step = _FINER * (self.x[1] - self.x[0])
+        few = int(np.ceil(np.sqrt(self.k.size)))
+        phase = -1j * self.k[1] * (nodes - self.x[0])
+        small, large = (np.vander(np.exp(m * phase), few, increasing=True) for m in (1, few))
+        sums = large.T @ (small[:, :, None] * kinks[:, None, :]).reshape(nodes.size, -1)
+        out: ComplexArray = sums.reshape(-1, 2)[: self.k.size]
+        out[1:] /= -step * self.k[1:, None] ** 2
+        out[0] = (0.5 * (nodes[2:] - nodes[:-2])) @ tractions / step
+        # What is too short is left out, softly, whatever the grid: it is not small of second order.
+        finest = pi * _FINEST / self.half_width
+        out *= np.exp(-_SOFT * (self.k[:, None] / finest) ** 6)
+        return out
 
     def _back(self, transform: ComplexArray) -> Array:
-        return np.fft.irfft(transform, self.x.size)
+        """Values on the grid of the surface, (n, ...), of a transform (nk, ...)."""
+        return _FINER * np.fft.irfft(transform, self.x.size, axis=0)
 
-    def _quadratic(self, tractions: ComplexArray) -> Array:
-        """Displacement of the surface by the quadratic stress, (2, n)."""
-        t = tractions[:, None, :]
-        f, g = self.inside, self.adjoint
-        xx, xz, zx, zz = (self._back(np.sum(h * t, axis=0)) for h in (f.xx, f.xz, f.zx, f.zz))
-        det = xx * zz - xz * zx
-        isotropic = self.shear * np.fft.rfft(det)
-        cofactor = volume = self._back(np.sum(f.volume * t, axis=0))
-        if np.any(f.dilation):
-            dilation = np.sum(f.dilation * t, axis=0)
-            cofactor = volume + self._back(self.shear * dilation)
-            small = self._back(dilation)
-            isotropic -= self.shear * np.fft.rfft(small**2) + 1.5 * np.fft.rfft(volume * small)
-        # K = cof(1 + H) - 1 = [[zz, -zx], [-xz, xx]]
-        work = (np.fft.rfft(cofactor * zz) + isotropic) * g.xx
-        work -= np.fft.rfft(cofactor * zx) * g.xz + np.fft.rfft(cofactor * xz) * g.zx
-        work += (np.fft.rfft(cofactor * xx) + isotropic) * g.zz
-        work += np.fft.rfft(det) * g.volume
-        return self._back(-np.sum(self.weight * work, axis=1))
+    def _quadratic(self, tractions: ComplexArray) -> ComplexArray:
+        """Transform of the displacement of the surface by the quadratic stress, (nk, 2)."""
+        even, odd = _times(self.even, tractions), _times(self.odd, 1j * tractions)
+        n = 2 * (self.k.size - 1)
+        fields = np.fft.irfft(np.concatenate([even, odd], axis=1).T, n)
+        fields = fields.reshape(-1, self.weight.size, n)
+        (mean, xx, *rest), (xz, zx) = fields[:-2], fields[-2:]
+        weight, poisson = self.weight[:, None], self.poisson[:, None]
+        weighted = weight * mean
+        det, stretch = -(xx * xx) - xz * zx, -2.0 * xx
+        for dilation in rest:  # one or none
+            det += dilation * (xx - (1.0 - 2.0 * poisson) * dilation)
+            stretch += dilation
+        products = [weight * det, weighted * stretch]
+        products += [weighted * (xx - 3.0 * poisson * dilation) for dilation in rest]
+        products += [weighted * zx, weighted * xz]
+        loads = np.fft.rfft(np.concatenate(products)).T
+        split = even.shape[1]
+        work = _times(self.even.transpose(0, 2, 1), loads[:, :split])
+        work += 1j * _times(self.odd.transpose(0, 2, 1), loads[:, split:])
+        return work * (1j, -1.0)
 
-    def _moved(self, tractions: ComplexArray) -> Array:
-        """Displacement by turned and stretched loads, and the change to present places, (2, n)."""
-        u_x, u_z, rotation = self._back(np.sum(self.surface * tractions, axis=1))
-        slope_x, slope_z = self._back(1j * self.k * np.sum(self.surface[:2] * tractions, axis=1))
-        q, p = self._back(tractions)
+    def _moved(self, tractions: ComplexArray) -> tuple[Array, ComplexArray]:
+        """Change to present places, (n, 2), and loads i t_x, t_z that turn and stretch, (nk, 2)."""
+        fields = np.concatenate([_times(self.surface, tractions), tractions * (-1j, 1.0)], axis=1)
+        u_x, u_z, rotation, slope_x, slope_z, q, p = np.ascontiguousarray(self._back(fields).T)
         # The place x on the tangent is at the arc x + bend of the undeformed circle; it matters
         # in and near the contact alone.
-        x = np.clip(self.x, -self.reach, self.reach)
+        x = np.clip(self.x, -_NEAR * self.half_width, _NEAR * self.half_width)
         bend = self.curvature * x * (u_z + self.curvature * x**2 / 6.0)
         shift = u_x - bend
         # Load per undeformed arc: t times present length as the undeformed tangent there sees it.
         longer = self.curvature * x * (0.5 * self.curvature * x + slope_z)
-        loads = np.fft.rfft(np.stack([longer * q - rotation * p, longer * p + rotation * q]))
-        loads += 1j * self.k * np.fft.rfft(np.stack([q * shift, p * shift]))
-        along, inward = self._back(np.sum(self.surface[:2] * loads, axis=1))
-        along += self.curvature * u_x * u_z - shift * slope_x - bend
-        inward -= shift * slope_z + 0.5 * self.curvature * u_x**2
-        return np.stack([along, inward])
+        turned = np.stack(
+            [longer * q - rotation * p, longer * p + rotation * q, q * shift, p * shift]
+        )
+        loads = np.fft.rfft(turned).T[: self.k.size] / _FINER
+        along = self.curvature * u_x * u_z - shift * slope_x - bend
+        inward = -shift * slope_z - 0.5 * self.curvature * u_x**2
+        total = loads[:, :2] + 1j * self.k[:, None] * loads[:, 2:]
+        return np.stack([along, inward], axis=1), total * (1j, 1.0)
+
+
+def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
+    """Products (nk, a) of a matrix (nk, a, b) and a vector (nk, b) for every wave number."""
+    if np.iscomplexobj(matrix):
+        return np.asarray((matrix @ vectors[:, :, None])[:, :, 0])
+    parts = np.ascontiguousarray(vectors).view(float).reshape(*vectors.shape, 2)
+    return np.asarray((matrix @ parts).view(complex)[:, :, 0])
+
+
+def _splines(x: Array, values: Array) -> tuple[PPoly, PPoly]:
+    """Cubic splines (not-a-knot) of the two columns of values (n, 2) on an even grid."""
+    step = x[1] - x[0]
+    rise = np.diff(values, axis=0)
+    right = np.empty(values.shape)
+    right[1:-1] = 3.0 * (rise[1:] + rise[:-1])
+    right[[0, -1]] = 0.5 * (5.0 * rise[[0, -1]] + rise[[1, -2]])
+    bands = np.ones((3, x.size))
+    bands[1, 1:-1] = 4.0
+    bands[0, 1] = bands[2, -2] = 2.0
+    slope = solve_banded((1, 1), bands, right, check_finite=False)
+    turn = slope[1:] + slope[:-1] - 2.0 * rise
+    cubes = np.stack([turn, rise - slope[:-1] - turn, slope[:-1], values[:-1]])
+    cubes /= step ** np.array([3.0, 2.0, 1.0, 0.0])[:, None, None]
+    along, inward = (PPoly.construct_fast(cubes[:, :, i].copy(), x) for i in (0, 1))
+    return along, inward
 
 
 def second_response(roller: Roller, speed: float | None, half_width: float) -> SecondResponse:
@@ -170,44 +213,69 @@ def second_response(roller: Roller, speed: float | None, half_width: float) -> S
     speed :
         rolling speed V [mm/s]; may be None where all materials are elastic.
     half_width :
-        of the contact, roughly [mm]: it sets the grid.
+        of the contact, roughly [mm]: it sets the grid, and what is too short to count.
     """
-    deep = min(max(roller.coating_thickness, 0.5 * half_width), _DEEPEST * half_width)
-    window = 2.0 * (half_width + _REACH * deep)
-    if not isinf(roller.radius):
-        window = min(window, 2.0 * pi * roller.radius)
-    count = int(
-        next_fast_len(2 * int(np.ceil(0.5 * window * _PER_HALF_WIDTH / half_width)), real=True)
-    )
-    count += count % 2
-    step = window / count
-    x = np.asarray(step * (np.arange(count) - count // 2), dtype=float)
-    k = np.asarray(2.0 * pi * np.fft.rfftfreq(count, step), dtype=float)
-    z, weight, owner = _depths(roller, half_width)
-    weight = weight * (1.0 - roller.curvature * z)
+    return second_table(roller, speed, table_size(half_width)).fitted(half_width)
+
+
+def table_size(half_width: float) -> float:
+    """The next half-width at or below this one that has a table [mm]; loads nearby share it."""
+    return float(2.0 ** (np.floor(_SIZES_PER_OCTAVE * np.log2(half_width)) / _SIZES_PER_OCTAVE))
+
+
+def second_table(roller: Roller, speed: float | None, size: float) -> SecondResponse:
+    """Second-order response for contacts from the half-width ``size`` to that of the next table.
+
+    As it stands it is fitted to the smallest of them.
+    """
+    x = _grid(roller, size)
+    k = np.asarray(pi / -x[0] * np.arange(x.size // (2 * _FINER) + 1), dtype=float)
+    z, weight, owner = _depths(roller, size)
+    poisson = np.array([layer.material.poisson for layer in roller.layers])[owner]
     young = np.array([moduli(layer.material, _positive(k), speed) for layer in roller.layers])
-    poisson = np.array([layer.material.poisson for layer in roller.layers])
-    ratio = poisson[owner][:, None]
-    shear = young[owner] / (2.0 * (1.0 + ratio))
-    inside = _gradients(roller, k, z, young, shear, ratio)
-    adjoint = inside
-    if roller.is_viscoelastic:
-        adjoint = _gradients(roller, k, z, np.conj(young), np.conj(shear), ratio)
-    fields = _transfer(roller, k, np.zeros(1), young)
-    u_x, u_z = (np.stack([f[i][0] for f in fields]) for i in (0, 1))
+    fields = _amplitudes(roller, k, np.concatenate([[0.0], z]), young)
+    twice_shear = young[owner].T / (1.0 + poisson)
+    even, odd = _gradients(fields[:, 1:], k, roller.curvature, (z, twice_shear, poisson))
+    along, inward, wave = 1j * fields[:, 0, 0], fields[:, 0, 1], 1j * k[:, None]
+    turn = wave * inward + roller.curvature * along
     return SecondResponse(
         x=x,
         k=k,
         curvature=roller.curvature,
-        reach=_NEAR * half_width,
-        weight=weight[:, None],
-        shear=shear,
-        inside=inside,
-        adjoint=Gradients(
-            *(np.conj(getattr(adjoint, name)) for name in Gradients.__dataclass_fields__)
-        ),
-        surface=np.stack([u_x, u_z, 1j * k * u_z + roller.curvature * u_x]),
+        half_width=size,
+        weight=weight * (1.0 - roller.curvature * z),
+        poisson=poisson,
+        even=even,
+        odd=odd,
+        surface=np.stack([along, inward, turn, wave * along, wave * inward], axis=1),
     )
+
+
+def _grid(roller: Roller, size: float) -> Array:
+    """Even grid around the contact, long enough for what the layers let spread, or a full turn.
+
+    It is fine enough for the smallest contact of a table, ``size``, and long enough for the
+    largest.
+    """
+    largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
+    deep = min(max(roller.coating_thickness, 0.5 * largest), _DEEPEST * largest)
+    window, step = 2.0 * (largest + _reach(roller) * deep), size / _PER_HALF_WIDTH
+    turn = 2.0 * pi * roller.radius
+    count = 2 * int(next_fast_len(int(np.ceil(0.5 * min(window, turn) / step)), real=True))
+    step = min(step, turn / count) / _FINER
+    half = _FINER * count // 2
+    return np.asarray(step * np.arange(-half, half), dtype=float)
+
+
+def _reach(roller: Roller) -> float:
+    """How far beyond the contact the layers let fields spread, in thicknesses.
+
+    A stiff layer on a soft one bends over its thickness times the cube root of the contrast.
+    """
+    if roller.is_viscoelastic:
+        return _FARTHEST
+    young = [layer.material.relaxed_modulus for layer in roller.layers]
+    return min(_REACH * float(np.cbrt(max(young) / min(young))), _FARTHEST)
 
 
 def _positive(k: Array) -> Array:
@@ -216,55 +284,48 @@ def _positive(k: Array) -> Array:
 
 
 def _depths(roller: Roller, half_width: float) -> tuple[Array, Array, Array]:
-    """Depths, weights and layers of the integral over depth, dense towards the surface."""
-    points, weights = np.polynomial.legendre.leggauss(_GAUSS)
-    total = roller.coating_thickness
-    marks = np.concatenate([min(total, 2.0 * half_width) * _DEPTHS, [total]])
-    marks = np.unique(np.concatenate([marks, roller.interfaces, [4.0 * half_width]]))
-    marks = marks[marks <= total]
-    marks = marks[np.concatenate([[True], np.diff(marks) > 1e-9 * total])]
-    middle, half = 0.5 * (marks[1:] + marks[:-1]), 0.5 * np.diff(marks)
-    z = (middle[:, None] + half[:, None] * points).ravel()
-    owner = np.searchsorted(roller.interfaces, z)
-    return z, (half[:, None] * weights).ravel(), np.minimum(owner, len(roller.layers) - 1)
+    """Depths, weights and layers of the integral over depth.
+
+    In every layer Gauss points of the logarithm of the depth (and a little): fields that decay
+    within any length from a hundredth of the contact up are polynomials in it.
+    """
+    little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_FOLDS)
+    marks = np.log1p(np.array([0.0, *roller.interfaces]) / little)
+    z, weight, owner = [], [], []
+    for i, (top, bottom) in enumerate(pairwise(marks)):
+        points, weights, _ = gauss_legendre(_FEWEST + int(np.ceil(_PER_FOLD * (bottom - top))))
+        grown = little * np.exp(0.5 * (bottom + top) + 0.5 * (bottom - top) * points)
+        z.append(grown - little)
+        weight.append(0.5 * (bottom - top) * weights * grown)
+        owner += [i] * points.size
+    return np.concatenate(z), np.concatenate(weight), np.array(owner)
 
 
-def _transfer(
+def _amplitudes(
     roller: Roller, k: Array, z: Array, young: Array | ComplexArray
-) -> tuple[LayerFields, LayerFields]:
-    """Fields at depth per unit t_x and t_z, real at k = 0."""
+) -> Array | ComplexArray:
+    """Amplitudes (nk, nz, 5, 2) of the fields at depth per unit i t_x and t_z."""
     thickness = [layer.thickness for layer in roller.layers]
     poisson = [layer.material.poisson for layer in roller.layers]
     if isinf(roller.radius):
-        both = flat_transfer(_positive(k), z, thickness, young, poisson)
-    else:
-        both = ring_transfer(_positive(k), z, roller.radius, thickness, young, poisson)
-    return both.from_x, both.from_z
+        return flat_amplitudes(_positive(k), z, thickness, young, poisson)
+    return ring_amplitudes(_positive(k), z, roller.radius, thickness, young, poisson)
 
 
 def _gradients(
-    roller: Roller,
-    k: Array,
-    z: Array,
-    young: Array | ComplexArray,
-    shear: Array | ComplexArray,
-    poisson: Array,
-) -> Gradients:
-    """Displacement gradient and volumetric stress at depth per unit surface traction."""
-    fields = _transfer(roller, k, z, young)
-    u_x, u_z, _, s_zz, s_xz = (np.stack([f[i] for f in fields]) for i in range(5))
-    inverse = 1.0 / (1.0 - roller.curvature * z)[:, None]  # R/r
-    hoop = roller.curvature * inverse
-    xx = 1j * k * inverse * u_x - hoop * u_z
-    zx = 1j * k * inverse * u_z + hoop * u_x
-    # At nu = 0.5 zz = -xx and the volumetric stress is minus the pressure.
-    part = s_zz / (2.0 * shear) + xx
-    dilation = (1.0 - 2.0 * poisson) / (1.0 - poisson) * part
-    return Gradients(
-        xx=xx,
-        xz=s_xz / shear - zx,
-        zx=zx,
-        zz=dilation - xx,
-        volume=2.0 * shear * poisson / (1.0 - poisson) * part,
-        dilation=dilation,
-    )
+    fields: Array | ComplexArray, k: Array, curvature: float, medium: tuple[Array, Array, Array]
+) -> tuple[Array | ComplexArray, Array | ComplexArray]:
+    """Amplitudes of the displacement gradient and the mean stress, as ``SecondResponse`` has them.
+
+    ``medium`` holds depths (nz,), 2 G (nk, nz) and Poisson ratios (nz,).
+    """
+    z, twice_shear, poisson = medium[0], medium[1][:, :, None], medium[2][:, None]
+    u_x, u_z, s_xx, s_zz, s_xz = np.moveaxis(fields, 2, 0)  # each (nk, nz, 2)
+    inverse = 1.0 / (1.0 - curvature * z)[:, None]  # R/r
+    hoop, wave = curvature * inverse, k[:, None, None] * inverse
+    mean = 0.5 * (s_xx + s_zz)
+    even = [mean, -wave * u_x - hoop * u_z]
+    if np.any(poisson < 0.5):
+        even.append(2.0 * (1.0 - 2.0 * poisson) / twice_shear * mean)
+    zx = wave * u_z + hoop * u_x
+    return np.concatenate(even, axis=1), np.concatenate([2.0 * s_xz / twice_shear - zx, zx], axis=1)

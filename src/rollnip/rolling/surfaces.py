@@ -17,7 +17,6 @@ from rollnip.influence import (
     covering_window,
     displacement_matrix,
     is_ring,
-    second_response,
 )
 from rollnip.model import Geometry
 from rollnip.nip import Nip
@@ -120,13 +119,13 @@ def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
 
 
 def with_second_order(
-    kernels: PairKernels, nip: Nip, geometry: Geometry, half_width: float
+    kernels: PairKernels, nip: Nip, geometry: Geometry, half_width: float, cache: KernelCache
 ) -> PairKernels:
     """Add what the second order of "finite" needs, on grids fit for a contact of that size."""
     if geometry != "finite":
         return kernels
     upper, lower = (
-        None if roller.is_rigid or roller.core else second_response(roller, nip.speed, half_width)
+        None if roller.is_rigid or roller.core else cache.second(roller, nip.speed, half_width)
         for roller in (nip.upper, nip.lower)
     )
     return replace(kernels, second_upper=upper, second_lower=lower)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from rollnip._errors import RollnipError
-from rollnip._files import check_target, write_whole
+from rollnip._files import check_place, check_target, write_whole
 
 
 def test_writes_and_leaves_nothing_else(tmp_path):
@@ -56,6 +56,9 @@ def test_targets(tmp_path):
     ):
         with pytest.raises(RollnipError, match=hint):
             check_target(path, (".json",))
+    check_place(tmp_path / "a.txt")
+    with pytest.raises(RollnipError, match="there is no directory"):
+        check_place(tmp_path / "none" / "a.db")
 
 
 @pytest.mark.skipif(os.geteuid() == 0, reason="root may write everywhere")

@@ -14,6 +14,11 @@ def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
     """Raise RollnipError unless ``path`` could be written: its ending, its folder, no folder."""
     if path.suffix.lower() not in suffixes:
         raise RollnipError(f"{path}: the name must end in {' or '.join(suffixes)}.")
+    check_place(path)
+
+
+def check_place(path: Path) -> None:
+    """Raise RollnipError unless a file could be written to ``path``, whatever its ending."""
     if path.is_dir():
         raise RollnipError(f"{path}: cannot write, it is a directory.")
     folder = path.parent

@@ -114,10 +114,10 @@ def test_find_nothing_is_exit_1_and_no_file(case, tmp_path):
         ({"wanted": "nip_width"}, "`--for` must be a result and its value"),
         ({"wanted": "nip_width="}, "`--for` must be a result and its value"),
         ({"wanted": "nipwidth=4 mm"}, 'did you mean "nip_width"?'),
-        ({"wanted": "nip_width=4"}, "the unit is missing"),
+        ({"wanted": "nip_width=4"}, '--for: `wanted` must be a length such as "4.5 mm", got "4"'),
         ({"path": "nip.lod"}, 'did you mean "load"'),
-        ({"between": ("2 kN/mm", "10 N/mm")}, "`low` must be below `high`"),
-        ({"between": ("1 mm", "10 N/mm")}, "`low` must be a force per length"),
+        ({"between": ("2 kN/mm", "10 N/mm")}, "--between: `low` must be below `high`"),
+        ({"between": ("1 mm", "10 N/mm")}, "--between: `low` must be a force per length"),
     ],
 )
 def test_find_refuses(case, changes, message):

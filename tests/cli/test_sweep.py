@@ -109,6 +109,7 @@ def test_profiles_are_written_beside(study: Path, tmp_path: Path) -> None:
         (["--shard", "half"], 'got "half"'),
         (["--out", "a.xlsx"], "must end in .csv or .parquet"),
         (["--profiles", "a.txt"], "must end in .nc"),
+        (["--database", "none/a.db"], "none/a.db: cannot write, there is no directory none."),
         (["--dask", "somewhere"], 'must be like tcp://host:8786, or "local", got "somewhere"'),
         (["--dask", "tcp://127.0.0.1:1"], "no Dask scheduler answers there"),
     ],
@@ -124,7 +125,9 @@ def test_wrong_options_are_one_message(
     if "--dask" in options:
         pytest.importorskip("distributed")
         monkeypatch.setattr(cluster, "PATIENCE", "1s")
-    assert words in refused(study, *options)
+    said = refused(study, *options)
+    assert words in said
+    assert "goes on from there" not in said  # nothing was done
 
 
 def test_a_huge_study_wants_to_be_meant(study: Path) -> None:

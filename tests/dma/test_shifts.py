@@ -100,3 +100,23 @@ def test_one_frequency_cannot_tell_a_law():
     assert fit.material.order == pytest.approx(0.45, abs=0.01)
     with pytest.raises(InvalidInputError, match="temperatures"):
         fit_dma(data, DmaMethod(shift="none"))
+
+
+@pytest.mark.parametrize(
+    ("shift", "reference", "said"),
+    [
+        ("wlf", 2300.0, "must lie nearer to what was measured, -20 to 60 degC, got 2300 degC"),
+        ("wlf", -200.0, "must lie nearer"),
+        ("arrhenius", -272.0, "must lie nearer"),
+        ("wlf", -300.0, "must be above absolute zero"),
+    ],
+)
+def test_a_reference_that_no_law_reaches_is_refused(shift, reference, said):
+    with pytest.raises(InvalidInputError, match=f"`reference` {said}"):
+        fit_dma(isotherms(ZENER, LAW), DmaMethod(shift=shift, reference=reference))
+
+
+def test_no_data_lie_below_absolute_zero():
+    data = isotherms(ZENER, LAW)
+    with pytest.raises(InvalidInputError, match="`temperature` must be above absolute zero"):
+        replace(data, temperature=data.temperature - 260.0)

@@ -96,7 +96,7 @@ def test_a_file_of_another_kind_is_refused_and_left_as_it_is(tmp_path: Path, abo
         Store(foreign, about)
     with pytest.raises(RollnipError, match=r"there is no such file"):
         Store(tmp_path / "none.db")
-    with pytest.raises(RollnipError, match=r"cannot be opened"):
+    with pytest.raises(RollnipError, match=r"there is no directory"):
         Store(tmp_path / "none" / "a.db", about)
 
 

@@ -66,7 +66,7 @@ def find(
         if out is not None:
             _check_case_target(out)
         tree = _with_geometry(read_document(case), geometry)
-        with _named(case), _evaluating(database, tree, [path]) as evaluate:
+        with _option_named(case), _evaluating(database, tree, [path]) as evaluate:
             found = search(
                 tree,
                 path,
@@ -236,6 +236,17 @@ def pareto(
         else:
             write_whole(out, lambda file: file.write_text(text, "utf-8"))
         sys.stdout.flush()
+
+
+@contextmanager
+def _option_named(case: str) -> Iterator[None]:
+    """Put the option, or the file, before what is said against its value."""
+    options = {"wanted": "--for", "low": "--between", "high": "--between", "points": "--points"}
+    try:
+        yield
+    except InvalidInputError as error:
+        name = str(error).partition("` ")[0].removeprefix("`")
+        raise InvalidInputError(f"{options.get(name, case)}: {error}") from None
 
 
 @contextmanager

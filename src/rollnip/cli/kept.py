@@ -31,8 +31,8 @@ def interrupts_told(store: Store, total: int | None = None) -> Iterator[None]:
 
 
 def kept(store: Store, total: int | None = None, before: str = "", after: str = "") -> str:
-    """How many cases a database holds, in words; nothing where it is in memory."""
-    if store.is_in_memory:
+    """How many cases a database holds, in words; nothing where none, or where it is in memory."""
+    if store.is_in_memory or not store.size:
         return ""
     count = f"{store.size:,} cases" if total is None else f"{store.size:,} of {total:,} cases"
     return f"{before}{count} are in {store.name}: the same command goes on from there{after}"

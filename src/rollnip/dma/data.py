@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError, require_finite
 from rollnip._units import Dimension
 from rollnip.io import Columns, read_columns
+from rollnip.materials.shift import checked_temperature
 
 Array = NDArray[np.float64]
 Modulus = Literal["E", "G"]
@@ -68,6 +69,7 @@ class DmaData:
                     f"`{name}` must be positive and finite, got {values[~good][0]:g} in "
                     f"{self.source}, measurement {int(np.flatnonzero(~good)[0]) + 1}."
                 )
+        checked_temperature("temperature", float(np.min(self.temperature)))
         require_finite("poisson", self.poisson)
 
     def isotherms(self, width: float = 1.0) -> list[NDArray[np.int64]]:

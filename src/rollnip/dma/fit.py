@@ -23,6 +23,7 @@ from rollnip.dma.shifts import (
 )
 from rollnip.dma.spectrum import Reduced, crossvalidated, non_negative, relaxation_times
 from rollnip.materials import WLF, Arrhenius, FractionalZener, Prony
+from rollnip.materials.shift import checked_temperature
 
 Array = NDArray[np.float64]
 Kind = Literal["prony", "fractional-zener"]
@@ -81,6 +82,8 @@ class DmaMethod:
             )
         if self.terms is not None and not 1 <= self.terms <= 100:
             raise InvalidInputError(f"`terms` must lie between 1 and 100, got {self.terms!r}.")
+        if self.reference is not None:
+            checked_temperature("reference", self.reference)
         if not 0.0 < self.width <= 20.0:
             raise InvalidInputError(f"`width` must lie in (0, 20] K, got {self.width!r}.")
 

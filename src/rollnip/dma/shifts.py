@@ -211,7 +211,12 @@ def _searched(master: Master, shape: _Wlf | _Energy, *, levels: bool) -> Optimiz
         shifted = placed(x)
         return non_negative(shifted.reduced, _times(shifted, 0.0) if times is None else times)[1]
 
-    mild = [x for x in shape.starts if float(np.max(np.abs(shape.shifts(x)))) < _LARGEST]
+    def is_mild(x: Array) -> bool:
+        return float(np.max(np.abs(shape.shifts(x)))) < _LARGEST
+
+    mild = [x for x in shape.starts if is_mild(x)]
+    if not mild:
+        raise _too_far(master)
     costs = [float(np.sum(misfit(start, None) ** 2)) for start in mild]
     x, bounds = mild[int(np.argmin(costs))], shape.bounds
     for with_levels in (False, True) if levels else (False, False):
@@ -229,7 +234,17 @@ def _searched(master: Master, shape: _Wlf | _Energy, *, levels: bool) -> Optimiz
             misfit, x, bounds=bounds, diff_step=_STEP, ftol=1e-9, xtol=1e-9, args=(times,)
         )
         x = found.x
+    if not is_mild(x[:size]):
+        raise _too_far(master)
     return found
+
+
+def _too_far(master: Master) -> InvalidInputError:
+    measured = master.temperatures
+    return InvalidInputError(
+        f"`reference` must lie nearer to what was measured, {np.min(measured):g} to "
+        f"{np.max(measured):g} degC, got {master.reference:g} degC."
+    )
 
 
 def _covariance(found: OptimizeResult) -> Array:

@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import RollnipError
+from rollnip._files import check_place
 from rollnip.sweep.row import SCALARS, Row
 from rollnip.sweep.study import Study, case_digest
 from rollnip.sweep.task import Outcome
@@ -122,7 +123,9 @@ class Store:
     def __init__(self, path: Path | None, about: About | None = None) -> None:
         self.name = "the database" if path is None else str(path)
         self.is_in_memory = path is None
-        if path is not None and about is None and not path.is_file():
+        if path is not None and about is not None:
+            check_place(path)
+        elif path is not None and not path.is_file():
             raise RollnipError(f"{path}: there is no such file.")
         try:
             self._base = sqlite3.connect(

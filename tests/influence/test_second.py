@@ -116,7 +116,7 @@ def test_work_of_the_quadratic_stress(radius, layers):
     response = second_response(roller, SPEED, 2.0)
     nodes, pressure, shear = tractions()
     amplitudes = response._transform(nodes, np.stack([1j * shear, pressure], axis=1))
-    z, weight, _ = second._depths(roller, second.table_size(2.0))
+    z, weight, _ = second._depths(roller, second.table_size(roller, 2.0))
     t = amplitudes * (-1j, 1.0)
     expected = work_of_quadratic_stress(roller, response, t, z, weight)
     found = response._quadratic(amplitudes)
@@ -170,7 +170,7 @@ def test_depths_integrate_what_decays(layers, half_width):
 @pytest.mark.parametrize("layers", [MANY, MANY[2:]])
 def test_a_shared_table_is_as_good_as_one_of_its_own(layers, share):
     roller = rn.Roller(radius=25.0, layers=layers)
-    half_width = 2.0 * 2.0 ** (0.25 * share)
+    half_width = roller.coating_thickness * 2.0 ** (0.25 * share)
     nodes, pressure, shear = tractions(half_width)
     shared = second_response(roller, SPEED, half_width)
     own = second.second_table(roller, SPEED, half_width)
@@ -185,6 +185,21 @@ def test_a_shared_table_is_as_good_as_one_of_its_own(layers, share):
         for order, near in ((0, 5e-4), (1, 2e-3)):
             scale = np.max(np.abs(own_values := other(x, order)))
             np.testing.assert_allclose(one(x, order), own_values, atol=near * scale)
+
+
+def test_scaling():
+    """All lengths times 3.7: displacements too. Tables of some sizes must not break that."""
+    nodes, pressure, shear = tractions()
+    x = np.linspace(-3.0, 3.0, 61)
+    small, large = (
+        second_response(covered(25.0 * f, 3.0 * f, FOAM), None, 2.0 * f).displacement(
+            f * nodes, pressure, shear
+        )
+        for f in (1.0, 3.7)
+    )
+    for one, other in zip(small, large, strict=True):
+        scale = np.max(np.abs(one(x)))
+        np.testing.assert_allclose(other(3.7 * x) / 3.7, one(x), atol=1e-11 * scale)
 
 
 def test_plies_of_a_layer_are_the_layer():

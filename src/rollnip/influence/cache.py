@@ -66,7 +66,7 @@ class KernelCache:
 
     def second(self, roller: Roller, speed: float | None, half_width: float) -> SecondResponse:
         """Second-order response of a roller with layers on a rigid core; see `second_response`."""
-        size = table_size(half_width)
+        size = table_size(roller, half_width)
         key: _Key = (roller.layers, roller.radius, _speed_that_counts(roller, speed), size)
         make = partial(second_table, roller, speed, size)
         return _kept(self._second, key, make, max(2, self.most // 4)).fitted(half_width)

@@ -215,12 +215,14 @@ def second_response(roller: Roller, speed: float | None, half_width: float) -> S
     half_width :
         of the contact, roughly [mm]: it sets the grid, and what is too short to count.
     """
-    return second_table(roller, speed, table_size(half_width)).fitted(half_width)
+    return second_table(roller, speed, table_size(roller, half_width)).fitted(half_width)
 
 
-def table_size(half_width: float) -> float:
+def table_size(roller: Roller, half_width: float) -> float:
     """The next half-width at or below this one that has a table [mm]; loads nearby share it."""
-    return float(2.0 ** (np.floor(_SIZES_PER_OCTAVE * np.log2(half_width)) / _SIZES_PER_OCTAVE))
+    layers = roller.coating_thickness
+    step = np.floor(_SIZES_PER_OCTAVE * np.log2(half_width / layers))
+    return float(layers * 2.0 ** (step / _SIZES_PER_OCTAVE))
 
 
 def second_table(roller: Roller, speed: float | None, size: float) -> SecondResponse:

@@ -135,7 +135,9 @@ def potentials(tractions: SurfaceTractions, depth: Depth, x: Array, *, two: bool
     across = x[:, None] - places[None, :]
     square = across * across + height * height
     weights = np.concatenate([kinks, kinks * places, kinks * places**2]).T
-    level, angle = np.log(square) @ weights, np.arctan2(height, across) @ weights
+    # The angle of y; arctan is twice as fast as arctan2.
+    angle = (0.5 * pi - np.arctan(across / height)) @ weights
+    level = np.log(square) @ weights
     sums = (0.5 * level + 1j * angle).T.reshape(3, 2, -1)
     zeta = x + 1j * down
     first = zeta * sums[0] - sums[1]

@@ -88,19 +88,18 @@ class SurfaceTractions:
         means = 0.5 * np.array([self.t_x[1:] + self.t_x[:-1], self.t_z[1:] + self.t_z[:-1]])
         return np.asarray(means @ np.diff(self.nodes))
 
-    def transform(self, w: Array, phases: ComplexArray | None = None) -> ComplexArray:
+    def transform(self, w: Array, sums: ComplexArray | None = None) -> ComplexArray:
         """Transforms of t_x and t_z about the centre, (2, n) [N/mm].
 
         Parameters
         ----------
         w : (n,) wave numbers [1/mm], positive.
-        phases : (nodes, n) e^{-i w x_j} where they are known already.
+        sums : (2, n) sum kappa_j e^{-i w x_j} where they are known already.
         """
-        if phases is None:
-            phases = np.exp(-1j * np.outer(self.places, w))
+        if sums is None:
+            sums = self.kinks @ np.exp(-1j * np.outer(self.places, w))
         low = w * self.half_width < _SMALL_PHASE
-        kinked = -(self.kinks @ phases) / np.where(low, 1.0, w * w)
-        out = np.asarray(kinked, dtype=np.complex128)
+        out = np.asarray(-sums / np.where(low, 1.0, w * w), dtype=np.complex128)
         if np.any(low):
             powers = (w[low, None] * self.half_width) ** np.arange(_MOMENTS)
             out[:, low] = (powers @ self._series.T).T

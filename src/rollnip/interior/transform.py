@@ -26,7 +26,7 @@ from rollnip.interior.near import (
     spectral_powers,
 )
 from rollnip.interior.tractions import Array, ComplexArray, SurfaceTractions
-from rollnip.interior.waves import Waves
+from rollnip.interior.waves import Phases, Waves
 
 _FADED = 16.0
 """k z at which a transform has fallen to e^-16; what is left out is 1e-8 of the peak."""
@@ -100,15 +100,16 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
     values = np.zeros((parts, z.size, x.size))
     loss = np.zeros(z.size)
     half_space = HalfSpace(medium, rows.cut)
+    sources, targets = Phases(tractions.places), Phases(places)
     for block in waves.blocks(float(rows.last.max())):
         active = np.flatnonzero(rows.last > block.start)
-        transforms = tractions.transform(block.k, block.phases(tractions.places))
+        transforms = tractions.transform(block.k, sources.sums(block, tractions.kinks))
         spectrum = _spectrum(medium, rows, active, block.k, transforms)
         if medium.is_viscoelastic:
             loss[active] += _loss(spectrum, block.weights)
         _take_out(half_space, spectrum, rows, active, (block.k, transforms))
         spectrum *= block.weights
-        values[:, active] += _product(spectrum, block.phases(places))
+        values[:, _span(active)] += _product(spectrum, targets.on(block))
     sinking = _constants(half_space, medium, rows, tractions.resultants, 1e-9 * waves.lowest)
     values[:2] += waves.logarithm() * sinking
     for row in np.flatnonzero(rows.near):
@@ -116,6 +117,12 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
         powers = potentials(tractions, depth, places, two=medium.is_viscoelastic)
         values[:, [row]] += half_space.fields(powers, depth).real
     return Transformed(values, loss)
+
+
+def _span(rows: IntArray) -> IntArray | slice:
+    """Increasing rows as a slice where none is left out: numpy adds there in place."""
+    is_whole = rows.size > 0 and rows[-1] - rows[0] == rows.size - 1
+    return slice(int(rows[0]), int(rows[-1]) + 1) if is_whole else rows
 
 
 def _spectrum(

@@ -65,13 +65,49 @@ class Block:
         """Quadrature weights over pi, (n,) [1/mm]."""
         return np.multiply.outer(self.halves, _gauss(self.nodes)[1] / pi).ravel()
 
-    def phases(self, x: Array) -> ComplexArray:
-        """e^{-ikx}, (x, n); each panel's middle times the nodes of a panel."""
-        if np.ptp(self.halves) > 0.0:
-            return np.asarray(np.exp(-1j * np.multiply.outer(x, self.k)))
-        within = np.exp(-1j * np.multiply.outer(x, self.halves[0] * _gauss(self.nodes)[0]))
-        middles = np.exp(-1j * np.multiply.outer(x, self.middles))
-        return np.asarray(middles[:, :, None] * within[:, None, :]).reshape(x.size, -1)
+    @property
+    def is_even(self) -> bool:
+        """Whether all panels are of one width."""
+        return bool(np.ptp(self.halves) == 0.0)
+
+
+class Phases:
+    """e^{-ikx} at some places x, block after block.
+
+    On panels of one width they are those of the panels' middles times those from a middle to the
+    nodes; the latter are kept for the next block of such panels, for sines take most of the time.
+
+    Parameters
+    ----------
+    x : (m,) [mm].
+    """
+
+    def __init__(self, x: Array) -> None:
+        self.x = x
+        self._within: dict[tuple[float, int], ComplexArray] = {}
+
+    def on(self, block: Block) -> ComplexArray:
+        """The phases themselves, (m, n)."""
+        if not block.is_even:
+            return self._at(block.k)
+        middles, within = self._at(block.middles), self._from_middle(block)
+        return np.asarray(middles[:, :, None] * within[:, None, :]).reshape(self.x.size, -1)
+
+    def sums(self, block: Block, weights: Array) -> ComplexArray:
+        """Sums over x of ``weights`` (rows, m) times the phases, (rows, n)."""
+        if not block.is_even:
+            return np.asarray(weights @ self._at(block.k))
+        turned = weights[:, None, :] * self._at(block.middles).T
+        return np.asarray(turned @ self._from_middle(block)).reshape(len(weights), -1)
+
+    def _from_middle(self, block: Block) -> ComplexArray:
+        key = float(block.halves[0]), block.nodes
+        if key not in self._within:
+            self._within[key] = self._at(block.halves[0] * _gauss(block.nodes)[0])
+        return self._within[key]
+
+    def _at(self, k: Array) -> ComplexArray:
+        return np.asarray(np.exp(-1j * np.multiply.outer(self.x, k)))
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,12 +138,13 @@ class Waves:
         blocks = [_block(edges, _NODES_LOW)]
         for octave, nodes in enumerate(_NODES):
             if last > self.width * 2.0**octave:
-                blocks.append(_block(self.width * np.array([1.0, 2.0]) * 2.0**octave, nodes))
+                width = self.width * 2.0**octave
+                blocks.append(_block(width * np.array([1.0, 2.0]), nodes, width))
         wide, done = 4.0 * self.width, 2
         count = ceil(last / wide)
         while done < count:
             size = min(done, _MOST_AT_ONCE, count - done)
-            blocks.append(_block(wide * np.arange(done, done + size + 1), _NODES[-1]))
+            blocks.append(_block(wide * np.arange(done, done + size + 1), _NODES[-1], wide))
             done += size
         return blocks
 
@@ -122,8 +159,7 @@ class Waves:
         return float(np.log(self.lowest) / pi - np.sum(first.weights[inside] / first.k[inside]))
 
 
-def _block(edges: NDArray[Any], nodes: int) -> Block:
-    halves = 0.5 * np.diff(edges)
-    if edges.size > 2 and np.ptp(halves) < 1e-9 * halves[0]:
-        halves = np.full(halves.size, halves.mean())
+def _block(edges: NDArray[Any], nodes: int, width: float | None = None) -> Block:
+    """Panels between ``edges``; all of one ``width`` where it is given."""
+    halves = 0.5 * np.diff(edges) if width is None else np.full(edges.size - 1, 0.5 * width)
     return Block(float(edges[0]), 0.5 * (edges[1:] + edges[:-1]), halves, nodes)

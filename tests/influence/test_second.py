@@ -5,7 +5,6 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from scipy.integrate import quad
-from scipy.interpolate import CubicSpline
 
 import rollnip as rn
 from rollnip.compliance import flat_transfer, ring_transfer
@@ -139,16 +138,6 @@ def test_transform_of_the_tractions_is_exact():
             whole = sum(quad(wave, a, b, complex_func=True)[0] for a, b in pairwise(nodes))
             whole *= np.exp(1j * response.k[i] * response.x[0]) * kept[i] / step
             assert found[i, part] == pytest.approx(whole, abs=1e-11 * abs(found[0, part]))
-
-
-def test_splines_are_those_of_scipy():
-    x = np.linspace(-2.0, 3.0, 41)
-    values = np.stack([np.exp(x), np.sin(3.0 * x)], axis=1)
-    at = np.linspace(-2.0, 3.0, 333)
-    for found, column in zip(second._splines(x, values), values.T, strict=True):
-        expected = CubicSpline(x, column)
-        for order in (0, 1):
-            np.testing.assert_allclose(found(at, order), expected(at, order), atol=1e-11)
 
 
 @pytest.mark.parametrize("half_width", [0.2, 2.0, 20.0])

@@ -33,10 +33,9 @@ from math import isinf, pi
 
 import numpy as np
 from scipy.fft import next_fast_len
-from scipy.interpolate import PPoly
-from scipy.linalg import solve_banded
 
 from rollnip.compliance import flat_amplitudes, ring_amplitudes
+from rollnip.influence._spline import EvenSpline, even_splines
 from rollnip.influence._weights import ComplexArray, gauss_legendre
 from rollnip.influence.kernel import Array
 from rollnip.influence.surface import moduli
@@ -90,7 +89,7 @@ class SecondResponse:
         """The same table for another contact, of a half-width [mm] that it resolves."""
         return replace(self, half_width=half_width)
 
-    def displacement(self, nodes: Array, pressure: Array, shear: Array) -> tuple[PPoly, PPoly]:
+    def displacement(self, nodes: Array, pressure: Array, shear: Array) -> tuple[EvenSpline, ...]:
         """Second-order (u_x, u_z) as functions of x under nodal tractions of the own frame.
 
         With the linear ones they say of the material at the abscissa x that it was at the arc
@@ -104,7 +103,7 @@ class SecondResponse:
         tractions = self._transform(nodes, np.stack([1j * shear, pressure], axis=1))
         moved, loads = self._moved(tractions)
         moved += self._back(self._quadratic(tractions) + _times(self.surface[:, :2], loads))
-        return _splines(self.x, moved)
+        return even_splines(self.x, moved)
 
     def _transform(self, nodes: Array, tractions: ComplexArray) -> ComplexArray:
         """Transform of tractions (N-1, 2) that are linear between nodes, exact, (nk, 2).
@@ -183,24 +182,6 @@ def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
         return np.asarray((matrix @ vectors[:, :, None])[:, :, 0])
     parts = np.ascontiguousarray(vectors).view(float).reshape(*vectors.shape, 2)
     return np.asarray((matrix @ parts).view(complex)[:, :, 0])
-
-
-def _splines(x: Array, values: Array) -> tuple[PPoly, PPoly]:
-    """Cubic splines (not-a-knot) of the two columns of values (n, 2) on an even grid."""
-    step = x[1] - x[0]
-    rise = np.diff(values, axis=0)
-    right = np.empty(values.shape)
-    right[1:-1] = 3.0 * (rise[1:] + rise[:-1])
-    right[[0, -1]] = 0.5 * (5.0 * rise[[0, -1]] + rise[[1, -2]])
-    bands = np.ones((3, x.size))
-    bands[1, 1:-1] = 4.0
-    bands[0, 1] = bands[2, -2] = 2.0
-    slope = solve_banded((1, 1), bands, right, check_finite=False)
-    turn = slope[1:] + slope[:-1] - 2.0 * rise
-    cubes = np.stack([turn, rise - slope[:-1] - turn, slope[:-1], values[:-1]])
-    cubes /= step ** np.array([3.0, 2.0, 1.0, 0.0])[:, None, None]
-    along, inward = (PPoly.construct_fast(cubes[:, :, i].copy(), x) for i in (0, 1))
-    return along, inward
 
 
 def second_response(roller: Roller, speed: float | None, half_width: float) -> SecondResponse:

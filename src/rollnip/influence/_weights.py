@@ -150,20 +150,25 @@ def transform_matrix(
     limit A_c/w, C on all further panels, then A_c and A = w_c C(w_c).
     """
     n, s = per_octave
-    i = np.arange(octaves[0] * s, octaves[1] * s)
-    j = np.arange(points[0] * n, points[1] * n + 1)
-    shift = j[:, None] + (n // s) * i[None, :]
-    unit = unit_panel_weights(int(shift.min()), int(shift.max()), n, s, nodes)
-    panels = unit[:, shift - shift.min(), :] * (2.0 ** (i / s))[None, None, :, None]
-    parts = [
-        _lowest_panel(octaves[0], j / n, nodes),
-        panels.reshape(3, j.size, i.size * nodes),
-        # The constant of a half-space counts wave numbers above 1/mm, whatever w_0 is.
-        (head(2.0 ** (octaves[0] + j / n)) + octaves[0] * np.log(2.0))[:, :, None],
-        tail(2.0 ** (octaves[1] + j / n))[:, :, None],
-    ]
-    flat = np.concatenate(parts, axis=2).reshape(3 * j.size, -1) / np.pi
-    return np.ascontiguousarray(flat.real), np.ascontiguousarray(-flat.imag)
+    panels = np.arange(octaves[0] * s, octaves[1] * s)
+    log_x = np.arange(points[0] * n, points[1] * n + 1) / n
+    # The weights of a panel are those of the panel at w = 1, for x further on in the series.
+    first = points[0] * n + (n // s) * panels
+    unit = unit_panel_weights(int(first[0]), int(first[-1]) + log_x.size - 1, n, s, nodes)
+    even, odd = np.empty((2, 3, log_x.size, (1 + panels.size) * nodes + 2))
+
+    def fill(columns: slice, weights: ComplexArray) -> None:
+        even[:, :, columns], odd[:, :, columns] = weights.real / np.pi, -weights.imag / np.pi
+
+    fill(slice(0, nodes), _lowest_panel(octaves[0], log_x, nodes))
+    for number, (panel, start) in enumerate(zip(panels, first - first[0], strict=True), start=1):
+        columns = slice(number * nodes, (number + 1) * nodes)
+        fill(columns, unit[:, start : start + log_x.size] * 2.0 ** (panel / s))
+    # The constant of a half-space counts wave numbers above 1/mm, whatever w_0 is.
+    constant = head(2.0 ** (octaves[0] + log_x)) + octaves[0] * np.log(2.0)
+    fill(slice(-2, -1), constant[:, :, None])
+    fill(slice(-1, None), tail(2.0 ** (octaves[1] + log_x))[:, :, None])
+    return even.reshape(3 * log_x.size, -1), odd.reshape(3 * log_x.size, -1)
 
 
 def _lowest_panel(octave: int, log_x: Array, nodes: int) -> ComplexArray:

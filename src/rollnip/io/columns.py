@@ -123,8 +123,9 @@ class Columns:
         if not unit:
             return 1.0, 0.0
         try:
+            one = parse_quantity(f"1 {unit}", dimension)
             offset = parse_quantity(f"0 {unit}", dimension)
-            return parse_quantity(f"1 {unit}", dimension) - offset, offset
+            return one - offset, offset
         except InvalidInputError as problem:
             raise InvalidInputError(f'{self.source}: unit of column "{name}" {problem}') from None
 

@@ -175,7 +175,7 @@ def test_wrong_optimise_files(write, old, new, message):
         ("count = 50", "count = 5", "sampling.count: must lie between 20"),
         ("count = 50", "count = 50\nsobol = 7", "sampling.sobol: must be a power of two"),
         ('"1 %"', '"1 mm"', "sampling.quantiles[0]: must be a plain number"),
-        ('"1 %"', "1.5", "sampling.probabilities: must lie between 0 and 1"),
+        ('"1 %"', "1.5", "sampling.quantiles: must lie between 0 and 1"),
     ],
 )
 def test_wrong_tolerance_files(write, old, new, message):

@@ -120,6 +120,11 @@ def test_the_method_is_read(study):
         (UNKNOWN + DATA + "weight = -1.0\n", {}, "weight"),
         (UNKNOWN + DATA + "[method]\nstep = 5\n", {}, "fit.toml: method"),
         (UNKNOWN + DATA, {"widths": "load [N/mm],nip width [N]\n1,2\n"}, "widths.csv"),
+        (
+            UNKNOWN + DATA,
+            {"widths": "load [N/mm],nip width [mm]\n1,2\n2,-3\n"},
+            'widths.csv, line 3: "nip width" must be positive, got -3.',
+        ),
         (UNKNOWN + DATA, {"widths": "date,nip width [mm]\n1,2\n"}, "`ignore`"),
     ],
 )

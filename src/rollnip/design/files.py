@@ -223,7 +223,11 @@ def _sampling(table: SamplingPlanTable, source: str) -> Sampling:
     given = {name: getattr(table, name) for name in ("count", "sobol", "confidence", "seed")}
     given["probabilities"] = None if table.quantiles is None else tuple(table.quantiles)
     with _at(source, "sampling"):
-        return Sampling(**{name: value for name, value in given.items() if value is not None})
+        try:
+            return Sampling(**{name: value for name, value in given.items() if value is not None})
+        except InvalidInputError as error:
+            said = str(error).replace("`probabilities`", "`quantiles`", 1)  # as the file calls them
+            raise InvalidInputError(said) from None
 
 
 def _distribution(table: VariedTable, case: Mapping[str, Any]) -> Distribution:

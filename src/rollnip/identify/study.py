@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip._units import Dimension, parse_quantity
@@ -42,6 +43,7 @@ _SCALARS: dict[str, tuple[type[Scalars], Dimension]] = {
     "torque": (Torques, "force"),
     "rolling-resistance": (RollingResistances, "ratio"),
 }
+_POSITIVE = ("nip-width", "load", "peak-pressure")  # of a pressed nip, whatever the noise
 _SHORT = ("load", "approach", "traction", "creepage", "torque_lower", "friction", "speed")
 
 
@@ -149,6 +151,8 @@ class _Reader:
         kind, dimension = _SCALARS[table.kind]
         column = table.column or kind.quantity
         measured = columns.numbers(column, dimension)
+        if table.kind in _POSITIVE:
+            _require_positive(columns, column, measured)
         at |= self._conditions(columns, {column, _ERROR, *table.ignore})
         shared: dict[str, Any] = {"roller": table.roller} if kind is Torques else {}
         with self._placed(where):
@@ -236,6 +240,14 @@ class _Reader:
             yield
         except InvalidInputError as problem:
             raise InvalidInputError(f"{self.source}: {where}: {problem}") from None
+
+
+def _require_positive(columns: Columns, name: str, values: NDArray[np.float64]) -> None:
+    for line, value in zip(columns.lines, values, strict=True):
+        if not value > 0.0:
+            raise InvalidInputError(
+                f'{columns.source}, line {line}: "{name}" must be positive, got {value:g}.'
+            )
 
 
 def _difference(value: Any, dimension: Dimension) -> float:

@@ -166,14 +166,20 @@ def _climb_step(
     state: SurfaceState, weights: tuple[FloatArray, ...], generator: FloatArray
 ) -> SurfaceState:
     """exp(t L) state = sum of weights * L^j state, j = 0..4."""
-    power = np.empty((5, weights[0].size), dtype=np.result_type(*state, float))
-    for row, part in zip(power, state, strict=True):
-        row[:] = part
+    parts = [np.asarray(part) for part in state]
+    is_complex = any(np.iscomplexobj(part) for part in parts)
+    # Weights and L are real: the imaginary part of a state, if any, climbs beside the real one.
+    power = np.empty((5, 2 if is_complex else 1, weights[0].size))
+    for row, part in zip(power, parts, strict=True):
+        row[0] = part.real
+        if is_complex:
+            row[1] = part.imag
     total = weights[0] * power
     for weight in weights[1:]:
-        power = np.einsum("ijn,jn->in", generator, power)
+        power = np.einsum("ijn,jqn->iqn", generator, power)
         total += weight * power
-    return SurfaceState(*total)
+    climbed = total[:, 0] + 1j * total[:, 1] if is_complex else total[:, 0]
+    return SurfaceState(*climbed)
 
 
 def _generator(poisson: float, wave: RingWave) -> FloatArray:

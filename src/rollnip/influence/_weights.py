@@ -149,6 +149,7 @@ def transform_matrix(
     F_r(+-x) = even @ Re C +- odd @ Im C. The samples are C on the panel from 0 to w_0 less its
     limit A_c/w, C on all further panels, then A_c and A = w_c C(w_c).
     """
+    _keep_freed_memory()
     n, s = per_octave
     panels = np.arange(octaves[0] * s, octaves[1] * s)
     log_x = np.arange(points[0] * n, points[1] * n + 1) / n
@@ -169,6 +170,17 @@ def transform_matrix(
     fill(slice(-2, -1), constant[:, :, None])
     fill(slice(-1, None), tail(2.0 ** (octaves[1] + log_x))[:, :, None])
     return even.reshape(3 * log_x.size, -1), odd.reshape(3 * log_x.size, -1)
+
+
+@lru_cache(maxsize=1)
+def _keep_freed_memory() -> None:
+    """Let the C library keep the memory of arrays that are freed, for the next ones.
+
+    That of Linux gives blocks above a threshold back to the system, which hands them out again
+    page by page and zeroed: on meshes beyond 60 nodes it took longer than to compute. The
+    threshold, 128 KiB at first, is the largest block of up to 32 MiB ever freed.
+    """
+    np.empty(31 * 2**20, dtype=np.uint8)
 
 
 def _lowest_panel(octave: int, log_x: Array, nodes: int) -> ComplexArray:

@@ -20,7 +20,7 @@ def displacement_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
 
     A kernel with channels gives (channels, m, N-1).
     """
-    return _kinks(kernel.double_integral(x[:, None] - nodes[None, :]), nodes)
+    return _kinks(kernel.double_integral(x[:, None] - nodes[None, :]), nodes, kernel.count)
 
 
 def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
@@ -28,7 +28,7 @@ def strain_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
 
     A kernel with channels gives (channels, m, N-1).
     """
-    return _kinks(kernel.integral(x[:, None] - nodes[None, :]), nodes)
+    return _kinks(kernel.integral(x[:, None] - nodes[None, :]), nodes, kernel.count)
 
 
 def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array) -> Array:
@@ -45,7 +45,7 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     values = kernel.double_integral(x[:, None] - nodes[None, :])
     if values.ndim == 2:
         return np.asarray(values @ kinks)
-    return np.moveaxis(kinks.T @ values, 2, 0)
+    return np.moveaxis(kinks.T @ values, 2, 0)[: kernel.count]
 
 
 def load_weights(nodes: Array) -> Array:
@@ -53,10 +53,10 @@ def load_weights(nodes: Array) -> Array:
     return 0.5 * (nodes[2:] - nodes[:-2])
 
 
-def _kinks(values: Array, nodes: Array) -> Array:
+def _kinks(values: Array, nodes: Array, count: int) -> Array:
     """Combine values at the nodes (m, N+1, ...) into hats: a hat is three changes of slope.
 
-    A last axis of channels becomes the first.
+    A last axis of channels becomes the first, of ``count``.
     """
     channels = values[0, 0].size
     inverse = np.append(1.0 / np.diff(nodes), 0.0)
@@ -67,7 +67,7 @@ def _kinks(values: Array, nodes: Array) -> Array:
     steps.reshape(values.shape[0], -1)[:] *= np.repeat(inverse, channels)
     _differences(steps.reshape(-1), channels, steps.reshape(-1))
     hats = steps[:, :-2]
-    return np.ascontiguousarray(hats if values.ndim == 2 else np.moveaxis(hats, -1, 0))
+    return np.ascontiguousarray(hats if values.ndim == 2 else np.moveaxis(hats, -1, 0)[:count])
 
 
 def _differences(row: Array, distance: int, out: Array) -> None:

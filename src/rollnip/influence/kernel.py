@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, floor, log, log2
 
 import numpy as np
@@ -59,7 +59,9 @@ class Kernel:
     part has to be split off. G is a displacement per unit of line load [mm/(N/mm)].
 
     A kernel may carry several channels (the influence functions of one surface), which are then
-    evaluated together: results have the shape of x, then an axis of channels.
+    evaluated together: results have the shape of x, then an axis of channels. Three channels
+    are filled up to four by one of zeros, in results too: numpy fetches 32 bytes at a time
+    several times as fast as 24.
 
     Attributes
     ----------
@@ -70,25 +72,33 @@ class Kernel:
         from its end nearer to 0; cells in the order of x, those of x < 0 before those of x > 0.
         On either side the first and the last cell go on linearly in ln|x|, below and beyond the
         grid.
+    count :
+        channels, without one of zeros.
     """
 
     points_per_octave: int
     first: int
     coefficients: Array
+    count: int = 1
 
     @classmethod
     def stacked(cls, kernels: tuple[Kernel, ...]) -> Kernel:
         """One kernel with the channels of some kernels on the same grid, in their order."""
-        parts = [k.coefficients.reshape(*k.coefficients.shape[:2], -1) for k in kernels]
-        return cls(kernels[0].points_per_octave, kernels[0].first, np.concatenate(parts, axis=2))
+        parts = [channel.coefficients for kernel in kernels for channel in kernel.channels]
+        out = np.zeros((*parts[0].shape, _filled_up(len(parts))))
+        for number, part in enumerate(parts):
+            out[:, :, number] = part
+        return cls(kernels[0].points_per_octave, kernels[0].first, out, len(parts))
 
     @property
     def channels(self) -> tuple[Kernel, ...]:
         """Each channel as a kernel of its own."""
-        return tuple(self.channel(i) for i in range(self.coefficients.shape[2]))
+        return tuple(self.channel(i) for i in range(self.count))
 
     def channel(self, number: int) -> Kernel:
         """One channel as a kernel of its own."""
+        if self.coefficients.ndim == 2:
+            return self
         return Kernel(self.points_per_octave, self.first, self.coefficients[:, :, number])
 
     @property
@@ -114,13 +124,13 @@ class Kernel:
         return value + 1.5 * slope + 0.5 * bend
 
     def __add__(self, other: Kernel) -> Kernel:
-        return Kernel(self.points_per_octave, self.first, self.coefficients + other.coefficients)
+        return replace(self, coefficients=self.coefficients + other.coefficients)
 
     def __sub__(self, other: Kernel) -> Kernel:
-        return Kernel(self.points_per_octave, self.first, self.coefficients - other.coefficients)
+        return replace(self, coefficients=self.coefficients - other.coefficients)
 
     def __mul__(self, factor: float) -> Kernel:
-        return Kernel(self.points_per_octave, self.first, factor * self.coefficients)
+        return replace(self, coefficients=factor * self.coefficients)
 
     def _jet(self, x: Array, order: int) -> list[Array]:
         """F_2 and its derivatives to ln|x| up to ``order``."""
@@ -173,6 +183,11 @@ def _for_channels(values: Array, like: Array) -> Array:
     return np.repeat(values, like.shape[-1]).reshape(like.shape)
 
 
+def _filled_up(channels: int) -> int:
+    """Channels of a table."""
+    return 4 if channels == 3 else channels
+
+
 Compliance = Callable[[Array], tuple[ComplexArray, ...]]
 
 
@@ -217,7 +232,8 @@ def tabulate(
         per_octave *= 2
         samples, roughness = _sample(compliance, window, per_octave, nodes)
     means = _transform(samples, limit, window, per_octave, nodes)
-    return Kernel(_POINTS_PER_OCTAVE, window.points[0] * _POINTS_PER_OCTAVE, _hermite(means))
+    first = window.points[0] * _POINTS_PER_OCTAVE
+    return Kernel(_POINTS_PER_OCTAVE, first, _hermite(means), limit.size)
 
 
 def _sample(
@@ -277,4 +293,7 @@ def _hermite(means: Array) -> Array:
     out[5, 1:-1] = 6.0 * rise - 3.0 * turn + curl
     # Below the grid the fraction of the cell is 1 at the first point.
     out[0, 0], out[1, 0] = f_2[0] - slope[0], slope[0]
-    return np.concatenate([out[:, ::-1, :, 1], out[..., 0]], axis=1)
+    cells, channels = out.shape[1:3]
+    sides = np.zeros((6, 2 * cells, _filled_up(channels)))
+    sides[:, :cells, :channels], sides[:, cells:, :channels] = out[:, ::-1, :, 1], out[..., 0]
+    return sides

@@ -8,7 +8,7 @@ from pathlib import Path
 from time import perf_counter
 from typing import Any
 
-from rollnip.sweep.row import Row, attempt, own_kernels
+from rollnip.sweep.row import Row, own_kernels, ready, solved
 from rollnip.sweep.store import About, Store
 from rollnip.sweep.task import Outcome
 from rollnip.sweep.version import own_version
@@ -62,14 +62,12 @@ class Recall:
     def __call__(self, tree: Mapping[str, Any]) -> Row:
         """As `evaluate`. Raises RollnipError where the database cannot be written."""
         start = perf_counter()
-        done = attempt(lambda: tree, own_kernels(), self._recalled)
-        if done.case is not None and done.case not in self._known:
-            seconds = perf_counter() - start
-            self.store.write(Outcome(self._next, (), done.case, done.row, seconds))
-            self._known[done.case] = self._next
+        one = ready(lambda: tree)
+        if one.name in self._known:
+            return self.store.row(self._known[one.name])
+        row, _ = solved(one, own_kernels())
+        if one.name is not None:
+            self.store.write(Outcome(self._next, (), one.name, row, perf_counter() - start))
+            self._known[one.name] = self._next
             self._next += 1
-        return done.row
-
-    def _recalled(self, case: str) -> Row | None:
-        position = self._known.get(case)
-        return None if position is None else self.store.row(position)
+        return row

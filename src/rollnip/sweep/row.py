@@ -10,7 +10,7 @@ from typing import Any
 
 from rollnip._errors import ConvergenceError, RollnipError
 from rollnip.influence import KernelCache
-from rollnip.io import case_hash, parse_case
+from rollnip.io import Case, case_hash, parse_case
 from rollnip.io.netcdf import UNITS
 from rollnip.solution import Solution
 from rollnip.solve import solve
@@ -65,7 +65,7 @@ def evaluate(tree: Mapping[str, Any]) -> Row:
       surface in the contact, mean over an element;
     - ``warnings``: reservations, parted by blanks.
     """
-    return attempt(lambda: tree, own_kernels()).row
+    return solved(ready(lambda: tree), own_kernels())[0]
 
 
 @cache
@@ -75,48 +75,50 @@ def own_kernels() -> KernelCache:
 
 
 @dataclass(frozen=True, slots=True)
-class Attempt:
-    """One case tried.
+class Ready:
+    """A case that was read, to be solved.
 
     Attributes
     ----------
-    row : as `evaluate` returns it.
-    case : its hash; None where it is no case.
-    solution : None where there is none, or the row was known.
+    case : None where it is no case.
+    name : its hash; None where it is no case.
+    refusal : the row that says why it is none; else None.
     """
 
-    row: Row
-    case: str | None = None
-    solution: Solution | None = None
+    case: Case | None = None
+    name: str | None = None
+    refusal: Row | None = None
 
 
-def attempt(
-    make: Callable[[], Mapping[str, Any]],
-    kernels: KernelCache | None = None,
-    recall: Callable[[str], Row | None] = lambda _: None,
-) -> Attempt:
-    """Solve the case whose tree ``make`` returns; what either raises is a message in the row.
-
-    ``recall`` may know the row of a case by its hash.
-    """
-    name = None
+def ready(make: Callable[[], Mapping[str, Any]]) -> Ready:
+    """Read the case whose tree ``make`` returns; what either raises is a message in a row."""
     try:
         case = parse_case(make(), source=_NAME)
-        name = case_hash(case)
-        known = recall(name)
-        if known is not None:
-            return Attempt(known, name)
-        solution = solve(case.nip, case.model, cache=kernels, on_failure="return")
-        return Attempt(scalars(solution), name, solution)
-    except ConvergenceError as error:
-        return Attempt(without_solution("failed", str(error)), name)
-    except RollnipError as error:
-        lines = (line.removeprefix(f"{_NAME}: ") for line in str(error).splitlines())
-        return Attempt(without_solution("refused", " ".join(lines)), name)
+        return Ready(case, case_hash(case))
     except Exception as error:  # noqa: BLE001 - a fault in one case must not end a thousand others
-        said = " ".join(str(error).split())
-        message = f"Unforeseen {type(error).__name__}: {said}"
-        return Attempt(without_solution("failed", message), name)
+        return Ready(refusal=_row_of(error))
+
+
+def solved(one: Ready, kernels: KernelCache | None = None) -> tuple[Row, Solution | None]:
+    """Solve a case: its row, as `evaluate` returns it, and its solution where there is one."""
+    if one.case is None:
+        assert one.refusal is not None
+        return one.refusal, None
+    try:
+        solution = solve(one.case.nip, one.case.model, cache=kernels, on_failure="return")
+        return scalars(solution), solution
+    except Exception as error:  # noqa: BLE001 - as above
+        return _row_of(error), None
+
+
+def _row_of(error: Exception) -> Row:
+    if isinstance(error, ConvergenceError):
+        return without_solution("failed", str(error))
+    if isinstance(error, RollnipError):
+        lines = (line.removeprefix(f"{_NAME}: ") for line in str(error).splitlines())
+        return without_solution("refused", " ".join(lines))
+    said = " ".join(str(error).split())
+    return without_solution("failed", f"Unforeseen {type(error).__name__}: {said}")
 
 
 def scalars(solution: Solution) -> Row:

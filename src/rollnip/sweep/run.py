@@ -13,12 +13,13 @@ from rollnip._errors import RollnipError
 from rollnip.sweep.crew import Crew
 from rollnip.sweep.store import Store
 from rollnip.sweep.study import Study
-from rollnip.sweep.task import Outcome, Task, given_up, perform
+from rollnip.sweep.task import Outcome, Task, given_up, performed
 
 Report = Callable[[Outcome], None]
 _DIED = "The worker process ended while it solved this case (out of memory?)."
 _ALL_LOST = "the workers were lost; what was finished is kept: run the same again."
 _MOST_CASES = 256  # of one task
+_AT_ONCE = 0.25  # s, of cases that are read at once where no other process works
 _PATIENCE = 30.0  # s, for the cases that run when the sweep is interrupted
 
 
@@ -94,8 +95,10 @@ def run(
     if crew is not None:
         _Flow(cases, crew, keep).run()
         return
-    while (task := cases.task()) is not None:
-        keep(perform(task))
+    while (task := cases.task(_AT_ONCE)) is not None:
+        for outcome in performed(task):
+            cases.learn([outcome])
+            keep([outcome])
 
 
 @dataclass(slots=True)

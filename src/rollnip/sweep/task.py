@@ -5,8 +5,9 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from multiprocessing import parent_process
 from multiprocessing.connection import wait
 from time import perf_counter
@@ -16,7 +17,7 @@ import numpy as np
 
 from rollnip.io.netcdf import PROFILE_UNITS
 from rollnip.solution import Solution
-from rollnip.sweep.row import Row, attempt, own_kernels, without_solution
+from rollnip.sweep.row import Row, own_kernels, ready, solved, without_solution
 from rollnip.sweep.study import Value, case_with
 
 
@@ -66,7 +67,26 @@ class Outcome:
 
 def perform(task: Task) -> list[Outcome]:
     """Solve the cases of a task; a case that goes wrong is a row with its message."""
-    return [_outcome(task, position, values) for position, values in task.cases]
+    return list(performed(task))
+
+
+def performed(task: Task) -> Iterator[Outcome]:
+    """The same, each handed out as it ends.
+
+    All are read before the first is solved: what reads them then stays in the core's caches, and
+    reading takes a third of the time.
+    """
+    start = perf_counter()
+    read = [ready(partial(case_with, task.tree, task.paths, values)) for _, values in task.cases]
+    share = (perf_counter() - start) / len(read)
+    for (position, values), one in zip(task.cases, read, strict=True):
+        start = perf_counter()
+        row, solution = solved(one, own_kernels())
+        profiles = None
+        if task.with_profiles and solution is not None:
+            profiles = _profiles(solution)
+        seconds = share + perf_counter() - start
+        yield Outcome(position, values, one.name, row, seconds, profiles)
 
 
 def given_up(task: Task, why: str) -> list[Outcome]:
@@ -86,15 +106,6 @@ def stand_alone() -> None:
 def _end_with(sentinel: int) -> None:
     wait([sentinel])
     os._exit(1)
-
-
-def _outcome(task: Task, position: int, values: tuple[Value, ...]) -> Outcome:
-    start = perf_counter()
-    done = attempt(lambda: case_with(task.tree, task.paths, values), own_kernels())
-    profiles = None
-    if task.with_profiles and done.solution is not None:
-        profiles = _profiles(done.solution)
-    return Outcome(position, values, done.case, done.row, perf_counter() - start, profiles)
 
 
 def _profiles(solution: Solution) -> bytes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import pytest
@@ -14,8 +15,7 @@ from rollnip.sweep.row import own_kernels, ready, solved
 from rollnip.sweep.task import Task, perform
 
 
-@pytest.fixture
-def tasks(tree: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> list[Task]:
+def tasks_of(tree: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> list[Task]:
     """Tasks of one case each, for a process that has solved nothing before."""
     kept = KernelCache()
     monkeypatch.setattr(task_module, "own_kernels", lambda: kept)
@@ -25,8 +25,9 @@ def tasks(tree: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> list[Task]:
 
 
 def test_influence_functions_are_kept_from_task_to_task(
-    tasks: list[Task], monkeypatch: pytest.MonkeyPatch
+    tree: dict[str, Any], monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    tasks = tasks_of(tree, monkeypatch)
     tabulated: list[float] = []
     tabulate = cache_module.surface_kernels
 
@@ -40,14 +41,17 @@ def test_influence_functions_are_kept_from_task_to_task(
     assert tabulated == [1.0, 2.032]  # not once for each load
 
 
+@pytest.mark.parametrize("geometry", ["linear", "curved", "finite"])
 def test_a_row_is_the_same_to_the_last_bit_whatever_was_solved_before(
-    tree: dict[str, Any], tasks: list[Task]
+    tree: dict[str, Any], monkeypatch: pytest.MonkeyPatch, geometry: str
 ) -> None:
+    tree["case"]["model"]["geometry"] = geometry
+    in_order = tasks_of(tree, monkeypatch)
     study = read_study(tree)
-    for task in (*tasks, *reversed(tasks)):
+    for task in (*in_order, *reversed(in_order)):
         (outcome,) = perform(task)
-        tree = study.case(outcome.position)
-        assert outcome.row == solved(ready(lambda tree=tree: tree))[0]
+        fresh, _ = solved(ready(partial(study.case, outcome.position)))
+        assert outcome.row == fresh
 
 
 def test_a_process_has_one_cache() -> None:

@@ -24,7 +24,8 @@ def recalling(
     committed before the search goes on::
 
         with recalling("find.db", case, ["nip.load"]) as evaluate:
-            find(case, "nip.load", "nip_width", "8 mm", 1.0, 20.0, evaluate=evaluate)
+            wanted = ("nip.load", "nip_width", "8 mm", "1 N/mm", "20 N/mm")
+            found = find(case, *wanted, evaluate=evaluate)
 
     Parameters
     ----------

@@ -73,7 +73,7 @@ class Columns:
 
         Returns
         -------
-        (n,) array, in mm, N/mm, N, MPa, mm/s, s, degC, Hz or 1.
+        (n,) array, in mm, N/mm, N, MPa, mm/s, s, degC, Hz, rad or 1.
 
         Raises
         ------

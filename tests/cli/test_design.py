@@ -1,6 +1,9 @@
 """Design on the command line: answers, exit codes, files, one clear message."""
 
 import json
+import subprocess
+import sys
+import time
 from math import pi
 from pathlib import Path
 
@@ -11,6 +14,7 @@ import rollnip as rn
 from rollnip.cli.app import app
 from rollnip.closed_forms import contact_modulus, effective_radius
 from rollnip.sweep import row as row_module
+from rollnip.sweep.store import Store
 
 # Hertz: a^2 = 4 F R / (pi E*), Johnson (1985), eq. 4.43
 LOAD = pi * contact_modulus(210e3, 0.3, 210e3, 0.3) * 0.2**2 / (4.0 * effective_radius(50.0, 25.0))
@@ -327,3 +331,28 @@ def test_what_is_wanted_may_change_without_a_new_solve(case, tmp_path, monkeypat
     again = run(*ask(case, wanted="peak_pressure=800 MPa"), *database)
     assert first.exit_code == again.exit_code == 0
     assert solves.count - before <= before - 5  # the five from limit to limit were there
+
+
+@pytest.mark.slow
+def test_killed_at_any_moment_a_search_goes_on_from_there(study, tmp_path):
+    path = study(OPTIMISE.replace("solves = 30", "solves = 60"))
+    wanted = run("optimise", path, "--geometry", "curved")
+    database = tmp_path / "kept.db"
+    code = "from rollnip.cli import main; main()"
+    options = ("--geometry", "curved", "--database", str(database))
+    command = [sys.executable, "-c", code, "optimise", path, *options]
+    log, held = tmp_path / "kept.db-wal", [0]
+    for _ in range(3):
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+        size = log.stat().st_size if log.is_file() else 0
+        until = time.monotonic() + 60.0
+        while not (log.is_file() and log.stat().st_size > size + 60_000):
+            assert process.poll() is None
+            assert time.monotonic() < until
+            time.sleep(0.01)
+        process.kill()
+        process.wait()
+        with Store(database) as store:
+            held.append(store.size)
+    assert held == sorted(set(held))  # each went on where the one before was killed
+    assert run("optimise", path, *options).stdout == wanted.stdout

@@ -128,7 +128,7 @@ class Solution:
     @property
     def peak_pressure_x(self) -> float:
         """Where the pressure is highest [mm]."""
-        return peak_pressure(self.final.problem.x, self.final.state.pressure)[1]
+        return peak_pressure(self.final.x, self.final.pressure)[1]
 
     @property
     def mean_pressure(self) -> float:
@@ -168,7 +168,7 @@ class Solution:
             return 0.0
         fields = self._fields_on_mesh
         means = 0.5 * (fields.shear[1:] + fields.shear[:-1])
-        return float(self.nip.speed * np.sum(np.abs(means * fields.creep)))
+        return float(self.nip.speed * np.sum(means * fields.creep))
 
     @property
     def dissipation_viscous(self) -> float | None:
@@ -187,8 +187,7 @@ class Solution:
         """T (V_u - V_l) + V (1/R_u + 1/R_l) int p x dx [N/s]; None without speed."""
         if self.nip.speed is None:
             return None
-        p = self.final.state.pressure
-        moment = _moment(self.final.mesh.nodes, p)
+        moment = _moment(self.final.nodes, self.final.pressure)
         slip = self.traction * (self.creepage or 0.0)
         return self.nip.speed * (slip + self.nip.curvature * moment)
 
@@ -252,17 +251,17 @@ class Solution:
     @property
     def nodes(self) -> Array:
         """Nodes of the mesh that carry tractions, from trailing to leading, (n,) [mm]."""
-        return self.final.problem.x
+        return self.final.x
 
     @property
     def pressure(self) -> Array:
         """Pressure at the nodes, linear between them, (n,) [MPa]."""
-        return self.final.state.pressure
+        return self.final.pressure
 
     @property
     def shear(self) -> Array:
         """Shear on the upper roller along +x at the nodes, linear between them, (n,) [MPa]."""
-        return self.final.state.shear
+        return self.final.shear
 
     def interior(
         self,
@@ -323,7 +322,7 @@ class Solution:
     def _tractions_on(self, roller: str) -> SurfaceTractions:
         """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""
         shear = self.shear if roller == "upper" else -self.shear
-        return SurfaceTractions.on_inner(self.final.mesh.nodes, shear, self.pressure)
+        return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 
     @property
     def _roller_speeds(self) -> tuple[float, float] | None:
@@ -340,9 +339,9 @@ class Solution:
     @property
     def _loss_per_distance(self) -> float:
         """-int (q du_t + p d(u_z,upper + u_z,lower)): viscous loss per rolled distance [N/mm]."""
-        u, state = self._fields_on_mesh.displacements, self.final.state
-        tangential = pressure_work(state.shear, u.x_upper - u.x_lower)
-        return -tangential - pressure_work(state.pressure, u.z_upper + u.z_lower)
+        u = self._fields_on_mesh.displacements
+        tangential = pressure_work(self.shear, u.x_upper - u.x_lower)
+        return -tangential - pressure_work(self.pressure, u.z_upper + u.z_lower)
 
     def _torque(self, *, upper: bool) -> float | None:
         """+-R T - R int p du_z: the pressure acts along the normal of the deformed interface."""
@@ -351,13 +350,13 @@ class Solution:
             return None
         u = self._fields_on_mesh.displacements
         u_z = u.z_upper if upper else u.z_lower
-        shear = self.final.state.shear * (1.0 if upper else -1.0)
-        traction = float(self.final.problem.weights @ shear)
+        shear = self.shear * (1.0 if upper else -1.0)
+        traction = float(self.final.weights @ shear)
         if self.model.geometry != "linear":
             # The arm of the shear is R - u_z.
             depth = roller.curvature * u_z[:-1]
-            traction -= float(self.final.problem.weights @ (shear * depth))
-        return roller.radius * (traction - pressure_work(self.final.state.pressure, u_z))
+            traction -= float(self.final.weights @ (shear * depth))
+        return roller.radius * (traction - pressure_work(self.pressure, u_z))
 
 
 def _moment(nodes: Array, pressure: Array) -> float:

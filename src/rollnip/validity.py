@@ -97,11 +97,11 @@ def _contact_angle(nip: Nip, final: Round) -> str:
 
 def surface_strain_in_nip(nip: Nip, model: Model, final: Round) -> float:
     """Largest strain of either surface in the contact, mean over an element."""
-    x = final.mesh.nodes[1:]
-    u = final.mesh.displacements(final.state)
-    touching = final.state.pressure > 0.0
+    x = final.nodes[1:]
+    u = final.mesh.finer(final.mesh.displacements(final.state))
+    touching = final.pressure > 0.0
     sides = (stretch_excess(x, nip, model.geometry, u, side=side) for side in ("upper", "lower"))
-    strains = [np.abs(excess / final.mesh.dx)[touching] for excess in sides]
+    strains = [np.abs(excess / np.diff(x))[touching] for excess in sides]
     return float(max(np.max(strain, initial=0.0) for strain in strains))
 
 
@@ -123,15 +123,14 @@ def _surface_strain(nip: Nip, model: Model, final: Round) -> str:
 
 def second_share(nip: Nip, final: Round) -> float:
     """Largest second-order indentation in the contact over the approach; 0 where there is none."""
-    mesh, state = final.mesh, final.state
-    inside = mesh.inner[state.pressure > 0.0]
-    second = mesh.kernels.second(mesh.nodes, state, inside)
+    inside = final.mesh.inner[final.state.pressure > 0.0]
+    second = final.mesh.second(final.state, inside)
     largest = max(np.max(np.abs(u), initial=0.0) for u in (second.z_upper, second.z_lower))
     if largest == 0.0:
         return 0.0
     if nip.has_half_space:
         return float(largest / (0.125 * nip.curvature * final.figures.nip_width**2))
-    return float(largest / state.approach) if state.approach > 0.0 else inf
+    return float(largest / final.state.approach) if final.state.approach > 0.0 else inf
 
 
 def _second_order(nip: Nip, final: Round) -> str:
@@ -157,7 +156,7 @@ def _flat_half_space(name: str, roller: Roller, model: Model) -> str:
 def _thin_top_layer(name: str, roller: Roller, final: Round) -> str:
     if not roller.layers:
         return ""
-    largest = float(np.max(np.diff(final.mesh.nodes[4:-4]), initial=0.0))
+    largest = float(np.max(np.diff(final.nodes[4:-4]), initial=0.0))
     thickness = roller.layers[0].thickness
     if thickness >= 0.5 * largest:
         return ""

@@ -67,7 +67,7 @@ def test_where_the_volume_is_too_long_positions_are_left_out(driven):
     places = np.concatenate(
         [np.linspace(-9.0, -4.0, 8), np.linspace(-3.8, -2.9, 10), np.linspace(-2.5, 8.0, 12)]
     )
-    scan = simulate_scan(driven, at, Seeding(bursts=30), positions=places, seed=1)
+    scan = simulate_scan(driven, at, Seeding(bursts=60), positions=places, seed=1)
     profile = estimate_profile(scan.x, scan.velocity)
     plain = compare(profile, driven, width=at.averaging_width)
     found = compare(profile, driven, width=at.averaging_width, blur=at.largest_blur)

@@ -74,7 +74,7 @@ def test_figures_are_those_of_the_solution(case, solved):
     assert figures.nip_width == pytest.approx(
         solution.contact[-1][1] - solution.contact[0][0], rel=1e-14
     )
-    load = solution.final.problem.weights @ solution.pressure
+    load = solution.final.weights @ solution.pressure
     assert figures.load == pytest.approx(load, rel=1e-12)
     assert figures.peak_pressure >= np.max(solution.pressure)
     if isinstance(case[1].normal, rn.LineLoad):

@@ -1,11 +1,20 @@
 """Contact: which nodes touch, stick or slip, by Kalker's algorithms and a coupled active set."""
 
-from rollnip.contact.coupled import CoupledActiveSet
+from rollnip.contact.coupled import CoupledActiveSet, next_states
 from rollnip.contact.features import Zone, contact_intervals, contact_zones, states_on
+from rollnip.contact.free_ends import HeldContact, Layout
 from rollnip.contact.given import Norm, Tang
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
-from rollnip.contact.mesh import Demand, graded_nodes
+from rollnip.contact.mesh import (
+    Demand,
+    Subdivision,
+    cosine_nodes,
+    cubic_error,
+    elements_of_zones,
+    graded_nodes,
+    subdivided,
+)
 from rollnip.contact.methods import Alternation, Safeguarded
 from rollnip.contact.path import CreepagePath
 from rollnip.contact.problem import (
@@ -31,18 +40,26 @@ __all__ = [
     "GridActiveSet",
     "GridProblem",
     "GridState",
+    "HeldContact",
+    "Layout",
     "Norm",
     "Safeguarded",
     "State",
     "States",
+    "Subdivision",
     "Tang",
     "Zone",
     "contact_intervals",
     "contact_zones",
+    "cosine_nodes",
     "creep",
+    "cubic_error",
+    "elements_of_zones",
     "gap",
     "graded_nodes",
     "grid_intervals",
     "influence_of",
+    "next_states",
     "states_on",
+    "subdivided",
 ]

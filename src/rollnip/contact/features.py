@@ -93,7 +93,7 @@ def _split(
     for i in range(first, last + 1):
         if i < last and states[i + 1] == states[i]:
             continue
-        stop = edges[1] if i == last else _transition(x, slack, states, i)
+        stop = edges[1] if i == last else transition(x, slack, states, i)
         zones.append(Zone(start, stop, State(states[i])))
         start = stop
     return zones
@@ -114,8 +114,8 @@ def _without_slivers(states: States) -> States:
     return padded[1:-1]
 
 
-def _transition(x: Array, slack: Array, states: States, i: int) -> float:
-    """Place between nodes i and i + 1 where the state changes."""
+def transition(x: Array, slack: Array, states: States, i: int) -> float:
+    """Place between nodes i and i + 1 where the state changes; slack is mu p - |q| (n,) [MPa]."""
     if states[i + 1] == STICK:
         return _crossing(x, slack, i + 1, -1)
     if states[i] == STICK:

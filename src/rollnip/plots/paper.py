@@ -74,7 +74,7 @@ def draw_pressure(data: PressureFigure) -> Figure:
     figure = Figure(figsize=(8.0, 5.0), layout="constrained")
     ax = figure.subplots()
     for thickness, solution, color in zip(data.thicknesses, data.solutions, _COLORS, strict=True):
-        x = solution.final.mesh.nodes
+        x = solution.final.nodes
         pressure = np.concatenate([[0.0], solution.pressure, [0.0]])
         label = f"d = {thickness:g} mm, peak {solution.peak_pressure:.2f} MPa"
         ax.plot(x, pressure, color=color, linewidth=1.6, label=label)

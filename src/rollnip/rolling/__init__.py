@@ -1,6 +1,6 @@
 """The rolling contact of two rollers: assembly, rounds of refinement, the check afterwards."""
 
-from rollnip.rolling.assemble import pressure_work, stretch_excess, surface_depths
+from rollnip.rolling.assemble import stretch_excess, surface_depths
 from rollnip.rolling.check import (
     Fields,
     fields_at,
@@ -18,6 +18,7 @@ from rollnip.rolling.surfaces import (
     PairKernels,
     hoop_curvature,
     pair_kernels,
+    pressure_work,
     with_second_order,
 )
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,6 @@ from rollnip.geometry import (
     sagitta,
     second_stretch,
 )
-from rollnip.influence import load_weights
 from rollnip.model import Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.surfaces import Displacements, Mesh, hoop_curvature
@@ -42,10 +41,20 @@ class SecondOrder:
     lean: float = 0.0
 
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
-        """The same terms on another mesh."""
-        middles, places = (0.5 * (m.nodes[1:-1] + m.nodes[2:]) for m in (old, new))
+        """The same terms on another mesh; where both have the same zones, zone by zone."""
+        if old.fine.elements == new.fine.elements != ():
+            ratio = new.dx / old.dx
+            return replace(
+                self,
+                creep_length=self.creep_length * ratio,
+                creep_offset=self.creep_offset * ratio,
+            )
+        before, after = old.nodes, new.nodes
+        if len(old.fine.elements) == len(new.fine.elements) > 0:
+            before, after = old.fine.numbers, new.fine.numbers
+        middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (before, after))
         return SecondOrder(
-            np.interp(new.inner, old.inner, self.clearance),
+            np.interp(after[1:-1], before[1:-1], self.clearance),
             new.dx * np.interp(places, middles, self.creep_length / old.dx),
             new.dx * np.interp(places, middles, self.creep_offset / old.dx),
             self.traction,
@@ -68,7 +77,7 @@ def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem
     """Theory sections 5 and 6: gap and creep, linear in the tractions."""
     return ContactProblem(
         x=mesh.inner,
-        weights=load_weights(mesh.nodes),
+        weights=mesh.weights,
         clearance=0.5 * nip.curvature * mesh.inner**2 + second.clearance,
         influence=mesh.influence,
         creep_length=mesh.dx + second.creep_length,
@@ -86,6 +95,8 @@ def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
 
 def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:
     """Second-order terms of a solution on a mesh."""
+    if geometry == "linear" and not isinstance(nip.tangential, Torque):
+        return first_guess(nip, mesh)
     flat = mesh.linear(state)
     u = mesh.with_second(flat, state)
     guess = first_guess(nip, mesh)
@@ -157,19 +168,22 @@ def _stretch_terms(
     nip: Nip, geometry: Geometry, mesh: Mesh, flat: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
     """What the creep (1 + xi/2) stretch_u - (1 - xi/2) stretch_l has beyond its linear part."""
-    upper = stretch_excess(mesh.nodes[1:], nip, geometry, u, side="upper")
-    lower = stretch_excess(mesh.nodes[1:], nip, geometry, u, side="lower")
+    x, is_flat = mesh.fine.nodes[1:], flat is u
+    u = mesh.finer(u)
+    flat = u if is_flat else mesh.finer(flat)
+    upper = stretch_excess(x, nip, geometry, u, side="upper")
+    lower = stretch_excess(x, nip, geometry, u, side="lower")
     hoop_u, hoop_l = mesh.kernels.hoops
-    linear = linear_stretch(mesh.dx, hoop_u, flat.x_upper, flat.z_upper)
-    linear -= linear_stretch(mesh.dx, hoop_l, flat.x_lower, flat.z_lower)
-    return 0.5 * (upper + lower), upper - lower - linear
+    linear = linear_stretch(np.diff(x), hoop_u, flat.x_upper, flat.z_upper)
+    linear -= linear_stretch(np.diff(x), hoop_l, flat.x_lower, flat.z_lower)
+    return mesh.sums(0.5 * (upper + lower)), mesh.sums(upper - lower - linear)
 
 
 def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
     """Int q slope dx, the slope of the interface that of both surfaces on average."""
-    levers = load_weights(mesh.nodes) @ (state.shear * mesh.inner)
+    levers = mesh.weights @ (state.shear * mesh.inner)
     undeformed = (nip.lower.curvature - nip.upper.curvature) * levers
-    return 0.5 * float(undeformed + pressure_work(state.shear, u.z_lower - u.z_upper))
+    return 0.5 * float(undeformed + mesh.work(state.shear, u.z_lower - u.z_upper))
 
 
 def _traction_for_torque(
@@ -178,15 +192,8 @@ def _traction_for_torque(
     """T at which the lower torque R_l (-int q (1 - u_z/R_l) dx - int p du_z) is the wanted one."""
     assert isinstance(nip.tangential, Torque)
     lower = nip.lower
-    leaning = pressure_work(state.pressure, u.z_lower)
+    leaning = mesh.work(state.pressure, u.z_lower)
     traction = -nip.tangential.torque_lower * lower.curvature - leaning
     if geometry != "linear":
-        weights = load_weights(mesh.nodes)
-        traction += lower.curvature * float(weights @ (state.shear * u.z_lower[:-1]))
+        traction += lower.curvature * float(mesh.weights @ (state.shear * u.z_lower[:-1]))
     return traction
-
-
-def pressure_work(traction: Array, displacement: Array) -> float:
-    """Int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
-    means = 0.5 * (traction + np.append(traction[1:], 0.0))
-    return float(means @ (displacement[1:] - displacement[:-1]))

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rollnip.contact import ContactState, State, Zone
-from rollnip.influence import displacement_under, strain_matrix
+from rollnip.contact import State, Zone
+from rollnip.influence import displacement_matrix, displacement_under, strain_matrix
 from rollnip.influence.surface import SurfaceKernels
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
@@ -19,7 +19,6 @@ from rollnip.rolling.surfaces import (
     PairKernels,
     SurfaceMatrices,
     hoop_curvature,
-    surface_matrices,
 )
 
 _SUBDIVISION = 3
@@ -49,14 +48,13 @@ class Fields:
 
 def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
     """Evaluate a solution at points ``x``, with nothing taken over but tractions, delta and xi."""
-    nodes = final.mesh.nodes
-    return _fields(x, nip, geometry, final, _displacements(x, nodes, kernels, final.state))
+    return _fields(x, nip, geometry, final, _displacements(x, kernels, final))
 
 
 def fields_on_mesh(nip: Nip, geometry: Geometry, final: Round) -> Fields:
-    """Evaluate a solution at the nodes of its mesh but the first."""
-    u = final.mesh.displacements(final.state)
-    return _fields(final.mesh.nodes[1:], nip, geometry, final, u)
+    """Evaluate a solution at its nodes but the first."""
+    u = final.mesh.finer(final.mesh.displacements(final.state))
+    return _fields(final.nodes[1:], nip, geometry, final, u)
 
 
 def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
@@ -64,10 +62,7 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     nodes = final.mesh.nodes
     away = final.figures.nip_width * _OUTSIDE
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
-    parts = (
-        _displacements(new, nodes, kernels, final.state),
-        final.mesh.displacements(final.state),
-    )
+    parts = _displacements(new, kernels, final), final.mesh.displacements(final.state)
     x = np.concatenate([new, nodes[1:]])
     order = np.argsort(x)
     names = ("x_upper", "z_upper", "x_lower", "z_lower")
@@ -75,23 +70,26 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     return _fields(x[order], nip, geometry, final, Displacements(*merged))
 
 
-def _displacements(
-    x: Array, nodes: Array, kernels: PairKernels, state: ContactState
-) -> Displacements:
+def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacements:
     """Displacements of both surfaces at ``x``, to the order of the model."""
-    tractions = np.stack([state.pressure, state.shear], axis=1)
+    tractions = np.stack([final.pressure, final.shear], axis=1)
     if kernels.both is not None:
-        six = displacement_under(kernels.both, x, nodes, tractions)
+        six = displacement_under(kernels.both, x, final.nodes, tractions)
         upper, lower = six[:3], six[3:]
     else:
         upper, lower = (
             np.zeros((3, x.size, 2))
             if surface is None
-            else displacement_under(surface.together, x, nodes, tractions)
+            else displacement_under(surface.together, x, final.nodes, tractions)
             for surface in (kernels.upper, kernels.lower)
         )
     linear = Displacements(*_of_surface(upper, 1.0), *_of_surface(lower, -1.0))
-    return linear if kernels.is_linear else linear + kernels.second(nodes, state, x)
+    if kernels.is_linear:
+        return linear
+    held = kernels.held
+    if held is None:
+        held = kernels.second_fields(final.nodes, final.pressure, final.shear)
+    return linear + held.at(x)
 
 
 def _of_surface(made: Array, sign: float) -> tuple[Array, Array]:
@@ -104,11 +102,11 @@ def _of_surface(made: Array, sign: float) -> tuple[Array, Array]:
 
 
 def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacements) -> Fields:
-    state, inner = final.state, final.mesh.inner
+    state = final.state
     return Fields(
         x=x,
-        pressure=np.interp(x, inner, state.pressure, left=0.0, right=0.0),
-        shear=np.interp(x, inner, state.shear, left=0.0, right=0.0),
+        pressure=np.interp(x, final.x, final.pressure, left=0.0, right=0.0),
+        shear=np.interp(x, final.x, final.shear, left=0.0, right=0.0),
         displacements=u,
         gap=_gap(x, nip, geometry, u) - state.approach,
         creep=_creep(x, nip, geometry, u, state.creepage),
@@ -134,10 +132,9 @@ def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: f
 
 def fine_points(final: Round) -> Array:
     """Points of the mesh and between, and on to a little more than a nip width outside."""
-    nodes = final.mesh.nodes[2:-2]
-    between = [
-        nodes[:-1] + (nodes[1:] - nodes[:-1]) * i / _SUBDIVISION for i in range(_SUBDIVISION)
-    ]
+    nodes = final.nodes[2:-2]
+    parts = _SUBDIVISION if final.mesh.fine.values is None else 1
+    between = [nodes[:-1] + (nodes[1:] - nodes[:-1]) * i / parts for i in range(parts)]
     inside = np.append(np.sort(np.concatenate(between)), nodes[-1])
     width = final.figures.nip_width
     away = np.concatenate([np.geomspace(1e-3, 0.1, 20), np.linspace(0.12, 1.1, 50)]) * width
@@ -154,13 +151,13 @@ def residual(nip: Nip, fields: Fields, final: Round) -> float:
     the traction bound, drift of sticking surfaces over |xi| times the nip width, slip with its
     own shear, errors of load and traction.
     """
-    state, figures = final.state, final.figures
+    figures = final.figures
     peak = figures.peak_pressure
     depth = _depth(nip, figures.nip_width, figures.approach)
     parts = [
         np.max(-fields.gap) / depth,
         np.max(fields.pressure * np.abs(fields.gap)) / (peak * depth),
-        np.max(-state.pressure) / peak,
+        np.max(-final.pressure) / peak,
         _load_error(nip, final),
     ]
     if nip.friction > 0.0:
@@ -181,9 +178,9 @@ def _load_error(nip: Nip, final: Round) -> float:
 
 
 def _friction_errors(nip: Nip, fields: Fields, final: Round) -> list[float]:
-    state, figures = final.state, final.figures
+    figures = final.figures
     bound = nip.friction * figures.peak_pressure
-    over = np.max(np.abs(state.shear) - nip.friction * np.maximum(state.pressure, 0.0))
+    over = np.max(np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0))
     allowed = creepage_scale(nip, figures) * figures.nip_width
     errors = [float(over) / bound]
     for zone in final.zones:
@@ -199,7 +196,7 @@ def _friction_errors(nip: Nip, fields: Fields, final: Round) -> list[float]:
             errors.append(float(np.sum(wrong)) / allowed)
     wanted = final.problem.control.traction
     if wanted is not None:
-        reached = float(final.problem.weights @ state.shear)
+        reached = float(final.weights @ final.shear)
         errors.append(abs(reached - wanted) / (nip.friction * figures.load))
     return errors
 
@@ -231,8 +228,9 @@ def surface_strain(
     roller, surface = (nip.upper, kernels.upper) if upper else (nip.lower, kernels.lower)
     if surface is None:
         return np.zeros(x.size)
-    slopes, values = _slopes_and_values(surface, x, final.mesh.nodes)
-    p, q = final.state.pressure, final.state.shear * (1.0 if upper else -1.0)
+    slopes, values = _slopes_and_values(surface, x, final.nodes)
+    sign = 1.0 if upper else -1.0
+    p, q = final.pressure, sign * final.shear
     strain, slope = slopes.under(p, q)
     if geometry not in ("curved", "finite"):
         return strain
@@ -241,7 +239,7 @@ def surface_strain(
     response = kernels.second_upper if upper else kernels.second_lower
     if response is None:
         return strain - hoop * u_z + 0.5 * (slope + hoop * u_x) ** 2
-    along, inward = response.displacement(final.mesh.nodes, p, q)
+    along, inward = response.displacement(final.nodes, p, q)
     present = np.hypot(1.0, hoop * x + slope + inward(x, 1))
     return np.asarray(present / (1.0 - strain - along(x, 1)) - 1.0)
 
@@ -250,4 +248,5 @@ def _slopes_and_values(
     surface: SurfaceKernels, x: Array, nodes: Array
 ) -> tuple[SurfaceMatrices, SurfaceMatrices]:
     slopes = SurfaceMatrices(strain_matrix(surface.together, x, nodes), x.size)
-    return slopes, surface_matrices(surface, x, nodes)
+    values = SurfaceMatrices(displacement_matrix(surface.together, x, nodes), x.size)
+    return slopes, values

@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-from itertools import pairwise
-from math import inf, sqrt
+from dataclasses import replace
+from math import sqrt
 
 import numpy as np
 
 from rollnip.contact import (
-    ContactProblem,
-    ContactState,
     Demand,
+    Layout,
     Safeguarded,
     State,
-    States,
     Zone,
-    contact_zones,
     graded_nodes,
     states_on,
 )
-from rollnip.influence import load_weights
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import SecondOrder, contact_problem, first_guess, second_order
-from rollnip.rolling.check import fields_between, residual
-from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_grip, peak_pressure
-from rollnip.rolling.surfaces import NO_SECOND_ORDER, Array, Mesh, PairKernels, mesh_on
+from rollnip.rolling.assemble import first_guess
+from rollnip.rolling.estimates import LINEAR, Size, estimated_error, zone_excess
+from rollnip.rolling.free_ends import with_free_ends
+from rollnip.rolling.round import Round, excess, has_grip
+from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
+from rollnip.rolling.turns import NEARLY_STILL, ROUGHLY_STILL, checked, holding, settled, turned
 
 _FIRST_COUNT = 16
+_LINEAR_FOR_CUBIC = 2  # elements that do what a cubic one does, at least
 _FEWEST_SIZES = 3  # of meshes before an error is believed
 _COARSE = 96  # elements up to which an unsettled mesh may still place edges
 _ENOUGH_FOR_ZONES = 130  # elements; transitions that still move have no square root at them
@@ -40,25 +38,6 @@ _MOST_STEPS_IN_ALL = 700  # with a second order, settled or not: where it holds,
 _DIVERGED = 1e3  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
-_MOST_TURNS = 40
-# Change of the second-order terms in a turn, over the tolerance. A turn shrinks what is left of
-# them at least tenfold; meshes that only place nodes need them less well than the last.
-_STILL = 0.1
-_NEARLY_STILL = 1.0
-_SAFETY = 1.5  # on the estimate of the error from two meshes
-# Least relative error of each of Figures, times the square of the number of elements: measured on
-# random nips against ten times as many elements.
-_LEAST = np.array([0.1, 0.5, 2.0, 2.0, 0.5])
-_CREEPAGE, _PEAK = 2, 4  # their places among Figures
-
-
-@dataclass(frozen=True, slots=True)
-class _Size:
-    """What one size of mesh gave: number of elements, figures, edges and transitions."""
-
-    count: int
-    figures: Figures
-    breaks: Array
 
 
 def refine(
@@ -66,30 +45,69 @@ def refine(
 ) -> Round:
     """Solve on ever better meshes until the estimated error is below the tolerance.
 
-    Each mesh is graded to the edges and transitions that the one before found. The tractions
-    are piecewise linear and the error is of second order in 1/elements, so two meshes give an
-    estimate of it: |difference|/(ratio^2 - 1).
+    A coarse mesh and the active set tell which zones there are. Then their ends are free and the
+    elements cubic (`with_free_ends`); where that does not do, elements are linear, and each mesh
+    is graded to the edges and transitions that the one before found.
 
     Parameters
     ----------
     half_width : first guess [mm].
-    method : how each discrete problem is solved.
+    method : how zones are found, and each discrete problem with linear elements is solved.
 
     Returns
     -------
     The last round that settled; its error may exceed the tolerance where the rounds ran out.
     """
-    count, tries, failures = _FIRST_COUNT, 0, 0
+    located = _located(nip, model, kernels, half_width, method)
+    too_few = 0
+    if located.settled and Layout.of(located.zones) is not None:
+        attempt = with_free_ends(nip, model, kernels, located)
+        if attempt.found is not None:
+            return attempt.found
+        too_few = _LINEAR_FOR_CUBIC * attempt.too_few
+    if _is_hopeless(located, kernels):
+        return _finished(nip, model, kernels, located, method)
+    return _refined(nip, model, kernels, located, method, too_few)
+
+
+def _located(
+    nip: Nip, model: Model, kernels: PairKernels, half_width: float, method: Safeguarded
+) -> Round:
+    """A solution on a coarse mesh: about where the edges are, and which zones there are."""
     breaks = np.array([-1.3 * half_width, 1.3 * half_width])
     zones: tuple[Zone, ...] = (Zone(-0.8 * half_width, 0.8 * half_width, State.STICK),)
-    demand: Demand | None = None
     latest: Round | None = None
-    best: Round | None = None
-    history: list[_Size] = []
+    for _ in range(_MOST_TRIES):
+        mesh = mesh_on(graded_nodes(breaks, _FIRST_COUNT), holding(kernels, latest))
+        latest = _solve_on(nip, model, mesh, (zones, latest), method, ROUGHLY_STILL)
+        if _is_hopeless(latest, kernels) or Layout.of(latest.zones) is not None:
+            break
+        breaks, zones = _next_breaks(latest), latest.zones
+    assert latest is not None
+    return latest
+
+
+def _refined(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    located: Round,
+    method: Safeguarded,
+    too_few: int,
+) -> Round:
+    """The rounds with linear elements, more than ``too_few``.
+
+    Their error is of second order in 1/elements, so two meshes give an estimate of it:
+    |difference|/(ratio^2 - 1).
+    """
+    count, tries, failures = _FIRST_COUNT, 0, 0
+    latest, best = located, None
+    zones, breaks, demand = located.zones, _next_breaks(located), _demand(located)
+    history: list[Size] = []
     for _ in range(_MOST_ROUNDS):
-        held = _holding(kernels, latest)
-        mesh = mesh_on(graded_nodes(breaks, count, demand), held)
-        latest = _solve_on(nip, model, mesh, zones, latest if best is None else best, method)
+        mesh = mesh_on(graded_nodes(breaks, count, demand), holding(kernels, latest))
+        start = zones, latest if best is None else best
+        latest = _solve_on(nip, model, mesh, start, method, NEARLY_STILL)
         if failures > _MOST_FAILURES or _is_hopeless(latest, kernels):
             break
         if not latest.settled and count > _COARSE:
@@ -99,42 +117,40 @@ def refine(
         zones = latest.zones
         found = _next_breaks(latest)
         placed = _well_placed(breaks, found, count) and latest.settled
-        breaks = found
-        demand = Demand.of(latest.problem.x, latest.state.pressure, latest.state.shear)
+        breaks, demand = found, _demand(latest)
         tries += 1
         if not placed and tries < (1 if history else 2) * _MOST_TRIES:
             continue
-        history.append(_Size(count, latest.figures, found))
-        latest = replace(latest, error=_error(nip, latest, history))
+        history.append(Size(count, latest.figures, found))
+        latest = replace(latest, error=estimated_error(nip, latest, history, LINEAR))
         best = latest if latest.settled or best is None else best
         ratio = excess(nip, latest, model.tolerance)
         if count < _ENOUGH_FOR_ZONES:
-            ratio = max(ratio, _zone_excess(history, model.tolerance))
+            ratio = max(ratio, zone_excess(history, model.tolerance))
+        if count <= too_few:
+            ratio = max(ratio, 1.01)
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
-            latest = _checked(nip, model, kernels, _settled(nip, model, latest, method))
+            latest = checked(nip, model, kernels, settled(nip, model, latest, method))
             if latest.residual <= model.tolerance or count >= _MOST_ELEMENTS:
                 return latest
             ratio = latest.residual / model.tolerance
         if not kernels.is_linear and _is_out_of_reach(count, ratio):
             break  # another geometry will have to do
         count, tries = _next_count(count, ratio), 0
-    last = best or latest
-    assert last is not None
+    return _finished(nip, model, kernels, best or latest, method)
+
+
+def _finished(
+    nip: Nip, model: Model, kernels: PairKernels, last: Round, method: Safeguarded
+) -> Round:
+    """The last round there is, checked where it is a contact at all."""
     if not last.figures.peak_pressure > 0.0:
         return last
-    return _checked(nip, model, kernels, _settled(nip, model, last, method))
+    return checked(nip, model, kernels, settled(nip, model, last, method))
 
 
-def _holding(kernels: PairKernels, before: Round | None) -> PairKernels:
-    """Influence functions that take the second order from the mesh before; at first none.
-
-    It is small and smooth: a few updates are enough, and the last mesh is checked with its own.
-    """
-    if kernels.is_linear:
-        return kernels
-    if before is None or not before.settled:
-        return replace(kernels, held=NO_SECOND_ORDER)
-    return replace(kernels, held=kernels.second_fields(before.mesh.nodes, before.state))
+def _demand(latest: Round) -> Demand:
+    return Demand.of(latest.problem.x, latest.state.pressure, latest.state.shear)
 
 
 def _is_hopeless(latest: Round, kernels: PairKernels) -> bool:
@@ -160,28 +176,19 @@ def _next_count(count: int, ratio: float) -> int:
     return min(int(count * growth) + 1, _MOST_ELEMENTS)
 
 
-def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
-    """The round with its residual, from the contact conditions on more points.
-
-    Its mesh holds the second order of its own tractions from here on.
-    """
-    if not kernels.is_linear:
-        own = kernels.second_fields(latest.mesh.nodes, latest.state)
-        kernels = replace(kernels, held=own)
-    latest = replace(latest, mesh=replace(latest.mesh, kernels=kernels))
-    fields = fields_between(nip, model.geometry, kernels, latest)
-    return replace(latest, residual=residual(nip, fields, latest))
-
-
 def _solve_on(
     nip: Nip,
     model: Model,
     mesh: Mesh,
-    zones: tuple[Zone, ...],
-    before: Round | None,
+    start: tuple[tuple[Zone, ...], Round | None],
     method: Safeguarded,
+    still: float,
 ) -> Round:
-    """Solve on one mesh, repeating it until the second-order terms stand still."""
+    """Solve on one mesh, repeating it until the second-order terms stand still.
+
+    ``start`` holds the zones to begin with and the round to take second-order terms from.
+    """
+    zones, before = start
     states = states_on(mesh.inner, zones)
     if not np.any(states):
         states[np.argmin(np.abs(mesh.inner))] = State.STICK
@@ -189,70 +196,7 @@ def _solve_on(
     if before is not None:
         second = before.second.carried(before.mesh, mesh)
     steps = 0 if before is None else before.steps
-    return _turned(nip, model, mesh, (states, second, steps), method, _NEARLY_STILL)
-
-
-def _settled(nip: Nip, model: Model, latest: Round, method: Safeguarded) -> Round:
-    """The round with its second-order terms as still as those of a result must be."""
-    if not latest.settled or latest.geometry_change <= _STILL * model.tolerance:
-        return latest
-    start = (latest.state.states, latest.second, latest.steps)
-    still = _turned(nip, model, latest.mesh, start, method, _STILL)
-    return replace(still, error=latest.error)
-
-
-def _turned(
-    nip: Nip,
-    model: Model,
-    mesh: Mesh,
-    start: tuple[States, SecondOrder, int],
-    method: Safeguarded,
-    still: float,
-) -> Round:
-    """Solve on one mesh in turns, until the second-order terms change by so many tolerances.
-
-    ``start`` holds states, second-order terms and the steps taken before.
-    """
-    states, second, steps = start
-    change = 0.0
-    for _ in range(_MOST_TURNS):
-        problem = contact_problem(nip, mesh, second)
-        state = method.solve(problem, states)
-        steps += state.steps
-        if not state.settled:
-            break
-        updated = second_order(nip, model.geometry, mesh, state)
-        change = _change(updated, second, mesh, nip, state)
-        second, states = updated, state.states
-        if not change > still * model.tolerance:
-            break
-    zones = contact_zones(problem.x, state, nip.friction)
-    unknown = Figures(inf, inf, inf, inf, inf)
-    figures = _figures(problem, state, zones, second.lean)
-    settled = state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
-    return Round(mesh, problem, state, second, zones, figures, unknown, steps, settled, change)
-
-
-def _change(new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState) -> float:
-    """Largest change of the second-order terms, relative to the first-order ones."""
-    half_nip = 0.5 * (mesh.nodes[-1] - mesh.nodes[0])
-    strain = nip.curvature * half_nip
-    scale = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
-    load = float(load_weights(mesh.nodes) @ state.pressure)
-    return new.change(old, scale, strain * mesh.dx, strain * load)
-
-
-def _figures(
-    problem: ContactProblem, state: ContactState, zones: tuple[Zone, ...], lean: float
-) -> Figures:
-    peak, _ = peak_pressure(problem.x, state.pressure)
-    return Figures(
-        approach=state.approach,
-        load=float(problem.weights @ state.pressure) - lean,
-        creepage=state.creepage,
-        nip_width=zones[-1].stop - zones[0].start if zones else 0.0,
-        peak_pressure=peak,
-    )
+    return turned(nip, model, mesh, (states, second, steps), method, still)
 
 
 def _next_breaks(latest: Round) -> Array:
@@ -278,51 +222,3 @@ def _well_placed(breaks: Array, found: Array, count: int) -> bool:
     """Whether edges and transitions lie where the mesh expected them, to two edge elements."""
     allowed = 4.0 * (found[-1] - found[0]) / count**2
     return found.size == breaks.size and bool(np.all(np.abs(found - breaks) < allowed))
-
-
-def _error(nip: Nip, latest: Round, history: list[_Size]) -> Figures:
-    """Estimated error of each figure from its changes between meshes (second order).
-
-    Two meshes may agree by chance. So earlier changes count too, shrunk as the order promises; no
-    error is claimed below what meshes of this size leave in random nips (`_LEAST`), and none of
-    the peak below what lies between the highest node and the parabola through it.
-    """
-    figures, count = latest.figures, history[-1].count
-    if len(history) < 2:
-        return Figures(inf, inf, inf, inf, inf)
-    change = _change_over(history[-2], history[-1])
-    for coarse, fine in pairwise(history[:-1]):
-        earlier = _change_over(coarse, fine) * (fine.count / count) ** 2
-        if fine is not history[-2]:
-            earlier[_PEAK] = 0.0  # coarse meshes do not see the peaks under a stiff skin at all
-        change = np.maximum(change, earlier)
-    scales = np.abs(figures.array())
-    scales[_CREEPAGE] = creepage_scale(nip, figures)
-    least = _LEAST * scales / count**2
-    least[_PEAK] = max(least[_PEAK], figures.peak_pressure - float(np.max(latest.state.pressure)))
-    given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
-    return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, least))))
-
-
-def _change_over(coarse: _Size, fine: _Size) -> Array:
-    """Error of each figure on the finer of two meshes, from their difference."""
-    return _share_left(coarse, fine) * np.abs(fine.figures.array() - coarse.figures.array())
-
-
-def _share_left(coarse: _Size, fine: _Size) -> float:
-    """Error of the finer of two meshes of second order over the difference of the two."""
-    return _SAFETY / ((fine.count / coarse.count) ** 2 - 1.0)
-
-
-def _zone_excess(history: list[_Size], tolerance: float) -> float:
-    """Largest estimated error of a zone's length, over what is allowed.
-
-    Three times the tolerance of the length, or of a twentieth of the nip for shorter zones.
-    """
-    if len(history) < 2 or history[-1].breaks.size != history[-2].breaks.size:
-        return 0.0
-    coarse, fine = history[-2:]
-    lengths = np.diff(fine.breaks)
-    change = _share_left(coarse, fine) * np.abs(lengths - np.diff(coarse.breaks))
-    allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
-    return float(np.max(change / allowed))

@@ -8,6 +8,7 @@ from math import inf, isfinite
 import numpy as np
 
 from rollnip.contact import ContactProblem, ContactState, Zone
+from rollnip.influence import load_weights
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.surfaces import Array, Mesh
@@ -60,6 +61,34 @@ class Round:
     settled: bool
     geometry_change: float
     residual: float = inf
+
+    @property
+    def nodes(self) -> Array:
+        """Nodes between which the tractions are linear, (M+1,) [mm]; zero tractions at both ends.
+
+        They may be finer than those of the mesh, at which the contact conditions were solved.
+        """
+        return self.mesh.fine.nodes
+
+    @property
+    def x(self) -> Array:
+        """Nodes that carry tractions, (M-1,) [mm]."""
+        return self.nodes[1:-1]
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure at ``x``, (M-1,) [MPa]."""
+        return self.mesh.between(self.state.pressure)
+
+    @property
+    def shear(self) -> Array:
+        """Shear on the upper roller along +x at ``x``, (M-1,) [MPa]."""
+        return self.mesh.between(self.state.shear)
+
+    @property
+    def weights(self) -> Array:
+        """Load of a unit traction at each of ``x``, (M-1,) [mm]."""
+        return load_weights(self.nodes)
 
 
 def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:

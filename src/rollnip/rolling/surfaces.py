@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactState
+from rollnip.contact import ContactState, Subdivision
 from rollnip.influence import (
     Kernel,
     KernelCache,
@@ -16,7 +16,9 @@ from rollnip.influence import (
     SurfaceKernels,
     covering_window,
     displacement_matrix,
+    displacement_under,
     is_ring,
+    load_weights,
 )
 from rollnip.model import Geometry
 from rollnip.nip import Nip
@@ -79,13 +81,8 @@ class PairKernels:
         """Whether there is no second order."""
         return self.second_upper is None and self.second_lower is None
 
-    def second(self, nodes: Array, state: ContactState, x: Array) -> Displacements:
-        """Second-order displacements at ``x`` under the tractions of a solution."""
-        held = self.second_fields(nodes, state) if self.held is None else self.held
-        return held.at(x)
-
-    def second_fields(self, nodes: Array, state: ContactState) -> SecondFields:
-        """Second-order displacements under the tractions of a solution, as functions."""
+    def second_fields(self, nodes: Array, pressure: Array, shear: Array) -> SecondFields:
+        """Second-order displacements under tractions at nodes[1:-1], as functions."""
         functions: list[Field | None] = []
         ends: list[tuple[float, float]] = []
         for response, sign in ((self.second_upper, 1.0), (self.second_lower, -1.0)):
@@ -93,7 +90,7 @@ class PairKernels:
                 functions += [None, None]
                 ends += [(0.0, 0.0)] * 2
                 continue
-            functions += response.displacement(nodes, state.pressure, sign * state.shear)
+            functions += response.displacement(nodes, pressure, sign * shear)
             ends += [(float(response.x[0]), float(response.x[-1]))] * 2
         return SecondFields(tuple(functions), tuple(ends))
 
@@ -200,11 +197,10 @@ class Displacements:
 
     @classmethod
     def under(
-        cls, upper: SurfaceMatrices, lower: SurfaceMatrices, state: ContactState
+        cls, upper: SurfaceMatrices, lower: SurfaceMatrices, pressure: Array, shear: Array
     ) -> Displacements:
         """Under the tractions of a solution: (q, p) on the upper surface, (-q, p) on the lower."""
-        p, q = state.pressure, state.shear
-        return cls(*upper.under(p, q), *lower.under(p, -q))
+        return cls(*upper.under(pressure, shear), *lower.under(pressure, -shear))
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,12 +210,14 @@ class Mesh:
     Attributes
     ----------
     nodes : (N+1,) [mm].
+    fine : nodes between which the tractions are linear.
     upper, lower : displacements of either surface.
     influence : what a contact problem on these nodes makes of them.
     kernels : the influence functions they come from.
     """
 
     nodes: Array
+    fine: Subdivision
     upper: SurfaceMatrices
     lower: SurfaceMatrices
     influence: Array
@@ -235,9 +233,40 @@ class Mesh:
         """Lengths of the intervals between nodes[1:], (N-1,) [mm]."""
         return self.nodes[2:] - self.nodes[1:-1]
 
+    @property
+    def weights(self) -> Array:
+        """Load of each nodal traction, (N-1,) [mm]."""
+        fine = load_weights(self.fine.nodes)
+        values = self.fine.values
+        return fine if values is None else np.asarray(fine @ values[1:-1, 1:-1])
+
+    def between(self, traction: Array) -> Array:
+        """A traction at nodes[1:-1] as its values at the finer nodes, without both ends."""
+        values = self.fine.values
+        return traction if values is None else np.asarray(values[1:-1, 1:-1] @ traction)
+
+    def work(self, traction: Array, displacement: Array) -> float:
+        """Int t du of a traction at nodes[1:-1] and a displacement at nodes[1:]."""
+        values = self.fine.values
+        if values is not None:
+            displacement = values[1:, 1:] @ displacement
+        return pressure_work(self.between(traction), displacement)
+
+    def finer(self, u: Displacements) -> Displacements:
+        """Displacements at nodes[1:] carried on to the finer nodes but the first."""
+        values = self.fine.values
+        if values is None:
+            return u
+        four = np.stack([u.x_upper, u.z_upper, u.x_lower, u.z_lower], axis=1)
+        return Displacements(*np.ascontiguousarray((values[1:, 1:] @ four).T))
+
+    def sums(self, pieces: Array) -> Array:
+        """Over the intervals of nodes[1:], of what belongs to those of the finer nodes."""
+        return _sums(self.nodes, self.fine, pieces)
+
     def linear(self, state: ContactState) -> Displacements:
         """Displacements at nodes[1:], linear in the tractions."""
-        return Displacements.under(self.upper, self.lower, state)
+        return Displacements.under(self.upper, self.lower, state.pressure, state.shear)
 
     def displacements(self, state: ContactState) -> Displacements:
         """Displacements at nodes[1:], to the order of the model."""
@@ -247,45 +276,74 @@ class Mesh:
         """The linear displacements of a solution with those of second order, if there are any."""
         if self.kernels.is_linear:
             return linear
-        return linear + self.kernels.second(self.nodes, state, self.nodes[1:])
+        return linear + self.second(state, self.nodes[1:])
+
+    def second(self, state: ContactState, x: Array) -> Displacements:
+        """Second-order displacements at ``x``: those held, or of the tractions of a solution."""
+        held = self.kernels.held
+        return (self.second_fields(state) if held is None else held).at(x)
+
+    def second_fields(self, state: ContactState) -> SecondFields:
+        """Second-order displacements under the tractions of a solution, as functions."""
+        p, q = self.between(state.pressure), self.between(state.shear)
+        return self.kernels.second_fields(self.fine.nodes, p, q)
 
 
-def mesh_on(nodes: Array, kernels: PairKernels) -> Mesh:
-    """Evaluate the influence functions of both surfaces on a mesh."""
-    upper, lower = pair_matrices(kernels, nodes[1:], nodes)
-    return Mesh(nodes, upper, lower, _influence(nodes, upper, lower, kernels.hoops), kernels)
+def pressure_work(traction: Array, displacement: Array) -> float:
+    """Int t du for a traction at nodes[1:-1] (0 at both ends) and u at nodes[1:]."""
+    means = 0.5 * (traction + np.append(traction[1:], 0.0))
+    return float(means @ (displacement[1:] - displacement[:-1]))
+
+
+def mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision | None = None) -> Mesh:
+    """Evaluate the influence functions of both surfaces on a mesh.
+
+    Without ``fine`` tractions are linear between the nodes themselves.
+    """
+    fine = Subdivision(nodes) if fine is None else fine
+    upper, lower = pair_matrices(kernels, nodes[1:], fine)
+    influence = _influence(nodes, fine, upper, lower, kernels.hoops)
+    return Mesh(nodes, fine, upper, lower, influence, kernels)
 
 
 def pair_matrices(
-    kernels: PairKernels, points: Array, nodes: Array
+    kernels: PairKernels, points: Array, fine: Subdivision
 ) -> tuple[SurfaceMatrices, SurfaceMatrices]:
-    """Displacements of both surfaces at ``points`` per unit traction at nodes[1:-1]."""
+    """Displacements of both surfaces at ``points`` per unit traction at the nodes subdivided."""
     if kernels.both is not None:
-        six = displacement_matrix(kernels.both, points, nodes)
+        six = _displacements_per(kernels.both, points, fine)
         return SurfaceMatrices(six[:3], points.size), SurfaceMatrices(six[3:], points.size)
-    upper, lower = (surface_matrices(k, points, nodes) for k in (kernels.upper, kernels.lower))
+    upper, lower = (
+        SurfaceMatrices(
+            None if surface is None else _displacements_per(surface.together, points, fine),
+            points.size,
+        )
+        for surface in (kernels.upper, kernels.lower)
+    )
     return upper, lower
 
 
-def surface_matrices(
-    kernels: SurfaceKernels | None, points: Array, nodes: Array
-) -> SurfaceMatrices:
-    """Displacements at ``points`` per unit traction at nodes[1:-1]."""
-    if kernels is None:
-        return SurfaceMatrices(None, points.size)
-    return SurfaceMatrices(displacement_matrix(kernels.together, points, nodes), points.size)
+def _displacements_per(kernel: Kernel, points: Array, fine: Subdivision) -> Array:
+    """Displacement at ``points`` per unit traction at the inner nodes subdivided, by channel."""
+    if fine.values is None:
+        return displacement_matrix(kernel, points, fine.nodes)
+    return displacement_under(kernel, points, fine.nodes, fine.values[1:-1, 1:-1])
 
 
 def _influence(
-    nodes: Array, upper: SurfaceMatrices, lower: SurfaceMatrices, hoops: tuple[float, float]
+    nodes: Array,
+    fine: Subdivision,
+    upper: SurfaceMatrices,
+    lower: SurfaceMatrices,
+    hoops: tuple[float, float],
 ) -> Array:
     """Gap and creep per nodal pressure and shear (theory section 5), `ContactProblem.influence`.
 
     The creep of an interval is the upper less the lower int (du_x/dx - u_z/R) dx.
     """
     n = nodes.size - 2
-    dx = (nodes[2:] - nodes[1:-1])[:, None]
     out = np.zeros((2 * n, 2 * n))
+    integrals = _integrals(nodes, fine) if any(hoops) else None
     # The pressure is the same on both surfaces, the shear the opposite.
     for surface, hoop, sign in ((upper, hoops[0], 1.0), (lower, hoops[1], -1.0)):
         if surface.stack is None:
@@ -295,7 +353,22 @@ def _influence(
         out[:n, n:] -= sign * xz[:-1]
         out[n:, :n] += sign * (xz[1:] - xz[:-1])
         out[n:, n:] += xx[1:] - xx[:-1]
-        if hoop:
-            out[n:, :n] -= (0.5 * sign * hoop) * dx * (zz[1:] + zz[:-1])
-            out[n:, n:] += (0.5 * hoop) * dx * (xz[1:] + xz[:-1])
+        if hoop and integrals is not None:
+            out[n:, :n] -= integrals @ (sign * hoop * zz)
+            out[n:, n:] += integrals @ (hoop * xz)
     return out
+
+
+def _integrals(nodes: Array, fine: Subdivision) -> Array:
+    """Int f dx over each interval of nodes[1:] per value of f there, (N-1, N) [mm]."""
+    values = np.eye(nodes.size - 1) if fine.values is None else fine.values[1:, 1:]
+    dx = np.diff(fine.nodes[1:])[:, None]
+    return _sums(nodes, fine, 0.5 * dx * (values[1:] + values[:-1]))
+
+
+def _sums(nodes: Array, fine: Subdivision, pieces: Array) -> Array:
+    """Sums over the intervals of nodes[1:] of what belongs to those of the finer nodes."""
+    if fine.values is None:
+        return pieces
+    starts = np.searchsorted(fine.nodes[1:-1], nodes[1:-1] - 1e-12 * (nodes[-1] - nodes[0]))
+    return np.asarray(np.add.reduceat(pieces, starts, axis=0))

@@ -1,0 +1,132 @@
+"""One mesh: turns of the contact problem and its second-order terms, and the check afterwards."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+from typing import Protocol
+
+from rollnip.contact import ContactProblem, ContactState, States, Zone, contact_zones
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
+from rollnip.rolling.check import fields_between, residual
+from rollnip.rolling.round import Figures, Round, peak_pressure
+from rollnip.rolling.surfaces import NO_SECOND_ORDER, Mesh, PairKernels
+
+_MOST_TURNS = 40
+# Change of the second-order terms in a turn, over the tolerance. A turn shrinks what is left of
+# them at least tenfold; meshes that only place nodes need them less well than the last.
+STILL = 0.1
+NEARLY_STILL = 1.0
+ROUGHLY_STILL = 30.0
+
+
+class Method(Protocol):
+    """A way to solve a contact problem from given states."""
+
+    def solve(self, problem: ContactProblem, states: States) -> ContactState:
+        """The solution, or the last iterate; ``settled`` tells which."""
+        ...
+
+
+def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
+    """Influence functions that take the second order from the mesh before; at first none.
+
+    It is small and smooth: a few updates are enough, and the last mesh is checked with its own.
+    """
+    if kernels.is_linear:
+        return kernels
+    if before is None or not before.settled:
+        return replace(kernels, held=NO_SECOND_ORDER)
+    return replace(kernels, held=before.mesh.second_fields(before.state))
+
+
+def turned(
+    nip: Nip,
+    model: Model,
+    mesh: Mesh,
+    start: tuple[States, SecondOrder, int],
+    method: Method,
+    still: float,
+    zones: tuple[Zone, ...] | None = None,
+    most: int = _MOST_TURNS,
+) -> Round:
+    """Solve on one mesh in turns, until the second-order terms change by so many tolerances.
+
+    ``start`` holds states, second-order terms and the steps taken before; ``zones`` those of the
+    solution where they are known; ``most`` turns at most.
+    """
+    states, second, steps = start
+    change = 0.0
+    for _ in range(most):
+        problem = contact_problem(nip, mesh, second)
+        state = method.solve(problem, states)
+        steps += state.steps
+        if not state.settled:
+            break
+        updated = second_order(nip, model.geometry, mesh, state)
+        change = change_of(updated, second, mesh, nip, state)
+        second, states = updated, state.states
+        if not change > still * model.tolerance:
+            break
+    if zones is None:
+        zones = contact_zones(problem.x, state, nip.friction)
+    unknown = Figures(inf, inf, inf, inf, inf)
+    figures = figures_of(mesh, state, zones, second.lean)
+    settled = state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
+    return Round(mesh, problem, state, second, zones, figures, unknown, steps, settled, change)
+
+
+def change_of(
+    new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState
+) -> float:
+    """Largest change of the second-order terms, relative to the first-order ones."""
+    half_nip = 0.5 * (mesh.nodes[-1] - mesh.nodes[0])
+    strain = nip.curvature * half_nip
+    scale = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
+    load = float(mesh.weights @ state.pressure)
+    return new.change(old, scale, strain * mesh.dx, strain * load)
+
+
+def figures_of(mesh: Mesh, state: ContactState, zones: tuple[Zone, ...], lean: float) -> Figures:
+    """Approach, load, creepage, nip width and peak pressure of a solution on a mesh."""
+    peak, _ = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
+    return Figures(
+        approach=state.approach,
+        load=float(mesh.weights @ state.pressure) - lean,
+        creepage=state.creepage,
+        nip_width=zones[-1].stop - zones[0].start if zones else 0.0,
+        peak_pressure=peak,
+    )
+
+
+def settled(
+    nip: Nip,
+    model: Model,
+    latest: Round,
+    method: Method,
+    zones: tuple[Zone, ...] | None = None,
+) -> Round:
+    """The round with its second-order terms as still as those of a result must be.
+
+    ``zones`` are those of the solution where they are known.
+    """
+    if not latest.settled or latest.geometry_change <= STILL * model.tolerance:
+        return latest
+    start = (latest.state.states, latest.second, latest.steps)
+    still = turned(nip, model, latest.mesh, start, method, STILL, zones)
+    return replace(still, error=latest.error)
+
+
+def checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+    """The round with its residual, from the contact conditions on more points.
+
+    Its mesh holds the second order of its own tractions from here on.
+    """
+    if not kernels.is_linear:
+        own = latest.mesh.second_fields(latest.state)
+        kernels = replace(kernels, held=own)
+    latest = replace(latest, mesh=replace(latest.mesh, kernels=kernels))
+    fields = fields_between(nip, model.geometry, kernels, latest)
+    return replace(latest, residual=residual(nip, fields, latest))

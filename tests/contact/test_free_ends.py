@@ -1,0 +1,179 @@
+"""Ends of zones by Newton's method, on problems whose solution is known."""
+
+import numpy as np
+import pytest
+
+from rollnip.contact import (
+    ContactState,
+    HeldContact,
+    Layout,
+    State,
+    Zone,
+    cosine_nodes,
+    elements_of_zones,
+    subdivided,
+)
+from rollnip.contact.free_ends import _BIAS, _RESPONSE
+from rollnip.contact.problem import ContactProblem, Control, influence_of
+from rollnip.influence import load_weights
+
+STICK, PLUS, MINUS = State.STICK, State.SLIP_PLUS, State.SLIP_MINUS
+
+
+def log_displacements(x, nodes):
+    """Displacement at x per hat on nodes, -int ln|x - s| hat(s) ds: two integrations by parts."""
+    distance = x[:, None] - nodes[None, :]
+    size = np.maximum(np.abs(distance), 1e-300)
+    twice = 0.75 * distance**2 - 0.5 * distance**2 * np.log(size)
+    return np.diff(np.diff(twice, axis=1) / np.diff(nodes), axis=1)
+
+
+def half_planes(breaks, elements, *, load, traction, friction):
+    """A parabola of unit curvature between half-planes that respond as -ln|x| to p and q alike."""
+    nodes = cosine_nodes(np.asarray(breaks, dtype=float), np.asarray(elements))
+    fine = subdivided(nodes, np.asarray(elements))
+    values = fine.values[1:-1, 1:-1]
+    u = log_displacements(nodes[1:], fine.nodes) @ values
+    zero = np.zeros((nodes.size - 2, nodes.size - 2))
+    return ContactProblem(
+        x=nodes[1:-1],
+        weights=load_weights(fine.nodes) @ values,
+        clearance=0.5 * nodes[1:-1] ** 2,
+        influence=influence_of(
+            normal_pressure=u[:-1],
+            normal_shear=zero,
+            creep_pressure=zero,
+            creep_shear=np.diff(u, axis=0),
+        ),
+        creep_length=np.diff(nodes[1:]),
+        creep_offset=np.zeros(nodes.size - 2),
+        friction=friction,
+        control=Control(load, None, traction, None),
+    )
+
+
+# p = sqrt(1 - x^2)/pi closes it on (-1, 1): int -ln|x - s| sqrt(1 - s^2) ds = c - pi x^2/2
+HERTZ_LOAD = 0.5
+
+
+def hertz(breaks, elements):
+    problem = half_planes(breaks, [elements], load=HERTZ_LOAD, traction=None, friction=0.0)
+    layout = Layout(np.asarray(breaks, dtype=float), np.array([STICK], dtype=np.int8))
+    state = HeldContact().solve(problem, layout.states_on(problem.x))
+    return problem, layout, state
+
+
+def test_pattern_of_the_elements_beside_an_edge():
+    """What the module holds of the first nodes, from a contact of known width."""
+    problem, _, right = hertz([-1.0, 1.0], 160)
+    first = problem.x[1] - problem.x[0]
+    exact = np.sqrt(1.0 - problem.x[1:4] ** 2) / np.pi
+    bias = right.pressure[1:4] / exact - 1.0
+    np.testing.assert_allclose(bias, _BIAS, atol=5e-5)
+    _, _, wide = hertz([-1.0 - 0.01 * first, 1.0], 160)
+    response = (wide.pressure[1:4] / right.pressure[1:4] - 1.0) / 0.01
+    np.testing.assert_allclose(response, _RESPONSE, atol=6e-4)
+
+
+@pytest.mark.parametrize("off", [(-0.2, 0.2), (0.2, 0.1), (0.0, -0.3), (1e-3, 0.0)])
+def test_edges_are_found_again(off):
+    """Newton's method: the distance is squared from mesh to mesh, down to that of the elements."""
+    layout = Layout(np.array([-1.0 + off[0], 1.0 + off[1]]), np.array([STICK], dtype=np.int8))
+    distances = []
+    for _ in range(5):
+        problem, _, state = hertz(layout.breaks, 16)
+        layout = layout.moved(problem.x, state, 0.0)
+        distances.append(np.max(np.abs(np.abs(layout.breaks) - 1.0)))
+    assert distances[-1] < 1e-4
+    assert distances[0] < 1.5 * max(map(abs, off)) ** 2 + 3e-4
+    assert distances[-1] == pytest.approx(distances[-2], abs=1e-6)
+
+
+@pytest.mark.parametrize("off", [0.1, -0.1])
+@pytest.mark.parametrize("sign", [1, -1])
+def test_transition_of_carter_is_found_again(off, sign):
+    """q = p - p_stick: with T = F (1 - b^2) the stick zone is 2 b long and ends at x = 1."""
+    b = 0.7
+    traction = sign * HERTZ_LOAD * (1.0 - b * b)
+    slip = PLUS if sign > 0 else MINUS
+    layout = Layout(np.array([-1.0, 1.0 - 2.0 * b + off, 1.0]), np.array([slip, STICK]))
+    for _ in range(5):
+        problem = half_planes(
+            layout.breaks, [8, 14], load=HERTZ_LOAD, traction=traction, friction=1.0
+        )
+        state = HeldContact().solve(problem, layout.states_on(problem.x))
+        layout = layout.moved(problem.x, state, 1.0)
+    assert layout.breaks[1] == pytest.approx(1.0 - 2.0 * b, abs=1e-3)
+    # the creep of rigid rolling: xi = mu (1 - b) a/R of two half-planes, in these units mu (1 - b)
+    assert abs(state.creepage) == pytest.approx(1.0 - b, rel=2e-3)
+    assert np.sign(state.shear[3]) == sign
+
+
+@pytest.mark.parametrize("short", [0.02, -0.02])
+def test_where_slip_turns_to_stick_slack_goes_as_a_power_of_three_halves(short):
+    """Values (y + short)^(3/2) beside the leading end of stick, to first order."""
+    breaks = np.array([0.0, 1.0, 2.0])
+    x = cosine_nodes(breaks, np.array([12, 12]))[1:-1]
+    y = np.maximum(1.0 - x, 0.0)
+    smooth = y**1.5 + 1.5 * short * np.sqrt(y)
+    pressure = np.where(x < 1.0, np.sqrt(np.maximum(x, 0.0)), np.sqrt(np.maximum(2.0 - x, 0.0)))
+    shear = np.where(x < 1.0, 0.5 * pressure - smooth, 0.5 * pressure)
+    layout = Layout(breaks, np.array([STICK, PLUS], dtype=np.int8))
+    state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
+    moved = layout.moved(x, state, 0.5)
+    assert moved.breaks[1] - 1.0 == pytest.approx(short, rel=0.05)
+
+
+def test_layouts_are_of_zones_that_touch_with_stick_between_slip():
+    zones = (Zone(-1.0, 0.0, PLUS), Zone(0.0, 1.0, STICK))
+    layout = Layout.of(zones)
+    assert layout is not None
+    assert layout.zones == zones
+    assert layout.width == 2.0
+    assert Layout.of(()) is None
+    assert Layout.of((Zone(-1.0, 0.0, STICK), Zone(0.1, 1.0, STICK))) is None
+    assert Layout.of((Zone(-1.0, 0.0, PLUS), Zone(0.0, 1.0, MINUS))) is None
+    assert not Layout(np.array([0.0, np.nan, 1.0]), layout.states).is_proper
+    assert not Layout(np.array([0.0, -0.1, 1.0]), layout.states).is_proper
+
+
+def test_states_of_nodes_leave_the_shear_known_at_every_break():
+    breaks = np.array([-1.0, -0.5, 0.5, 1.0])
+    layout = Layout(breaks, np.array([PLUS, STICK, MINUS], dtype=np.int8))
+    x = cosine_nodes(breaks, np.array([6, 8, 6]))[1:-1]
+    states = layout.states_on(x)
+    ends = layout.ends(x)
+    np.testing.assert_allclose(x[ends], breaks, atol=1e-15)
+    assert list(states[ends]) == [State.FREE, PLUS, MINUS, State.FREE]
+    assert np.all(states[1 : ends[1] + 1] == PLUS)
+    assert np.all(states[ends[1] + 1 : ends[2]] == STICK)
+    assert np.all(states[ends[2] : -1] == MINUS)
+
+
+def test_zones_are_found_from_states_of_nodes():
+    """From stick all over the contact to the slip and stick of Carter, the contact held."""
+    b = 0.6
+    traction = HERTZ_LOAD * (1.0 - b * b)
+    problem = half_planes([-1.0, 1.0], [24], load=HERTZ_LOAD, traction=traction, friction=1.0)
+    start = Layout(np.array([-1.0, 1.0]), np.array([STICK], dtype=np.int8)).states_on(problem.x)
+    found = HeldContact(max_steps=12).solve(problem, start)
+    np.testing.assert_array_equal(found.states != State.FREE, start != State.FREE)
+    layout = Layout.found(problem.x, found, 1.0)
+    assert layout is not None
+    assert list(layout.states) == [PLUS, STICK]
+    assert layout.breaks[[0, -1]] == pytest.approx([-1.0, 1.0])
+    assert layout.breaks[1] == pytest.approx(1.0 - 2.0 * b, abs=0.1)
+
+
+def test_a_contact_that_is_held_may_be_under_tension():
+    problem, layout, state = hertz([-1.3, 1.3], 12)
+    assert np.min(state.pressure) < 0.0
+    np.testing.assert_array_equal(state.states, layout.states_on(problem.x))
+    assert problem.weights @ state.pressure == pytest.approx(HERTZ_LOAD)
+
+
+@pytest.mark.parametrize("count", [6, 20, 47])
+def test_elements_go_to_zones_as_the_roots_of_their_lengths(count):
+    elements = elements_of_zones(np.array([0.0, 1.0, 5.0, 5.01]), count)
+    assert np.all(elements >= 6)
+    assert elements[1] == max(6, round(count * 2.0 / 3.1))

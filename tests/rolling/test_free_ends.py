@@ -1,0 +1,149 @@
+"""Free ends and cubic elements: closed forms, and the same figures as with linear elements."""
+
+from dataclasses import replace
+from math import sqrt
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+from rollnip.closed_forms import carter, contact_modulus
+from rollnip.contact import Safeguarded, State, Zone
+from rollnip.rolling import half_width_guess, pair_kernels, refinement
+from rollnip.rolling.free_ends import Attempt, with_free_ends
+
+STEEL = rn.Elastic(modulus=2.1e5, poisson=0.3)
+LINEAR = rn.Model(geometry="linear")
+FIGURES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
+
+
+@pytest.fixture(scope="module")
+def wheels():
+    """Carter's problem."""
+    roller = rn.Roller(radius=50.0, core=STEEL)
+    return rn.Nip(
+        upper=roller,
+        lower=roller,
+        normal=rn.LineLoad(100.0),
+        friction=0.3,
+        tangential=rn.Traction(15.0),
+    )
+
+
+@pytest.fixture
+def linear_elements(monkeypatch):
+    """Solves with linear elements all the way."""
+
+    def solve(nip, model):
+        monkeypatch.setattr(refinement, "with_free_ends", lambda *_: Attempt(None))
+        solution = rn.solve(nip, model)
+        monkeypatch.undo()
+        return solution
+
+    return solve
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4, 1e-5, 3e-6])
+def test_carter_at_every_tolerance(wheels, tolerance):
+    """Width, peak, creepage and stick length: off by less than is claimed, or the tolerance."""
+    exact = carter(
+        load=100.0,
+        radius=25.0,
+        contact_modulus=contact_modulus(2.1e5, 0.3, 2.1e5, 0.3),
+        friction=0.3,
+        traction=15.0,
+    )
+    solution = rn.solve(wheels, replace(LINEAR, tolerance=tolerance))
+    assert solution.converged
+    assert solution.final.mesh.fine.elements
+    values = {
+        "nip_width": 2.0 * exact.hertz.half_width,
+        "peak_pressure": exact.hertz.peak_pressure,
+        "creepage": exact.creepage,
+    }
+    for name, value in values.items():
+        error = abs(getattr(solution, name) - value)
+        assert error <= solution.error[name] <= tolerance * abs(value), name
+    stick = next(zone for zone in solution.zones if zone.state == "stick")
+    expected = 2.0 * exact.hertz.half_width * sqrt(1.0 - 15.0 / 30.0)
+    assert stick.stop - stick.start == pytest.approx(expected, rel=tolerance)
+
+
+def test_few_elements_do(wheels):
+    """Linear ones need twice as many for 1e-3 and could not do 1e-5."""
+    counts = [rn.solve(wheels, replace(LINEAR, tolerance=t)).solver.elements for t in (1e-3, 1e-5)]
+    assert counts[0] <= 45
+    assert counts[1] <= 240
+
+
+def test_the_same_as_with_linear_elements(case, solved, linear_elements):
+    """To what the two claim together."""
+    nip, geometry = case[1], case[2]
+    free = solved(case[0])
+    linear = linear_elements(nip, rn.Model(geometry=geometry, tolerance=free.model.tolerance))
+    assert not linear.final.mesh.fine.elements
+    for name in FIGURES:
+        claimed = free.error[name] + linear.error[name]
+        if not np.isfinite(claimed) or getattr(free, name) is None:
+            continue
+        apart = abs(getattr(free, name) - getattr(linear, name))
+        assert apart <= 1.5 * claimed + 1e-9 * abs(getattr(free, name)), name
+
+
+def start(nip, zones):
+    """Arguments of `with_free_ends` for zones that are made up."""
+    kernels = pair_kernels(nip, "linear")
+    width = half_width_guess(nip, kernels)
+    located = refinement._located(nip, LINEAR, kernels, width, Safeguarded())
+    return nip, LINEAR, kernels, replace(located, zones=zones(located.zones))
+
+
+@pytest.mark.parametrize("shift", [0.1, -0.1])
+def test_zones_of_the_start_need_be_right_to_a_tenth(wheels, shift):
+    width = 0.2 * shift
+
+    def moved(zones):
+        first, last = zones
+        middle = first.stop + width
+        return (
+            Zone(first.start - width, middle, first.state),
+            Zone(middle, last.stop + width, last.state),
+        )
+
+    found = with_free_ends(*start(wheels, moved)).found
+    assert found is not None
+    assert found.figures.nip_width == pytest.approx(rn.solve(wheels, LINEAR).nip_width, rel=1e-4)
+
+
+def test_slip_that_the_start_does_not_know_is_found(wheels):
+    def all_stick(zones):
+        return (Zone(zones[0].start, zones[-1].stop, State.STICK),)
+
+    found = with_free_ends(*start(wheels, all_stick)).found
+    assert found is not None
+    assert [zone.state for zone in found.zones] == [State.SLIP_PLUS, State.STICK]
+
+
+def test_pieces_of_contact_are_left_to_linear_elements(wheels):
+    def in_pieces(zones):
+        first, last = zones
+        return first, replace(last, start=last.start + 0.1 * (last.stop - last.start))
+
+    assert with_free_ends(*start(wheels, in_pieces)) == Attempt(None)
+
+
+def test_a_layer_much_thinner_than_the_nip_is_wide_is_not_resolved_by_chance():
+    """Shear in a boundary layer: coarse meshes agree, 17 % off, until they see it."""
+    thin = rn.Roller(radius=120.0, layers=[rn.Layer(0.12, rn.Elastic(modulus=1.0, poisson=0.45))])
+    nip = rn.Nip(
+        upper=thin,
+        lower=rn.Roller(radius=80.0),
+        normal=rn.Approach(0.02),
+        friction=2.5,
+        tangential=rn.Traction(0.0),
+    )
+    coarse, fine = (rn.solve(nip, replace(LINEAR, tolerance=t)) for t in (1e-3, 3e-4))
+    assert coarse.converged
+    assert fine.converged
+    apart = abs(coarse.creepage - fine.creepage)
+    assert apart <= 3.0 * (coarse.error["creepage"] + fine.error["creepage"])

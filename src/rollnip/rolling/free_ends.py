@@ -56,10 +56,12 @@ class Attempt:
     found : a round that was verified; None where there is none of this kind: pieces of contact
         that do not touch, zones that come and go, tractions that are not smooth in their zones.
     too_few : elements with which the tractions were not yet resolved.
+    diverges : whether the second order of "finite" is no smaller than the first.
     """
 
     found: Round | None
     too_few: int = 0
+    diverges: bool = False
 
 
 def with_free_ends(nip: Nip, model: Model, kernels: PairKernels, start: Round) -> Attempt:
@@ -81,8 +83,8 @@ def _refined(nip: Nip, model: Model, kernels: PairKernels, start: Round) -> Atte
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
     while count <= most:
         placed = _placed(nip, model, kernels, latest, count, known=bool(history))
-        if placed is None:
-            break
+        if placed is None or not placed.settled:
+            return Attempt(None, too_few, diverges=placed is not None)
         latest = placed
         count = latest.problem.x.size - 1
         breaks = np.array([latest.zones[0].start, *(zone.stop for zone in latest.zones)])
@@ -112,6 +114,8 @@ def _placed(
 ) -> Round | None:
     """The solution on a mesh of some size whose nodes lie at the ends of its zones.
 
+    None where there is none; not settled where the second order diverges.
+
     Parameters
     ----------
     before : the last solution.
@@ -137,6 +141,8 @@ def _placed(
         is_placed = off <= placed
         doubted = is_placed or (not known and off < _NEARLY_PLACED)
         known = known or doubted
+        if meshes >= _MOST_MESHES and _diverges(latest):
+            return replace(latest, settled=False)
         if asked.is_proper and (not doubted or _agrees(latest, layout, model, whole=is_placed)):
             before = replace(latest, zones=asked.zones)
             if is_placed and latest.settled:
@@ -151,6 +157,11 @@ def _placed(
         layout = Layout.found(latest.problem.x, found, nip.friction)
         before, elements, earlier = latest, None, None
     return None
+
+
+def _diverges(latest: Round) -> bool:
+    """Whether a turn changes strains by more than themselves."""
+    return not latest.mesh.kernels.is_linear and latest.geometry_change > 1.0
 
 
 def _solved_on(

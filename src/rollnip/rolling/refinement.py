@@ -64,6 +64,8 @@ def refine(
         attempt = with_free_ends(nip, model, kernels, located)
         if attempt.found is not None:
             return attempt.found
+        if attempt.diverges:
+            return replace(located, settled=False)
         too_few = _LINEAR_FOR_CUBIC * attempt.too_few
     if _is_hopeless(located, kernels):
         return _finished(nip, model, kernels, located, method)

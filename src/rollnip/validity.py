@@ -16,7 +16,7 @@ from rollnip.materials import LossFactor, Prony, Viscoelastic
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling import Round, stretch_excess
+from rollnip.rolling import Round, surface_strain_in_nip
 
 NIP_STRAIN = 0.15
 """Approach over the thickness of the coverings."""
@@ -95,24 +95,14 @@ def _contact_angle(nip: Nip, final: Round) -> str:
     )
 
 
-def surface_strain_in_nip(nip: Nip, model: Model, final: Round) -> float:
-    """Largest strain of either surface in the contact, mean over an element."""
-    x = final.nodes[1:]
-    u = final.mesh.finer(final.mesh.displacements(final.state))
-    touching = final.pressure > 0.0
-    sides = (stretch_excess(x, nip, model.geometry, u, side=side) for side in ("upper", "lower"))
-    strains = [np.abs(excess / np.diff(x))[touching] for excess in sides]
-    return float(max(np.max(strain, initial=0.0) for strain in strains))
-
-
 def is_small(nip: Nip, model: Model, final: Round) -> bool:
     """Whether an expansion in strain holds: its second order, and the strains themselves."""
     small = second_share(nip, final) <= SECOND_MOST
-    return small and surface_strain_in_nip(nip, model, final) <= SURFACE_STRAIN
+    return small and surface_strain_in_nip(nip, model.geometry, final) <= SURFACE_STRAIN
 
 
 def _surface_strain(nip: Nip, model: Model, final: Round) -> str:
-    largest = surface_strain_in_nip(nip, model, final)
+    largest = surface_strain_in_nip(nip, model.geometry, final)
     if largest <= SURFACE_STRAIN:
         return ""
     return (

@@ -8,6 +8,7 @@ from rollnip.rolling.check import (
     fine_points,
     slip_velocity,
     surface_strain,
+    surface_strain_in_nip,
 )
 from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
@@ -48,5 +49,6 @@ __all__ = [
     "stretch_excess",
     "surface_depths",
     "surface_strain",
+    "surface_strain_in_nip",
     "with_second_order",
 ]

@@ -220,6 +220,16 @@ def slip_velocity(fields: Fields, zones: tuple[Zone, ...], speed: float) -> Arra
     return out
 
 
+def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: Round) -> float:
+    """Largest strain of either surface in the contact, mean over an element."""
+    x = final.nodes[1:]
+    u = final.mesh.finer(final.mesh.displacements(final.state))
+    touching = final.pressure > 0.0
+    sides = (stretch_excess(x, nip, geometry, u, side=side) for side in ("upper", "lower"))
+    strains = [np.abs(excess / np.diff(x))[touching] for excess in sides]
+    return float(max(np.max(strain, initial=0.0) for strain in strains))
+
+
 def surface_strain(
     x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round, *, side: str
 ) -> Array:

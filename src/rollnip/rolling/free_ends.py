@@ -25,6 +25,7 @@ from rollnip.contact import (
 from rollnip.contact.problem import Indices
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.estimates import CUBIC, Size, estimated_error, zone_excess
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.surfaces import PairKernels, mesh_on
@@ -36,6 +37,8 @@ _FEWEST_SIZES = 2  # of meshes before an error is believed
 _MOST_ELEMENTS = 80  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _FIRST_GROWTH, _LEAST_GROWTH = 1.6, 1.35  # of the number of elements from size to size
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
+_MORE_FOR_SECOND = 3  # for the second order, which lags a mesh behind
+_MOST_STRAIN = 2.0  # of a surface after some meshes; a result may have 0.3
 _MOST_CHANGES = 2  # of the zones, on meshes of one size
 _SLOPES = 0.5, 3.0  # of what a break is asked to move, over how far it is off
 _GIVEN = HeldContact()
@@ -56,12 +59,12 @@ class Attempt:
     found : a round that was verified; None where there is none of this kind: pieces of contact
         that do not touch, zones that come and go, tractions that are not smooth in their zones.
     too_few : elements with which the tractions were not yet resolved.
-    diverges : whether the second order of "finite" is no smaller than the first.
+    is_overstrained : whether strains are far too large for the second order of "finite".
     """
 
     found: Round | None
     too_few: int = 0
-    diverges: bool = False
+    is_overstrained: bool = False
 
 
 def with_free_ends(nip: Nip, model: Model, kernels: PairKernels, start: Round) -> Attempt:
@@ -84,7 +87,7 @@ def _refined(nip: Nip, model: Model, kernels: PairKernels, start: Round) -> Atte
     while count <= most:
         placed = _placed(nip, model, kernels, latest, count, known=bool(history))
         if placed is None or not placed.settled:
-            return Attempt(None, too_few, diverges=placed is not None)
+            return Attempt(None, too_few, is_overstrained=placed is not None)
         latest = placed
         count = latest.problem.x.size - 1
         breaks = np.array([latest.zones[0].start, *(zone.stop for zone in latest.zones)])
@@ -114,7 +117,7 @@ def _placed(
 ) -> Round | None:
     """The solution on a mesh of some size whose nodes lie at the ends of its zones.
 
-    None where there is none; not settled where the second order diverges.
+    None where there is none; not settled where strains are far too large for the second order.
 
     Parameters
     ----------
@@ -130,6 +133,7 @@ def _placed(
     held, off = kernels, inf
     meshes = changes = 0
     most = _MOST_MESHES + max(0, round(-3.0 - log10(model.tolerance)))
+    most += 0 if kernels.is_linear else _MORE_FOR_SECOND
     while layout is not None and meshes < most + changes:
         meshes += 1
         if elements is None:  # they stay while edges are looked for: a change would move these
@@ -141,7 +145,7 @@ def _placed(
         is_placed = off <= placed
         doubted = is_placed or (not known and off < _NEARLY_PLACED)
         known = known or doubted
-        if meshes >= _MOST_MESHES and _diverges(latest):
+        if meshes >= _MOST_MESHES and _is_overstrained(nip, model, latest):
             return replace(latest, settled=False)
         if asked.is_proper and (not doubted or _agrees(latest, layout, model, whole=is_placed)):
             before = replace(latest, zones=asked.zones)
@@ -159,9 +163,11 @@ def _placed(
     return None
 
 
-def _diverges(latest: Round) -> bool:
-    """Whether a turn changes strains by more than themselves."""
-    return not latest.mesh.kernels.is_linear and latest.geometry_change > 1.0
+def _is_overstrained(nip: Nip, model: Model, latest: Round) -> bool:
+    """Whether the second order of "finite" cannot be believed, wherever the ends will be."""
+    if latest.mesh.kernels.is_linear:
+        return False
+    return surface_strain_in_nip(nip, model.geometry, latest) > _MOST_STRAIN
 
 
 def _solved_on(

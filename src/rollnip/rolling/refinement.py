@@ -64,7 +64,7 @@ def refine(
         attempt = with_free_ends(nip, model, kernels, located)
         if attempt.found is not None:
             return attempt.found
-        if attempt.diverges:
+        if attempt.is_overstrained:
             return replace(located, settled=False)
         too_few = _LINEAR_FOR_CUBIC * attempt.too_few
     if _is_hopeless(located, kernels):

@@ -12,9 +12,9 @@ from rollnip._errors import ConvergenceError, RollnipError
 from rollnip.influence import KernelCache
 from rollnip.io import Case, case_hash, parse_case
 from rollnip.io.netcdf import UNITS
+from rollnip.rolling import surface_strain_in_nip
 from rollnip.solution import Solution
 from rollnip.solve import solve
-from rollnip.validity import surface_strain_in_nip
 
 Row = dict[str, float | bool | str | None]
 
@@ -143,7 +143,7 @@ def _value(solution: Solution, name: str, error: Mapping[str, float]) -> float |
     if table == "solver":
         return getattr(solution.solver, key)  # type: ignore[no-any-return]
     if name == "max_surface_strain":
-        return surface_strain_in_nip(solution.nip, solution.model, solution.final)
+        return surface_strain_in_nip(solution.nip, solution.model.geometry, solution.final)
     return getattr(solution, name)  # type: ignore[no-any-return]
 
 

@@ -45,6 +45,7 @@ _GIVEN = HeldContact()
 _LOOKING = HeldContact(max_steps=12)
 _NEARLY_PLACED = 0.02  # over the width of the contact: good enough to see what slips
 _SMOOTH = 0.06  # times the root of the tolerance: error of the cubics, over the largest traction
+_CONTRACTION = 1.5  # of what ends are off, from mesh to mesh: more is no Newton's method
 _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
 _LOOSELY = 10.0  # more of it on the first size of mesh
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
@@ -141,7 +142,9 @@ def _placed(
         if off > _LOOSELY * placed:
             held = _held(kernels, before)
         latest, asked = _solved_on(nip, model, held, layout, elements, before, placed)
-        off = asked.distance(layout)
+        off, off_before = asked.distance(layout), off
+        if kernels.is_linear and off > _CONTRACTION * off_before:
+            return None
         is_placed = off <= placed
         doubted = is_placed or (not known and off < _NEARLY_PLACED)
         known = known or doubted
@@ -159,7 +162,7 @@ def _placed(
         if changes > _MOST_CHANGES or np.array_equal(found.states, given):
             return None
         layout = Layout.found(latest.problem.x, found, nip.friction)
-        before, elements, earlier = latest, None, None
+        before, elements, earlier, off = latest, None, None, inf
     return None
 
 

@@ -147,3 +147,22 @@ def test_a_layer_much_thinner_than_the_nip_is_wide_is_not_resolved_by_chance():
     assert fine.converged
     apart = abs(coarse.creepage - fine.creepage)
     assert apart <= 3.0 * (coarse.error["creepage"] + fine.error["creepage"])
+
+
+@pytest.mark.parametrize("tolerance", [1e-1, 1e-2])
+def test_slip_of_a_thin_covering_is_not_taken_for_rounding(tolerance):
+    """Sticking all over would break the bound by less than 0.1, and creep 30 % too little."""
+    plies = [
+        rn.Layer(0.0586, rn.Elastic(modulus=39.0, poisson=0.5)),
+        rn.Layer(0.0547, rn.Elastic(modulus=500.0, poisson=0.0)),
+    ]
+    nip = rn.Nip(
+        upper=rn.Roller(radius=28.2),
+        lower=rn.Roller(radius=22.2, layers=plies),
+        normal=rn.LineLoad(7.1),
+        friction=0.27,
+    )
+    coarse, fine = (rn.solve(nip, replace(LINEAR, tolerance=t)) for t in (tolerance, 1e-3))
+    assert coarse.converged
+    assert [zone.state for zone in coarse.zones] == [zone.state for zone in fine.zones]
+    assert coarse.creepage == pytest.approx(fine.creepage, rel=tolerance)

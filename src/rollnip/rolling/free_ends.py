@@ -49,6 +49,7 @@ _CONTRACTION = 1.5  # of what ends are off, from mesh to mesh: more is no Newton
 _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
 _LOOSELY = 10.0  # more of it on the first size of mesh
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
+_SLACK = 1e-3  # at most: shear over the bound that may be rounding; more is slip, however coarse
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,7 +240,7 @@ def _agrees(latest: Round, layout: Layout, model: Model, *, whole: bool) -> bool
 
     While the edges are not placed, not the ``whole`` is looked at, only stick and slip.
     """
-    wanted = next_states(latest.problem, latest.state, model.tolerance)
+    wanted = next_states(latest.problem, latest.state, min(model.tolerance, _SLACK))
     differs = (wanted != latest.state.states) & (latest.state.states != State.FREE)
     differs[layout.ends(latest.problem.x)] = False  # they are as much of one zone as of the other
     if not whole:

@@ -12,27 +12,13 @@ from rollnip.nip import Nip
 from rollnip.rolling.round import Figures, Round, creepage_scale
 from rollnip.rolling.surfaces import Array
 
-
-@dataclass(frozen=True, slots=True)
-class Elements:
-    """What is known of a kind of elements.
-
-    Attributes
-    ----------
-    least : smallest error of each of Figures, relative, times elements squared.
-    order : of the error in 1/elements.
-    """
-
-    least: Array
-    order: int
-
-
 _SAFETY = 1.5  # on the estimate of the error from two meshes
 # Least relative error of each of Figures, times the square of the number of elements: measured on
-# random nips against ten times as many elements; linear elements, and cubic ones.
-# And the order of the error in 1/elements that changes between coarser meshes are shrunk with.
-LINEAR = Elements(np.array([0.1, 0.5, 2.0, 2.0, 0.5]), 2)
-CUBIC = Elements(np.array([0.02, 0.05, 0.3, 0.2, 0.2]), 3)
+# random nips against ten times as many elements; linear elements, and cubic ones. These are of
+# higher order where tractions go as a square root at every end; where unlike surfaces stick up to
+# an edge they do not, the edge is misplaced by a share of the first element, and the order is 2.
+LINEAR = np.array([0.1, 0.5, 2.0, 2.0, 0.5])
+CUBIC = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
 _CREEPAGE, _PEAK = 2, 4  # their places among Figures
 
 
@@ -45,28 +31,34 @@ class Size:
     breaks: Array
 
 
-def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Figures:
+def estimated_error(nip: Nip, latest: Round, history: list[Size], least: Array) -> Figures:
     """Estimated error of each figure from its changes between meshes (second order).
 
     Two meshes may agree by chance. So earlier changes count too, shrunk as the order promises; no
-    error is claimed below what meshes of this size and ``kind`` leave in random nips, and none of
-    the peak below what lies between the highest node and the parabola through it.
+    error is claimed below what meshes of this size leave in random nips, and none of the peak
+    below what lies between the highest node and the parabola through it.
+
+    Parameters
+    ----------
+    latest : the solution on the last of the meshes.
+    history : all sizes of mesh, coarsest first.
+    least : (5,) of the kind of elements, LINEAR or CUBIC.
     """
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return Figures(inf, inf, inf, inf, inf)
     change = _change_over(history[-2], history[-1])
     for coarse, fine in pairwise(history[:-1]):
-        earlier = _change_over(coarse, fine) * (fine.count / count) ** kind.order
+        earlier = _change_over(coarse, fine) * (fine.count / count) ** 2
         if fine is not history[-2]:
             earlier[_PEAK] = 0.0  # coarse meshes do not see the peaks under a stiff skin at all
         change = np.maximum(change, earlier)
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
-    least = kind.least * scales / count**2
-    least[_PEAK] = max(least[_PEAK], figures.peak_pressure - float(np.max(latest.pressure)))
+    floor = least * scales / count**2
+    floor[_PEAK] = max(floor[_PEAK], figures.peak_pressure - float(np.max(latest.pressure)))
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
-    return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, least))))
+    return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 
 
 def zone_excess(history: list[Size], tolerance: float) -> float:

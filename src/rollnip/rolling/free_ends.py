@@ -34,6 +34,9 @@ from rollnip.rolling.turns import NEARLY_STILL, checked, settled, turned
 _FIRST_COUNT = 18
 _FOR_ZONE = 4  # elements more for each zone
 _FEWEST_SIZES = 2  # of meshes before an error is believed
+# With memory the tractions have boundary layers as long as speed times relaxation time. Meshes all
+# too coarse for these agree on other edges.
+_FEWEST_WITH_MEMORY = 3
 _MOST_ELEMENTS = 80  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _FIRST_GROWTH, _LEAST_GROWTH = 1.6, 1.35  # of the number of elements from size to size
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
@@ -86,6 +89,7 @@ def _refined(nip: Nip, model: Model, kernels: PairKernels, start: Round) -> Atte
     count, latest, too_few = _FIRST_COUNT + _FOR_ZONE * len(start.zones), start, 0
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
+    fewest = _FEWEST_WITH_MEMORY if nip.is_viscoelastic else _FEWEST_SIZES
     while count <= most:
         placed = _placed(nip, model, kernels, latest, count, known=bool(history))
         if placed is None or not placed.settled:
@@ -99,7 +103,7 @@ def _refined(nip: Nip, model: Model, kernels: PairKernels, start: Round) -> Atte
         stand = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
         if not _are_smooth(nip, model, latest):
             too_few = count
-        elif ratio <= 1.0 and stand and len(history) >= _FEWEST_SIZES:
+        elif ratio <= 1.0 and stand and len(history) >= fewest:
             latest = checked(nip, model, kernels, settled(nip, model, latest, _GIVEN, latest.zones))
             if latest.residual <= model.tolerance:
                 return Attempt(latest)

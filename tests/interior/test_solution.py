@@ -43,7 +43,7 @@ def test_surface_is_the_solution(solved, roller):
     sign = 1.0 if roller == "upper" else -1.0
     assert field.x.shape == (401,)
     assert field.s_zz.shape == (1, 401)
-    outer = solved.final.mesh.nodes
+    outer = solved.final.nodes
     p, q = (np.interp(field.x, outer, np.pad(t, 1)) for t in (solved.pressure, solved.shear))
     assert field.s_zz[0] == pytest.approx(-p, abs=1e-10)
     assert field.s_xz[0] == pytest.approx(-sign * q, abs=1e-10)

@@ -96,7 +96,7 @@ def test_netcdf(solved, tmp_path):
                 assert group[key].values[3:5] == pytest.approx(
                     getattr(field, key), abs=1e-7 * scale
                 )
-            surface = np.interp(x, solved.final.mesh.nodes, np.pad(solved.pressure, 1))
+            surface = np.interp(x, solved.final.nodes, np.pad(solved.pressure, 1))
             assert group["s_zz"].values[0] == pytest.approx(-surface, abs=1e-9)
     with xr.open_dataset(path, group="upper", engine="h5netcdf") as upper:
         first = int(np.argmax(upper["layer"].values == 1))

@@ -48,7 +48,9 @@ _GIVEN = HeldContact()
 _LOOKING = HeldContact(max_steps=12)
 _NEARLY_PLACED = 0.02  # over the width of the contact: good enough to see what slips
 _SMOOTH = 0.06  # times the root of the tolerance: error of the cubics, over the largest traction
-_CONTRACTION = 1.5  # of what ends are off, from mesh to mesh: more is no Newton's method
+# Of what ends are off, from mesh to mesh, while that is not little: more is no Newton's method.
+# Nearly placed ends may be asked to go further by second-order terms that still move.
+_CONTRACTION = 1.5
 _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
 _LOOSELY = 10.0  # more of it on the first size of mesh
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
@@ -148,7 +150,7 @@ def _placed(
             held = _held(kernels, before)
         latest, asked = _solved_on(nip, model, held, layout, elements, before, placed)
         off, off_before = asked.distance(layout), off
-        if kernels.is_linear and off > _CONTRACTION * off_before:
+        if kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
             return None
         is_placed = off <= placed
         doubted = is_placed or (not known and off < _NEARLY_PLACED)

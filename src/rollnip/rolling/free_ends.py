@@ -43,6 +43,7 @@ _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each fu
 _MORE_FOR_SECOND = 3  # for the second order, which lags a mesh behind
 _MOST_STRAIN = 2.0  # of a surface after some meshes; a result may have 0.3
 _MOST_CHANGES = 2  # of the zones, on meshes of one size
+_MORE_FOR_CHANGE = 3  # meshes, to place the new ends
 _SLOPES = 0.5, 3.0  # of what a break is asked to move, over how far it is off
 _GIVEN = HeldContact()
 _LOOKING = HeldContact(max_steps=12)
@@ -142,7 +143,7 @@ def _placed(
     meshes = changes = 0
     most = _MOST_MESHES + max(0, round(-3.0 - log10(model.tolerance)))
     most += 0 if kernels.is_linear else _MORE_FOR_SECOND
-    while layout is not None and meshes < most + changes:
+    while layout is not None and meshes < most + _MORE_FOR_CHANGE * changes:
         meshes += 1
         if elements is None:  # they stay while edges are looked for: a change would move these
             elements = elements_of_zones(layout.breaks, count)

@@ -160,7 +160,7 @@ class Solution:
 
     @property
     def dissipation_friction(self) -> float | None:
-        """Int |q s| dx [N/s = mW/mm]; None without speed."""
+        """-Int q s dx [N/s = mW/mm], never negative; None without speed."""
         if self.nip.speed is None:
             return None
         creepage = self.creepage
@@ -168,7 +168,7 @@ class Solution:
             return 0.0
         fields = self._fields_on_mesh
         means = 0.5 * (fields.shear[1:] + fields.shear[:-1])
-        return float(self.nip.speed * np.sum(means * fields.creep))
+        return max(0.0, float(self.nip.speed * np.sum(means * fields.creep)))
 
     @property
     def dissipation_viscous(self) -> float | None:

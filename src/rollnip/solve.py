@@ -51,7 +51,8 @@ def solve(
     model :
         geometry and accuracy; ``Model()`` by default.
     method :
-        how each discrete contact problem is solved; ``Safeguarded()`` by default.
+        how zones of stick and slip are found, and every discrete problem with linear elements
+        is solved; ``Safeguarded()`` by default.
     cache :
         influence functions of solves before, to be used again where coverings are the same.
     on_failure :

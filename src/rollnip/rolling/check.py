@@ -132,8 +132,9 @@ def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: f
 
 def fine_points(final: Round) -> Array:
     """Points of the mesh and between, and on to a little more than a nip width outside."""
-    nodes = final.nodes[2:-2]
-    parts = _SUBDIVISION if final.mesh.fine.values is None else 1
+    is_cubic = final.mesh.fine.values is not None
+    nodes = final.nodes[1:-1] if is_cubic else final.nodes[2:-2]  # from edge to edge
+    parts = 1 if is_cubic else _SUBDIVISION
     between = [nodes[:-1] + (nodes[1:] - nodes[:-1]) * i / parts for i in range(parts)]
     inside = np.append(np.sort(np.concatenate(between)), nodes[-1])
     width = final.figures.nip_width

@@ -156,7 +156,7 @@ def _placed(
         is_placed = off <= placed
         doubted = is_placed or (not known and off < _NEARLY_PLACED)
         known = known or doubted
-        if meshes >= _MOST_MESHES and _is_overstrained(nip, model, latest):
+        if meshes >= _MOST_MESHES and not is_placed and _is_overstrained(nip, model, latest):
             return replace(latest, settled=False)
         if asked.is_proper and (not doubted or _agrees(latest, layout, model, whole=is_placed)):
             before = replace(latest, zones=asked.zones)

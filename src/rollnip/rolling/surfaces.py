@@ -214,6 +214,7 @@ class Mesh:
     upper, lower : displacements of either surface.
     influence : what a contact problem on these nodes makes of them.
     kernels : the influence functions they come from.
+    held : second-order displacements at nodes[1:] that the kernels hold; None: they hold none.
     """
 
     nodes: Array
@@ -222,6 +223,7 @@ class Mesh:
     lower: SurfaceMatrices
     influence: Array
     kernels: PairKernels
+    held: Displacements | None
 
     @property
     def inner(self) -> Array:
@@ -276,7 +278,12 @@ class Mesh:
         """The linear displacements of a solution with those of second order, if there are any."""
         if self.kernels.is_linear:
             return linear
-        return linear + self.second(state, self.nodes[1:])
+        held = self.held
+        return linear + (self.second(state, self.nodes[1:]) if held is None else held)
+
+    def holding(self, kernels: PairKernels) -> Mesh:
+        """The same mesh with the second order that other influence functions hold."""
+        return replace(self, kernels=kernels, held=_held_at(self.nodes, kernels))
 
     def second(self, state: ContactState, x: Array) -> Displacements:
         """Second-order displacements at ``x``: those held, or of the tractions of a solution."""
@@ -303,7 +310,11 @@ def mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision | None = None)
     fine = Subdivision(nodes) if fine is None else fine
     upper, lower = pair_matrices(kernels, nodes[1:], fine)
     influence = _influence(nodes, fine, upper, lower, kernels.hoops)
-    return Mesh(nodes, fine, upper, lower, influence, kernels)
+    return Mesh(nodes, fine, upper, lower, influence, kernels, _held_at(nodes, kernels))
+
+
+def _held_at(nodes: Array, kernels: PairKernels) -> Displacements | None:
+    return None if kernels.held is None else kernels.held.at(nodes[1:])
 
 
 def pair_matrices(

@@ -127,6 +127,6 @@ def checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Roun
     if not kernels.is_linear:
         own = latest.mesh.second_fields(latest.state)
         kernels = replace(kernels, held=own)
-    latest = replace(latest, mesh=replace(latest.mesh, kernels=kernels))
+    latest = replace(latest, mesh=latest.mesh.holding(kernels))
     fields = fields_between(nip, model.geometry, kernels, latest)
     return replace(latest, residual=residual(nip, fields, latest))

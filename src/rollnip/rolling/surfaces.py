@@ -354,7 +354,7 @@ def _influence(
     """
     n = nodes.size - 2
     out = np.zeros((2 * n, 2 * n))
-    integrals = _integrals(nodes, fine) if any(hoops) else None
+    integrals = _integrals(nodes, fine) if any(hoops) and fine.values is not None else None
     # The pressure is the same on both surfaces, the shear the opposite.
     for surface, hoop, sign in ((upper, hoops[0], 1.0), (lower, hoops[1], -1.0)):
         if surface.stack is None:
@@ -364,17 +364,26 @@ def _influence(
         out[:n, n:] -= sign * xz[:-1]
         out[n:, :n] += sign * (xz[1:] - xz[:-1])
         out[n:, n:] += xx[1:] - xx[:-1]
-        if hoop and integrals is not None:
-            out[n:, :n] -= integrals @ (sign * hoop * zz)
-            out[n:, n:] += integrals @ (hoop * xz)
+        if hoop:
+            out[n:, :n] -= sign * hoop * _integrated(nodes, zz, integrals)
+            out[n:, n:] += hoop * _integrated(nodes, xz, integrals)
     return out
 
 
 def _integrals(nodes: Array, fine: Subdivision) -> Array:
     """Int f dx over each interval of nodes[1:] per value of f there, (N-1, N) [mm]."""
-    values = np.eye(nodes.size - 1) if fine.values is None else fine.values[1:, 1:]
+    assert fine.values is not None
+    values = fine.values[1:, 1:]
     dx = np.diff(fine.nodes[1:])[:, None]
     return _sums(nodes, fine, 0.5 * dx * (values[1:] + values[:-1]))
+
+
+def _integrated(nodes: Array, values: Array, integrals: Array | None) -> Array:
+    """Int f dx over each interval of nodes[1:] of functions with ``values`` there, (N, n)."""
+    if integrals is not None:
+        return np.asarray(integrals @ values)
+    dx = (nodes[2:] - nodes[1:-1])[:, None]
+    return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
 
 
 def _sums(nodes: Array, fine: Subdivision, pieces: Array) -> Array:

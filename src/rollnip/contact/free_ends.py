@@ -56,12 +56,10 @@ class Layout:
         if not zones:
             return None
         states = np.array([zone.state for zone in zones], dtype=np.int8)
-        breaks = np.array([zones[0].start, *(zone.stop for zone in zones)])
+        layout = cls(np.array([zones[0].start, *(zone.stop for zone in zones)]), states)
         touching = all(a.stop == b.start for a, b in pairwise(zones))
-        sticks = states == STICK
-        if not touching or np.any(sticks[1:] == sticks[:-1]) or not np.all(np.diff(breaks) > 0.0):
-            return None
-        return cls(breaks, states)
+        alike = [(a.state == STICK) == (b.state == STICK) for a, b in pairwise(zones)]
+        return layout if touching and not any(alike) and layout.is_proper else None
 
     @classmethod
     def found(cls, x: Array, state: ContactState, friction: float) -> Layout | None:

@@ -29,7 +29,7 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.estimates import CUBIC, Size, estimated_error, zone_excess
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.surfaces import PairKernels, mesh_on
-from rollnip.rolling.turns import NEARLY_STILL, checked, settled, turned
+from rollnip.rolling.turns import NEARLY_STILL, checked, held_from, settled, turned
 
 _FIRST_COUNT = 18
 _FOR_ZONE = 4  # elements more for each zone
@@ -148,7 +148,7 @@ def _placed(
         if elements is None:  # they stay while edges are looked for: a change would move these
             elements = elements_of_zones(layout.breaks, count)
         if off > _LOOSELY * placed:
-            held = _held(kernels, before)
+            held = held_from(kernels, before)
         latest, asked = _solved_on(nip, model, held, layout, elements, before, placed)
         off, off_before = asked.distance(layout), off
         if kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
@@ -216,13 +216,6 @@ def _are_smooth(nip: Nip, model: Model, latest: Round) -> bool:
     sought = (pressure, largest), (shear, max(np.max(np.abs(shear)), little))
     allowed = _SMOOTH * sqrt(model.tolerance)
     return all(cubic_error(values, elements) <= allowed * scale for values, scale in sought)
-
-
-def _held(kernels: PairKernels, before: Round) -> PairKernels:
-    """Influence functions with the second order of the solution before, if there is one."""
-    if kernels.is_linear:
-        return kernels
-    return replace(kernels, held=before.mesh.second_fields(before.state))
 
 
 def _hastened(here: Layout, asked: Layout, earlier: tuple[Layout, Layout] | None) -> Layout:

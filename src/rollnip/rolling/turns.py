@@ -35,10 +35,15 @@ def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
 
     It is small and smooth: a few updates are enough, and the last mesh is checked with its own.
     """
+    if not kernels.is_linear and (before is None or not before.settled):
+        return replace(kernels, held=NO_SECOND_ORDER)
+    return kernels if before is None else held_from(kernels, before)
+
+
+def held_from(kernels: PairKernels, before: Round) -> PairKernels:
+    """Influence functions with the second order of a solution, if they have one."""
     if kernels.is_linear:
         return kernels
-    if before is None or not before.settled:
-        return replace(kernels, held=NO_SECOND_ORDER)
     return replace(kernels, held=before.mesh.second_fields(before.state))
 
 

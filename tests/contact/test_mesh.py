@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from rollnip.contact import Demand, cosine_nodes, cubic_error, graded_nodes, subdivided
+from rollnip.contact import Demand, carry, cosine_nodes, cubic_error, graded_nodes, subdivided
 
 
 def demand(x, *values):
@@ -150,7 +150,6 @@ def test_cubics_in_the_number_go_on_between_the_nodes_zone_by_zone(elements):
     values = np.concatenate([[0.0], cubic(coarse), [0.0]])
     expected = np.concatenate([[0.0], cubic(between), [0.0]])
     np.testing.assert_allclose(fine.values @ values, expected, atol=1e-13)
-    np.testing.assert_allclose(fine.numbers[1:-1], coarse, atol=1e-14)
 
 
 def test_a_square_root_is_a_straight_line_in_the_number():
@@ -162,6 +161,26 @@ def test_a_square_root_is_a_straight_line_in_the_number():
     cubic = np.max(np.abs(fine.values @ values - exact)[1:-1])
     straight = np.max(np.abs(np.interp(fine.nodes, nodes, values) - exact)[1:-1])
     assert cubic < 0.025 * straight
+
+
+@pytest.mark.parametrize("between", [False, True])
+@pytest.mark.parametrize(("before", "after"), [((8,), (13,)), ((9, 6), (7, 20)), ((6,), (6,))])
+def test_values_are_carried_zone_by_zone_as_cubics(before, after, between):
+    def cubic(elements):
+        values = []
+        for zone, n in enumerate(elements):
+            t = (np.arange(n) + (0.5 if between else 0.0)) / n
+            values.append(1.0 + (zone + 2.0) * t * (1.0 - t) * (0.3 - t))
+        return np.append(np.concatenate(values), 1.0)
+
+    np.testing.assert_allclose(
+        carry(before, after, between=between) @ cubic(before), cubic(after), atol=1e-13
+    )
+
+
+def test_nothing_is_carried_between_other_zones():
+    assert carry((8,), (8, 8)) is None
+    assert carry((), ()) is None
 
 
 @pytest.mark.parametrize("elements", [(8,), (8, 10)])

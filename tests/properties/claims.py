@@ -31,7 +31,7 @@ from rollnip.contact import (
 from rollnip.influence import load_weights
 from rollnip.rolling import creepage_scale, peak_pressure
 from rollnip.rolling.assemble import contact_problem, second_order
-from rollnip.rolling.round import Figures
+from rollnip.rolling.round import Figures, scale_of_creepage
 from rollnip.rolling.surfaces import mesh_on
 
 FINER = 10  # times as many elements
@@ -174,7 +174,8 @@ def _change(nip, mesh, state, new, old):
     half = 0.5 * (mesh.nodes[-1] - mesh.nodes[0])
     strain = nip.curvature * half
     load = float(load_weights(mesh.nodes) @ state.pressure)
-    return new.change(old, 0.5 * strain * half, strain * mesh.dx, strain * load)
+    scales = 0.5 * strain * half, scale_of_creepage(state.creepage, strain), strain * load
+    return new.change(old, state.creepage, mesh.dx, scales)
 
 
 def _figures(problem, state, zones, lean):

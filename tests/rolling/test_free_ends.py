@@ -8,8 +8,8 @@ import pytest
 
 import rollnip as rn
 from rollnip.closed_forms import carter, contact_modulus
-from rollnip.contact import Safeguarded, State, Zone
-from rollnip.rolling import half_width_guess, pair_kernels, refinement
+from rollnip.contact import Layout, State
+from rollnip.rolling import pair_kernels, refinement
 from rollnip.rolling.free_ends import Attempt, with_free_ends
 
 LINEAR = rn.Model(geometry="linear")
@@ -82,46 +82,31 @@ def test_the_same_as_with_linear_elements(case, solved, linear_elements):
         assert apart <= 1.5 * claimed + 1e-9 * abs(getattr(free, name)), name
 
 
-def start(nip, zones):
-    """Arguments of `with_free_ends` for zones that are made up."""
-    kernels = pair_kernels(nip, "linear")
-    width = half_width_guess(nip, kernels)
-    located = refinement._located(nip, LINEAR, kernels, width, Safeguarded())
-    return nip, LINEAR, kernels, replace(located, zones=zones(located.zones))
+@pytest.fixture
+def attempt(wheels):
+    """Free ends with no solution before, from a layout that is made up."""
+    kernels = pair_kernels(wheels, "linear")
+    return lambda layout: with_free_ends(wheels, LINEAR, kernels, layout)
+
+
+@pytest.mark.parametrize("off", [0.8, 1.0, 1.2])
+def test_a_guessed_width_is_start_enough(wheels, attempt, off):
+    """Slip that the start does not know is found, too."""
+    width = rn.solve(wheels, LINEAR).nip_width
+    found = attempt(Layout.sticking(0.5 * off * width)).found
+    assert found is not None
+    assert [zone.state for zone in found.zones] == [State.SLIP_PLUS, State.STICK]
+    assert found.figures.nip_width == pytest.approx(width, rel=1e-4)
 
 
 @pytest.mark.parametrize("shift", [0.1, -0.1])
-def test_zones_of_the_start_need_be_right_to_a_tenth(wheels, shift):
-    width = 0.2 * shift
-
-    def moved(zones):
-        first, last = zones
-        middle = first.stop + width
-        return (
-            Zone(first.start - width, middle, first.state),
-            Zone(middle, last.stop + width, last.state),
-        )
-
-    found = with_free_ends(*start(wheels, moved)).found
+def test_zones_of_the_start_need_be_right_to_a_tenth(wheels, attempt, shift):
+    solution = rn.solve(wheels, LINEAR)
+    layout = Layout.of(solution.final.zones)
+    shifts = shift * solution.nip_width * np.array([-0.5, 1.0, 0.5])
+    found = attempt(Layout(layout.breaks + shifts, layout.states)).found
     assert found is not None
-    assert found.figures.nip_width == pytest.approx(rn.solve(wheels, LINEAR).nip_width, rel=1e-4)
-
-
-def test_slip_that_the_start_does_not_know_is_found(wheels):
-    def all_stick(zones):
-        return (Zone(zones[0].start, zones[-1].stop, State.STICK),)
-
-    found = with_free_ends(*start(wheels, all_stick)).found
-    assert found is not None
-    assert [zone.state for zone in found.zones] == [State.SLIP_PLUS, State.STICK]
-
-
-def test_pieces_of_contact_are_left_to_linear_elements(wheels):
-    def in_pieces(zones):
-        first, last = zones
-        return first, replace(last, start=last.start + 0.1 * (last.stop - last.start))
-
-    assert with_free_ends(*start(wheels, in_pieces)) == Attempt(None)
+    assert found.figures.nip_width == pytest.approx(solution.nip_width, rel=1e-4)
 
 
 def test_a_layer_much_thinner_than_the_nip_is_wide_is_not_resolved_by_chance():

@@ -9,6 +9,7 @@ from rollnip.contact.grid_solver import GridActiveSet
 from rollnip.contact.mesh import (
     Demand,
     Subdivision,
+    carry,
     cosine_nodes,
     cubic_error,
     elements_of_zones,
@@ -49,6 +50,7 @@ __all__ = [
     "Subdivision",
     "Tang",
     "Zone",
+    "carry",
     "contact_intervals",
     "contact_zones",
     "cosine_nodes",

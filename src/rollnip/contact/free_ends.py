@@ -62,16 +62,33 @@ class Layout:
         return layout if touching and not any(alike) and layout.is_proper else None
 
     @classmethod
-    def found(cls, x: Array, state: ContactState, friction: float) -> Layout | None:
-        """That of the states of nodes in one contact whose edges are nodes; None as above."""
-        touching = np.flatnonzero(state.states != FREE)
-        first, last = touching[0], touching[-1]
+    def found(
+        cls, x: Array, state: ContactState, friction: float, edges: tuple[float, float]
+    ) -> Layout | None:
+        """That of the states of nodes in one contact with known edges; None as above.
+
+        Beyond these the pressure may be negative, and what sticks there does not count.
+        """
         slack = friction * state.pressure - np.abs(state.shear)
+        touching = np.flatnonzero((state.states != FREE) & (x > edges[0]) & (x < edges[1]))
+        if touching.size == 0:
+            return None
+        first, last = touching[0], touching[-1]
         changes = [i for i in range(first, last) if state.states[i] != state.states[i + 1]]
         ends = [transition(x, slack, state.states, i) for i in changes]
-        breaks = [float(x[first - 1]), *ends, float(x[last + 1])]
+        breaks = [edges[0], *ends, edges[1]]
         states = [State(int(state.states[i])) for i in (*changes, last)]
         return cls.of(tuple(map(Zone, breaks[:-1], breaks[1:], states)))
+
+    @classmethod
+    def sticking(cls, half_width: float) -> Layout:
+        """A single zone of stick of some half-width [mm]."""
+        return cls(np.array([-half_width, half_width]), np.array([STICK], dtype=np.int8))
+
+    @property
+    def edges(self) -> tuple[float, float]:
+        """Of the contact, trailing and leading [mm]."""
+        return float(self.breaks[0]), float(self.breaks[-1])
 
     @property
     def width(self) -> float:
@@ -84,8 +101,13 @@ class Layout:
         return bool(np.all(np.isfinite(self.breaks)) and np.all(np.diff(self.breaks) > 0.0))
 
     def distance(self, other: Layout) -> float:
-        """Largest one between the breaks of two layouts of the same zones, over the width."""
-        return float(np.max(np.abs(self.breaks - other.breaks))) / other.width
+        """Largest one between the edges of two layouts of the same zones, over the width.
+
+        Or a tenth of that between transitions: figures of the nip hang on these to second order.
+        """
+        moves = np.abs(self.breaks - other.breaks)
+        moves[1:-1] *= 0.1
+        return float(np.max(moves)) / other.width
 
     @property
     def zones(self) -> tuple[Zone, ...]:

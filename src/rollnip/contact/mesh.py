@@ -79,13 +79,6 @@ class Subdivision:
     values: Array | None = None
     elements: tuple[int, ...] = ()
 
-    @property
-    def numbers(self) -> Array:
-        """Of each node subdivided: the number of its zone and the share of it before the node."""
-        parts = [np.arange(1, n + 1) / n + i for i, n in enumerate(self.elements)]
-        beyond = 1.0 / self.elements[0], len(self.elements) + 1.0 / self.elements[-1]
-        return np.concatenate([[-beyond[0], 0.0], *parts, [beyond[1]]])
-
 
 def subdivided(nodes: Array, elements: Indices) -> Subdivision:
     """Cut every element in equal steps of the node's number, but the one beyond either end.
@@ -98,6 +91,48 @@ def subdivided(nodes: Array, elements: Indices) -> Subdivision:
     counts = tuple(int(n) for n in elements)
     values = _cubic_values(counts)
     return Subdivision(values @ nodes, values, counts)
+
+
+def carry(
+    before: tuple[int, ...], after: tuple[int, ...], *, between: bool = False
+) -> Array | None:
+    """Matrix from values on cosine places to those on others of the same zones, zone by zone.
+
+    Cubic in the number of the node, so as good as tractions are between nodes.
+
+    Parameters
+    ----------
+    before, after : elements in each zone.
+    between :
+        values belong to the intervals that begin at nodes rather than to the nodes; the one
+        beyond the leading edge takes over what it had.
+
+    Returns
+    -------
+    (sum of after + 1, sum of before + 1); None where the zones are not as many, or there are none.
+    """
+    if len(before) != len(after) or not before:
+        return None
+    return _carry(before, after, between)
+
+
+@lru_cache(maxsize=128)
+def _carry(before: tuple[int, ...], after: tuple[int, ...], between: bool) -> Array:
+    out = np.zeros((sum(after) + 1, sum(before) + 1))
+    row = column = 0
+    shift = 0.5 if between else 0.0
+    for old, new in zip(before, after, strict=True):
+        places = (np.arange(new + 1) + shift) * (old / new) - shift
+        first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
+        columns = column + first[:, None] + np.arange(4)
+        out[row + np.arange(new + 1)[:, None], columns] = _cubic_weights(places - first)
+        row, column = row + new, column + old
+        if row < out.shape[0] - 1:
+            out[row] = 0.0  # shared with the next zone, which writes it
+    if between:
+        out[-1], out[-1, -1] = 0.0, 1.0
+    out.setflags(write=False)
+    return out
 
 
 def cubic_error(values: Array, elements: tuple[int, ...]) -> float:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import isnan, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactProblem, ContactState, Control
+from rollnip.contact import ContactProblem, ContactState, Control, carry
 from rollnip.geometry import (
     linear_stretch,
     rotation_stretch,
@@ -42,35 +43,48 @@ class SecondOrder:
 
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
         """The same terms on another mesh; where both have the same zones, zone by zone."""
-        if old.fine.elements == new.fine.elements != ():
-            ratio = new.dx / old.dx
+        before, after = old.fine.elements, new.fine.elements
+        nodes, intervals = carry(before, after), carry(before, after, between=True)
+        rate, offset = self.creep_length / old.dx, self.creep_offset / old.dx
+        if nodes is not None and intervals is not None:
             return replace(
                 self,
-                creep_length=self.creep_length * ratio,
-                creep_offset=self.creep_offset * ratio,
+                clearance=nodes @ self.clearance,
+                creep_length=new.dx * (intervals @ rate),
+                creep_offset=new.dx * (intervals @ offset),
             )
-        before, after = old.nodes, new.nodes
-        if len(old.fine.elements) == len(new.fine.elements) > 0:
-            before, after = old.fine.numbers, new.fine.numbers
-        middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (before, after))
-        return SecondOrder(
-            np.interp(after[1:-1], before[1:-1], self.clearance),
-            new.dx * np.interp(places, middles, self.creep_length / old.dx),
-            new.dx * np.interp(places, middles, self.creep_offset / old.dx),
-            self.traction,
-            self.lean,
+        middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
+        return replace(
+            self,
+            clearance=np.interp(new.inner, old.inner, self.clearance),
+            creep_length=new.dx * np.interp(places, middles, rate),
+            creep_offset=new.dx * np.interp(places, middles, offset),
         )
 
-    def change(self, before: SecondOrder, approach: float, strain: Array, traction: float) -> float:
-        """Largest change since ``before``, relative to an approach, strains and a traction."""
+    def change(
+        self, before: SecondOrder, creepage: float, dx: Array, scales: tuple[float, float, float]
+    ) -> float:
+        """Largest change since ``before``: of the gap, the creep per length, and the traction.
+
+        That of the creep is a root mean square: strains at the very edge follow each mesh.
+
+        Parameters
+        ----------
+        creepage : of the solution, which multiplies lengths.
+        dx : of the intervals [mm].
+        scales : an approach [mm], a strain and a traction [N/mm] to which changes are relative.
+        """
+        approach, strain, traction = scales
+        creep = self.creep_offset - before.creep_offset
+        if not isnan(creepage):
+            creep = creep + creepage * (self.creep_length - before.creep_length)
         changes = [
-            np.max(np.abs(self.clearance - before.clearance)) / max(abs(approach), 1e-300),
-            np.max(np.abs(self.creep_offset - before.creep_offset) / strain),
-            np.max(np.abs(self.creep_length - before.creep_length) / strain),
+            float(np.max(np.abs(self.clearance - before.clearance))) / approach,
+            sqrt(float(creep @ (creep / dx)) / float(dx.sum())) / strain,
         ]
         if self.traction is not None and before.traction is not None:
             changes.append(abs(self.traction - before.traction) / traction)
-        return float(np.max(changes))
+        return float(max(changes))
 
 
 def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem:

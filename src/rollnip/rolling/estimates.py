@@ -13,13 +13,32 @@ from rollnip.rolling.round import Figures, Round, creepage_scale
 from rollnip.rolling.surfaces import Array
 
 _SAFETY = 1.5  # on the estimate of the error from two meshes
+_SLOW = 1.05  # times the change that second order lets expect
 # Least relative error of each of Figures, times the square of the number of elements: measured on
 # random nips against ten times as many elements; linear elements, and cubic ones. These are of
 # higher order where tractions go as a square root at every end; where unlike surfaces stick up to
 # an edge they do not, the edge is misplaced by a share of the first element, and the order is 2.
-LINEAR = np.array([0.1, 0.5, 2.0, 2.0, 0.5])
-CUBIC = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
+_LINEAR = np.array([0.1, 0.5, 2.0, 2.0, 0.5])
+_CUBIC = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
 _CREEPAGE, _PEAK = 2, 4  # their places among Figures
+
+
+@dataclass(frozen=True, slots=True)
+class Elements:
+    """What is known of the errors that a kind of elements makes.
+
+    Attributes
+    ----------
+    least : (5,) least relative error of each of Figures, times the square of their number.
+    may_be_slow : whether errors may shrink in first order where edges are misplaced with them.
+    """
+
+    least: Array
+    may_be_slow: bool
+
+
+LINEAR = Elements(_LINEAR, may_be_slow=False)
+CUBIC = Elements(_CUBIC, may_be_slow=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -31,7 +50,7 @@ class Size:
     breaks: Array
 
 
-def estimated_error(nip: Nip, latest: Round, history: list[Size], least: Array) -> Figures:
+def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Figures:
     """Estimated error of each figure from its changes between meshes (second order).
 
     Two meshes may agree by chance. So earlier changes count too, shrunk as the order promises; no
@@ -42,12 +61,14 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], least: Array) 
     ----------
     latest : the solution on the last of the meshes.
     history : all sizes of mesh, coarsest first.
-    least : (5,) of the kind of elements, LINEAR or CUBIC.
+    kind : of elements, LINEAR or CUBIC.
     """
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return Figures(inf, inf, inf, inf, inf)
     change = _change_over(history[-2], history[-1])
+    if kind.may_be_slow and len(history) > 2:
+        change = np.maximum(change, _change_of_first_order(*history[-3:]))
     for coarse, fine in pairwise(history[:-1]):
         earlier = _change_over(coarse, fine) * (fine.count / count) ** 2
         if fine is not history[-2]:
@@ -55,7 +76,7 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], least: Array) 
         change = np.maximum(change, earlier)
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
-    floor = least * scales / count**2
+    floor = kind.least * scales / count**2
     floor[_PEAK] = max(floor[_PEAK], figures.peak_pressure - float(np.max(latest.pressure)))
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
@@ -78,6 +99,20 @@ def zone_excess(history: list[Size], tolerance: float) -> float:
 def _change_over(coarse: Size, fine: Size) -> Array:
     """Error of each figure on the finer of two meshes, from their difference."""
     return _share_left(coarse, fine) * np.abs(fine.figures.array() - coarse.figures.array())
+
+
+def _change_of_first_order(coarse: Size, middle: Size, fine: Size) -> Array:
+    """Error of the figures on the finest of three meshes that do not converge in second order.
+
+    Their last change is more than the one before it lets expect; then first order is assumed.
+    """
+    before, last = (
+        np.abs(b.figures.array() - a.figures.array()) for a, b in ((coarse, middle), (middle, fine))
+    )
+    shares = (1.0 / size.count**2 for size in (coarse, middle, fine))
+    first, second, third = shares
+    slow = last > _SLOW * before * (second - third) / (first - second)
+    return np.where(slow, last / (fine.count / middle.count - 1.0), 0.0)
 
 
 def _share_left(coarse: Size, fine: Size) -> float:

@@ -58,15 +58,16 @@ def refine(
     -------
     The last round that settled; its error may exceed the tolerance where the rounds ran out.
     """
+    attempt = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
+    if attempt.found is not None:
+        return attempt.found
     located = _located(nip, model, kernels, half_width, method)
-    too_few = 0
-    if located.settled and Layout.of(located.zones) is not None:
-        attempt = with_free_ends(nip, model, kernels, located)
+    layout = Layout.of(located.zones)
+    if located.settled and layout is not None and not attempt.knew_zones:
+        attempt = with_free_ends(nip, model, kernels, layout, located)
         if attempt.found is not None:
             return attempt.found
-        if attempt.is_overstrained:
-            return replace(located, settled=False)
-        too_few = _LINEAR_FOR_CUBIC * attempt.too_few
+    too_few = _LINEAR_FOR_CUBIC * attempt.too_few
     if _is_hopeless(located, kernels):
         return _finished(nip, model, kernels, located, method)
     return _refined(nip, model, kernels, located, method, too_few)

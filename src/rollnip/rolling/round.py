@@ -124,13 +124,16 @@ def excess(nip: Nip, latest: Round, tolerance: float) -> float:
 
 
 def creepage_scale(nip: Nip, figures: Figures) -> float:
-    """Size against which an error of the creepage is measured.
+    """Size against which an error of the creepage of a nip is measured."""
+    return scale_of_creepage(figures.creepage, 0.5 * figures.nip_width * nip.curvature)
 
-    The creepage itself, but not less than a twentieth of the slope of the gap at the edge: a
-    creepage that is zero by symmetry has no relative accuracy.
+
+def scale_of_creepage(creepage: float, slope: float) -> float:
+    """The creepage itself, but not less than a twentieth of the slope of the gap at the edge.
+
+    A creepage that is zero by symmetry has no relative accuracy.
     """
-    slope = 0.5 * figures.nip_width * nip.curvature
-    return max(abs(figures.creepage), 0.05 * slope)
+    return max(0.05 * slope, abs(creepage))  # in this order: of nan the first is taken
 
 
 def has_grip(latest: Round) -> bool:

@@ -11,7 +11,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.check import fields_between, residual
-from rollnip.rolling.round import Figures, Round, peak_pressure
+from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import NO_SECOND_ORDER, Mesh, PairKernels
 
 _MOST_TURNS = 40
@@ -35,15 +35,15 @@ def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
 
     It is small and smooth: a few updates are enough, and the last mesh is checked with its own.
     """
-    if not kernels.is_linear and (before is None or not before.settled):
-        return replace(kernels, held=NO_SECOND_ORDER)
-    return kernels if before is None else held_from(kernels, before)
+    return held_from(kernels, before if before is not None and before.settled else None)
 
 
-def held_from(kernels: PairKernels, before: Round) -> PairKernels:
-    """Influence functions with the second order of a solution, if they have one."""
+def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
+    """Influence functions with the second order of a solution, if they have one; at first none."""
     if kernels.is_linear:
         return kernels
+    if before is None:
+        return replace(kernels, held=NO_SECOND_ORDER)
     return replace(kernels, held=before.mesh.second_fields(before.state))
 
 
@@ -87,11 +87,12 @@ def change_of(
     new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState
 ) -> float:
     """Largest change of the second-order terms, relative to the first-order ones."""
-    half_nip = 0.5 * (mesh.nodes[-1] - mesh.nodes[0])
+    half_nip = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
     strain = nip.curvature * half_nip
-    scale = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
+    approach = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
     load = float(mesh.weights @ state.pressure)
-    return new.change(old, scale, strain * mesh.dx, strain * load)
+    creepage = scale_of_creepage(state.creepage, strain)
+    return new.change(old, state.creepage, mesh.dx, (approach, creepage, strain * load))
 
 
 def figures_of(mesh: Mesh, state: ContactState, zones: tuple[Zone, ...], lean: float) -> Figures:

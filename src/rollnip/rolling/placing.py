@@ -1,0 +1,238 @@
+"""The ends of zones on meshes of one size, by Newton's method; and which zones there are.
+
+Edges and transitions are at nodes, and what the first nodes beside them say moves them
+(`contact.Layout.moved`). Once they are about where they belong, a solution tells whether its zones
+are right.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf, log10
+
+import numpy as np
+
+from rollnip.contact import (
+    HeldContact,
+    Layout,
+    State,
+    cosine_nodes,
+    elements_of_zones,
+    next_states,
+    subdivided,
+)
+from rollnip.contact.problem import Indices
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rolling.assemble import first_guess, second_order
+from rollnip.rolling.check import surface_strain_in_nip
+from rollnip.rolling.round import Round
+from rollnip.rolling.surfaces import PairKernels, mesh_on
+from rollnip.rolling.turns import NEARLY_STILL, change_of, held_from, turned
+
+GIVEN = HeldContact()
+_LOOKING = HeldContact(max_steps=12)
+_MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
+_MORE_FOR_SECOND = 3  # for the second order of "finite", which is held while a mesh is solved on
+_MOST_STRAIN = 1.0  # of a surface; a result may have 0.3
+_MOST_STRAINED = 2  # meshes in succession, not counting
+_NOT_STRAINED = 2  # the first ones, whose zones are a guess
+_MOST_CHANGES = 2  # of the zones, on meshes of one size
+_MORE_FOR_CHANGE = 3  # meshes, to place the new ends
+_SLOPES = 0.5, 3.0  # of what a break is asked to move, over how far it is off
+_FAIRLY_PLACED = 0.1  # over the width of the contact: good enough to see what slips
+# Of what ends are off, from mesh to mesh, while that is not little: more is no Newton's method.
+# Nearly placed ends may be asked to go further by second-order terms that still move.
+_CONTRACTION = 1.5
+_NEARLY_PLACED = 0.02  # over the width of the contact
+_PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
+_LOOSELY = 3.0  # more of it on the first size of mesh
+_SLACK = 1e-3  # at most: shear over the bound that may be rounding; more is slip, however coarse
+_TURNS = 2  # of the second-order terms on one mesh, while ends still move
+_QUIET = 1.0  # change of these over the tolerance, for which a second order is not evaluated anew
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """Where the search stands.
+
+    Attributes
+    ----------
+    layout : where the zones are thought to be.
+    before : the last solution; None: not one yet.
+    change : of the second-order terms when the second order of "finite" was last evaluated, over
+        the tolerance.
+    expected : the same of the next time.
+    """
+
+    layout: Layout
+    before: Round | None = None
+    change: float = inf
+    expected: float = inf
+
+
+@dataclass(frozen=True, slots=True)
+class Placing:
+    """Finds the ends of zones of a nip, for one model and its influence functions."""
+
+    nip: Nip
+    model: Model
+    kernels: PairKernels
+
+    def placed(self, start: Standing, count: int, *, known: bool) -> Standing | None:
+        """The solution on a mesh of some size whose nodes lie at the ends of its zones.
+
+        Parameters
+        ----------
+        start : where the search stands.
+        count : elements, about.
+        known : whether the zones are right.
+
+        Returns
+        -------
+        None where there is no such solution; one that is not settled where strains are far too
+        large for the second order.
+        """
+        stand, off = self._renewed(start), inf
+        loosely = self.kernels.is_linear and not known
+        placed = _PLACED * self.model.tolerance * (_LOOSELY if loosely else 1.0)
+        elements: Indices | None = None
+        earlier: tuple[Layout, Layout] | None = None
+        meshes = changes = strained = 0
+        while meshes < self._most_meshes + _MORE_FOR_CHANGE * changes:
+            meshes += 1
+            layout = stand.layout
+            if elements is None:  # they stay while edges are looked for: a change would move these
+                elements = elements_of_zones(layout.breaks, count)
+            first = stand.before is None  # on whose mesh the second order is its own
+            stand, latest, asked = self._solved_on(stand, elements, placed)
+            off, off_before = asked.distance(layout), off
+            if self.kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
+                return None
+            is_placed = off <= placed
+            doubted = is_placed or (not known and off < _FAIRLY_PLACED)
+            known = known or doubted
+            is_strained = meshes > _NOT_STRAINED and not is_placed and self._strains(latest)
+            strained = strained + 1 if is_strained else 0
+            if strained == _MOST_STRAINED:
+                return replace(stand, before=replace(latest, settled=False))
+            if asked.is_proper and (not doubted or self._agrees(latest, layout, whole=is_placed)):
+                if is_placed and latest.settled:
+                    return _standing_at(asked, latest, stand)
+                stand = replace(stand, layout=_hastened(layout, asked, earlier))
+                stand = stand if first else self._renewed(stand)
+                earlier = (layout, asked) if latest.settled else None
+                continue
+            changes += 1
+            other = self._other(latest, asked if asked.is_proper else layout)
+            if other is None or changes > _MOST_CHANGES:
+                return None
+            stand, elements, earlier, off = self._renewed(other), None, None, inf
+        return None
+
+    @property
+    def _most_meshes(self) -> int:
+        most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
+        return most + (0 if self.kernels.is_linear else _MORE_FOR_SECOND)
+
+    def _renewed(self, stand: Standing) -> Standing:
+        """The second order of the last solution and what follows from it, if it still moves."""
+        before = stand.before
+        if before is None or self.kernels.is_linear or stand.expected <= _QUIET:
+            return stand
+        mesh = before.mesh.holding(held_from(self.kernels, before))
+        second = second_order(self.nip, self.model.geometry, mesh, before.state)
+        change = change_of(second, before.second, mesh, self.nip, before.state)
+        change /= self.model.tolerance
+        expected = inf if stand.change == inf else change * change / stand.change
+        return Standing(stand.layout, replace(before, mesh=mesh, second=second), change, expected)
+
+    def _solved_on(
+        self, stand: Standing, elements: Indices, placed: float
+    ) -> tuple[Standing, Round, Layout]:
+        """Solve on one mesh: the search, the solution, and where it asks the ends of zones to be.
+
+        Few turns of the second-order terms while ends still move by more than ``placed``, over the
+        width; then as many as these need.
+        """
+        layout, before = stand.layout, stand.before
+        nodes = cosine_nodes(layout.breaks, elements)
+        held = held_from(self.kernels, None) if before is None else before.mesh.kernels
+        mesh = mesh_on(nodes, held, subdivided(nodes, elements))
+        states, second, steps = layout.states_on(mesh.inner), first_guess(self.nip, mesh), 0
+        if before is not None:
+            second, steps = before.second.carried(before.mesh, mesh), before.steps
+        problem = self.nip, self.model
+        start, zones = (states, second, steps), layout.zones
+        at_first = before is None and not self.kernels.is_linear
+        most = 1 if at_first else _TURNS
+        latest = turned(*problem, mesh, start, GIVEN, NEARLY_STILL, zones, most)
+        if at_first:
+            stand = self._renewed(Standing(layout, latest))
+            assert stand.before is not None
+            start = states, stand.before.second, stand.before.steps
+            latest = turned(*problem, stand.before.mesh, start, GIVEN, NEARLY_STILL, zones, _TURNS)
+        asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
+        if not latest.settled and asked.distance(layout) <= placed:
+            start = states, latest.second, latest.steps
+            latest = turned(*problem, latest.mesh, start, GIVEN, NEARLY_STILL, zones)
+            asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
+        return replace(stand, before=latest), latest, asked
+
+    def _agrees(self, latest: Round, layout: Layout, *, whole: bool) -> bool:
+        """Whether a solution asks for the states that were given to the nodes in contact.
+
+        While the edges are not placed, not the ``whole`` is looked at, only stick and slip.
+        """
+        slack = min(self.model.tolerance, _SLACK)
+        wanted = next_states(latest.problem, latest.state, slack)
+        differs = (wanted != latest.state.states) & (latest.state.states != State.FREE)
+        differs[layout.ends(latest.problem.x)] = False  # they are as much of one zone as of another
+        if not whole:
+            differs &= wanted != State.FREE
+        return not np.any(differs)
+
+    def _other(self, latest: Round, edges: Layout) -> Standing | None:
+        """Other zones between some edges, where a solution does not agree with its own.
+
+        None where they are not others, or none that have a layout.
+        """
+        found = _LOOKING.solve(latest.problem, latest.state.states)
+        if np.array_equal(found.states, latest.state.states):
+            return None
+        layout = Layout.found(latest.problem.x, found, self.nip.friction, edges.edges)
+        if layout is None:
+            return None
+        second = second_order(self.nip, self.model.geometry, latest.mesh, found)
+        steps = latest.steps + found.steps
+        return Standing(layout, replace(latest, state=found, second=second, steps=steps))
+
+    def _strains(self, latest: Round) -> bool:
+        """Whether a surface is strained far too much for the second order of "finite"."""
+        if self.kernels.is_linear:
+            return False
+        return surface_strain_in_nip(self.nip, self.model.geometry, latest) > _MOST_STRAIN
+
+
+def _standing_at(asked: Layout, latest: Round, stand: Standing) -> Standing:
+    """A solution whose zones are where it asks them to be."""
+    figures = replace(latest.figures, nip_width=asked.width)
+    latest = replace(latest, zones=asked.zones, figures=figures)
+    return replace(stand, layout=asked, before=latest)
+
+
+def _hastened(here: Layout, asked: Layout, earlier: tuple[Layout, Layout] | None) -> Layout:
+    """Where to look next for the breaks: each by the secant through its last two places.
+
+    ``earlier``: where the breaks were on the mesh before, and where they were asked to be. Where
+    the surface does not respond as a half-plane over the first elements, say under a stiff skin,
+    breaks are asked to go too far, or not far enough.
+    """
+    if earlier is None:
+        return asked
+    steps, steps_before = asked.breaks - here.breaks, earlier[1].breaks - earlier[0].breaks
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slope = (steps_before - steps) / (here.breaks - earlier[0].breaks)
+    factor = 1.0 / np.clip(np.nan_to_num(slope, nan=1.0), *_SLOPES)
+    hastened = Layout(here.breaks + factor * steps, here.states)
+    return hastened if hastened.is_proper else asked

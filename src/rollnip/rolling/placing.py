@@ -43,8 +43,8 @@ _SLOPES = 0.5, 3.0  # of what a break is asked to move, over how far it is off
 _FAIRLY_PLACED = 0.1  # over the width of the contact: good enough to see what slips
 # Of what ends are off, from mesh to mesh, while that is not little: more is no Newton's method.
 # Nearly placed ends may be asked to go further by second-order terms that still move.
-_CONTRACTION = 1.5
-_NEARLY_PLACED = 0.02  # over the width of the contact
+_CONTRACTION = 0.7
+_NEARLY_PLACED = 0.008  # over the width of the contact
 _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
 _LOOSELY = 3.0  # more of it on the first size of mesh
 _SLACK = 1e-3  # at most: shear over the bound that may be rounding; more is slip, however coarse

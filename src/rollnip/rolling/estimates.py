@@ -13,6 +13,7 @@ from rollnip.rolling.round import Figures, Round, creepage_scale
 from rollnip.rolling.surfaces import Array
 
 _SAFETY = 1.5  # on the estimate of the error from two meshes
+_SECOND = np.full(5, 2.0)  # order of the errors of Figures
 _SLOW = 1.05  # times the change that second order lets expect
 # Least relative error of each of Figures, times the square of the number of elements: measured on
 # random nips against ten times as many elements; linear elements, and cubic ones. These are of
@@ -30,7 +31,7 @@ class Elements:
     Attributes
     ----------
     least : (5,) least relative error of each of Figures, times the square of their number.
-    may_be_slow : whether errors may shrink in first order where edges are misplaced with them.
+    may_be_slow : whether errors may shrink in first order only.
     """
 
     least: Array
@@ -66,11 +67,10 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return Figures(inf, inf, inf, inf, inf)
-    change = _change_over(history[-2], history[-1])
-    if kind.may_be_slow and len(history) > 2:
-        change = np.maximum(change, _change_of_first_order(*history[-3:]))
+    order = _order(history) if kind.may_be_slow else _SECOND
+    change = _error_over(history[-2], history[-1], order)
     for coarse, fine in pairwise(history[:-1]):
-        earlier = _change_over(coarse, fine) * (fine.count / count) ** 2
+        earlier = _error_over(coarse, fine, _SECOND) * (fine.count / count) ** 2
         if fine is not history[-2]:
             earlier[_PEAK] = 0.0  # coarse meshes do not see the peaks under a stiff skin at all
         change = np.maximum(change, earlier)
@@ -91,30 +91,36 @@ def zone_excess(history: list[Size], tolerance: float) -> float:
         return 0.0
     coarse, fine = history[-2:]
     lengths = np.diff(fine.breaks)
-    change = _share_left(coarse, fine) * np.abs(lengths - np.diff(coarse.breaks))
+    share = _share_left(coarse, fine, _SECOND[0])
+    change = share * np.abs(lengths - np.diff(coarse.breaks))
     allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
     return float(np.max(change / allowed))
 
 
-def _change_over(coarse: Size, fine: Size) -> Array:
-    """Error of each figure on the finer of two meshes, from their difference."""
-    return _share_left(coarse, fine) * np.abs(fine.figures.array() - coarse.figures.array())
+def _order(history: list[Size]) -> Array:
+    """Order in 1/elements of the error of each figure: second, or first if meshes show no better.
 
-
-def _change_of_first_order(coarse: Size, middle: Size, fine: Size) -> Array:
-    """Error of the figures on the finest of three meshes that do not converge in second order.
-
-    Their last change is more than the one before it lets expect; then first order is assumed.
+    As they do where unlike surfaces stick up to an edge: the last change is more than second order
+    lets expect of the one before.
     """
-    before, last = (
-        np.abs(b.figures.array() - a.figures.array()) for a, b in ((coarse, middle), (middle, fine))
-    )
-    shares = (1.0 / size.count**2 for size in (coarse, middle, fine))
-    first, second, third = shares
+    if len(history) < 3:
+        return _SECOND
+    before, last = (np.abs(_difference(a, b)) for a, b in pairwise(history[-3:]))
+    first, second, third = (1.0 / size.count**2 for size in history[-3:])
     slow = last > _SLOW * before * (second - third) / (first - second)
-    return np.where(slow, last / (fine.count / middle.count - 1.0), 0.0)
+    return np.where(slow, 1.0, 2.0)
 
 
-def _share_left(coarse: Size, fine: Size) -> float:
-    """Error of the finer of two meshes of second order over the difference of the two."""
-    return _SAFETY / ((fine.count / coarse.count) ** 2 - 1.0)
+def _difference(coarse: Size, fine: Size) -> Array:
+    return fine.figures.array() - coarse.figures.array()
+
+
+def _error_over(coarse: Size, fine: Size, order: Array) -> Array:
+    """Error of each figure on the finer of two meshes, from their difference."""
+    return np.abs(_difference(coarse, fine)) * _share_left(coarse, fine, order)
+
+
+def _share_left(coarse: Size, fine: Size, order: Array) -> Array:
+    """Error of the finer of two meshes of some order over the difference of the two."""
+    safety = np.where(order > 1.0, _SAFETY, 1.0)  # first order is cautious enough
+    return np.asarray(safety / ((fine.count / coarse.count) ** order - 1.0))

@@ -28,7 +28,8 @@ _FEWEST_SIZES = 2  # of meshes before an error is believed
 # too coarse for these agree on other edges.
 _FEWEST_WITH_MEMORY = 3
 _MOST_ELEMENTS = 80  # at a tolerance of 1e-3; what needs more has no smooth tractions
-_FIRST_GROWTH, _LEAST_GROWTH = 1.6, 1.35  # of the number of elements from size to size
+_FIRST_GROWTH = 1.6  # of the number of elements from size to size
+_LEAST_GROWTH, _LEAST_OF_MANY, _MANY = 1.35, 1.2, 100
 _SMOOTH = 0.06  # times the root of the tolerance: error of the cubics, over the largest traction
 _ROUGHNESS_ORDER = 1.5  # its least order in 1/elements where cubics are of use
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
@@ -101,7 +102,8 @@ def _refined(placing: Placing, stand: Standing) -> Attempt:
 
 def _next_count(count: int, ratio: float) -> int:
     """Elements that would bring the error, ``ratio`` times too large now, below the tolerance."""
-    growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), _LEAST_GROWTH)
+    least = _LEAST_GROWTH if count < _MANY else _LEAST_OF_MANY
+    growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), least)
     return int(count * growth) + 1
 
 

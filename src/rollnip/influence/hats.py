@@ -37,15 +37,16 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     What `displacement_matrix` times the tractions gives, without the matrix: (m, s) [mm]; of a
     kernel with channels (channels, m, s).
     """
-    padded = np.zeros((nodes.size, tractions.shape[1]))
-    padded[1:-1] = tractions
+    # Slopes of the tractions: those before the first and behind the last node are zero.
     slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
-    slopes[1:-1] = (padded[1:] - padded[:-1]) / (nodes[1:] - nodes[:-1])[:, None]
+    slopes[1:-2] = tractions
+    slopes[2:-1] -= tractions
+    slopes[1:-1] /= (nodes[1:] - nodes[:-1])[:, None]
     kinks = slopes[1:] - slopes[:-1]
     values = kernel.double_integral(x[:, None] - nodes[None, :])
     if values.ndim == 2:
         return np.asarray(values @ kinks)
-    return np.moveaxis(kinks.T @ values, 2, 0)[: kernel.count]
+    return (values.swapaxes(1, 2) @ kinks).swapaxes(0, 1)[: kernel.count]
 
 
 def load_weights(nodes: Array) -> Array:

@@ -84,11 +84,16 @@ class Kernel:
     @classmethod
     def stacked(cls, kernels: tuple[Kernel, ...]) -> Kernel:
         """One kernel with the channels of some kernels on the same grid, in their order."""
-        parts = [channel.coefficients for kernel in kernels for channel in kernel.channels]
-        out = np.zeros((*parts[0].shape, _filled_up(len(parts))))
-        for number, part in enumerate(parts):
-            out[:, :, number] = part
-        return cls(kernels[0].points_per_octave, kernels[0].first, out, len(parts))
+        count = sum(kernel.count for kernel in kernels)
+        first = kernels[0]
+        out = np.zeros((*first.coefficients.shape[:2], _filled_up(count)))
+        start = 0
+        for kernel in kernels:
+            stop = start + kernel.count
+            part = kernel.coefficients.reshape(*out.shape[:2], -1)
+            out[:, :, start:stop] = part[:, :, : kernel.count]
+            start = stop
+        return cls(first.points_per_octave, first.first, out, count)
 
     @property
     def channels(self) -> tuple[Kernel, ...]:

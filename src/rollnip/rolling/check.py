@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from rollnip.contact import State, Zone
-from rollnip.influence import displacement_matrix, displacement_under, strain_matrix
-from rollnip.influence.surface import SurfaceKernels
+from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import stretch_excess, surface_depths
@@ -17,8 +16,8 @@ from rollnip.rolling.surfaces import (
     Array,
     Displacements,
     PairKernels,
-    SurfaceMatrices,
     hoop_curvature,
+    pair_displacements,
 )
 
 _SUBDIVISION = 3
@@ -65,40 +64,20 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     parts = _displacements(new, kernels, final), final.mesh.displacements(final.state)
     x = np.concatenate([new, nodes[1:]])
     order = np.argsort(x)
-    names = ("x_upper", "z_upper", "x_lower", "z_lower")
-    merged = (np.concatenate([getattr(part, name) for part in parts])[order] for name in names)
-    return _fields(x[order], nip, geometry, final, Displacements(*merged))
+    four = np.concatenate([part.four for part in parts], axis=1)
+    return _fields(x[order], nip, geometry, final, Displacements(four.take(order, axis=1)))
 
 
 def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacements:
     """Displacements of both surfaces at ``x``, to the order of the model."""
     tractions = np.stack([final.pressure, final.shear], axis=1)
-    if kernels.both is not None:
-        six = displacement_under(kernels.both, x, final.nodes, tractions)
-        upper, lower = six[:3], six[3:]
-    else:
-        upper, lower = (
-            np.zeros((3, x.size, 2))
-            if surface is None
-            else displacement_under(surface.together, x, final.nodes, tractions)
-            for surface in (kernels.upper, kernels.lower)
-        )
-    linear = Displacements(*_of_surface(upper, 1.0), *_of_surface(lower, -1.0))
+    linear = Displacements.under(pair_displacements(kernels, x, final.nodes, tractions))
     if kernels.is_linear:
         return linear
     held = kernels.held
     if held is None:
         held = kernels.second_fields(final.nodes, final.pressure, final.shear)
     return linear + held.at(x)
-
-
-def _of_surface(made: Array, sign: float) -> tuple[Array, Array]:
-    """u_x and u_z of a surface that sees the shear with a sign.
-
-    ``made``, (3, n, 2): the parts by the functions xx, zz, xz, of the pressure and of the shear.
-    """
-    (_, xx), (zz, _), (xz, zx) = made.transpose(0, 2, 1)
-    return xz + sign * xx, zz - sign * zx
 
 
 def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacements) -> Fields:
@@ -239,14 +218,12 @@ def surface_strain(
     roller, surface = (nip.upper, kernels.upper) if upper else (nip.lower, kernels.lower)
     if surface is None:
         return np.zeros(x.size)
-    slopes, values = _slopes_and_values(surface, x, final.nodes)
-    sign = 1.0 if upper else -1.0
-    p, q = final.pressure, sign * final.shear
-    strain, slope = slopes.under(p, q)
+    p, q = final.pressure, final.shear if upper else -final.shear
+    strain, slope = _of_surface(strain_matrix(surface.together, x, final.nodes), p, q)
     if geometry not in ("curved", "finite"):
         return strain
     hoop = hoop_curvature(roller, geometry)
-    u_x, u_z = values.under(p, q)
+    u_x, u_z = _of_surface(displacement_matrix(surface.together, x, final.nodes), p, q)
     response = kernels.second_upper if upper else kernels.second_lower
     if response is None:
         return strain - hoop * u_z + 0.5 * (slope + hoop * u_x) ** 2
@@ -255,9 +232,7 @@ def surface_strain(
     return np.asarray(present / (1.0 - strain - along(x, 1)) - 1.0)
 
 
-def _slopes_and_values(
-    surface: SurfaceKernels, x: Array, nodes: Array
-) -> tuple[SurfaceMatrices, SurfaceMatrices]:
-    slopes = SurfaceMatrices(strain_matrix(surface.together, x, nodes), x.size)
-    values = SurfaceMatrices(displacement_matrix(surface.together, x, nodes), x.size)
-    return slopes, values
+def _of_surface(per_traction: Array, pressure: Array, shear: Array) -> tuple[Array, Array]:
+    """u_x and u_z, or slopes, of a surface; ``per_traction``, (3, n, N-1): by xx, zz and xz."""
+    xx, zz, xz = per_traction
+    return xz @ pressure + xx @ shear, zz @ pressure - xz @ shear

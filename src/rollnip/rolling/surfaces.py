@@ -29,6 +29,59 @@ Field = Callable[[Array], Array]
 
 
 @dataclass(frozen=True, slots=True)
+class Displacements:
+    """Displacements of both surfaces, each in its own frame, at n points.
+
+    Attributes
+    ----------
+    four : (4, n) u_x and u_z of the upper, u_x and u_z of the lower surface [mm].
+    """
+
+    four: Array
+
+    @property
+    def x_upper(self) -> Array:
+        """u_x of the upper surface, (n,) [mm]."""
+        return np.asarray(self.four[0])
+
+    @property
+    def z_upper(self) -> Array:
+        """u_z of the upper surface, (n,) [mm]."""
+        return np.asarray(self.four[1])
+
+    @property
+    def x_lower(self) -> Array:
+        """u_x of the lower surface, (n,) [mm]."""
+        return np.asarray(self.four[2])
+
+    @property
+    def z_lower(self) -> Array:
+        """u_z of the lower surface, (n,) [mm]."""
+        return np.asarray(self.four[3])
+
+    def __add__(self, other: Displacements) -> Displacements:
+        return Displacements(self.four + other.four)
+
+    def but_last(self) -> Displacements:
+        """At all points but the last."""
+        return Displacements(self.four[:, :-1])
+
+    @classmethod
+    def under(cls, made: Array) -> Displacements:
+        """Under the tractions of a solution: (q, p) on the upper surface, (-q, p) on the lower.
+
+        ``made``, (6, n, 2): what its p and its q make by each function of `pair_displacements`.
+        """
+        xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = made
+        four = np.empty((4, made.shape[1]))
+        np.add(xz_u[:, 0], xx_u[:, 1], out=four[0])
+        np.subtract(zz_u[:, 0], xz_u[:, 1], out=four[1])
+        np.subtract(xz_l[:, 0], xx_l[:, 1], out=four[2])
+        np.add(zz_l[:, 0], xz_l[:, 1], out=four[3])
+        return cls(four)
+
+
+@dataclass(frozen=True, slots=True)
 class SecondFields:
     """Second-order displacements of both surfaces under given tractions, as functions of x.
 
@@ -43,12 +96,11 @@ class SecondFields:
 
     def at(self, x: Array) -> Displacements:
         """Displacements at some places."""
-        return Displacements(
-            *(
-                np.zeros(x.size) if f is None else np.asarray(f(np.clip(x, *ends)))
-                for f, ends in zip(self.functions, self.ends, strict=True)
-            )
-        )
+        four = np.zeros((4, x.size))
+        for row, f, ends in zip(four, self.functions, self.ends, strict=True):
+            if f is not None:
+                row[:] = f(np.clip(x, *ends))
+        return Displacements(four)
 
 
 NO_SECOND_ORDER = SecondFields((None,) * 4, ((0.0, 0.0),) * 4)
@@ -65,16 +117,22 @@ class PairKernels:
     held : second-order displacements to use whatever the tractions; None: always those of the
         tractions at hand.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
-    both : the influence functions of both as channels of one kernel; None where one is rigid.
+    together : xx, zz and xz of the upper, then of the lower surface, as channels of one kernel;
+        without those of a rigid one.
     """
 
     upper: SurfaceKernels | None
     lower: SurfaceKernels | None
+    together: Kernel
     second_upper: SecondResponse | None = None
     second_lower: SecondResponse | None = None
     held: SecondFields | None = None
     hoops: tuple[float, float] = (0.0, 0.0)
-    both: Kernel | None = None
+
+    @property
+    def moving(self) -> slice:
+        """Places of the channels of ``together`` among those of both surfaces."""
+        return slice(0 if self.upper else 3, 6 if self.lower else 3)
 
     @property
     def is_linear(self) -> bool:
@@ -104,10 +162,9 @@ def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None)
         for roller in (nip.upper, nip.lower)
     )
     hoops = hoop_curvature(nip.upper, geometry), hoop_curvature(nip.lower, geometry)
-    both = None
-    if upper is not None and lower is not None:
-        both = Kernel.stacked((upper.xx, upper.zz, upper.xz, lower.xx, lower.zz, lower.xz))
-    return PairKernels(upper, lower, hoops=hoops, both=both)
+    parts = [surface.together for surface in (upper, lower) if surface is not None]
+    together = parts[0] if len(parts) == 1 else Kernel.stacked((parts[0], parts[1]))
+    return PairKernels(upper, lower, together, hoops=hoops)
 
 
 def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
@@ -129,81 +186,6 @@ def with_second_order(
 
 
 @dataclass(frozen=True, slots=True)
-class SurfaceMatrices:
-    """Displacements of one surface at some points per nodal traction of its own frame.
-
-    u_x = xx t_x + xz t_z and u_z = -xz t_x + zz t_z.
-
-    Attributes
-    ----------
-    stack : (3, points, N-1) xx, zz and xz [mm/MPa]; None: a rigid surface.
-    count : points.
-    """
-
-    stack: Array | None
-    count: int
-
-    @property
-    def xx(self) -> Array:
-        """(points, N-1) [mm/MPa]; not of a rigid surface."""
-        assert self.stack is not None
-        return np.asarray(self.stack[0])
-
-    @property
-    def zz(self) -> Array:
-        """(points, N-1) [mm/MPa]; not of a rigid surface."""
-        assert self.stack is not None
-        return np.asarray(self.stack[1])
-
-    @property
-    def xz(self) -> Array:
-        """(points, N-1) [mm/MPa]; not of a rigid surface."""
-        assert self.stack is not None
-        return np.asarray(self.stack[2])
-
-    def under(self, pressure: Array, shear: Array) -> tuple[Array, Array]:
-        """u_x and u_z under nodal tractions of the surface's own frame, each (points,) [mm]."""
-        if self.stack is None:
-            return np.zeros(self.count), np.zeros(self.count)
-        tractions = np.empty((pressure.size, 2))
-        tractions[:, 0], tractions[:, 1] = pressure, shear
-        made = self.stack.reshape(-1, pressure.size) @ tractions
-        (_, xx), (zz, _), (xz, zx) = made.reshape(3, self.count, 2).transpose(0, 2, 1)
-        return xz + xx, zz - zx
-
-
-@dataclass(frozen=True, slots=True)
-class Displacements:
-    """Displacements of both surfaces, each in its own frame, at some points [mm]."""
-
-    x_upper: Array
-    z_upper: Array
-    x_lower: Array
-    z_lower: Array
-
-    def __add__(self, other: Displacements) -> Displacements:
-        return Displacements(
-            self.x_upper + other.x_upper,
-            self.z_upper + other.z_upper,
-            self.x_lower + other.x_lower,
-            self.z_lower + other.z_lower,
-        )
-
-    def but_last(self) -> Displacements:
-        """At all points but the last."""
-        return Displacements(
-            self.x_upper[:-1], self.z_upper[:-1], self.x_lower[:-1], self.z_lower[:-1]
-        )
-
-    @classmethod
-    def under(
-        cls, upper: SurfaceMatrices, lower: SurfaceMatrices, pressure: Array, shear: Array
-    ) -> Displacements:
-        """Under the tractions of a solution: (q, p) on the upper surface, (-q, p) on the lower."""
-        return cls(*upper.under(pressure, shear), *lower.under(pressure, -shear))
-
-
-@dataclass(frozen=True, slots=True)
 class Mesh:
     """Nodes, and what the surfaces do at nodes[1:] under unit tractions at nodes[1:-1].
 
@@ -211,7 +193,10 @@ class Mesh:
     ----------
     nodes : (N+1,) [mm].
     fine : nodes between which the tractions are linear.
-    upper, lower : displacements of either surface.
+    inner : (N-1,) nodes that carry tractions [mm].
+    dx : (N-1,) lengths of the intervals between nodes[1:] [mm].
+    weights : (N-1,) load of each nodal traction [mm].
+    per_traction : (6, N, N-1) displacements of both surfaces, see `pair_displacements` [mm/MPa].
     influence : what a contact problem on these nodes makes of them.
     kernels : the influence functions they come from.
     held : second-order displacements at nodes[1:] that the kernels hold; None: they hold none.
@@ -219,28 +204,13 @@ class Mesh:
 
     nodes: Array
     fine: Subdivision
-    upper: SurfaceMatrices
-    lower: SurfaceMatrices
+    inner: Array
+    dx: Array
+    weights: Array
+    per_traction: Array
     influence: Array
     kernels: PairKernels
     held: Displacements | None
-
-    @property
-    def inner(self) -> Array:
-        """Nodes that carry tractions, (N-1,) [mm]."""
-        return self.nodes[1:-1]
-
-    @property
-    def dx(self) -> Array:
-        """Lengths of the intervals between nodes[1:], (N-1,) [mm]."""
-        return self.nodes[2:] - self.nodes[1:-1]
-
-    @property
-    def weights(self) -> Array:
-        """Load of each nodal traction, (N-1,) [mm]."""
-        fine = load_weights(self.fine.nodes)
-        values = self.fine.values
-        return fine if values is None else np.asarray(fine @ values[1:-1, 1:-1])
 
     def between(self, traction: Array) -> Array:
         """A traction at nodes[1:-1] as its values at the finer nodes, without both ends."""
@@ -259,8 +229,7 @@ class Mesh:
         values = self.fine.values
         if values is None:
             return u
-        four = np.stack([u.x_upper, u.z_upper, u.x_lower, u.z_lower], axis=1)
-        return Displacements(*np.ascontiguousarray((values[1:, 1:] @ four).T))
+        return Displacements(u.four @ values[1:, 1:].T)
 
     def sums(self, pieces: Array) -> Array:
         """Over the intervals of nodes[1:], of what belongs to those of the finer nodes."""
@@ -268,7 +237,9 @@ class Mesh:
 
     def linear(self, state: ContactState) -> Displacements:
         """Displacements at nodes[1:], linear in the tractions."""
-        return Displacements.under(self.upper, self.lower, state.pressure, state.shear)
+        tractions = np.empty((self.inner.size, 2))
+        tractions[:, 0], tractions[:, 1] = state.pressure, state.shear
+        return Displacements.under(self.per_traction @ tractions)
 
     def displacements(self, state: ContactState) -> Displacements:
         """Displacements at nodes[1:], to the order of the model."""
@@ -308,87 +279,93 @@ def mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision | None = None)
     Without ``fine`` tractions are linear between the nodes themselves.
     """
     fine = Subdivision(nodes) if fine is None else fine
-    upper, lower = pair_matrices(kernels, nodes[1:], fine)
-    influence = _influence(nodes, fine, upper, lower, kernels.hoops)
-    return Mesh(nodes, fine, upper, lower, influence, kernels, _held_at(nodes, kernels))
+    unit = None if fine.values is None else fine.values[1:-1, 1:-1]
+    weights = load_weights(fine.nodes)
+    inner = nodes[1:-1]
+    per_traction = pair_displacements(kernels, nodes[1:], fine.nodes, unit)
+    return Mesh(
+        nodes=nodes,
+        fine=fine,
+        inner=inner,
+        dx=nodes[2:] - inner,
+        weights=weights if unit is None else weights @ unit,
+        per_traction=per_traction,
+        influence=_influence(nodes, fine, per_traction, kernels.hoops),
+        kernels=kernels,
+        held=_held_at(nodes, kernels),
+    )
 
 
 def _held_at(nodes: Array, kernels: PairKernels) -> Displacements | None:
     return None if kernels.held is None else kernels.held.at(nodes[1:])
 
 
-def pair_matrices(
-    kernels: PairKernels, points: Array, fine: Subdivision
-) -> tuple[SurfaceMatrices, SurfaceMatrices]:
-    """Displacements of both surfaces at ``points`` per unit traction at the nodes subdivided."""
-    if kernels.both is not None:
-        six = _displacements_per(kernels.both, points, fine)
-        return SurfaceMatrices(six[:3], points.size), SurfaceMatrices(six[3:], points.size)
-    upper, lower = (
-        SurfaceMatrices(
-            None if surface is None else _displacements_per(surface.together, points, fine),
-            points.size,
-        )
-        for surface in (kernels.upper, kernels.lower)
-    )
-    return upper, lower
+def pair_displacements(
+    kernels: PairKernels, x: Array, nodes: Array, tractions: Array | None = None
+) -> Array:
+    """Displacements of both surfaces at ``x`` (m,) under tractions that are linear between nodes.
 
+    Of each surface u_x = xx t_x + xz t_z and u_z = -xz t_x + zz t_z in its own frame.
 
-def _displacements_per(kernel: Kernel, points: Array, fine: Subdivision) -> Array:
-    """Displacement at ``points`` per unit traction at the inner nodes subdivided, by channel."""
-    if fine.values is None:
-        return displacement_matrix(kernel, points, fine.nodes)
-    return displacement_under(kernel, points, fine.nodes, fine.values[1:-1, 1:-1])
+    Parameters
+    ----------
+    tractions : (N-1, s) sets of values at nodes[1:-1]; None: a unit value at each of these.
+
+    Returns
+    -------
+    (6, m, s) by xx, zz, xz of the upper, then of the lower surface; a rigid one does not move.
+    """
+    kernel = kernels.together
+    if tractions is None:
+        made = displacement_matrix(kernel, x, nodes)
+    else:
+        made = displacement_under(kernel, x, nodes, tractions)
+    if kernel.count == 6:
+        return made
+    six = np.zeros((6, *made.shape[1:]))
+    six[kernels.moving] = made
+    return six
 
 
 def _influence(
-    nodes: Array,
-    fine: Subdivision,
-    upper: SurfaceMatrices,
-    lower: SurfaceMatrices,
-    hoops: tuple[float, float],
+    nodes: Array, fine: Subdivision, per_traction: Array, hoops: tuple[float, float]
 ) -> Array:
     """Gap and creep per nodal pressure and shear (theory section 5), `ContactProblem.influence`.
 
-    The creep of an interval is the upper less the lower int (du_x/dx - u_z/R) dx.
+    The creep of an interval is the upper less the lower int (du_x/dx - u_z/R) dx. The pressure is
+    the same on both surfaces, the shear the opposite.
     """
+    xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = per_traction
     n = nodes.size - 2
-    out = np.zeros((2 * n, 2 * n))
-    integrals = _integrals(nodes, fine) if any(hoops) and fine.values is not None else None
-    # The pressure is the same on both surfaces, the shear the opposite.
-    for surface, hoop, sign in ((upper, hoops[0], 1.0), (lower, hoops[1], -1.0)):
-        if surface.stack is None:
-            continue
-        xx, zz, xz = surface.stack
-        out[:n, :n] += zz[:-1]
-        out[:n, n:] -= sign * xz[:-1]
-        out[n:, :n] += sign * (xz[1:] - xz[:-1])
-        out[n:, n:] += xx[1:] - xx[:-1]
-        if hoop:
-            out[n:, :n] -= sign * hoop * _integrated(nodes, zz, integrals)
-            out[n:, n:] += hoop * _integrated(nodes, xz, integrals)
+    out, ahead = np.empty((2 * n, 2 * n)), np.empty((n + 1, 2 * n))
+    np.add(zz_u[:-1], zz_l[:-1], out=out[:n, :n])
+    np.subtract(xz_l[:-1], xz_u[:-1], out=out[:n, n:])
+    np.subtract(xz_u, xz_l, out=ahead[:, :n])
+    np.add(xx_u, xx_l, out=ahead[:, n:])
+    np.subtract(ahead[1:], ahead[:-1], out=out[n:])
+    if any(hoops):
+        shorter = np.empty(ahead.shape)
+        np.subtract(hoops[0] * zz_u, hoops[1] * zz_l, out=shorter[:, :n])
+        np.add(hoops[0] * xz_u, hoops[1] * xz_l, out=shorter[:, n:])
+        np.negative(shorter[:, n:], out=shorter[:, n:])
+        out[n:] -= _integrated(nodes, fine, shorter)
     return out
 
 
-def _integrals(nodes: Array, fine: Subdivision) -> Array:
-    """Int f dx over each interval of nodes[1:] per value of f there, (N-1, N) [mm]."""
-    assert fine.values is not None
-    values = fine.values[1:, 1:]
-    dx = np.diff(fine.nodes[1:])[:, None]
-    return _sums(nodes, fine, 0.5 * dx * (values[1:] + values[:-1]))
-
-
-def _integrated(nodes: Array, values: Array, integrals: Array | None) -> Array:
+def _integrated(nodes: Array, fine: Subdivision, values: Array) -> Array:
     """Int f dx over each interval of nodes[1:] of functions with ``values`` there, (N, n)."""
-    if integrals is not None:
-        return np.asarray(integrals @ values)
-    dx = (nodes[2:] - nodes[1:-1])[:, None]
-    return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
+    if fine.values is None:
+        dx = (nodes[2:] - nodes[1:-1])[:, None]
+        return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
+    finer = fine.values[1:, 1:]
+    dx = np.diff(fine.nodes[1:])[:, None]
+    return np.asarray(_sums(nodes, fine, 0.5 * dx * (finer[1:] + finer[:-1])) @ values)
 
 
 def _sums(nodes: Array, fine: Subdivision, pieces: Array) -> Array:
     """Sums over the intervals of nodes[1:] of what belongs to those of the finer nodes."""
     if fine.values is None:
         return pieces
-    starts = np.searchsorted(fine.nodes[1:-1], nodes[1:-1] - 1e-12 * (nodes[-1] - nodes[0]))
-    return np.asarray(np.add.reduceat(pieces, starts, axis=0))
+    # As many in each interval, but the one beyond the last break has not been cut.
+    last = fine.nodes.size - 3
+    return np.asarray(np.add.reduceat(pieces, np.arange(0, last + 1, last // (nodes.size - 3))))

@@ -22,10 +22,11 @@ from rollnip.contact.problem import (
     Indices,
     Mask,
     States,
-    creep,
-    gap,
+    gap_and_creep,
     shear_signs,
 )
+
+_TINY = np.finfo(float).tiny
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,8 +69,8 @@ def solve_states(problem: ContactProblem, states: States) -> ContactState:
     numpy.linalg.LinAlgError
         where the states leave the system singular.
     """
-    contact = np.flatnonzero(states != FREE)
-    stick = np.flatnonzero(states == STICK) if problem.friction > 0.0 else contact[:0]
+    (contact,) = (states != FREE).nonzero()
+    stick = (states == STICK).nonzero()[0] if problem.friction > 0.0 else contact[:0]
     signs = shear_signs(states)
     unknowns = _solved(*_system(problem, contact, stick, signs))
     n_c, n_s = contact.size, stick.size
@@ -105,30 +106,26 @@ def _system(
 ) -> tuple[Array, Array]:
     """Rows: gap 0 in contact, creep 0 in stick, load or approach, traction or creepage."""
     n_c, size, n = contact.size, contact.size + stick.size, problem.x.size
-    sticking = n + stick
-    rows = np.concatenate([contact, sticking])
+    rows = np.concatenate([contact, n + stick])
+    ratio = problem.friction * signs
     influence = problem.influence.take(rows, axis=0)
-    matrix = np.zeros((size + 2, size + 2))
+    if stick.size < n_c:  # where nodes slip the shear comes with the pressure
+        influence[:, :n] += influence[:, n:] * ratio
+    matrix, right = np.zeros((size + 2, size + 2)), np.zeros(size + 2)
     matrix[:size, :size] = influence.take(rows, axis=1)
-    ratio = problem.friction * signs[contact]
-    slip = np.flatnonzero(ratio)
-    if slip.size:
-        matrix[:size, slip] += influence.take(n + contact[slip], axis=1) * ratio[slip]
-    normal, tangential = slice(0, n_c), slice(n_c, size)
-    right = np.zeros(size + 2)
-    matrix[normal, -2] = -1.0
-    right[normal] = -problem.clearance[contact]
-    matrix[tangential, -1] = problem.creep_length[stick]
-    right[tangential] = -problem.creep_offset[stick]
-    control = problem.control
+    matrix[:n_c, -2] = -1.0
+    right[:n_c] = -problem.clearance[contact]
+    matrix[n_c:size, -1] = problem.creep_length[stick]
+    right[n_c:size] = -problem.creep_offset[stick]
+    control, weights = problem.control, problem.weights[contact]
     if control.load is not None:
-        matrix[-2, normal] = problem.weights[contact]
+        matrix[-2, :n_c] = weights
         right[-2] = control.load
     else:
         matrix[-2, -2], right[-2] = 1.0, control.approach
     if control.traction is not None and problem.friction > 0.0:
-        matrix[-1, normal] = problem.weights[contact] * ratio
-        matrix[-1, tangential] = problem.weights[stick]
+        matrix[-1, :n_c] = weights * ratio[contact]
+        matrix[-1, n_c:size] = problem.weights[stick]
         right[-1] = control.traction
     else:
         matrix[-1, -1], right[-1] = 1.0, control.creepage or 0.0
@@ -137,29 +134,28 @@ def _system(
 
 def next_states(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
     """States that the signs of gap, pressure, creep and shear ask for."""
-    states = solution.states
-    out = states.copy()
+    states, pressure = solution.states, solution.pressure
+    depth, drift = gap_and_creep(problem, solution)
+    scale = np.abs(problem.clearance).max() + abs(solution.approach)
+    largest = np.abs(pressure).max()
     in_contact = states != FREE
-    depth = gap(problem, solution)
-    scale = np.max(np.abs(problem.clearance)) + abs(solution.approach)
-    largest = np.max(np.abs(solution.pressure), initial=0.0)
-    out[in_contact & (solution.pressure < -rounding * largest)] = FREE
-    out[~in_contact & (depth < -rounding * scale)] = STICK
+    kept: Mask = np.where(in_contact, pressure >= -rounding * largest, depth < -rounding * scale)
     if problem.friction == 0.0:
-        return out
-    kept = out != FREE
-    bound = problem.friction * np.maximum(solution.pressure, 0.0)
+        return np.asarray(np.where(kept, np.maximum(states, STICK), FREE), dtype=np.int8)
     # The shear that would bring the creep to zero, were its own node the only one to change: it
     # tells a slipping node apart that should stick from one that should slip the other way.
-    own = np.minimum(problem.creep_shear.diagonal(), -np.finfo(float).tiny)
-    sought = solution.shear - creep(problem, solution) / own
+    own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
+    sought = solution.shear - drift / own
+    bound = problem.friction * np.maximum(pressure, 0.0)
     # Within rounding a node keeps its state.
     slack = rounding * problem.friction * largest
-    out[kept] = STICK
-    out[kept & (sought > bound + np.where(states == SLIP_PLUS, -slack, slack))] = SLIP_PLUS
-    out[kept & (sought < -bound - np.where(states == SLIP_MINUS, -slack, slack))] = SLIP_MINUS
+    plus = sought > bound + np.where(states == SLIP_PLUS, -slack, slack)
+    minus = sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)
+    out: States = kept.astype(np.int8)  # 1: STICK
+    out[kept & plus] = SLIP_PLUS
+    out[kept & minus] = SLIP_MINUS
     new = kept & ~in_contact
-    if np.any(new):
+    if new.any():
         out[new] = _nearest_state(states, in_contact)[new]
     return out
 
@@ -181,9 +177,9 @@ def _nearest_state(states: States, in_contact: Mask) -> States:
 def _ensure_solvable(problem: ContactProblem, states: States) -> States:
     """Keep one node in contact, and one in stick where the creepage is sought."""
     states = states.copy()
-    if not np.any(states != FREE):
+    if not states.any():
         states[np.argmin(problem.clearance)] = STICK
-    if problem.control.traction is not None and not np.any(states == STICK):
+    if problem.control.traction is not None and not (states == STICK).any():
         # Material sticks first where it comes in: the leading edge.
         states[np.flatnonzero(states != FREE)[-1]] = STICK
     return states
@@ -197,7 +193,7 @@ def _gentler(states: States, wanted: States, solution: ContactState) -> States:
     """
     out = states.copy()
     torn = (states == STICK) & (wanted == FREE)
-    if np.any(torn):
+    if torn.any():
         slip = np.where(solution.shear > 0.0, SLIP_PLUS, SLIP_MINUS)
         out[torn] = slip[torn]
         return out

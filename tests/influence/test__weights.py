@@ -1,9 +1,5 @@
 """Filon weights against integrals in many digits."""
 
-import platform
-import subprocess
-import sys
-
 import mpmath as mp
 import numpy as np
 import pytest
@@ -155,33 +151,3 @@ def test_order_of_convergence(nodes):
     """Collocation of degree nodes - 1: order ``nodes`` about, as panels are cut in four."""
     coarse, fine = error_of(nodes, 2), error_of(nodes, 8)
     assert 0.5 * np.log2(coarse / fine) > nodes - 1.0
-
-
-@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="other C libraries keep memory")
-def test_memory_of_meshes_is_kept():
-    """After a table is made, arrays of a mesh come without a page from the system.
-
-    In a process of its own: what was freed before in this one counts, too.
-    """
-    code = """
-import resource
-import numpy as np
-from rollnip.influence._weights import transform_matrix
-
-def pages():
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-    for _ in range(20):
-        np.ones(100_000) + np.ones(100_000)
-    return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before
-
-first = pages()
-transform_matrix((-3, 3), (-1, 1), (8, 1), 14)
-pages()
-print(first, pages())
-"""
-    printed = subprocess.run(
-        [sys.executable, "-c", code], check=True, capture_output=True, text=True
-    ).stdout
-    first, then = (int(number) for number in printed.split())
-    assert first > 1000  # three arrays of 0.8 MB, 4 kB at a time, but for what is kept
-    assert then < 20

@@ -149,7 +149,6 @@ def transform_matrix(
     F_r(+-x) = even @ Re C +- odd @ Im C. The samples are C on the panel from 0 to w_0 less its
     limit A_c/w, C on all further panels, then A_c and A = w_c C(w_c).
     """
-    _keep_freed_memory()
     n, s = per_octave
     panels = np.arange(octaves[0] * s, octaves[1] * s)
     log_x = np.arange(points[0] * n, points[1] * n + 1) / n
@@ -173,7 +172,7 @@ def transform_matrix(
 
 
 @lru_cache(maxsize=1)
-def _keep_freed_memory() -> None:
+def keep_freed_memory() -> None:
     """Let the C library keep the memory of arrays that are freed, for the next ones.
 
     That of Linux gives blocks above a threshold back to the system, which hands them out again

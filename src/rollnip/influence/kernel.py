@@ -241,6 +241,36 @@ def tabulate(
     return Kernel(_POINTS_PER_OCTAVE, first, _hermite(means), limit.size)
 
 
+def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
+    """The table of elastic half-spaces, whose influence functions are known in closed form.
+
+    Parameters
+    ----------
+    window :
+        lengths to cover.
+    even, odd :
+        for each channel the A and the B of C = (A + i B)/w at w > 0. Then
+        G = -A/pi (ln|x| + Euler's constant) - B/2 sign(x), with the constant of `tabulate`.
+
+    Returns
+    -------
+    Kernel with a channel for each.
+    """
+    points = np.arange(
+        window.points[0] * _POINTS_PER_OCTAVE, window.points[1] * _POINTS_PER_OCTAVE + 1
+    )
+    step = log(2.0) / _POINTS_PER_OCTAVE
+    cells = points.size + 1
+    out = np.zeros((6, 2 * cells, _filled_up(even.size)))
+    # F_2 of ln|x| is ln|x| - 3/2, of the sign the sign; the outer cells go on beyond the grid.
+    start = step * (points[0] - 1 + np.arange(cells)) + np.euler_gamma - 1.5
+    level, slope = np.multiply.outer(start, -even / np.pi), -step * even / np.pi
+    out[0, :cells, : even.size] = level[::-1] + 0.5 * odd
+    out[0, cells:, : even.size] = level - 0.5 * odd
+    out[1, :, : even.size] = slope
+    return Kernel(_POINTS_PER_OCTAVE, int(points[0]), out, even.size)
+
+
 def _sample(
     compliance: Compliance, window: Window, per_octave: int, nodes: int
 ) -> tuple[ComplexArray, float]:

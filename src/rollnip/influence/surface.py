@@ -9,8 +9,8 @@ from math import inf, isinf
 import numpy as np
 
 from rollnip.compliance import flat_compliance, half_space_limit, ring_compliance
-from rollnip.influence._weights import ComplexArray
-from rollnip.influence.kernel import Array, Kernel, Window, tabulate
+from rollnip.influence._weights import ComplexArray, keep_freed_memory
+from rollnip.influence.kernel import Array, Kernel, Window, half_space_kernel, tabulate
 from rollnip.materials import Material
 from rollnip.rollers import Roller
 
@@ -93,12 +93,16 @@ def surface_kernels(
     tolerance :
         relative accuracy of the inverse transform.
     """
+    keep_freed_memory()  # what comes next evaluates these on meshes
     core = roller.core
     low: tuple[complex, complex, complex] = (0.0, 0.0, 0.0)
     if core is not None:
         lowest = np.array([2.0 ** (window.octaves[0] - 60)])
         modulus = moduli(core, lowest, speed)
         a, b = half_space_limit(modulus, core.poisson)
+        if core.is_elastic and not roller.layers:
+            even, odd = np.array([a[0], a[0], 0.0]), np.array([0.0, 0.0, b[0]])
+            return SurfaceKernels(half_space_kernel(window, even, odd))
         low = (complex(a[0]), complex(a[0]), 1j * complex(b[0]))
     together = tabulate(
         surface_compliance(roller, speed, geometry), window, low_limit=low, tolerance=tolerance

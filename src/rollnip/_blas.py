@@ -16,22 +16,32 @@ from typing import Any
 from threadpoolctl import ThreadpoolController
 
 _lock = Lock()
-_inside: list[Any] = []  # one entry for each caller that is inside, the first holds the limits
+_inside: list[Any] = []  # one entry for each caller that is inside, the first what there was
 
 
 @contextmanager
 def one_blas_thread() -> Iterator[None]:
     """Limit the BLAS libraries to one thread; the last to leave gives back what they had."""
     with _lock:
-        _inside.append(None if _inside else _libraries().limit(limits=1))
+        _inside.append(None if _inside else _limited())
     try:
         yield
     finally:
         with _lock:
-            limits = next(limit for limit in _inside if limit is not None)
+            had = _inside[0]
             _inside.pop()
             if not _inside:
-                limits.restore_original_limits()
+                for library, threads in had:
+                    library.set_num_threads(threads)
+
+
+def _limited() -> list[tuple[Any, int]]:
+    """Each library, limited now, with the threads that it had."""
+    # The limits of threadpoolctl itself read the version of each library in each call.
+    had = [(library, library.num_threads) for library in _libraries().lib_controllers]
+    for library, _ in had:
+        library.set_num_threads(1)
+    return had
 
 
 @cache

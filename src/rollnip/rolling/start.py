@@ -10,7 +10,12 @@ from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.surfaces import Array, PairKernels
 
 _CANDIDATES = np.geomspace(1e-9, 1.0, 40)  # half-widths, of the smaller radius
+# An elliptic pressure of half-width 1 on some nodes, by its changes of slope there; how far the
+# nodes are from the centre and from an edge.
 _ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 25)
+_SLOPES = np.pad(np.diff(np.cos(_ANGLES)) / np.diff(np.sin(_ANGLES)), 1)
+_KINKS = np.diff(_SLOPES)
+_DISTANCES = np.array([0.0, 1.0])[:, None] - np.sin(_ANGLES)
 
 
 def half_width_guess(nip: Nip, kernels: PairKernels) -> float:
@@ -50,11 +55,6 @@ def _normal_kernel(kernels: PairKernels) -> Kernel:
 
 def _elliptic_displacements(kernel: Kernel, half_widths: Array) -> tuple[Array, Array]:
     """u_z at the centre and the edge under p = sqrt(1 - x^2/a^2), for each a [mm/MPa]."""
-    nodes, pressure = np.sin(_ANGLES), np.cos(_ANGLES)
-    # The changes of slope of the pressure for a = 1; u is the sum of changes * int int G.
-    slopes = np.zeros(nodes.size + 1)
-    slopes[1:-1] = (pressure[1:] - pressure[:-1]) / (nodes[1:] - nodes[:-1])
-    distances = np.array([0.0, 1.0])[:, None] - nodes
-    values = kernel.double_integral(np.multiply.outer(half_widths, distances))
-    centre, edge = (values @ (slopes[1:] - slopes[:-1])).T / half_widths
+    values = kernel.double_integral(np.multiply.outer(half_widths, _DISTANCES))
+    centre, edge = (values @ _KINKS).T / half_widths
     return centre, edge

@@ -100,7 +100,7 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
 
 def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
     """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval."""
-    dx = np.diff(x)
+    dx = x[1:] - x[:-1]
     upper = stretch_excess(x, nip, geometry, u, side="upper")
     lower = stretch_excess(x, nip, geometry, u, side="lower")
     if geometry in ("linear", "corrected"):
@@ -164,16 +164,13 @@ def _friction_errors(nip: Nip, fields: Fields, final: Round) -> list[float]:
     allowed = creepage_scale(nip, figures) * figures.nip_width
     errors = [float(over) / bound]
     for zone in final.zones:
-        inside = _intervals_in(fields.x, zone)
-        if not np.any(inside):
-            continue
+        creep = fields.creep[_intervals_in(fields.x, zone)]
         if zone.state == State.STICK:
-            drift = np.concatenate([[0.0], np.cumsum(fields.creep[inside])])
-            errors.append(float(np.ptp(drift)) / allowed)
+            drift = np.cumsum(creep)
+            errors.append(float(drift.max(initial=0.0) - drift.min(initial=0.0)) / allowed)
         else:
             sign = 1.0 if zone.state == State.SLIP_PLUS else -1.0
-            wrong = np.maximum(-sign * fields.creep[inside], 0.0)
-            errors.append(float(np.sum(wrong)) / allowed)
+            errors.append(float(np.maximum(-sign * creep, 0.0).sum()) / allowed)
     wanted = final.problem.control.traction
     if wanted is not None:
         reached = float(final.weights @ final.shear)
@@ -181,9 +178,10 @@ def _friction_errors(nip: Nip, fields: Fields, final: Round) -> list[float]:
     return errors
 
 
-def _intervals_in(x: Array, zone: Zone) -> Array:
+def _intervals_in(x: Array, zone: Zone) -> slice:
     """Intervals between ``x`` that lie wholly in a zone."""
-    return np.asarray((x[:-1] >= zone.start) & (x[1:] <= zone.stop))
+    first, beyond = x.searchsorted(zone.start), x.searchsorted(zone.stop, side="right")
+    return slice(int(first), max(int(beyond) - 1, 0))
 
 
 def slip_velocity(fields: Fields, zones: tuple[Zone, ...], speed: float) -> Array:

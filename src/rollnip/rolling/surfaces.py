@@ -358,7 +358,7 @@ def _integrated(nodes: Array, fine: Subdivision, values: Array) -> Array:
         dx = (nodes[2:] - nodes[1:-1])[:, None]
         return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
     finer = fine.values[1:, 1:]
-    dx = np.diff(fine.nodes[1:])[:, None]
+    dx = (fine.nodes[2:] - fine.nodes[1:-1])[:, None]
     return np.asarray(_sums(nodes, fine, 0.5 * dx * (finer[1:] + finer[:-1])) @ values)
 
 

@@ -35,6 +35,27 @@ def test_results_are_the_same_to_the_last_bit(geometry):
 
 
 @pytest.mark.parametrize(
+    "changed",
+    [
+        nip(radius=51.0),
+        nip(SLOW),
+        replace(nip(SLOW), speed=101.0),
+        replace(nip(), lower=rn.Roller(radius=25.0)),
+        replace(nip(), upper=nip().lower, lower=nip().upper),
+    ],
+)
+@pytest.mark.parametrize("geometry", ["linear", "curved"])
+def test_a_cache_never_mixes_up_pairs(geometry, changed):
+    cache = rn.KernelCache()
+    for case, other in ((nip(), "curved"), (nip(SLOW), geometry), (nip(), "linear")):
+        rn.solve(case, rn.Model(geometry=other), cache=cache)
+    kept = rn.solve(changed, rn.Model(geometry=geometry), cache=cache)
+    fresh = rn.solve(changed, rn.Model(geometry=geometry))
+    np.testing.assert_array_equal(kept.pressure, fresh.pressure)
+    assert kept.approach == fresh.approach
+
+
+@pytest.mark.parametrize(
     ("changed", "tables"),
     [
         (replace(nip(), normal=rn.LineLoad(2.0), friction=0.1), 2),

@@ -1,6 +1,7 @@
 """Influence functions: from compliances in the Fourier domain to displacements on a mesh."""
 
 from rollnip.influence.cache import KernelCache
+from rollnip.influence.ellipse import Ellipses
 from rollnip.influence.grid import grid_displacements, grid_strains
 from rollnip.influence.hats import (
     displacement_matrix,
@@ -19,6 +20,7 @@ from rollnip.influence.surface import (
 )
 
 __all__ = [
+    "Ellipses",
     "Kernel",
     "KernelCache",
     "SecondResponse",

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import OrderedDict
 from collections.abc import Callable
 from functools import partial
-from typing import TypeVar
+from typing import TypeVar, cast
 
 from rollnip._errors import InvalidInputError
 from rollnip.influence.kernel import Window
@@ -30,7 +30,8 @@ class KernelCache:
     Parameters
     ----------
     most :
-        linear tables kept, one for each covering; each is some 100 kB. Of the second order a
+        linear tables kept, one for each covering; each is some 100 kB. What belongs to a pair of
+        coverings is kept for as many pairs, as much for each. Of the second order a
         quarter as many are kept, but at least two; each is 0.1 to 2 MB, 10 MB where a viscoelastic
         covering is many times thicker than the nip is wide.
 
@@ -46,8 +47,10 @@ class KernelCache:
         self.most = most
         self._tables: OrderedDict[_Key, SurfaceKernels] = OrderedDict()
         self._second: OrderedDict[_Key, SecondResponse] = OrderedDict()
+        self._pairs: OrderedDict[_Key, object] = OrderedDict()
 
     def __len__(self) -> int:
+        """Tables that are kept, pairs not counted."""
         return len(self._tables) + len(self._second)
 
     def surface(
@@ -70,6 +73,23 @@ class KernelCache:
         key: _Key = (roller.layers, roller.radius, _speed_that_counts(roller, speed), size)
         make = partial(second_table, roller, speed, size)
         return _kept(self._second, key, make, max(2, self.most // 4)).fitted(half_width)
+
+    def pair(
+        self,
+        rollers: tuple[Roller, Roller],
+        speed: float | None,
+        geometry: str,
+        make: Callable[[], _Table],
+    ) -> _Table:
+        """What ``make`` works out from the influence functions of two rollers, always the same."""
+        upper, lower = rollers
+        key: _Key = (
+            (upper.layers, upper.core, upper.radius, _speed_that_counts(upper, speed)),
+            (lower.layers, lower.core, lower.radius, _speed_that_counts(lower, speed)),
+            geometry,
+        )
+        # Each key has what one function made.
+        return cast(_Table, _kept(self._pairs, key, make, self.most))
 
 
 def _speed_that_counts(roller: Roller, speed: float | None) -> float | None:

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import ContactState, Subdivision
 from rollnip.influence import (
+    Ellipses,
     Kernel,
     KernelCache,
     SecondResponse,
@@ -119,11 +121,14 @@ class PairKernels:
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
     together : xx, zz and xz of the upper, then of the lower surface, as channels of one kernel;
         without those of a rigid one.
+    pressed : u_z of both surfaces together under elliptic pressures on contacts of any width up
+        to the smaller radius.
     """
 
     upper: SurfaceKernels | None
     lower: SurfaceKernels | None
     together: Kernel
+    pressed: Ellipses
     second_upper: SecondResponse | None = None
     second_lower: SecondResponse | None = None
     held: SecondFields | None = None
@@ -156,15 +161,25 @@ class PairKernels:
 def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None) -> PairKernels:
     """Tabulate the influence functions of both rollers on one window, or take them from a cache."""
     cache = KernelCache() if cache is None else cache
+    make = partial(_pair_kernels, nip, geometry, cache)
+    return cache.pair((nip.upper, nip.lower), nip.speed, geometry, make)
+
+
+def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKernels:
     window = covering_window((nip.upper, nip.lower), nip.speed)
     upper, lower = (
         None if roller.is_rigid else cache.surface(roller, nip.speed, geometry, window)
         for roller in (nip.upper, nip.lower)
     )
     hoops = hoop_curvature(nip.upper, geometry), hoop_curvature(nip.lower, geometry)
-    parts = [surface.together for surface in (upper, lower) if surface is not None]
-    together = parts[0] if len(parts) == 1 else Kernel.stacked((parts[0], parts[1]))
-    return PairKernels(upper, lower, together, hoops=hoops)
+    parts = [surface for surface in (upper, lower) if surface is not None]
+    if len(parts) == 1:
+        together, normal = parts[0].together, parts[0].zz
+    else:
+        together = Kernel.stacked((parts[0].together, parts[1].together))
+        normal = parts[0].zz + parts[1].zz
+    pressed = Ellipses.under(normal, min(nip.upper.radius, nip.lower.radius))
+    return PairKernels(upper, lower, together, pressed, hoops=hoops)
 
 
 def hoop_curvature(roller: Roller, geometry: Geometry) -> float:

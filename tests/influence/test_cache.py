@@ -116,8 +116,8 @@ def test_few_tables_of_second_order_are_kept():
     cache, roller = rn.KernelCache(most=8), nip().upper
     tables = [cache.second(roller, None, half_width) for half_width in (1.0, 2.0, 4.0)]
     assert len(cache) == 2
-    assert cache.second(roller, None, 4.1).even is tables[2].even
-    assert cache.second(roller, None, 1.0).even is not tables[0].even
+    assert cache.second(roller, None, 4.1).fields is tables[2].fields
+    assert cache.second(roller, None, 1.0).fields is not tables[0].fields
 
 
 def test_the_oldest_tables_go_first():

@@ -109,16 +109,17 @@ def test_is_of_second_order(material):
 
 
 @pytest.mark.parametrize("radius", [25.0, np.inf])
-@pytest.mark.parametrize("layers", [MANY, MANY[1:2], MANY[2:]])
+@pytest.mark.parametrize("layers", [MANY, MANY[1:2], MANY[2:], MANY[::2]])
 def test_work_of_the_quadratic_stress(radius, layers):
     roller = rn.Roller(radius=radius, layers=layers)
     response = second_response(roller, SPEED, 2.0)
     nodes, pressure, shear = tractions()
-    amplitudes = response._transform(nodes, np.stack([1j * shear, pressure], axis=1))
+    amplitudes = response._transform(nodes, shear, pressure) * (1j, 1.0)
     z, weight, _ = second._depths(roller, second.table_size(roller, 2.0))
-    t = amplitudes * (-1j, 1.0)
+    count = 2 * (response.k.size - 1)  # points, for transforms without a factor 1/count
+    t = count * amplitudes * (-1j, 1.0)
     expected = work_of_quadratic_stress(roller, response, t, z, weight)
-    found = response._quadratic(amplitudes)
+    found = count * response._quadratic(amplitudes)
     found, expected = (np.fft.irfft(u, axis=0) for u in (found, expected))
     np.testing.assert_allclose(found, expected, atol=1e-10 * np.max(np.abs(expected)))
 
@@ -126,8 +127,8 @@ def test_work_of_the_quadratic_stress(radius, layers):
 def test_transform_of_the_tractions_is_exact():
     response = second_response(covered(25.0, 3.0), None, 2.0)
     nodes, pressure, shear = tractions()
-    found = response._transform(nodes, np.stack([shear, pressure], axis=1) + 0j)
-    step = 2.0 * (response.x[1] - response.x[0])
+    found = response._transform(nodes, shear, pressure)
+    period = -2.0 * response.x[0]
     kept = np.exp(-36.0 * (response.k / (16.5 * np.pi / 2.0)) ** 6)
     for i in (0, 1, 7, 40):
         for part, values in enumerate((shear, pressure)):
@@ -136,7 +137,7 @@ def test_transform_of_the_tractions_is_exact():
                 return np.interp(x, nodes, [0.0, *values, 0.0]) * np.exp(-1j * k * x)
 
             whole = sum(quad(wave, a, b, complex_func=True)[0] for a, b in pairwise(nodes))
-            whole *= np.exp(1j * response.k[i] * response.x[0]) * kept[i] / step
+            whole *= np.exp(1j * response.k[i] * response.x[0]) * kept[i] / period
             assert found[i, part] == pytest.approx(whole, abs=1e-11 * abs(found[0, part]))
 
 

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import solve_banded
+from scipy.linalg import lapack
 
 Array = NDArray[np.float64]
 
@@ -40,22 +40,26 @@ class EvenSpline:
     def _cells(self, x: Array) -> tuple[Array, Array]:
         """Coefficients of the cell of each place, (4, ...), and the fraction of it."""
         place = (x - self.start) / self.step
-        cell = np.clip(np.floor(place), 0.0, self.coefficients.shape[1] - 1.0).astype(np.intp)
+        last = self.coefficients.shape[1] - 1
+        cell = np.minimum(np.maximum(place.astype(np.intp), 0), last)
         return self.coefficients.take(cell, axis=1), place - cell
 
 
 def even_splines(x: Array, values: Array) -> tuple[EvenSpline, ...]:
-    """Cubic splines (not-a-knot) of the columns of ``values`` (n, m) on an even grid x, n >= 4."""
-    rise = np.diff(values, axis=0)
+    """Cubic splines (not-a-knot) of the rows of ``values`` (m, n) on an even grid x, n >= 4."""
+    rise = values[:, 1:] - values[:, :-1]
+    # The slopes at all points; the equations at both ends are halved, which makes them symmetric.
+    diagonal, beside = np.full(x.size, 4.0), np.ones(x.size - 1)
+    diagonal[0] = diagonal[-1] = 0.5
     right = np.empty(values.shape)
-    right[1:-1] = 3.0 * (rise[1:] + rise[:-1])
-    right[[0, -1]] = 0.5 * (5.0 * rise[[0, -1]] + rise[[1, -2]])
-    bands = np.ones((3, x.size))
-    bands[1, 1:-1] = 4.0
-    bands[0, 1] = bands[2, -2] = 2.0
-    slope = solve_banded((1, 1), bands, right, check_finite=False)
-    turn = slope[1:] + slope[:-1] - 2.0 * rise
-    cubes = np.stack([turn, rise - slope[:-1] - turn, slope[:-1], values[:-1]])
+    np.add(rise[:, 1:], rise[:, :-1], out=right[:, 1:-1])
+    right[:, 1:-1] *= 3.0
+    right[:, 0] = 0.25 * (5.0 * rise[:, 0] + rise[:, 1])
+    right[:, -1] = 0.25 * (5.0 * rise[:, -1] + rise[:, -2])
+    slope = lapack.dptsv(diagonal, beside, right.T, overwrite_b=1)[2].T
+    cubes = np.empty((len(values), 4, x.size - 1))
+    turn = slope[:, 1:] + slope[:, :-1] - 2.0 * rise
+    cubes[:, 0], cubes[:, 1] = turn, rise - slope[:, :-1] - turn
+    cubes[:, 2], cubes[:, 3] = slope[:, :-1], values[:, :-1]
     start, step = float(x[0]), float(x[1] - x[0])
-    columns = np.ascontiguousarray(np.moveaxis(cubes, 2, 0))
-    return tuple(EvenSpline(start, step, column) for column in columns)
+    return tuple(EvenSpline(start, step, cube) for cube in cubes)

@@ -59,35 +59,42 @@ _SOFT = 36.0  # exponent of the filter at the largest wave number
 class SecondResponse:
     """What is needed to compute the second-order displacement of one surface.
 
-    Amplitudes are those of linear fields per unit i t_x and t_z, on the last axis.
+    Transforms are Fourier coefficients, whatever the grid; those of tractions are of i t_x and
+    t_z. Amplitudes are those of linear fields per unit of both, on the last axis.
 
     Attributes
     ----------
     x : (n,) uniform periodic grid of the surface [mm].
     k : (nk,) wave numbers, nk = n/4 + 1: those of every second point [1/mm].
     curvature : 1/R [1/mm].
-    half_width : of the contact, roughly [mm]: it sets what is too short to count.
-    weight : (nz,) of the integral over depth [mm].
-    poisson : (nz,) Poisson ratios.
-    even : (nk, 2 nz or 3 nz, 2) amplitudes at depth of the mean stress in the plane, H_xx and,
-        unless all layers are incompressible, tr H.
-    odd : (nk, 2 nz, 2) amplitudes at depth of H_xz/i and H_zx/i.
-    surface : (nk, 5, 2) u_x, u_z, rotation du_z/dx + u_x/R, du_x/dx, du_z/dx at the surface.
+    poisson : (nz, 1) Poisson ratios at the depths of the integral.
+    dilation : (nz, 1) tr H over the mean stress in the plane [1/MPa]; None where it is zero, or
+        goes with the wave number: then ``fields`` has tr H.
+    fields : (nk, 4 nz or 5 nz, 2) amplitudes at depth of the mean stress in the plane, H_xx,
+        perhaps tr H, H_xz/i and H_zx/i; each times the cube root of the weight of the depth [mm],
+        for the integrand is a product of three.
+    surface : (nk, 4, 2) amplitudes of u_x, u_z, du_x/dx, du_z/dx at the surface.
+    impulse : (nk,) transform, at x[0], of a traction of which the second derivative is an impulse
+        [mm^2]; for k = 0 of the impulse itself. What is too short for the contact is left out.
+    angle : (n,) x/R near the contact, and as at its border elsewhere.
+    excess : (n,) the same of x^3/(6 R^2), what the arc is longer than the tangent [mm].
     """
 
     x: Array
     k: Array
     curvature: float
-    half_width: float
-    weight: Array
     poisson: Array
-    even: Array | ComplexArray
-    odd: Array | ComplexArray
+    dilation: Array | None
+    fields: Array | ComplexArray
     surface: ComplexArray
+    impulse: Array
+    angle: Array
+    excess: Array
 
     def fitted(self, half_width: float) -> SecondResponse:
         """The same table for another contact, of a half-width [mm] that it resolves."""
-        return replace(self, half_width=half_width)
+        impulse, angle, excess = _fit(self.x, self.k, self.curvature, half_width)
+        return replace(self, impulse=impulse, angle=angle, excess=excess)
 
     def displacement(self, nodes: Array, pressure: Array, shear: Array) -> tuple[EvenSpline, ...]:
         """Second-order (u_x, u_z) as functions of x under nodal tractions of the own frame.
@@ -100,80 +107,104 @@ class SecondResponse:
         nodes : (N+1,) of the mesh [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         """
-        tractions = self._transform(nodes, np.stack([1j * shear, pressure], axis=1))
+        tractions = self._transform(nodes, shear, pressure)
+        tractions[:, 0] *= 1j
         moved, loads = self._moved(tractions)
-        moved += self._back(self._quadratic(tractions) + _times(self.surface[:, :2], loads))
+        made = self._quadratic(tractions)
+        made += _times(self.surface[:, :2], loads)
+        moved += self._back(made.T)
         return even_splines(self.x, moved)
 
-    def _transform(self, nodes: Array, tractions: ComplexArray) -> ComplexArray:
-        """Transform of tractions (N-1, 2) that are linear between nodes, exact, (nk, 2).
+    def _transform(self, nodes: Array, *tractions: Array) -> ComplexArray:
+        """Transforms of m tractions (N-1,) that are linear between nodes, exact, (nk, m).
 
         The second derivative is a row of impulses, the changes of slope at the nodes. Their waves
         exp(-i k x) are products of those of a few small and a few large wave numbers.
         """
-        slopes = np.zeros((nodes.size + 1, 2), dtype=complex)
-        slopes[1:-2] = tractions
-        slopes[2:-1] -= tractions
-        slopes[1:-1] /= np.diff(nodes)[:, None]
-        kinks = slopes[1:] - slopes[:-1]
-        step = _FINER * (self.x[1] - self.x[0])
+        lengths = nodes[1:] - nodes[:-1]
+        values = np.zeros((len(tractions), nodes.size))
+        for row, traction in zip(values, tractions, strict=True):
+            row[1:-1] = traction
+        slopes = np.zeros((len(tractions), nodes.size + 1))
+        slopes[:, 1:-1] = (values[:, 1:] - values[:, :-1]) / lengths
+        kinks = slopes[:, 1:] - slopes[:, :-1]
         few = int(np.ceil(np.sqrt(self.k.size)))
-        phase = -1j * self.k[1] * (nodes - self.x[0])
-        small, large = (np.vander(np.exp(m * phase), few, increasing=True) for m in (1, few))
-        sums = large.T @ (small[:, :, None] * kinks[:, None, :]).reshape(nodes.size, -1)
-        out: ComplexArray = sums.reshape(-1, 2)[: self.k.size]
-        out[1:] /= -step * self.k[1:, None] ** 2
-        out[0] = (0.5 * (nodes[2:] - nodes[:-2])) @ tractions / step
-        # What is too short is left out, softly, whatever the grid: it is not small of second order.
-        finest = pi * _FINEST / self.half_width
-        out *= np.exp(-_SOFT * (self.k[:, None] / finest) ** 6)
+        phase = (-1j * self.k[1]) * (nodes - self.x[0])
+        waves = _powers(np.exp(np.concatenate([phase, few * phase])), few)
+        small, large = waves[:, : nodes.size], waves[:, nodes.size :]
+        sums = large @ (small[:, None, :] * kinks).reshape(-1, nodes.size).T
+        out: ComplexArray = sums.reshape(-1, len(tractions))[: self.k.size]
+        out *= self.impulse[:, None]
+        out[0] = (0.5 * self.impulse[0]) * (values[:, 1:-1] @ (lengths[1:] + lengths[:-1]))
         return out
 
     def _back(self, transform: ComplexArray) -> Array:
-        """Values on the grid of the surface, (n, ...), of a transform (nk, ...)."""
-        return _FINER * np.fft.irfft(transform, self.x.size, axis=0)
+        """Values on the grid of the surface, (m, n), of transforms (m, nk)."""
+        return np.fft.irfft(transform, self.x.size, norm="forward")
 
     def _quadratic(self, tractions: ComplexArray) -> ComplexArray:
         """Transform of the displacement of the surface by the quadratic stress, (nk, 2)."""
-        even, odd = _times(self.even, tractions), _times(self.odd, 1j * tractions)
-        n = 2 * (self.k.size - 1)
-        fields = np.fft.irfft(np.concatenate([even, odd], axis=1).T, n)
-        fields = fields.reshape(-1, self.weight.size, n)
-        (mean, xx, *rest), (xz, zx) = fields[:-2], fields[-2:]
-        weight, poisson = self.weight[:, None], self.poisson[:, None]
-        weighted = weight * mean
-        det, stretch = -(xx * xx) - xz * zx, -2.0 * xx
+        n, nz, poisson = 2 * (self.k.size - 1), self.poisson.size, self.poisson
+        transforms = _times(self.fields, tractions)
+        transforms[:, -2 * nz :] *= 1j
+        fields = np.fft.irfft(transforms.T, n, norm="forward").reshape(-1, nz, n)
+        mean, xx, *rest = fields[:-2]
+        xz, zx = fields[-2:]
+        loads = np.empty_like(fields)  # what multiplies those of g, all with the other sign
+        minus_det, minus_stretch = loads[0], 2.0 * xx
+        np.multiply(xx, xx, out=minus_det)
+        minus_det += xz * zx
+        if self.dilation is not None:  # t'/m' = t/m: what multiplies t' goes to m'
+            dilation = self.dilation * mean
+            minus_det += dilation * ((1.0 + poisson) * dilation - 2.0 * xx)
+            minus_stretch -= dilation
         for dilation in rest:  # one or none
-            det += dilation * (xx - (1.0 - 2.0 * poisson) * dilation)
-            stretch += dilation
-        products = [weight * det, weighted * stretch]
-        products += [weighted * (xx - 3.0 * poisson * dilation) for dilation in rest]
-        products += [weighted * zx, weighted * xz]
-        loads = np.fft.rfft(np.concatenate(products)).T
-        split = even.shape[1]
-        work = _times(self.even.transpose(0, 2, 1), loads[:, :split])
-        work += 1j * _times(self.odd.transpose(0, 2, 1), loads[:, split:])
-        return work * (1j, -1.0)
+            minus_det -= dilation * (xx - (1.0 - 2.0 * poisson) * dilation)
+            minus_stretch -= dilation
+            np.multiply(mean, 3.0 * poisson * dilation - xx, out=loads[2])
+        np.multiply(mean, minus_stretch, out=loads[1])
+        np.multiply(mean, zx, out=loads[-2])
+        np.multiply(mean, xz, out=loads[-1])
+        transforms = np.fft.rfft(loads.reshape(-1, n), norm="forward")
+        transforms[-2 * nz :] *= -1j
+        return _times(self.fields.transpose(0, 2, 1), transforms.T) * (-1j, 1.0)
 
     def _moved(self, tractions: ComplexArray) -> tuple[Array, ComplexArray]:
-        """Change to present places, (n, 2), and loads i t_x, t_z that turn and stretch, (nk, 2)."""
-        fields = np.concatenate([_times(self.surface, tractions), tractions * (-1j, 1.0)], axis=1)
-        u_x, u_z, rotation, slope_x, slope_z, q, p = np.ascontiguousarray(self._back(fields).T)
-        # The place x on the tangent is at the arc x + bend of the undeformed circle; it matters
-        # in and near the contact alone.
-        x = np.clip(self.x, -_NEAR * self.half_width, _NEAR * self.half_width)
-        bend = self.curvature * x * (u_z + self.curvature * x**2 / 6.0)
+        """Change to present places, (2, n), and loads i t_x, t_z that turn and stretch, (nk, 2)."""
+        transforms = np.empty((6, self.k.size), dtype=complex)
+        transforms[:4] = _times(self.surface, tractions).T
+        transforms[4:] = tractions.T
+        transforms[4] *= -1j
+        u_x, u_z, slope_x, slope_z, q, p = self._back(transforms)
+        # The place x on the tangent is at the arc x + bend of the undeformed circle.
+        bend = self.angle * u_z + self.excess
         shift = u_x - bend
         # Load per undeformed arc: t times present length as the undeformed tangent there sees it.
-        longer = self.curvature * x * (0.5 * self.curvature * x + slope_z)
-        turned = np.stack(
-            [longer * q - rotation * p, longer * p + rotation * q, q * shift, p * shift]
-        )
-        loads = np.fft.rfft(turned).T[: self.k.size] / _FINER
-        along = self.curvature * u_x * u_z - shift * slope_x - bend
-        inward = -shift * slope_z - 0.5 * self.curvature * u_x**2
-        total = loads[:, :2] + 1j * self.k[:, None] * loads[:, 2:]
-        return np.stack([along, inward], axis=1), total * (1j, 1.0)
+        longer = self.angle * (0.5 * self.angle + slope_z)
+        rotation = slope_z + self.curvature * u_x
+        turned = np.empty((4, self.x.size))
+        turned[0] = longer * q - rotation * p
+        turned[1] = longer * p + rotation * q
+        np.multiply(q, shift, out=turned[2])
+        np.multiply(p, shift, out=turned[3])
+        loads = np.fft.rfft(turned, norm="forward")[:, : self.k.size]
+        total = loads[:2] + (1j * self.k) * loads[2:]
+        total[0] *= 1j
+        moved = np.empty((2, self.x.size))
+        moved[0] = self.curvature * u_x * u_z - shift * slope_x - bend
+        moved[1] = -shift * slope_z - 0.5 * self.curvature * u_x * u_x
+        return moved, total.T
+
+
+def _powers(base: ComplexArray, count: int) -> ComplexArray:
+    """base^0 to base^(count - 1), (count, n)."""
+    out = np.empty((count, base.size), dtype=complex)
+    out[0], done = 1.0, 1
+    while done < count:
+        more = min(done, count - done)
+        np.multiply(out[:more], base, out=out[done : done + more])
+        base, done = base * base, 2 * done
+    return out
 
 
 def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
@@ -182,6 +213,18 @@ def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
         return np.asarray((matrix @ vectors[:, :, None])[:, :, 0])
     parts = np.ascontiguousarray(vectors).view(float).reshape(*vectors.shape, 2)
     return np.asarray((matrix @ parts).view(complex)[:, :, 0])
+
+
+def _fit(x: Array, k: Array, curvature: float, half_width: float) -> tuple[Array, Array, Array]:
+    """`SecondResponse.impulse`, ``angle`` and ``excess`` for a contact."""
+    # What is too short is left out, softly, whatever the grid: it is not small of second order.
+    kept = np.exp(-_SOFT * (k * (half_width / (pi * _FINEST))) ** 6)
+    squares = -k * k
+    squares[0] = 1.0
+    impulse = k[1] / (2.0 * pi) * kept / squares
+    near = np.clip(x, -_NEAR * half_width, _NEAR * half_width)
+    angle = curvature * near
+    return impulse, angle, angle * angle * near / 6.0
 
 
 def second_response(roller: Roller, speed: float | None, half_width: float) -> SecondResponse:
@@ -217,20 +260,24 @@ def second_table(roller: Roller, speed: float | None, size: float) -> SecondResp
     poisson = np.array([layer.material.poisson for layer in roller.layers])[owner]
     young = np.array([moduli(layer.material, _positive(k), speed) for layer in roller.layers])
     fields = _amplitudes(roller, k, np.concatenate([[0.0], z]), young)
-    twice_shear = young[owner].T / (1.0 + poisson)
-    even, odd = _gradients(fields[:, 1:], k, roller.curvature, (z, twice_shear, poisson))
+    twice_shear = young[owner].T / (1.0 + poisson)  # of elastic layers the same for all k
+    dilation = None
+    if np.any(poisson < 0.5) and np.isrealobj(young):
+        dilation = (2.0 * (1.0 - 2.0 * poisson) / twice_shear[0])[:, None]
+    weight = weight * (1.0 - roller.curvature * z)
     along, inward, wave = 1j * fields[:, 0, 0], fields[:, 0, 1], 1j * k[:, None]
-    turn = wave * inward + roller.curvature * along
+    impulse, angle, excess = _fit(x, k, roller.curvature, size)
     return SecondResponse(
         x=x,
         k=k,
         curvature=roller.curvature,
-        half_width=size,
-        weight=weight * (1.0 - roller.curvature * z),
-        poisson=poisson,
-        even=even,
-        odd=odd,
-        surface=np.stack([along, inward, turn, wave * along, wave * inward], axis=1),
+        poisson=poisson[:, None],
+        dilation=dilation,
+        fields=_gradients(fields[:, 1:], k, roller.curvature, (z, twice_shear, poisson, weight)),
+        surface=np.stack([along, inward, wave * along, wave * inward], axis=1),
+        impulse=impulse,
+        angle=angle,
+        excess=excess,
     )
 
 
@@ -296,19 +343,29 @@ def _amplitudes(
 
 
 def _gradients(
-    fields: Array | ComplexArray, k: Array, curvature: float, medium: tuple[Array, Array, Array]
-) -> tuple[Array | ComplexArray, Array | ComplexArray]:
-    """Amplitudes of the displacement gradient and the mean stress, as ``SecondResponse`` has them.
+    fields: Array | ComplexArray,
+    k: Array,
+    curvature: float,
+    medium: tuple[Array, Array | ComplexArray, Array, Array],
+) -> Array | ComplexArray:
+    """Amplitudes of the mean stress and the displacement gradient, as ``SecondResponse`` has them.
 
-    ``medium`` holds depths (nz,), 2 G (nk, nz) and Poisson ratios (nz,).
+    ``medium`` holds depths (nz,), 2 G (nk, nz), Poisson ratios (nz,) and weights (nz,) [mm].
     """
-    z, twice_shear, poisson = medium[0], medium[1][:, :, None], medium[2][:, None]
-    u_x, u_z, s_xx, s_zz, s_xz = np.moveaxis(fields, 2, 0)  # each (nk, nz, 2)
-    inverse = 1.0 / (1.0 - curvature * z)[:, None]  # R/r
+    z, twice_shear, poisson, weight = medium
+    part = np.cbrt(weight)[:, None]
+    inverse = part / (1.0 - curvature * z)[:, None]  # R/r times the part
     hoop, wave = curvature * inverse, k[:, None, None] * inverse
-    mean = 0.5 * (s_xx + s_zz)
-    even = [mean, -wave * u_x - hoop * u_z]
-    if np.any(poisson < 0.5):
-        even.append(2.0 * (1.0 - 2.0 * poisson) / twice_shear * mean)
+    u_x, u_z, s_xx, s_zz, s_xz = np.moveaxis(fields, 2, 0)  # each (nk, nz, 2)
+    has_dilation = np.iscomplexobj(twice_shear) and bool(np.any(poisson < 0.5))
+    shape = (k.size, 5 if has_dilation else 4, z.size, 2)
+    out = np.empty(shape, dtype=complex) if np.iscomplexobj(fields) else np.empty(shape)
+    np.multiply(s_xx + s_zz, 0.5 * part, out=out[:, 0])
+    np.add(-wave * u_x, -hoop * u_z, out=out[:, 1])
+    if has_dilation:
+        yielding = 2.0 * (1.0 - 2.0 * poisson) / twice_shear
+        np.multiply(out[:, 0], yielding[:, :, None], out=out[:, 2])
     zx = wave * u_z + hoop * u_x
-    return np.concatenate(even, axis=1), np.concatenate([2.0 * s_xz / twice_shear - zx, zx], axis=1)
+    np.subtract((2.0 * part / twice_shear[:, :, None]) * s_xz, zx, out=out[:, -2])
+    out[:, -1] = zx
+    return np.asarray(out.reshape(k.size, -1, 2))

@@ -64,6 +64,8 @@ class Solution:
     status : a sentence that says so, or what is wrong and what helps.
     warnings : reservations, in plain words.
     solver : how it was reached.
+    max_surface_strain : of either surface in the contact, mean over an element; None where it was
+        not looked for.
     """
 
     nip: Nip
@@ -74,6 +76,7 @@ class Solution:
     solver: SolverInfo
     final: Round = field(repr=False)
     kernels: PairKernels = field(repr=False)
+    max_surface_strain: float | None = field(default=None, kw_only=True, repr=False)
 
     @property
     def load(self) -> float:

@@ -31,7 +31,7 @@ from rollnip.rolling import (
 )
 from rollnip.rough import solve_rough
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import is_small, validity_warnings
+from rollnip.validity import Strains, validity_warnings
 
 
 def solve(
@@ -89,8 +89,9 @@ def _solved(
 ) -> Solution:
     """The flow of one solution; ``start``: the clock when it was asked for [s]."""
     kernels, final = _refined(nip, model, method, cache)
+    strains = _believed(nip, model, final) if model.geometry == "finite" else None
     left: tuple[str, ...] = ()
-    if model.geometry == "finite" and not _is_believed(nip, model, final):
+    if model.geometry == "finite" and strains is None:
         model = replace(model, geometry="curved")
         kernels, final = _refined(nip, model, method, cache)
         left = (
@@ -101,12 +102,13 @@ def _solved(
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
     converged, status = _verdict(nip, model, final)
+    strains = Strains.of(nip, model, final) if strains is None else strains
     return Solution(
         nip=nip,
         model=model,
         converged=converged,
         status=status,
-        warnings=left + validity_warnings(nip, model, final),
+        warnings=left + validity_warnings(nip, model, final, strains),
         solver=SolverInfo(
             elements=int(final.problem.x.size + 1),
             iterations=final.steps,
@@ -117,14 +119,16 @@ def _solved(
         ),
         final=final,
         kernels=kernels,
+        max_surface_strain=strains.surface,
     )
 
 
-def _is_believed(nip: Nip, model: Model, final: Round) -> bool:
-    """Whether the second order of "finite" converged, and strains are small enough for it."""
-    if not final.zones or not has_grip(final):
-        return False
-    return _verdict(nip, model, final)[0] and is_small(nip, model, final)
+def _believed(nip: Nip, model: Model, final: Round) -> Strains | None:
+    """Strains of "finite" where its second order converged and they are small enough for it."""
+    if not final.zones or not has_grip(final) or not _verdict(nip, model, final)[0]:
+        return None
+    strains = Strains.of(nip, model, final)
+    return strains if strains.are_small else None
 
 
 def _refined(

@@ -2,11 +2,12 @@
 
 The thresholds come from the comparison with finite-strain finite elements (docs/geometry.md); the
 list with its reasons is in docs/validity.md. A warning never changes a result; whether strains are
-small enough for geometry "finite" is a question of its own (`is_small`), which `solve` asks.
+small enough for geometry "finite" is a question of its own, which `solve` asks of `Strains`.
 """
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from math import inf
 
 import numpy as np
@@ -38,14 +39,40 @@ TIME_SPAN = 10.0
 """Factor by which the time in the nip may leave the relaxation times of a Prony series."""
 
 
-def validity_warnings(nip: Nip, model: Model, final: Round) -> tuple[str, ...]:
+@dataclass(frozen=True, slots=True)
+class Strains:
+    """How large strains are in a solution.
+
+    Attributes
+    ----------
+    surface : largest strain of either surface in the contact, mean over an element.
+    second : largest second-order indentation in the contact over the approach; 0 where there is
+        none.
+    """
+
+    surface: float
+    second: float
+
+    @classmethod
+    def of(cls, nip: Nip, model: Model, final: Round) -> Strains:
+        """Those of a solution."""
+        surface = surface_strain_in_nip(nip, model.geometry, final)
+        return cls(surface, _second_share(nip, final))
+
+    @property
+    def are_small(self) -> bool:
+        """Whether an expansion in strain holds: its second order, and the strains themselves."""
+        return self.second <= SECOND_MOST and self.surface <= SURFACE_STRAIN
+
+
+def validity_warnings(nip: Nip, model: Model, final: Round, strains: Strains) -> tuple[str, ...]:
     """Reservations on a solution, each a sentence that says what is exceeded and what it costs."""
     found = [
         _nip_strain(nip, final),
         *(_thickness_ratio(name, roller, model) for name, roller in _rollers(nip)),
         _contact_angle(nip, final),
-        _surface_strain(nip, model, final),
-        _second_order(nip, final),
+        _surface_strain(strains.surface),
+        _second_order(strains.second),
         *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),
         *(_thin_top_layer(name, roller, final) for name, roller in _rollers(nip)),
         *(line for name, roller in _rollers(nip) for line in _materials(name, roller, nip, final)),
@@ -95,14 +122,7 @@ def _contact_angle(nip: Nip, final: Round) -> str:
     )
 
 
-def is_small(nip: Nip, model: Model, final: Round) -> bool:
-    """Whether an expansion in strain holds: its second order, and the strains themselves."""
-    small = second_share(nip, final) <= SECOND_MOST
-    return small and surface_strain_in_nip(nip, model.geometry, final) <= SURFACE_STRAIN
-
-
-def _surface_strain(nip: Nip, model: Model, final: Round) -> str:
-    largest = surface_strain_in_nip(nip, model.geometry, final)
+def _surface_strain(largest: float) -> str:
     if largest <= SURFACE_STRAIN:
         return ""
     return (
@@ -111,8 +131,10 @@ def _surface_strain(nip: Nip, model: Model, final: Round) -> str:
     )
 
 
-def second_share(nip: Nip, final: Round) -> float:
-    """Largest second-order indentation in the contact over the approach; 0 where there is none."""
+def _second_share(nip: Nip, final: Round) -> float:
+    """`Strains.second`."""
+    if final.mesh.kernels.is_linear:
+        return 0.0
     inside = final.mesh.inner[final.state.pressure > 0.0]
     second = final.mesh.second(final.state, inside)
     largest = max(np.max(np.abs(u), initial=0.0) for u in (second.z_upper, second.z_lower))
@@ -123,8 +145,7 @@ def second_share(nip: Nip, final: Round) -> float:
     return float(largest / final.state.approach) if final.state.approach > 0.0 else inf
 
 
-def _second_order(nip: Nip, final: Round) -> str:
-    share = second_share(nip, final)
+def _second_order(share: float) -> str:
     if share <= SECOND_SHARE:
         return ""
     return (

@@ -12,7 +12,6 @@ from rollnip._errors import ConvergenceError, RollnipError
 from rollnip.influence import KernelCache
 from rollnip.io import Case, case_hash, parse_case
 from rollnip.io.netcdf import UNITS
-from rollnip.rolling import surface_strain_in_nip
 from rollnip.solution import Solution
 from rollnip.solve import solve
 
@@ -142,8 +141,6 @@ def _value(solution: Solution, name: str, error: Mapping[str, float]) -> float |
         return getattr(solution, f"dissipation_{key}")  # type: ignore[no-any-return]
     if table == "solver":
         return getattr(solution.solver, key)  # type: ignore[no-any-return]
-    if name == "max_surface_strain":
-        return surface_strain_in_nip(solution.nip, solution.model.geometry, solution.final)
     return getattr(solution, name)  # type: ignore[no-any-return]
 
 

@@ -19,9 +19,9 @@ from rollnip.compliance._flat import climb_flat, floored
 from rollnip.compliance._propagator import (
     Weights,
     basis_of,
+    generator,
     hoop_stress,
-    sign_of,
-    slope,
+    parts_of,
     thick_weights,
     thin_weights,
 )
@@ -242,11 +242,11 @@ def _fill(
         if columns.size == 0:
             continue
         part = RingWave(*(value[columns] for value in wave))
-        head = top[..., columns]
+        head = top.take(columns, axis=-1)  # top[..., columns] would be laid out column by column
         if thin[columns[0]]:
             terms = _thin_terms(z, ply, part, head)
         else:
-            foot = None if bottom is None else bottom[..., columns]
+            foot = None if bottom is None else bottom.take(columns, axis=-1)
             terms = _thick_terms(z, ply, part, head, foot)
         unit = scale[columns]
         out[columns[:, None], rows] = _combined(terms, ply, part, unit, z)
@@ -272,18 +272,20 @@ def _thick_terms(
     exp(-ct) [cosh et + sinh(et)/e (c - M)] times the part of y(top) that decays with depth, and
     the mirror image times the part of y(bottom) that decays upwards.
     """
-    inwards = np.array([1.0, -1.0])[:, None, None]
-    if bottom is None:
-        inwards, parts = inwards[:1], top[:, None]
-    else:
-        ends = np.stack([top, bottom], axis=1)
-        parts = 0.5 * (ends + inwards * sign_of(ends, ply.poisson, wave))
-    sideways = wave.c * parts - inwards * slope(parts, ply.poisson, wave)
-    distances = [_distance(z - ply.top, ply.outer), -_distance(z - ply.bottom, ply.inner)]
     terms: Terms = []
-    for i, distance in enumerate(distances[: inwards.size]):
+    matrix = generator(ply.poisson, wave)
+    for end, inwards in ((top, 1.0), (bottom, -1.0)):
+        if end is None:
+            continue
+        sign, once, size = parts_of(end, matrix, wave)
+        if bottom is None:  # a half-space: nothing comes from below
+            part, moved = end, once
+        else:
+            part, moved = 0.5 * (end + inwards * sign), 0.5 * (once + inwards * size)
+        below = z - ply.top if inwards > 0.0 else z - ply.bottom
+        distance = inwards * _distance(below, ply.outer if inwards > 0.0 else ply.inner)
         level, lever = _decay_functions(distance, ply, wave)
-        terms += [(level, parts[:, i]), (lever, sideways[:, i])]
+        terms += [(level, part), (lever, wave.c * part - inwards * moved)]
     return terms
 
 
@@ -315,6 +317,8 @@ def _combined(terms: Terms, ply: Ply, wave: RingWave, unit: Array, z: FloatArray
     # The functions are real: complex coefficients are twice as many real ones.
     columns = coefficients.reshape(n, len(terms), -1).view(float)
     fields: Array = (functions @ columns).view(coefficients.dtype).reshape(n, z.size, 5, q)
-    if not isinf(ply.outer):
-        fields[:, :, 2:] /= (ply.outer - (z - ply.top))[:, None, None]
+    if not isinf(ply.outer):  # stresses come times the radius
+        radii = np.ones((z.size, 5, q))
+        radii[:, 2:] = (ply.outer - (z - ply.top))[:, None, None]
+        fields /= radii
     return fields

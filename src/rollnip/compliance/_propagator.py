@@ -24,20 +24,25 @@ _SMALL = 1e-8
 """sinh(e t)/e equals t to double precision for e below this and t <= 1."""
 
 
-def slope(y: Array, poisson: float, wave: RingWave) -> Array:
-    """M y, for y of shape (4, ..., n)."""
+def generator(poisson: float, wave: RingWave) -> FloatArray:
+    """M (4, 4, n)."""
     b = poisson / (1.0 - poisson)
     m = 1.0 / (1.0 - poisson)
-    a = (1.0 - 2.0 * poisson) / (1.0 - poisson)
-    along, inward, shear, normal = y
-    stretch = wave.e * inward + wave.c * along  # minus the tangential strain, over h/r
-    hoop = b * normal - m * stretch
-    out = np.empty_like(y)
-    out[0] = wave.e * along + wave.c * inward - 2.0 * shear
-    out[1] = -b * stretch - a * normal
-    out[2] = wave.c * hoop - wave.e * shear
-    out[3] = wave.e * hoop - wave.c * shear
+    a = (1.0 - 2.0 * poisson) / (1.0 - poisson)  # 1 - b, exactly 0 at nu = 0.5
+    c, e = wave.c, wave.e
+    out = np.zeros((4, 4, c.size))
+    along, inward, shear, normal = range(4)
+    out[along, along], out[along, inward], out[along, shear] = e, c, -2.0
+    out[inward, along], out[inward, inward], out[inward, normal] = -b * c, -b * e, -a
+    out[shear, along], out[shear, shear], out[shear, normal] = -m * c * c, -e, b * c
+    out[shear, inward] = out[normal, along] = -m * c * e
+    out[normal, inward], out[normal, shear], out[normal, normal] = -m * e * e, -c, b * e
     return out
+
+
+def slope(y: Array, matrix: FloatArray) -> Array:
+    """M y, for y of shape (4, ..., n)."""
+    return np.asarray(np.einsum("ijn,j...n->i...n", matrix, y))
 
 
 def hoop_stress(y: Array, poisson: float, wave: RingWave) -> Array:
@@ -87,16 +92,21 @@ def thick_weights(t: FloatArray, wave: RingWave) -> Weights:
 
 def basis_of(y: Array, poisson: float, wave: RingWave) -> tuple[Array, Array, Array, Array]:
     """y, Z y, M y and Z M y, in the order of ``Weights``."""
-    square = (wave.c + wave.e) ** 2
-    once = slope(y, poisson, wave)
-    twice = slope(once, poisson, wave)
-    thrice = slope(twice, poisson, wave)
+    square, matrix = (wave.c + wave.e) ** 2, generator(poisson, wave)
+    once = slope(y, matrix)
+    twice = slope(once, matrix)
+    thrice = slope(twice, matrix)
     return y, twice - square * y, once, thrice - square * once
 
 
-def sign_of(y: Array, poisson: float, wave: RingWave) -> Array:
-    """sgn(M) y = M (M^2)^(-1/2) y, for n > 2: +y where y grows upwards, -y where it decays."""
+def parts_of(y: Array, matrix: FloatArray, wave: RingWave) -> tuple[Array, Array, Array]:
+    """sgn(M) y, M y and |M| y for n > 2: the first is +y where y grows upwards, -y where it decays.
+
+    sgn(M) = M/|M| and |M| = (M^2)^(1/2) as polynomials in M.
+    """
     c2, e2 = wave.c**2, wave.e**2
-    once = slope(y, poisson, wave)
-    thrice = slope(slope(once, poisson, wave), poisson, wave)
-    return ((3.0 * c2 + e2) * once - thrice) / (2.0 * wave.c * (c2 - e2))
+    once = slope(y, matrix)
+    twice = slope(once, matrix)
+    thrice = slope(twice, matrix)
+    sign = ((3.0 * c2 + e2) * once - thrice) / (2.0 * wave.c * (c2 - e2))
+    return sign, once, (twice + (c2 - e2) * y) / (2.0 * wave.c)

@@ -352,20 +352,22 @@ def _gradients(
 
     ``medium`` holds depths (nz,), 2 G (nk, nz), Poisson ratios (nz,) and weights (nz,) [mm].
     """
-    z, twice_shear, poisson, weight = medium
-    part = np.cbrt(weight)[:, None]
-    inverse = part / (1.0 - curvature * z)[:, None]  # R/r times the part
+    z, shear, poisson, weight = medium
+    part = np.cbrt(weight)
+    # Both columns are written out, for numpy is slow where the last axis is short.
+    parts, poisson = np.repeat(part, 2).reshape(-1, 2), poisson[:, None]
+    inverse = np.repeat(part / (1.0 - curvature * z), 2).reshape(-1, 2)  # R/r times the part
     hoop, wave = curvature * inverse, k[:, None, None] * inverse
-    u_x, u_z, s_xx, s_zz, s_xz = np.moveaxis(fields, 2, 0)  # each (nk, nz, 2)
+    twice_shear = np.repeat(shear, 2, axis=1).reshape(k.size, -1, 2)
+    u_x, u_z, s_xx, s_zz, s_xz = np.ascontiguousarray(np.moveaxis(fields, 2, 0))  # (nk, nz, 2)
     has_dilation = np.iscomplexobj(twice_shear) and bool(np.any(poisson < 0.5))
     shape = (k.size, 5 if has_dilation else 4, z.size, 2)
     out = np.empty(shape, dtype=complex) if np.iscomplexobj(fields) else np.empty(shape)
-    np.multiply(s_xx + s_zz, 0.5 * part, out=out[:, 0])
+    np.multiply(s_xx + s_zz, 0.5 * parts, out=out[:, 0])
     np.add(-wave * u_x, -hoop * u_z, out=out[:, 1])
     if has_dilation:
-        yielding = 2.0 * (1.0 - 2.0 * poisson) / twice_shear
-        np.multiply(out[:, 0], yielding[:, :, None], out=out[:, 2])
+        np.multiply(out[:, 0], 2.0 * (1.0 - 2.0 * poisson) / twice_shear, out=out[:, 2])
     zx = wave * u_z + hoop * u_x
-    np.subtract((2.0 * part / twice_shear[:, :, None]) * s_xz, zx, out=out[:, -2])
+    np.subtract((2.0 * parts / twice_shear) * s_xz, zx, out=out[:, -2])
     out[:, -1] = zx
     return np.asarray(out.reshape(k.size, -1, 2))

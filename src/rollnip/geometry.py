@@ -29,11 +29,8 @@ def sagitta(x: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
     (n,) [mm]; its flat, linear approximation is x^2/(2R) + u_z.
     """
     # sqrt(rho^2 - x^2) = R sqrt(1 - t): written so that a large R loses no digits.
-    t = curvature * (2.0 * u_z + curvature * (x * x - u_z * u_z - u_x * u_x))
-    half = (2.0 * u_z + curvature * (x * x - u_z * u_z - u_x * u_x)) / (
-        1.0 + np.sqrt(np.maximum(1.0 - t, 0.0))
-    )
-    return np.asarray(half)
+    twice = 2.0 * u_z + curvature * (x * x - u_z * u_z - u_x * u_x)  # R t
+    return np.asarray(twice / (1.0 + np.sqrt(np.maximum(1.0 - curvature * twice, 0.0))))
 
 
 def mean_of_neighbours(values: Array) -> Array:

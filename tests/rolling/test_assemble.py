@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.contact import State, creep, gap, graded_nodes
+from rollnip.contact import CREEP_TO_EDGE, State, creep, gap, graded_nodes
 from rollnip.rolling import fields_at, hoop_curvature, pair_kernels
 from rollnip.rolling.assemble import contact_problem, first_guess, second_order
 from rollnip.rolling.surfaces import mesh_on
@@ -71,9 +71,11 @@ def test_problem_and_fresh_fields_agree(solved, name):
     np.testing.assert_allclose(fields.gap[:-1], gap(problem, state), atol=1e-9 * depth)
     lengths = problem.creep_length
     strain = 0.5 * solution.nip_width * solution.nip.curvature
-    np.testing.assert_allclose(
-        fields.creep / lengths, creep(problem, state) / lengths, atol=1e-6 * strain
-    )
+    found = creep(problem, state)
+    if solution.final.mesh.fine.elements:  # less what a root leaves at the leading edge
+        own = problem.creep_shear[-2, -2] * state.shear[-2]
+        found[-2] += CREEP_TO_EDGE / (1.0 - CREEP_TO_EDGE) * own
+    np.testing.assert_allclose(fields.creep / lengths, found / lengths, atol=1e-6 * strain)
 
 
 @pytest.mark.parametrize("name", ["II driven, curved", "idler, curved", "foam on a plane, curved"])

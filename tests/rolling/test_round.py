@@ -76,6 +76,8 @@ def test_figures_are_those_of_the_solution(case, solved):
     )
     load = solution.final.weights @ solution.pressure
     assert figures.load == pytest.approx(load, rel=1e-12)
-    assert figures.peak_pressure >= np.max(solution.pressure)
+    # what acts between nodes has the right means, so it is a little too large at the nodes
+    highest = np.max(solution.pressure)
+    assert abs(figures.peak_pressure - highest) <= 1.1 * solution.error["peak_pressure"]
     if isinstance(case[1].normal, rn.LineLoad):
         assert figures.load == pytest.approx(case[1].normal.load, rel=1e-9)

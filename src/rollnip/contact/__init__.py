@@ -7,6 +7,7 @@ from rollnip.contact.given import Norm, Tang
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
 from rollnip.contact.mesh import (
+    CREEP_TO_EDGE,
     Demand,
     Subdivision,
     carry,
@@ -30,6 +31,7 @@ from rollnip.contact.problem import (
 )
 
 __all__ = [
+    "CREEP_TO_EDGE",
     "Alternation",
     "ContactProblem",
     "ContactState",

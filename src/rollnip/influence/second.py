@@ -156,8 +156,8 @@ class SecondResponse:
         minus_det += xz * zx
         if self.dilation is not None:  # t'/m' = t/m: what multiplies t' goes to m'
             dilation = self.dilation * mean
-            minus_det += dilation * ((1.0 + poisson) * dilation - 2.0 * xx)
             minus_stretch -= dilation
+            minus_det += dilation * (poisson * dilation - minus_stretch)
         for dilation in rest:  # one or none
             minus_det -= dilation * (xx - (1.0 - 2.0 * poisson) * dilation)
             minus_stretch -= dilation

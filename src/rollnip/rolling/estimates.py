@@ -56,7 +56,7 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
 
     Two meshes may agree by chance. So earlier changes count too, shrunk as the order promises; no
     error is claimed below what meshes of this size leave in random nips, and none of the peak
-    below what lies between the highest node and the parabola through it.
+    below what lies between it and the highest node.
 
     Parameters
     ----------
@@ -77,7 +77,8 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     floor = kind.least * scales / count**2
-    floor[_PEAK] = max(floor[_PEAK], figures.peak_pressure - float(np.max(latest.pressure)))
+    beside = abs(figures.peak_pressure - float(np.max(latest.pressure)))
+    floor[_PEAK] = max(floor[_PEAK], beside)
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 

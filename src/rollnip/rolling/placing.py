@@ -34,7 +34,7 @@ GIVEN = HeldContact()
 _LOOKING = HeldContact(max_steps=12)
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
 _MORE_FOR_SECOND = 3  # for the second order of "finite", which is held while a mesh is solved on
-_MOST_STRAIN = 1.0  # of a surface; a result may have 0.3
+_MOST_STRAIN = 0.6  # of a surface; a result may have 0.3
 _MOST_STRAINED = 2  # meshes in succession, not counting
 _NOT_STRAINED = 2  # the first ones, whose zones are a guess
 _MOST_CHANGES = 2  # of the zones, on meshes of one size
@@ -109,7 +109,7 @@ class Placing:
             off, off_before = asked.distance(layout), off
             if self.kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
                 return None
-            is_placed = off <= placed
+            is_placed = off <= placed and (self.kernels.is_linear or stand.expected <= _QUIET)
             doubted = is_placed or (not known and off < _FAIRLY_PLACED)
             known = known or doubted
             is_strained = meshes > _NOT_STRAINED and not is_placed and self._strains(latest)

@@ -78,12 +78,12 @@ class Round:
     @property
     def pressure(self) -> Array:
         """Pressure at ``x``, (M-1,) [MPa]."""
-        return self.mesh.between(self.state.pressure)
+        return self.mesh.acting(self.state.pressure)
 
     @property
     def shear(self) -> Array:
         """Shear on the upper roller along +x at ``x``, (M-1,) [MPa]."""
-        return self.mesh.between(self.state.shear)
+        return self.mesh.acting(self.state.shear)
 
     @property
     def weights(self) -> Array:

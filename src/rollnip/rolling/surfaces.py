@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactState, Subdivision
+from rollnip.contact import CREEP_TO_EDGE, ContactState, Subdivision
 from rollnip.influence import (
     Ellipses,
     Kernel,
@@ -227,8 +227,13 @@ class Mesh:
     kernels: PairKernels
     held: Displacements | None
 
+    def acting(self, traction: Array) -> Array:
+        """A traction at nodes[1:-1] as it acts: at the finer nodes without both ends."""
+        acting = self.fine.acting
+        return traction if acting is None else np.asarray(acting[1:-1, 1:-1] @ traction)
+
     def between(self, traction: Array) -> Array:
-        """A traction at nodes[1:-1] as its values at the finer nodes, without both ends."""
+        """Values of a traction at nodes[1:-1] at the finer nodes, without both ends."""
         values = self.fine.values
         return traction if values is None else np.asarray(values[1:-1, 1:-1] @ traction)
 
@@ -237,7 +242,7 @@ class Mesh:
         values = self.fine.values
         if values is not None:
             displacement = values[1:, 1:] @ displacement
-        return pressure_work(self.between(traction), displacement)
+        return pressure_work(self.acting(traction), displacement)
 
     def finer(self, u: Displacements) -> Displacements:
         """Displacements at nodes[1:] carried on to the finer nodes but the first."""
@@ -278,7 +283,7 @@ class Mesh:
 
     def second_fields(self, state: ContactState) -> SecondFields:
         """Second-order displacements under the tractions of a solution, as functions."""
-        p, q = self.between(state.pressure), self.between(state.shear)
+        p, q = self.acting(state.pressure), self.acting(state.shear)
         return self.kernels.second_fields(self.fine.nodes, p, q)
 
 
@@ -294,7 +299,7 @@ def mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision | None = None)
     Without ``fine`` tractions are linear between the nodes themselves.
     """
     fine = Subdivision(nodes) if fine is None else fine
-    unit = None if fine.values is None else fine.values[1:-1, 1:-1]
+    unit = None if fine.acting is None else fine.acting[1:-1, 1:-1]
     weights = load_weights(fine.nodes)
     inner = nodes[1:-1]
     per_traction = pair_displacements(kernels, nodes[1:], fine.nodes, unit)
@@ -364,17 +369,18 @@ def _influence(
         np.add(hoops[0] * xz_u, hoops[1] * xz_l, out=shorter[:, n:])
         np.negative(shorter[:, n:], out=shorter[:, n:])
         out[n:] -= _integrated(nodes, fine, shorter)
+    if fine.acting is not None:  # the surfaces stick up to a leading edge at the last node
+        out[2 * n - 2, 2 * n - 2] *= 1.0 - CREEP_TO_EDGE
     return out
 
 
 def _integrated(nodes: Array, fine: Subdivision, values: Array) -> Array:
     """Int f dx over each interval of nodes[1:] of functions with ``values`` there, (N, n)."""
-    if fine.values is None:
+    if fine.means is None:
         dx = (nodes[2:] - nodes[1:-1])[:, None]
         return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
-    finer = fine.values[1:, 1:]
     dx = (fine.nodes[2:] - fine.nodes[1:-1])[:, None]
-    return np.asarray(_sums(nodes, fine, 0.5 * dx * (finer[1:] + finer[:-1])) @ values)
+    return np.asarray(_sums(nodes, fine, dx * fine.means) @ values)
 
 
 def _sums(nodes: Array, fine: Subdivision, pieces: Array) -> Array:

@@ -154,24 +154,23 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     out: States = kept.astype(np.int8)  # 1: STICK
     out[kept & plus] = SLIP_PLUS
     out[kept & minus] = SLIP_MINUS
-    new = kept & ~in_contact
-    if new.any():
-        out[new] = _nearest_state(states, in_contact)[new]
+    (new,) = (kept & ~in_contact).nonzero()
+    if new.size:
+        out[new] = _nearest_states(states, in_contact, new)
     return out
 
 
-def _nearest_state(states: States, in_contact: Mask) -> States:
-    """State of the nearest node in contact, for each node.
+def _nearest_states(states: States, in_contact: Mask, new: Indices) -> States:
+    """States of the nodes in contact that are nearest to some new ones.
 
     A node that comes into contact beside slipping ones slips with them: held in stick it would
     carry a shear out of all proportion and be thrown out again.
     """
-    index = np.arange(states.size)
-    touching = np.flatnonzero(in_contact)
-    after = np.clip(np.searchsorted(touching, index), 0, touching.size - 1)
-    before = np.maximum(after - 1, 0)
-    nearer = np.abs(touching[before] - index) < np.abs(touching[after] - index)
-    return states[np.where(nearer, touching[before], touching[after])]
+    (touching,) = in_contact.nonzero()
+    place = touching.searchsorted(new)
+    before = touching[np.maximum(place - 1, 0)]
+    after = touching[np.minimum(place, touching.size - 1)]
+    return states[np.where(np.abs(before - new) < np.abs(after - new), before, after)]
 
 
 def _ensure_solvable(problem: ContactProblem, states: States) -> States:

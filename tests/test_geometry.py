@@ -11,6 +11,7 @@ from rollnip.geometry import (
     mean_of_neighbours,
     rotation_stretch,
     sagitta,
+    stretches,
 )
 
 
@@ -118,3 +119,14 @@ def test_means():
     np.testing.assert_array_equal(mean_of_neighbours(np.array([1.0, 3.0, 7.0])), [2.0, 5.0])
     pair = mean_of_neighbours(np.array([[1.0, 0.0], [3.0, 4.0]]))
     np.testing.assert_array_equal(pair, [[2.0, 2.0]])
+
+
+def test_stretches_of_two_surfaces():
+    rng = np.random.default_rng(3)
+    x, four, curvatures = np.sort(rng.normal(size=9)), rng.normal(size=(4, 9)), (0.02, 0.0)
+    found = stretches(x, curvatures, four)
+    for i, curvature in enumerate(curvatures):
+        u_x, u_z = four[2 * i : 2 * i + 2]
+        for function, of_both in zip((linear_stretch, rotation_stretch), found, strict=True):
+            expected = function(np.diff(x), curvature, u_x, u_z)
+            np.testing.assert_allclose(of_both[i], expected, rtol=1e-14, atol=1e-15)

@@ -14,6 +14,7 @@ from rollnip.geometry import (
     rotation_stretch,
     sagitta,
     second_stretch,
+    stretches,
 )
 from rollnip.model import Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
@@ -184,13 +185,15 @@ def _stretch_terms(
     """What the creep (1 + xi/2) stretch_u - (1 - xi/2) stretch_l has beyond its linear part."""
     x, is_flat = mesh.fine.nodes[1:], flat is u
     u = mesh.finer(u)
+    if geometry == "curved":
+        stretch, rotation = stretches(x, mesh.kernels.hoops, u.four)
+        upper, lower = stretch + rotation
+        return mesh.sums(0.5 * (upper + lower)), mesh.sums(rotation[0] - rotation[1])
     flat = u if is_flat else mesh.finer(flat)
     upper = stretch_excess(x, nip, geometry, u, side="upper")
     lower = stretch_excess(x, nip, geometry, u, side="lower")
-    hoop_u, hoop_l = mesh.kernels.hoops
-    linear = linear_stretch(np.diff(x), hoop_u, flat.x_upper, flat.z_upper)
-    linear -= linear_stretch(np.diff(x), hoop_l, flat.x_lower, flat.z_lower)
-    return mesh.sums(0.5 * (upper + lower)), mesh.sums(upper - lower - linear)
+    (linear_u, linear_l), _ = stretches(x, mesh.kernels.hoops, flat.four)
+    return mesh.sums(0.5 * (upper + lower)), mesh.sums(upper - lower - linear_u + linear_l)
 
 
 def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import accumulate, pairwise
+from math import sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,14 +103,16 @@ def subdivided(nodes: Array, elements: Indices) -> Subdivision:
     nodes : (N+1,) of `cosine_nodes` [mm].
     elements : in each zone, three or more; no cubic reaches from one into another.
     """
-    counts = tuple(int(n) for n in elements)
-    places, zone, values, acting, means = _cubics(counts)
-    breaks = nodes[np.concatenate([[1], 1 + np.cumsum(elements)])]
-    finer = np.empty(places.size + 2)
+    counts = tuple(elements.tolist())
+    values, acting, means = _cubics(counts)
+    finer = _cosine_values(tuple(_PARTS * n for n in counts)) @ nodes[[1, *_ends(counts)]]
     finer[0], finer[-1] = nodes[0], nodes[-1]
-    finer[1:-1] = breaks[zone] + (breaks[1:] - breaks[:-1])[zone] * places
-    finer[-2] = breaks[-1]
     return Subdivision(finer, counts, values, acting, means)
+
+
+def _ends(elements: tuple[int, ...]) -> list[int]:
+    """Numbers of the last nodes of zones, where the first node of all lies before the zones."""
+    return [1 + end for end in accumulate(elements)]
 
 
 def carry(
@@ -163,21 +167,17 @@ def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
     values : (sum of elements + 1,) at the nodes from the first break to the last.
     elements : in each zone.
     """
-    ends = np.concatenate([[0], np.cumsum(elements)])
     fourth = np.abs(
         values[4:] - 4.0 * (values[3:-1] + values[1:-3]) + 6.0 * values[2:-2] + values[:-4]
     )
-    for end in ends[1:-1]:
+    for end in accumulate(elements[:-1]):
         fourth[end - 3 : end] = 0.0  # across a break nothing is smooth
-    return float(3.0 / 128.0 * np.max(fourth, initial=0.0))
+    return float(3.0 / 128.0 * fourth.max(initial=0.0))
 
 
 @lru_cache(maxsize=128)
-def _cubics(elements: tuple[int, ...]) -> tuple[Array, Indices, Array, Array, Array]:
-    """Of finer nodes from first to last break: place in the zone and its number; matrices.
-
-    The matrices are those of `Subdivision`, per value at nodes with a node more at either end.
-    """
+def _cubics(elements: tuple[int, ...]) -> tuple[Array, Array, Array]:
+    """The matrices values, acting and means of a `Subdivision`."""
     ends = np.concatenate([[0], np.cumsum(elements)])
     interval = np.arange(ends[-1])
     zone = np.searchsorted(ends, interval, side="right") - 1
@@ -206,12 +206,9 @@ def _cubics(elements: tuple[int, ...]) -> tuple[Array, Indices, Array, Array, Ar
     added = 0.5 * (lacking[1:] + lacking[:-1])
     added[_PARTS * ends[1:-1] - 1] = 0.0
     acting[2:-2] += added
-    places = (interval - ends[zone])[:, None] + parts
-    places = 0.5 * (1.0 - np.cos(np.pi * places / np.array(elements)[zone][:, None]))
     for matrix in (values, acting, means):
         matrix.setflags(write=False)
-    zones = np.append(np.repeat(zone, _PARTS), zone[-1])
-    return np.append(places.ravel(), 1.0), zones, values, acting, means[:, 1:]
+    return values, acting, means[:, 1:]
 
 
 def _cubic_weights(t: Array) -> Array:
@@ -222,9 +219,9 @@ def _cubic_weights(t: Array) -> Array:
 
 def elements_of_zones(breaks: Array, count: int) -> Indices:
     """Elements in each zone between ``breaks`` (m,) [mm], some ``count`` in all; (m - 1,)."""
-    shares = np.sqrt(np.diff(breaks))
-    elements = np.rint(count * shares / shares.sum())
-    return np.asarray(np.maximum(elements, _SMALLEST_ZONE), dtype=np.intp)
+    shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
+    total = sum(shares)
+    return np.array([max(round(count * share / total), _SMALLEST_ZONE) for share in shares])
 
 
 def cosine_nodes(breaks: Array, elements: Indices) -> Array:
@@ -235,14 +232,24 @@ def cosine_nodes(breaks: Array, elements: Indices) -> Array:
     breaks : (m,) increasing: contact edges and the transitions between [mm].
     elements : (m - 1,) number of them in each zone.
     """
-    parts = [breaks[:1]]
-    for start, stop, n in zip(breaks[:-1], breaks[1:], elements, strict=True):
-        cosine = 0.5 * (1.0 - np.cos(np.pi * np.arange(1, n + 1) / n))
+    return np.asarray(_cosine_values(tuple(elements.tolist())) @ breaks)
+
+
+@lru_cache(maxsize=128)
+def _cosine_values(elements: tuple[int, ...]) -> Array:
+    """`cosine_nodes` per place of a break."""
+    values = np.zeros((sum(elements) + 3, len(elements) + 1))
+    first = 1
+    for zone, n in enumerate(elements):
+        cosine = 0.5 * (1.0 - np.cos(np.pi * np.arange(n + 1) / n))
         cosine[-1] = 1.0
-        parts.append(start + (stop - start) * cosine)
-    inner = np.concatenate(parts)
-    before, after = _BESIDE * (inner[1] - inner[0]), _BESIDE * (inner[-1] - inner[-2])
-    return np.concatenate([[inner[0] - before], inner, [inner[-1] + after]])
+        values[first : first + n + 1, zone] = 1.0 - cosine
+        values[first : first + n + 1, zone + 1] = cosine
+        first += n
+    values[0] = values[1] - _BESIDE * (values[2] - values[1])
+    values[-1] = values[-2] + _BESIDE * (values[-2] - values[-3])
+    values.setflags(write=False)
+    return values
 
 
 def graded_nodes(breaks: Array, count: int, demand: Demand | None = None) -> Array:

@@ -61,8 +61,12 @@ class CoupledActiveSet:
         return replace(solution, steps=self.max_steps)
 
 
-def solve_states(problem: ContactProblem, states: States) -> ContactState:
+def solve_states(
+    problem: ContactProblem, states: States, *, steps: int = 1, settled: bool = False
+) -> ContactState:
     """Solve the linear system that given states make; no condition is checked.
+
+    ``steps`` and ``settled`` are what the solution shall say of itself.
 
     Raises
     ------
@@ -85,7 +89,7 @@ def solve_states(problem: ContactProblem, states: States) -> ContactState:
         approach = float(unknowns[-2])
     if creepage is None:
         creepage = float(unknowns[-1]) if problem.friction > 0.0 else np.nan
-    return ContactState(states, pressure, shear, approach, creepage, 1, False)
+    return ContactState(states, pressure, shear, approach, creepage, steps, settled)
 
 
 def _solved(matrix: Array, right: Array) -> Array:

@@ -10,8 +10,9 @@ to a hundredth of one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
+from math import isfinite
 
 import numpy as np
 
@@ -97,7 +98,8 @@ class Layout:
     @property
     def is_proper(self) -> bool:
         """Whether every zone has a length."""
-        return bool(np.all(np.isfinite(self.breaks)) and np.all(np.diff(self.breaks) > 0.0))
+        breaks = self.breaks.tolist()
+        return all(map(isfinite, breaks)) and all(a < b for a, b in pairwise(breaks))
 
     def distance(self, other: Layout) -> float:
         """Largest one between the edges of two layouts of the same zones, over the width.
@@ -191,7 +193,7 @@ class HeldContact:
         """From ``states``; pressure may be negative and gaps overlap, which is seen later."""
         held = states != FREE
         for step in range(1, self.max_steps + 1):
-            solution = replace(solve_states(problem, states), steps=step, settled=True)
+            solution = solve_states(problem, states, steps=step, settled=True)
             if step == self.max_steps:
                 break
             wanted = next_states(problem, solution, self.rounding)

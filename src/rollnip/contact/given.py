@@ -82,7 +82,7 @@ class Norm:
         seen: set[bytes] = set()
         single = False
         for step in range(1, self.max_steps * states.size + 1):
-            solution = replace(solve_states(normal, states), steps=step)
+            solution = solve_states(normal, states, steps=step)
             wrong = _tension(solution)
             if not np.any(wrong):
                 wrong = _overlap(normal, solution)
@@ -117,7 +117,7 @@ class Tang:
         for step in range(1, self.max_steps + 1):
             if not np.any(states == State.STICK):
                 break
-            solution = replace(solve_states(tangential, states), steps=step)
+            solution = solve_states(tangential, states, steps=step)
             wanted = _over_bound(tangential, solution)
             if np.array_equal(wanted, states):
                 wanted = _wrong_way(tangential, solution)

@@ -52,7 +52,7 @@ class CreepagePath:
         if not start.settled or _beyond_sliding(problem, start, sign):
             return replace(start, settled=False)
         if _within_sliding(problem, start, sign):
-            return replace(solve_states(problem, start.states), steps=start.steps + 1, settled=True)
+            return solve_states(problem, start.states, steps=start.steps + 1, settled=True)
         creepage, heading = start.creepage, -sign
         current = start.states
         for step in range(1, self.most_events * problem.x.size + 1):
@@ -62,7 +62,7 @@ class CreepagePath:
             if length is not None and length <= event:
                 goal = creepage + heading * length * _unit(problem)
                 at = replace(problem, control=replace(wanted, traction=None, creepage=goal))
-                found = replace(solve_states(at, current), steps=start.steps + 4 * step)
+                found = solve_states(at, current, steps=start.steps + 4 * step)
                 return replace(found, settled=True)
             if not np.isfinite(event):
                 break

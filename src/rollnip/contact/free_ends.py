@@ -10,9 +10,10 @@ to a hundredth of one.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import isfinite
+from math import isfinite, nan, sqrt
 
 import numpy as np
 
@@ -25,7 +26,6 @@ from rollnip.contact.problem import (
     ContactProblem,
     ContactState,
     Indices,
-    Mask,
     State,
     States,
 )
@@ -33,8 +33,7 @@ from rollnip.contact.problem import (
 # Of the first three nodes beside the end of a zone of many cubic elements (see `subdivided`): the
 # change relative to a square root from there, for each first element that the zone is too wide.
 # Measured on a parabola pressed on a half-plane (tests).
-_RESPONSE = np.array([-0.6831, -0.1132, -0.0597])
-_FITTED = np.array([1, 2, 3])
+_RESPONSE = (-0.6831, -0.1132, -0.0597)
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,37 +142,52 @@ class Layout:
         state : a solution with ``states_on(x)``.
         friction : Coulomb coefficient.
         """
-        slack = friction * state.pressure - np.abs(state.shear)
+        # Plain numbers: there are three of each at a handful of breaks.
+        nodes, pressure, shear = x.tolist(), state.pressure.tolist(), state.shear.tolist()
         last = self.states.size
-        smooth = np.zeros(last + 1, dtype=bool)
-        smooth[1:last] = self.states[:-1] == STICK
-        inwards = np.where(smooth, -1, 1)
-        inwards[last] = -1
-        index = self.ends(x)[:, None] + inwards[:, None] * _FITTED
-        distance = np.abs(x[index] - self.breaks[:, None])
-        values = slack[index]
-        values[[0, last]] = state.pressure[index[[0, last]]]
-        root, bend, third = _fitted(distance, values, smooth)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            outwards = np.where(smooth, root / (1.5 * bend), -third / root * distance[:, 0])
-        outwards = np.where(np.where(smooth, bend, root) > 0.0, outwards, np.nan)
-        return Layout(self.breaks - inwards * outwards, self.states)
+        breaks = []
+        for number, (place, end) in enumerate(
+            zip(self.breaks.tolist(), self.ends(x).tolist(), strict=True)
+        ):
+            is_edge = number in (0, last)
+            smooth = not is_edge and self.states[number - 1] == STICK
+            inwards = -1 if smooth or number == last else 1
+            beside = [end + inwards * i for i in (1, 2, 3)]
+            distance = [abs(nodes[i] - place) for i in beside]
+            bound = 1.0 if is_edge else friction
+            values = [bound * pressure[i] - (0.0 if is_edge else abs(shear[i])) for i in beside]
+            breaks.append(place - inwards * _outwards(distance, values, smooth=smooth))
+        return Layout(np.array(breaks), self.states)
 
 
-def _fitted(distance: Array, values: Array, smooth: Mask) -> tuple[Array, Array, Array]:
-    """Coefficients of s, s^3 and a third pattern in values beside ends, each (m,).
+_Three = Sequence[float]
 
-    s is the root of the distance, (m, 3); the third is what a misplaced end leaves, or s^5 at a
-    smooth one.
+
+def _outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
+    """How far outwards the end of a zone ought to be, from values at three distances inwards.
+
+    They are fitted by s, s^3 and a third pattern, s the root of the distance: what a misplaced end
+    leaves, or s^5 at a smooth one. nan where they do not rise inwards as they ought to.
     """
-    matrix = np.empty((*distance.shape, 3))
-    matrix[:, :, 0] = 1.0
-    matrix[:, :, 1] = distance
-    matrix[:, :, 2] = np.where(smooth[:, None], distance**2, _RESPONSE)
-    first, second, third = np.linalg.solve(matrix, (values / np.sqrt(distance))[..., None])[
-        ..., 0
-    ].T
-    return first, second, third
+    first = (1.0, 1.0, 1.0)
+    third = [d * d for d in distance] if smooth else _RESPONSE
+    right = [value / sqrt(d) for value, d in zip(values, distance, strict=True)]
+    whole = _determinant(first, distance, third)
+    root = _determinant(right, distance, third)
+    if smooth:
+        bend = _determinant(first, right, third)
+        return root / (1.5 * bend) if bend * whole > 0.0 else nan
+    misplaced = _determinant(first, distance, right)
+    return -misplaced / root * distance[0] if root * whole > 0.0 else nan
+
+
+def _determinant(a: _Three, b: _Three, c: _Three) -> float:
+    """Of a matrix with three columns."""
+    return (
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,15 +31,15 @@ class Elements:
     Attributes
     ----------
     least : (5,) least relative error of each of Figures, times the square of their number.
-    may_be_slow : whether errors may shrink in first order only.
+    are_cubic : their errors may be of any order, from the first up.
     """
 
     least: Array
-    may_be_slow: bool
+    are_cubic: bool
 
 
-LINEAR = Elements(_LINEAR, may_be_slow=False)
-CUBIC = Elements(_CUBIC, may_be_slow=True)
+LINEAR = Elements(_LINEAR, are_cubic=False)
+CUBIC = Elements(_CUBIC, are_cubic=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +56,7 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
 
     Two meshes may agree by chance. So earlier changes count too, shrunk as the order promises; no
     error is claimed below what meshes of this size leave in random nips, and none of the peak
-    below what lies between it and the highest node.
+    of linear elements below what lies between it and the highest node.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return Figures(inf, inf, inf, inf, inf)
-    order = _order(history) if kind.may_be_slow else _SECOND
+    order = _order(history) if kind.are_cubic else _SECOND
     change = _error_over(history[-2], history[-1], order)
     for coarse, fine in pairwise(history[:-1]):
         earlier = _error_over(coarse, fine, _SECOND) * (fine.count / count) ** 2
@@ -77,8 +77,9 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     floor = kind.least * scales / count**2
-    beside = abs(figures.peak_pressure - float(np.max(latest.pressure)))
-    floor[_PEAK] = max(floor[_PEAK], beside)
+    if not kind.are_cubic:
+        highest = float(np.max(latest.state.pressure))
+        floor[_PEAK] = max(floor[_PEAK], figures.peak_pressure - highest)
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 

@@ -8,7 +8,7 @@ that move.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf, sqrt
+from math import ceil, inf, log, sqrt
 
 import numpy as np
 
@@ -30,6 +30,7 @@ _FEWEST_WITH_MEMORY = 3
 _MOST_ELEMENTS = 80  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _FIRST_GROWTH = 1.6  # of the number of elements from size to size
 _LEAST_GROWTH, _LEAST_OF_MANY, _MANY = 1.35, 1.2, 100
+_MOST_GROWTH = 3.5
 _SMOOTH = 0.06  # times the root of the tolerance: error of the cubics, over the largest traction
 _ROUGHNESS_ORDER = 1.5  # its least order in 1/elements where cubics are of use
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
@@ -96,14 +97,20 @@ def _refined(placing: Placing, stand: Standing) -> Attempt:
                 return Attempt(final)
             ratio = final.residual / model.tolerance
             stand = Standing(stand.layout, latest)
-        count = _next_count(count, ratio)
+        count = _next_count(count, ratio, model.tolerance)
     return Attempt(None, True, too_few)
 
 
-def _next_count(count: int, ratio: float) -> int:
-    """Elements that would bring the error, ``ratio`` times too large now, below the tolerance."""
+def _next_count(count: int, ratio: float, tolerance: float) -> int:
+    """Elements that would bring the error, ``ratio`` times too large now, below the tolerance.
+
+    On the way to as many as errors below it can be claimed with, in steps that are not too long.
+    """
     least = _LEAST_GROWTH if count < _MANY else _LEAST_OF_MANY
     growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), least)
+    claimed = 1.02 * sqrt(float(np.max(CUBIC.least)) / tolerance) / count
+    if claimed > growth:
+        growth = claimed ** (1.0 / ceil(log(claimed) / log(_MOST_GROWTH)))
     return int(count * growth) + 1
 
 

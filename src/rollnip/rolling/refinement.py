@@ -20,12 +20,13 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
 from rollnip.rolling.estimates import LINEAR, Size, estimated_error, zone_excess
-from rollnip.rolling.free_ends import with_free_ends
+from rollnip.rolling.free_ends import Attempt, with_free_ends
 from rollnip.rolling.round import Round, excess, has_grip
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import NEARLY_STILL, ROUGHLY_STILL, checked, holding, settled, turned
 
 _FIRST_COUNT = 16
+_SKIN, _STIFFER = 0.1, 10.0  # thickness over the half-width at most, modulus over the next at least
 _LINEAR_FOR_CUBIC = 2  # elements that do what a cubic one does, at least
 _FEWEST_SIZES = 3  # of meshes before an error is believed
 _COARSE = 96  # elements up to which an unsettled mesh may still place edges
@@ -45,9 +46,10 @@ def refine(
 ) -> Round:
     """Solve on ever better meshes until the estimated error is below the tolerance.
 
-    A coarse mesh and the active set tell which zones there are. Then their ends are free and the
-    elements cubic (`with_free_ends`); where that does not do, elements are linear, and each mesh
-    is graded to the edges and transitions that the one before found.
+    Zones with free ends and cubic elements do it as a rule, from a guess of the width alone or,
+    where that is not enough to find the zones, from a coarse mesh (`with_free_ends`). Where they
+    do not, elements are linear, and each mesh is graded to the edges and transitions that the one
+    before found.
 
     Parameters
     ----------
@@ -58,19 +60,36 @@ def refine(
     -------
     The last round that settled; its error may exceed the tolerance where the rounds ran out.
     """
-    attempt = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
-    if attempt.found is not None:
-        return attempt.found
+    attempt, has_skin = Attempt(None), _has_skin(nip, half_width)
+    if not has_skin:
+        attempt = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
+        if attempt.found is not None:
+            return attempt.found
     located = _located(nip, model, kernels, half_width, method)
     layout = Layout.of(located.zones)
-    if located.settled and layout is not None and not attempt.knew_zones:
+    if located.settled and layout is not None and not attempt.knew_zones and not has_skin:
         attempt = with_free_ends(nip, model, kernels, layout, located)
         if attempt.found is not None:
             return attempt.found
-    too_few = _LINEAR_FOR_CUBIC * attempt.too_few
     if _is_hopeless(located, kernels):
         return _finished(nip, model, kernels, located, method)
+    too_few = _LINEAR_FOR_CUBIC * attempt.too_few
     return _refined(nip, model, kernels, located, method, too_few)
+
+
+def _has_skin(nip: Nip, half_width: float) -> bool:
+    """Whether a top layer is much stiffer than the next and thin beside the contact.
+
+    It bends like a plate: surfaces respond as no half-plane does, which is how ends are found, and
+    the pressure peaks within a few thicknesses from an edge, which takes many cubic elements.
+    """
+    for roller in (nip.upper, nip.lower):
+        if len(roller.layers) < 2 or roller.layers[0].thickness > _SKIN * half_width:
+            continue
+        top, below = (layer.material.relaxed_modulus for layer in roller.layers[:2])
+        if top >= _STIFFER * below:
+            return True
+    return False
 
 
 def _located(

@@ -258,7 +258,10 @@ class Solution:
 
     @property
     def pressure(self) -> Array:
-        """Pressure at the nodes, linear between them, (n,) [MPa]."""
+        """Pressure at the nodes, linear between them, (n,) [MPa]; it adds up to the load.
+
+        Between nodes its mean is right, so at a node it may exceed ``peak_pressure`` by 1e-4 of it.
+        """
         return self.final.pressure
 
     @property

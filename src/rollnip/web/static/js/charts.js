@@ -117,7 +117,8 @@ export function line(name, x, y, colour, more = {}) {
     name: plain(name),
     x,
     y,
-    line: { color: colour, width, dash },
+    // Plotly would leave out points of smooth curves; there are a few hundred.
+    line: { color: colour, width, dash, simplify: false },
     connectgaps: false,
     ...rest,
   };

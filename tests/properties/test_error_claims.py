@@ -44,3 +44,22 @@ def test_no_error_is_claimed_smaller_than_a_third_of_it(examples):
 
     examined()
     assert sum(judged) >= 0.9 * len(judged)
+
+
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
+def test_claims_are_kept_where_much_is_of_second_order(tolerance):
+    """Of "finite" the second order, a quarter of the peak here, is that of each mesh itself."""
+    case = random_case(1120, "finite")
+    found, fine = solved(case, tolerance), solved(case, 1e-4)
+    assert found.model.geometry == fine.model.geometry == "finite"
+    for name in ("creepage", "nip_width", "peak_pressure", "approach"):
+        apart = abs(getattr(found, name) - getattr(fine, name))
+        assert apart <= 1.5 * (found.error[name] + fine.error[name]), name
+
+
+@pytest.mark.parametrize("number", [1044, 1054])
+def test_figures_of_linear_elements_converge_with_a_second_order(number):
+    """Many zones on few elements; what the terms still move counts where the pressure peaks."""
+    solution = solved(random_case(number, "finite"), 1e-4)
+    assert solution.converged
+    assert solution.model.geometry == "finite"

@@ -135,6 +135,14 @@ def test_torque_asks_for_the_traction_that_gives_it(geometry, cases):
     assert solution.torque_lower == pytest.approx(-6.0, abs=1e-3 * 25.0 * 1.78)
 
 
+@pytest.mark.parametrize("name", ["clearance", "creep_offset", "creep_length"])
+def test_a_change_that_is_no_number_is_never_small(name):
+    nip, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
+    zero = first_guess(nip, mesh)
+    broken = replace(zero, **{name: np.full(mesh.inner.size, np.nan)})
+    assert np.isnan(broken.change(zero, 0.1, mesh.dx, (1.0, 1.0, 1.0)))
+
+
 def test_first_guess_has_no_second_order_terms():
     nip, mesh, _ = pair((rn.Layer(2.0, FOAM),), ())
     guess = first_guess(nip, mesh)

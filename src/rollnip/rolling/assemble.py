@@ -85,7 +85,7 @@ class SecondOrder:
         ]
         if self.traction is not None and before.traction is not None:
             changes.append(abs(self.traction - before.traction) / traction)
-        return float(max(changes))
+        return float(np.max(changes))  # nan where any is
 
 
 def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem:

@@ -49,7 +49,9 @@ _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the wi
 _LOOSELY = 3.0  # more of it on the first size of mesh
 _SLACK = 1e-3  # at most: shear over the bound that may be rounding; more is slip, however coarse
 _TURNS = 2  # of the second-order terms on one mesh, while ends still move
-_QUIET = 1.0  # change of these over the tolerance, for which a second order is not evaluated anew
+# Change of these over the tolerance, for which a second order is not evaluated anew on one size.
+_QUIET = 1.0
+_TINY = float(np.finfo(float).tiny)
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +95,8 @@ class Placing:
         None where there is no such solution; one that is not settled where strains are far too
         large for the second order.
         """
-        stand, off = self._renewed(start), inf
+        # However still the second order is, it is that of a coarser mesh: a new one on each size.
+        stand, off = self._renewed(replace(start, expected=inf)), inf
         loosely = self.kernels.is_linear and not known
         placed = _PLACED * self.model.tolerance * (_LOOSELY if loosely else 1.0)
         elements: Indices | None = None
@@ -144,7 +147,7 @@ class Placing:
         second = second_order(self.nip, self.model.geometry, mesh, before.state)
         change = change_of(second, before.second, mesh, self.nip, before.state)
         change /= self.model.tolerance
-        expected = inf if stand.change == inf else change * change / stand.change
+        expected = inf if stand.change == inf else change * change / max(stand.change, _TINY)
         return Standing(stand.layout, replace(before, mesh=mesh, second=second), change, expected)
 
     def _solved_on(

@@ -23,7 +23,7 @@ from rollnip.rolling.estimates import LINEAR, Size, estimated_error, zone_excess
 from rollnip.rolling.free_ends import Attempt, with_free_ends
 from rollnip.rolling.round import Round, excess, has_grip
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
-from rollnip.rolling.turns import NEARLY_STILL, ROUGHLY_STILL, checked, holding, settled, turned
+from rollnip.rolling.turns import ROUGHLY_STILL, STILL, checked, holding, settled, turned
 
 _FIRST_COUNT = 16
 _SKIN, _STIFFER = 0.1, 10.0  # thickness over the half-width at most, modulus over the next at least
@@ -129,7 +129,7 @@ def _refined(
     for _ in range(_MOST_ROUNDS):
         mesh = mesh_on(graded_nodes(breaks, count, demand), holding(kernels, latest))
         start = zones, latest if best is None else best
-        latest = _solve_on(nip, model, mesh, start, method, NEARLY_STILL)
+        latest = _solve_on(nip, model, mesh, start, method, STILL)
         if failures > _MOST_FAILURES or _is_hopeless(latest, kernels):
             break
         if not latest.settled and count > _COARSE:

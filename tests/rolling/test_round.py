@@ -80,3 +80,9 @@ def test_figures_are_those_of_the_solution(case, solved):
     assert np.max(solution.pressure) == pytest.approx(figures.peak_pressure, rel=1e-3)
     if isinstance(case[1].normal, rn.LineLoad):
         assert figures.load == pytest.approx(case[1].normal.load, rel=1e-9)
+
+
+def test_no_error_is_small_where_nothing_is_pressed(case, solved):
+    final = solved(case[0]).final
+    nothing = replace(final, figures=replace(final.figures, peak_pressure=0.0))
+    assert excess(case[1], nothing, 1e-3) == inf

@@ -75,7 +75,7 @@ class SecondResponse:
         for the integrand is a product of three.
     surface : (nk, 4, 2) amplitudes of u_x, u_z, du_x/dx, du_z/dx at the surface.
     impulse : (nk,) transform, at x[0], of a traction of which the second derivative is an impulse
-        [mm^2]; for k = 0 of the impulse itself. What is too short for the contact is left out.
+        [mm]; for k = 0 of the impulse itself [1/mm]. What is too short for the contact is left out.
     angle : (n,) x/R near the contact, and as at its border elsewhere.
     excess : (n,) the same of x^3/(6 R^2), what the arc is longer than the tangent [mm].
     """

@@ -36,7 +36,7 @@ _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
 _MOST_STEPS = 4000  # linear systems, after which what has not settled is given up
 _MOST_STEPS_IN_ALL = 700  # with a second order, settled or not: where it holds, it takes some tens
-_DIVERGED = 1e3  # relative change of the second-order terms
+_DIVERGED = 10.0  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
 

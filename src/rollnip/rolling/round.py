@@ -45,7 +45,7 @@ class Round:
     steps : linear systems solved in all rounds so far.
     settled : whether states and second-order terms stand still.
     geometry_change : last change of the second-order terms (e(x) of "corrected", the stretch of
-        "curved", the traction for a torque), relative to approach and strain.
+        "curved", the traction for a torque), relative to approach and creepage.
     residual : largest relative violation of the contact conditions, evaluated afresh; inf where
         it was not evaluated.
     """
@@ -107,8 +107,10 @@ def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
 
 
 def excess(nip: Nip, latest: Round, tolerance: float) -> float:
-    """Largest estimated relative error over the tolerance."""
+    """Largest estimated relative error over the tolerance; inf where nothing is pressed."""
     figures, error = latest.figures, latest.error
+    if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
+        return inf
     watched = [
         error.nip_width / figures.nip_width,
         error.peak_pressure / figures.peak_pressure,

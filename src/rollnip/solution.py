@@ -260,13 +260,16 @@ class Solution:
     def pressure(self) -> Array:
         """Pressure at the nodes, linear between them, (n,) [MPa]; it adds up to the load.
 
-        Between nodes its mean is right, so at a node it may exceed ``peak_pressure`` by 1e-4 of it.
+        Between nodes its mean is right, so at a node it may exceed ``peak_pressure`` by a few 1e-4.
         """
         return self.final.pressure
 
     @property
     def shear(self) -> Array:
-        """Shear on the upper roller along +x at the nodes, linear between them, (n,) [MPa]."""
+        """Shear on the upper roller along +x as it acts, linear between the nodes, (n,) [MPa].
+
+        In stick next to a transition it is within friction times pressure to the tolerance only.
+        """
         return self.final.shear
 
     def interior(

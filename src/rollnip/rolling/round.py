@@ -77,12 +77,12 @@ class Round:
 
     @property
     def pressure(self) -> Array:
-        """Pressure at ``x``, (M-1,) [MPa]."""
+        """Pressure at ``x`` as it acts, see `Subdivision`, (M-1,) [MPa]."""
         return self.mesh.acting(self.state.pressure)
 
     @property
     def shear(self) -> Array:
-        """Shear on the upper roller along +x at ``x``, (M-1,) [MPa]."""
+        """Shear on the upper roller along +x at ``x`` as it acts, (M-1,) [MPa]."""
         return self.mesh.acting(self.state.shear)
 
     @property

@@ -51,6 +51,14 @@ def test_cubic_elements_that_converge_slowly_do_not_claim_second_order(one, orde
     assert claimed(one, history, CUBIC).nip_width >= 0.99 * true
 
 
+def test_two_sizes_of_cubic_elements_show_no_order_of_the_creepage(one):
+    """Of first order, say, as where unlike surfaces stick up to an edge."""
+    history = sizes((22, 36), lambda n: 7.0)
+    coarse, fine = (replace(s.figures, creepage=0.05 + 0.1 / s.count) for s in history)
+    history = [replace(history[0], figures=coarse), replace(history[1], figures=fine)]
+    assert claimed(one, history, CUBIC).creepage >= 0.999 * (fine.creepage - 0.05)
+
+
 @pytest.mark.parametrize("kind", [LINEAR, CUBIC], ids=["linear", "cubic"])
 def test_two_sizes_that_agree_by_chance_are_not_believed(one, kind):
     values = {20: 7.4, 32: 7.1, 45: 7.1}

@@ -38,4 +38,13 @@ def test_a_second_order_that_did_not_move_at_all_is_still(placing):
     stand = search.placed(Standing(layout), 26, known=False)
     again = search._renewed(replace(stand, change=0.0, expected=inf))
     assert again.change > 0.0
-    assert again.expected == inf
+    assert again.expected == pytest.approx(9.0 * again.change)
+
+
+def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(placing):
+    search, layout = placing
+    stand = search.placed(Standing(layout), 26, known=False)
+    once = search._renewed(replace(stand, change=inf, expected=inf))
+    assert once.expected == inf  # one change tells nothing
+    twice = search._renewed(replace(stand, change=4.0 * once.change, expected=inf))
+    assert twice.expected == pytest.approx(once.change / 3.0)

@@ -205,7 +205,7 @@ def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: Round) -> float:
     touching = final.pressure > 0.0
     sides = (stretch_excess(x, nip, geometry, u, side=side) for side in ("upper", "lower"))
     strains = [np.abs(excess / np.diff(x))[touching] for excess in sides]
-    return float(max(np.max(strain, initial=0.0) for strain in strains))
+    return float(np.max(np.concatenate(strains), initial=0.0))
 
 
 def surface_strain(

@@ -49,8 +49,9 @@ _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the wi
 _LOOSELY = 3.0  # more of it on the first size of mesh
 _SLACK = 1e-3  # at most: shear over the bound that may be rounding; more is slip, however coarse
 _TURNS = 2  # of the second-order terms on one mesh, while ends still move
-# Change of these over the tolerance, for which a second order is not evaluated anew on one size.
+# Expected change of these over the tolerance, for which it is not evaluated anew on one size.
 _QUIET = 1.0
+_LARGEST_RATIO = 0.9
 _TINY = float(np.finfo(float).tiny)
 
 
@@ -64,7 +65,7 @@ class Standing:
     before : the last solution; None: not one yet.
     change : of the second-order terms when the second order of "finite" was last evaluated, over
         the tolerance.
-    expected : the same of the next time.
+    expected : the same of all times to come.
     """
 
     layout: Layout
@@ -147,7 +148,9 @@ class Placing:
         second = second_order(self.nip, self.model.geometry, mesh, before.state)
         change = change_of(second, before.second, mesh, self.nip, before.state)
         change /= self.model.tolerance
-        expected = inf if stand.change == inf else change * change / max(stand.change, _TINY)
+        # Changes shrink by a ratio, and what is left is the sum of their series.
+        ratio = min(change / max(stand.change, _TINY), _LARGEST_RATIO)
+        expected = inf if stand.change == inf else change * ratio / (1.0 - ratio)
         return Standing(stand.layout, replace(before, mesh=mesh, second=second), change, expected)
 
     def _solved_on(

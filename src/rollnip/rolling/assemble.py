@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isnan, sqrt
+from math import isnan, nan, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -80,12 +80,12 @@ class SecondOrder:
         if not isnan(creepage):
             creep = creep + creepage * (self.creep_length - before.creep_length)
         changes = [
-            float(np.max(np.abs(self.clearance - before.clearance))) / approach,
+            float(np.abs(self.clearance - before.clearance).max()) / approach,
             sqrt(float(creep @ (creep / dx)) / float(dx.sum())) / strain,
         ]
         if self.traction is not None and before.traction is not None:
             changes.append(abs(self.traction - before.traction) / traction)
-        return float(np.max(changes))  # nan where any is
+        return nan if isnan(sum(changes)) else max(changes)
 
 
 def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem:

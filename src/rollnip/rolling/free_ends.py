@@ -21,7 +21,7 @@ from rollnip.rolling.round import Round, excess
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import checked, settled
 
-_FIRST_COUNT = 16
+_FIRST_COUNT = 18
 _FOR_ZONE = 4  # elements more for each zone
 _FEWEST_SIZES = 2  # of meshes before an error is believed
 # With memory the tractions have boundary layers as long as speed times relaxation time. Meshes all

@@ -16,6 +16,7 @@ from rollnip.contact import (
     HeldContact,
     Layout,
     State,
+    States,
     cosine_nodes,
     elements_of_zones,
     next_states,
@@ -120,7 +121,8 @@ class Placing:
             strained = strained + 1 if is_strained else 0
             if strained == _MOST_STRAINED:
                 return replace(stand, before=replace(latest, settled=False))
-            if asked.is_proper and (not doubted or self._agrees(latest, layout, whole=is_placed)):
+            wanted = self._wanted(latest, layout, whole=is_placed) if doubted else None
+            if asked.is_proper and wanted is None:
                 if is_placed and latest.settled:
                     return _standing_at(asked, latest, stand)
                 stand = replace(stand, layout=_hastened(layout, asked, earlier))
@@ -128,7 +130,7 @@ class Placing:
                 earlier = (layout, asked) if latest.settled else None
                 continue
             changes += 1
-            other = self._other(latest, asked if asked.is_proper else layout)
+            other = self._other(latest, wanted, asked if asked.is_proper else layout)
             if other is None or changes > _MOST_CHANGES:
                 return None
             stand, elements, earlier, off = self._renewed(other), None, None, inf
@@ -185,26 +187,28 @@ class Placing:
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         return replace(stand, before=latest), latest, asked
 
-    def _agrees(self, latest: Round, layout: Layout, *, whole: bool) -> bool:
-        """Whether a solution asks for the states that were given to the nodes in contact.
+    def _wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
+        """States that a solution asks for; None where nodes in contact were given them.
 
         While the edges are not placed, not the ``whole`` is looked at, only stick and slip.
         """
-        slack = min(self.model.tolerance, _SLACK)
+        slack, given = min(self.model.tolerance, _SLACK), latest.state.states
         wanted = next_states(latest.problem, latest.state, slack)
-        differs = (wanted != latest.state.states) & (latest.state.states != State.FREE)
+        differs = (wanted != given) & (given != State.FREE)
         differs[layout.ends(latest.problem.x)] = False  # they are as much of one zone as of another
         if not whole:
             differs &= wanted != State.FREE
-        return not np.any(differs)
+        return wanted if differs.any() else None
 
-    def _other(self, latest: Round, edges: Layout) -> Standing | None:
+    def _other(self, latest: Round, wanted: States | None, edges: Layout) -> Standing | None:
         """Other zones between some edges, where a solution does not agree with its own.
 
         None where they are not others, or none that have a layout.
         """
-        found = _LOOKING.solve(latest.problem, latest.state.states)
-        if np.array_equal(found.states, latest.state.states):
+        given = latest.state.states
+        start = given if wanted is None else np.where(wanted == State.FREE, given, wanted)
+        found = _LOOKING.solve(latest.problem, np.where(given == State.FREE, given, start))
+        if np.array_equal(found.states, given):
             return None
         layout = Layout.found(latest.problem.x, found, self.nip.friction, edges.edges)
         if layout is None:

@@ -26,6 +26,16 @@ def test_untouched(case, solved):
     assert fresh(solution) <= 1e-3
 
 
+@pytest.mark.parametrize("attribute", ["gap", "creep", "pressure"])
+def test_what_is_no_number_is_no_small_residual(solved, attribute):
+    solution = solved("II driven, curved")
+    final = solution.final
+    fields = fields_at(fine_points(final), solution.nip, "curved", solution.kernels, final)
+    values = getattr(fields, attribute).copy()
+    values[values.size // 2] = np.nan
+    assert np.isnan(residual(solution.nip, replace(fields, **{attribute: values}), final))
+
+
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("factor", [0.99, 1.01])
 def test_pressure_wrong_by_a_hundredth(solved, name, factor):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isnan, nan, sqrt
+from math import isnan, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from rollnip.geometry import (
 )
 from rollnip.model import Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Displacements, Mesh, hoop_curvature
 
 Array = NDArray[np.float64]
@@ -85,7 +86,7 @@ class SecondOrder:
         ]
         if self.traction is not None and before.traction is not None:
             changes.append(abs(self.traction - before.traction) / traction)
-        return nan if isnan(sum(changes)) else max(changes)
+        return largest(*changes)
 
 
 def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem:

@@ -11,6 +11,7 @@ from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import stretch_excess, surface_depths
+from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Round, creepage_scale
 from rollnip.rolling.surfaces import (
     Array,
@@ -135,14 +136,14 @@ def residual(nip: Nip, fields: Fields, final: Round) -> float:
     peak = figures.peak_pressure
     depth = _depth(nip, figures.nip_width, figures.approach)
     parts = [
-        np.max(-fields.gap) / depth,
-        np.max(fields.pressure * np.abs(fields.gap)) / (peak * depth),
-        np.max(-final.pressure) / peak,
+        float(np.max(-fields.gap)) / depth,
+        float(np.max(fields.pressure * np.abs(fields.gap))) / (peak * depth),
+        float(np.max(-final.pressure)) / peak,
         _load_error(nip, final),
     ]
     if nip.friction > 0.0:
         parts += _friction_errors(nip, fields, final)
-    return float(max(0.0, *parts))
+    return largest(0.0, *parts)
 
 
 def _depth(nip: Nip, width: float, approach: float) -> float:

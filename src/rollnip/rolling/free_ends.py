@@ -16,6 +16,7 @@ from rollnip.contact import Layout, cubic_error
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import CUBIC, Size, estimated_error, zone_excess
+from rollnip.rolling.largest import largest
 from rollnip.rolling.placing import GIVEN, Placing, Standing
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.surfaces import PairKernels
@@ -90,7 +91,7 @@ def _refined(placing: Placing, stand: Standing) -> Attempt:
         too_few = count
         if roughness * (count / most) ** _ROUGHNESS_ORDER > 1.0:
             break
-        if max(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:
+        if largest(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:
             final = settled(nip, model, latest, GIVEN, latest.zones)
             final = checked(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
@@ -121,10 +122,10 @@ def _roughness(nip: Nip, model: Model, latest: Round) -> float:
     """
     elements = latest.mesh.fine.elements
     pressure, shear = latest.state.pressure, latest.state.shear
-    largest = float(np.max(pressure))
-    little = model.tolerance * nip.friction * largest  # shear that hardly matters
+    peak = float(np.max(pressure))
+    little = model.tolerance * nip.friction * peak  # shear that hardly matters
     most = max(float(np.max(np.abs(shear))), little)
-    error = cubic_error(pressure, elements) / largest
+    errors = [cubic_error(pressure, elements) / peak]
     if most > 0.0:
-        error = max(error, cubic_error(shear, elements) / most)
-    return error / (_SMOOTH * sqrt(model.tolerance))
+        errors.append(cubic_error(shear, elements) / most)
+    return largest(*errors) / (_SMOOTH * sqrt(model.tolerance))

@@ -11,6 +11,7 @@ from rollnip.contact import ContactProblem, ContactState, Zone
 from rollnip.influence import load_weights
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Array, Mesh
 
 
@@ -122,7 +123,7 @@ def excess(nip: Nip, latest: Round, tolerance: float) -> float:
         watched.append(error.load / figures.load)
     if isfinite(figures.creepage):
         watched.append(error.creepage / creepage_scale(nip, figures))
-    return float(max(watched)) / tolerance
+    return largest(*watched) / tolerance
 
 
 def creepage_scale(nip: Nip, figures: Figures) -> float:

@@ -220,6 +220,7 @@ def test_units_convert_and_never_drift(designer):
     designer.enter("in-upper-radius", "7.123 in")
     boxes = ("in-upper-radius", f"{TOP}-thickness", "in-nip-load", "in-nip-speed")
     metric = [page.input_value(f"#{box}") for box in boxes]
+    page.wait_for_timeout(400)  # the address follows the figures a little later
     width, address = designer.nip_width, page.url
     asked = []
     page.on("request", lambda request: asked.append(request.url))

@@ -175,7 +175,7 @@ def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
     return float(3.0 / 128.0 * fourth.max(initial=0.0))
 
 
-@lru_cache(maxsize=128)
+@lru_cache(maxsize=64)
 def _cubics(elements: tuple[int, ...]) -> tuple[Array, Array, Array]:
     """The matrices values, acting and means of a `Subdivision`."""
     ends = np.concatenate([[0], np.cumsum(elements)])

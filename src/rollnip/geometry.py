@@ -38,8 +38,11 @@ def mean_of_neighbours(values: Array) -> Array:
     return 0.5 * (values[1:] + values[:-1])
 
 
-def linear_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
-    """First-order stretch of an arc over each interval, int (du_x/dx - u_z/R) dx [mm]."""
+def linear_stretch(dx: Array, curvature: float | Array, u_x: Array, u_z: Array) -> Array:
+    """First-order stretch of an arc over each interval, int (du_x/dx - u_z/R) dx [mm].
+
+    Of one surface, or of several in columns: then ``dx`` is a column, too.
+    """
     return u_x[1:] - u_x[:-1] - curvature * dx * mean_of_neighbours(u_z)
 
 
@@ -54,25 +57,10 @@ def second_stretch(x: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
     return np.asarray(dx * (np.sqrt(1.0 + slope**2) / (1.0 - along) - 1.0))
 
 
-def rotation_stretch(dx: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
-    """Stretch by rotation over each interval, int (du_z/dx + u_x/R)^2/2 dx [mm]."""
+def rotation_stretch(dx: Array, curvature: float | Array, u_x: Array, u_z: Array) -> Array:
+    """Stretch by rotation over each interval, int (du_z/dx + u_x/R)^2/2 dx [mm].
+
+    Of one surface or of several, as `linear_stretch`.
+    """
     rotation = (u_z[1:] - u_z[:-1]) / dx + curvature * mean_of_neighbours(u_x)
     return 0.5 * rotation**2 * dx
-
-
-def stretches(
-    x: Array, curvatures: tuple[float, float], displacements: Array
-) -> tuple[Array, Array]:
-    """`linear_stretch` and `rotation_stretch` of two surfaces at once, each (2, n - 1) [mm].
-
-    Parameters
-    ----------
-    x : (n,) [mm].
-    curvatures : 1/R of each [1/mm].
-    displacements : (4, n) u_x and u_z of the one, then of the other [mm].
-    """
-    dx, hoop = x[1:] - x[:-1], np.array(curvatures)[:, None]
-    steps = displacements[:, 1:] - displacements[:, :-1]
-    means = 0.5 * (displacements[:, 1:] + displacements[:, :-1])
-    rotation = steps[1::2] / dx + hoop * means[::2]
-    return steps[::2] - hoop * dx * means[1::2], 0.5 * rotation**2 * dx

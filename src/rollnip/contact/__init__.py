@@ -2,7 +2,7 @@
 
 from rollnip.contact.coupled import CoupledActiveSet, next_states
 from rollnip.contact.features import Zone, contact_intervals, contact_zones, states_on
-from rollnip.contact.free_ends import HeldContact, Layout
+from rollnip.contact.free_ends import HeldContact, Layout, held_to
 from rollnip.contact.given import Norm, Tang
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
@@ -62,6 +62,7 @@ __all__ = [
     "gap",
     "graded_nodes",
     "grid_intervals",
+    "held_to",
     "influence_of",
     "next_states",
     "states_on",

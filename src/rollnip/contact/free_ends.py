@@ -190,6 +190,11 @@ def _determinant(a: _Three, b: _Three, c: _Three) -> float:
     )
 
 
+def held_to(states: States, wanted: States) -> States:
+    """Wanted states, but each node in contact or free as it is."""
+    return np.where((states == FREE) | (wanted == FREE), states, wanted)
+
+
 @dataclass(frozen=True, slots=True)
 class HeldContact:
     """Solves a contact problem on a contact set that it is given, stick and slip as they come.
@@ -205,14 +210,12 @@ class HeldContact:
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
         """From ``states``; pressure may be negative and gaps overlap, which is seen later."""
-        held = states != FREE
         for step in range(1, self.max_steps + 1):
             solution = solve_states(problem, states, steps=step, settled=True)
             if step == self.max_steps:
                 break
-            wanted = next_states(problem, solution, self.rounding)
-            wanted = np.where(held & (wanted == FREE), states, np.where(held, wanted, FREE))
+            wanted = held_to(states, next_states(problem, solution, self.rounding))
             if np.array_equal(wanted, states):
                 break
-            states = wanted.astype(np.int8)
+            states = wanted
         return solution

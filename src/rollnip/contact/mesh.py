@@ -115,31 +115,28 @@ def _ends(elements: tuple[int, ...]) -> list[int]:
     return [1 + end for end in accumulate(elements)]
 
 
-def carry(
-    before: tuple[int, ...], after: tuple[int, ...], *, between: bool = False
-) -> Array | None:
-    """Matrix from values on cosine places to those on others of the same zones, zone by zone.
+def carry(before: tuple[int, ...], after: tuple[int, ...]) -> tuple[Array, Array] | None:
+    """Matrices from values on cosine places to those on others of the same zones, zone by zone.
 
     Cubic in the number of the node, so as good as tractions are between nodes.
 
     Parameters
     ----------
     before, after : elements in each zone.
-    between :
-        values belong to the intervals that begin at nodes rather than to the nodes; the one
-        beyond the leading edge takes over what it had.
 
     Returns
     -------
-    (sum of after + 1, sum of before + 1); None where the zones are not as many, or there are none.
+    Two of (sum of after + 1, sum of before + 1): of values at nodes, and of values of the intervals
+    that begin at them, of which the one beyond the leading edge keeps its own. None where the
+    zones are not as many, or there are none.
     """
     if len(before) != len(after) or not before:
         return None
-    return _carry(before, after, between)
+    return _carry(before, after, between=False), _carry(before, after, between=True)
 
 
 @lru_cache(maxsize=128)
-def _carry(before: tuple[int, ...], after: tuple[int, ...], between: bool) -> Array:
+def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) -> Array:
     out = np.zeros((sum(after) + 1, sum(before) + 1))
     row = column = 0
     shift = 0.5 if between else 0.0

@@ -14,7 +14,6 @@ from rollnip.geometry import (
     rotation_stretch,
     sagitta,
     second_stretch,
-    stretches,
 )
 from rollnip.model import Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
@@ -45,10 +44,10 @@ class SecondOrder:
 
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
         """The same terms on another mesh; where both have the same zones, zone by zone."""
-        before, after = old.fine.elements, new.fine.elements
-        nodes, intervals = carry(before, after), carry(before, after, between=True)
+        matrices = carry(old.fine.elements, new.fine.elements)
         rate, offset = self.creep_length / old.dx, self.creep_offset / old.dx
-        if nodes is not None and intervals is not None:
+        if matrices is not None:
+            nodes, intervals = matrices
             return replace(
                 self,
                 clearance=nodes @ self.clearance,
@@ -185,15 +184,16 @@ def _stretch_terms(
 ) -> tuple[Array, Array]:
     """What the creep (1 + xi/2) stretch_u - (1 - xi/2) stretch_l has beyond its linear part."""
     x, is_flat = mesh.fine.nodes[1:], flat is u
+    dx, hoops = (x[1:] - x[:-1])[:, None], np.array(mesh.kernels.hoops)
     u = mesh.finer(u)
     if geometry == "curved":
-        stretch, rotation = stretches(x, mesh.kernels.hoops, u.four)
-        upper, lower = stretch + rotation
-        return mesh.sums(0.5 * (upper + lower)), mesh.sums(rotation[0] - rotation[1])
+        rotation = rotation_stretch(dx, hoops, *u.columns)
+        upper, lower = (linear_stretch(dx, hoops, *u.columns) + rotation).T
+        return mesh.sums(0.5 * (upper + lower)), mesh.sums(rotation[:, 0] - rotation[:, 1])
     flat = u if is_flat else mesh.finer(flat)
     upper = stretch_excess(x, nip, geometry, u, side="upper")
     lower = stretch_excess(x, nip, geometry, u, side="lower")
-    (linear_u, linear_l), _ = stretches(x, mesh.kernels.hoops, flat.four)
+    linear_u, linear_l = linear_stretch(dx, hoops, *flat.columns).T
     return mesh.sums(0.5 * (upper + lower)), mesh.sums(upper - lower - linear_u + linear_l)
 
 

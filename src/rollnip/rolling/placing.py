@@ -19,6 +19,7 @@ from rollnip.contact import (
     States,
     cosine_nodes,
     elements_of_zones,
+    held_to,
     next_states,
     subdivided,
 )
@@ -206,8 +207,8 @@ class Placing:
         None where they are not others, or none that have a layout.
         """
         given = latest.state.states
-        start = given if wanted is None else np.where(wanted == State.FREE, given, wanted)
-        found = _LOOKING.solve(latest.problem, np.where(given == State.FREE, given, start))
+        start = given if wanted is None else held_to(given, wanted)
+        found = _LOOKING.solve(latest.problem, start)
         if np.array_equal(found.states, given):
             return None
         layout = Layout.found(latest.problem.x, found, self.nip.friction, edges.edges)

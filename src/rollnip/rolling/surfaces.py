@@ -61,6 +61,11 @@ class Displacements:
         """u_z of the lower surface, (n,) [mm]."""
         return np.asarray(self.four[3])
 
+    @property
+    def columns(self) -> tuple[Array, Array]:
+        """u_x and u_z, each with a column for the upper and one for the lower surface [mm]."""
+        return self.four[::2].T, self.four[1::2].T
+
     def __add__(self, other: Displacements) -> Displacements:
         return Displacements(self.four + other.four)
 

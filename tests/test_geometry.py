@@ -11,6 +11,7 @@ from rollnip.geometry import (
     mean_of_neighbours,
     rotation_stretch,
     sagitta,
+    second_stretch,
 )
 
 
@@ -116,15 +117,20 @@ def test_swollen_ring():
 
 def test_means():
     np.testing.assert_array_equal(mean_of_neighbours(np.array([1.0, 3.0, 7.0])), [2.0, 5.0])
-    pair = mean_of_neighbours(np.array([[1.0, 0.0], [3.0, 4.0]]))
-    np.testing.assert_array_equal(pair, [[2.0, 2.0]])
+    pair = mean_of_neighbours(np.array([[1.0, 3.0], [0.0, 4.0]]))
+    np.testing.assert_array_equal(pair, [[2.0], [2.0]])
 
 
 def test_stretches_of_two_surfaces():
     rng = np.random.default_rng(3)
     x, four, curvatures = np.sort(rng.normal(size=9)), rng.normal(size=(4, 9)), (0.02, 0.0)
-    columns = np.diff(x)[:, None], np.array(curvatures), four[::2].T, four[1::2].T
-    found = [function(*columns).T for function in (linear_stretch, rotation_stretch)]
+    rows = np.array(curvatures)[:, None], four[::2], four[1::2]
+    found = [function(np.diff(x), *rows) for function in (linear_stretch, rotation_stretch)]
+    np.testing.assert_allclose(
+        second_stretch(x, *rows),
+        [second_stretch(x, *row) for row in zip(curvatures, *rows[1:], strict=True)],
+        rtol=1e-14,
+    )
     for i, curvature in enumerate(curvatures):
         u_x, u_z = four[2 * i : 2 * i + 2]
         for function, of_both in zip((linear_stretch, rotation_stretch), found, strict=True):

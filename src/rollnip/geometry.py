@@ -34,26 +34,27 @@ def sagitta(x: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
 
 
 def mean_of_neighbours(values: Array) -> Array:
-    """Mean over each interval of a quantity given at its ends."""
-    return 0.5 * (values[1:] + values[:-1])
+    """Mean over each interval of a quantity given at its ends, along the last axis."""
+    return 0.5 * (values[..., 1:] + values[..., :-1])
 
 
 def linear_stretch(dx: Array, curvature: float | Array, u_x: Array, u_z: Array) -> Array:
     """First-order stretch of an arc over each interval, int (du_x/dx - u_z/R) dx [mm].
 
-    Of one surface, or of several in columns: then ``dx`` is a column, too.
+    Of one surface, or of several in rows: then ``curvature`` is a column.
     """
-    return u_x[1:] - u_x[:-1] - curvature * dx * mean_of_neighbours(u_z)
+    return _steps(u_x) - curvature * dx * mean_of_neighbours(u_z)
 
 
-def second_stretch(x: Array, curvature: float, u_x: Array, u_z: Array) -> Array:
+def second_stretch(x: Array, curvature: float | Array, u_x: Array, u_z: Array) -> Array:
     """Stretch less 1 over each interval [mm], of material that is at x now and was at x - u_x.
 
-    Int [sqrt(1 + slope^2)/(1 - du_x/dx) - 1] dx: present length over undeformed arc.
+    Int [sqrt(1 + slope^2)/(1 - du_x/dx) - 1] dx: present length over undeformed arc. Of one surface
+    or of several, as `linear_stretch`.
     """
-    dx = x[1:] - x[:-1]
-    slope = curvature * mean_of_neighbours(x) + (u_z[1:] - u_z[:-1]) / dx
-    along = (u_x[1:] - u_x[:-1]) / dx
+    dx = _steps(x)
+    slope = curvature * mean_of_neighbours(x) + _steps(u_z) / dx
+    along = _steps(u_x) / dx
     return np.asarray(dx * (np.sqrt(1.0 + slope**2) / (1.0 - along) - 1.0))
 
 
@@ -62,5 +63,10 @@ def rotation_stretch(dx: Array, curvature: float | Array, u_x: Array, u_z: Array
 
     Of one surface or of several, as `linear_stretch`.
     """
-    rotation = (u_z[1:] - u_z[:-1]) / dx + curvature * mean_of_neighbours(u_x)
+    rotation = _steps(u_z) / dx + curvature * mean_of_neighbours(u_x)
     return 0.5 * rotation**2 * dx
+
+
+def _steps(values: Array) -> Array:
+    """Change over each interval of a quantity given at its ends, along the last axis."""
+    return values[..., 1:] - values[..., :-1]

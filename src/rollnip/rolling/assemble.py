@@ -163,19 +163,20 @@ def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
     return depths[0], depths[1]
 
 
-def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements, *, side: str) -> Array:
-    """Int (stretch - 1) dx of one surface over each interval [mm]."""
-    dx = x[1:] - x[:-1]
-    roller = nip.upper if side == "upper" else nip.lower
-    u_x, u_z = (u.x_upper, u.z_upper) if side == "upper" else (u.x_lower, u.z_lower)
-    if roller.is_rigid:
-        return np.zeros(dx.size)
-    hoop = hoop_curvature(roller, geometry)
-    if geometry == "finite" and roller.core is None:
-        return second_stretch(x, hoop, u_x, u_z)
-    excess = linear_stretch(dx, hoop, u_x, u_z)
+def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
+    """Int (stretch - 1) dx of the upper and the lower surface over each interval, (2, n - 1) [mm].
+
+    A rigid roller does not stretch.
+    """
+    rollers = (nip.upper, nip.lower)
+    hoops = np.array([[hoop_curvature(roller, geometry)] for roller in rollers])
+    excess = linear_stretch(x[1:] - x[:-1], hoops, *u.rows)
     if geometry in ("curved", "finite"):
-        excess = excess + rotation_stretch(dx, hoop, u_x, u_z)
+        excess += rotation_stretch(x[1:] - x[:-1], hoops, *u.rows)
+    if geometry == "finite":
+        for out, roller, hoop, u_x, u_z in zip(excess, rollers, hoops, *u.rows, strict=True):
+            if roller.core is None and not roller.is_rigid:
+                out[:] = second_stretch(x, hoop, u_x, u_z)
     return excess
 
 
@@ -184,17 +185,16 @@ def _stretch_terms(
 ) -> tuple[Array, Array]:
     """What the creep (1 + xi/2) stretch_u - (1 - xi/2) stretch_l has beyond its linear part."""
     x, is_flat = mesh.fine.nodes[1:], flat is u
-    dx, hoops = (x[1:] - x[:-1])[:, None], np.array(mesh.kernels.hoops)
+    dx, hoops = x[1:] - x[:-1], np.array(mesh.kernels.hoops)[:, None]
     u = mesh.finer(u)
     if geometry == "curved":
-        rotation = rotation_stretch(dx, hoops, *u.columns)
-        upper, lower = (linear_stretch(dx, hoops, *u.columns) + rotation).T
-        return mesh.sums(0.5 * (upper + lower)), mesh.sums(rotation[:, 0] - rotation[:, 1])
-    flat = u if is_flat else mesh.finer(flat)
-    upper = stretch_excess(x, nip, geometry, u, side="upper")
-    lower = stretch_excess(x, nip, geometry, u, side="lower")
-    linear_u, linear_l = linear_stretch(dx, hoops, *flat.columns).T
-    return mesh.sums(0.5 * (upper + lower)), mesh.sums(upper - lower - linear_u + linear_l)
+        beyond = rotation_stretch(dx, hoops, *u.rows)
+        excess = linear_stretch(dx, hoops, *u.rows) + beyond
+    else:
+        flat = u if is_flat else mesh.finer(flat)
+        excess = stretch_excess(x, nip, geometry, u)
+        beyond = excess - linear_stretch(dx, hoops, *flat.rows)
+    return mesh.sums(0.5 * (excess[0] + excess[1])), mesh.sums(beyond[0] - beyond[1])
 
 
 def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:

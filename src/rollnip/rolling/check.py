@@ -102,8 +102,9 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
 def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
     """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval."""
     dx = x[1:] - x[:-1]
-    upper = stretch_excess(x, nip, geometry, u, side="upper")
-    lower = stretch_excess(x, nip, geometry, u, side="lower")
+    upper: Array
+    lower: Array
+    upper, lower = stretch_excess(x, nip, geometry, u)
     if geometry in ("linear", "corrected"):
         # Small strains: the product of creepage and strain is left out.
         return creepage * dx + upper - lower
@@ -204,9 +205,8 @@ def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: Round) -> float:
     x = final.nodes[1:]
     u = final.mesh.finer(final.mesh.displacements(final.state))
     touching = final.pressure > 0.0
-    sides = (stretch_excess(x, nip, geometry, u, side=side) for side in ("upper", "lower"))
-    strains = [np.abs(excess / np.diff(x))[touching] for excess in sides]
-    return float(np.max(np.concatenate(strains), initial=0.0))
+    strains = np.abs(stretch_excess(x, nip, geometry, u) / (x[1:] - x[:-1]))
+    return float(strains[:, touching].max(initial=0.0))
 
 
 def surface_strain(

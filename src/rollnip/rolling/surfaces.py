@@ -62,9 +62,9 @@ class Displacements:
         return np.asarray(self.four[3])
 
     @property
-    def columns(self) -> tuple[Array, Array]:
-        """u_x and u_z, each with a column for the upper and one for the lower surface [mm]."""
-        return self.four[::2].T, self.four[1::2].T
+    def rows(self) -> tuple[Array, Array]:
+        """u_x and u_z, each with a row for the upper and one for the lower surface, (2, n) [mm]."""
+        return self.four[::2], self.four[1::2]
 
     def __add__(self, other: Displacements) -> Displacements:
         return Displacements(self.four + other.four)

@@ -1,11 +1,14 @@
 """Ends of zones by Newton's method, on problems whose solution is known."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from rollnip.contact import (
     CREEP_TO_EDGE,
     ContactState,
+    GivenStates,
     HeldContact,
     Layout,
     State,
@@ -15,6 +18,7 @@ from rollnip.contact import (
     gap,
     subdivided,
 )
+from rollnip.contact.coupled import LinearSystem
 from rollnip.contact.free_ends import _RESPONSE
 from rollnip.contact.problem import ContactProblem, Control, influence_of
 from rollnip.influence import load_weights
@@ -61,7 +65,7 @@ HERTZ_LOAD = 0.5
 def hertz(breaks, elements):
     problem = half_planes(breaks, [elements], load=HERTZ_LOAD, traction=None, friction=0.0)
     layout = Layout(np.asarray(breaks, dtype=float), np.array([STICK], dtype=np.int8))
-    state = HeldContact().solve(problem, layout.states_on(problem.x))
+    state = GivenStates().solve(problem, layout.states_on(problem.x))
     return problem, layout, state
 
 
@@ -119,7 +123,7 @@ def test_transition_of_carter_is_found_again(off, sign):
         problem = half_planes(
             layout.breaks, [8, 14], load=HERTZ_LOAD, traction=traction, friction=1.0
         )
-        state = HeldContact().solve(problem, layout.states_on(problem.x))
+        state = GivenStates().solve(problem, layout.states_on(problem.x))
         layout = layout.moved(problem.x, state, 1.0)
     assert layout.breaks[1] == pytest.approx(1.0 - 2.0 * b, abs=1e-3)
     # the creep of rigid rolling: xi = mu (1 - b) a/R of two half-planes, in these units mu (1 - b)
@@ -174,7 +178,7 @@ def test_zones_are_found_from_states_of_nodes():
     traction = HERTZ_LOAD * (1.0 - b * b)
     problem = half_planes([-1.0, 1.0], [24], load=HERTZ_LOAD, traction=traction, friction=1.0)
     start = Layout(np.array([-1.0, 1.0]), np.array([STICK], dtype=np.int8)).states_on(problem.x)
-    found = HeldContact(max_steps=12).solve(problem, start)
+    found = HeldContact().solve(problem, start)
     np.testing.assert_array_equal(found.states != State.FREE, start != State.FREE)
     layout = Layout.found(problem.x, found, 1.0, (-1.0, 1.0))
     assert layout is not None
@@ -188,6 +192,28 @@ def test_a_contact_that_is_held_may_be_under_tension():
     assert np.min(state.pressure) < 0.0
     np.testing.assert_array_equal(state.states, layout.states_on(problem.x))
     assert problem.weights @ state.pressure == pytest.approx(HERTZ_LOAD)
+
+
+def test_a_kept_system_is_of_the_same_mesh_and_states(monkeypatch):
+    """It is made anew for others, and only for others."""
+    made = []
+    original = LinearSystem.of
+    monkeypatch.setattr(
+        LinearSystem, "of", lambda *system: made.append(system) or original(*system)
+    )
+    given = GivenStates()
+    problem, layout, _ = hertz([-1.0, 1.0], 12)
+    states = layout.states_on(problem.x)
+    given.solve(problem, states)
+    made.clear()
+    again = given.solve(replace(problem, clearance=problem.clearance - 0.1), states.copy())
+    assert not made
+    assert problem.weights @ again.pressure == pytest.approx(HERTZ_LOAD)
+    other, _, right = hertz([-0.9, 0.9], 12)
+    np.testing.assert_allclose(given.solve(other, states).pressure, right.pressure, rtol=1e-10)
+    fewer = np.where(np.abs(other.x) < 0.5, states, State.FREE)
+    np.testing.assert_array_equal(given.solve(other, fewer).pressure[fewer == State.FREE], 0.0)
+    assert len(made) == 3  # one of them by `hertz`
 
 
 @pytest.mark.parametrize("count", [6, 20, 47])

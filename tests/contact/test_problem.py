@@ -1,10 +1,12 @@
 """Gap, creep and the linear system of given states."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from rollnip.contact import ContactState, Control, State, creep, gap
-from rollnip.contact.coupled import solve_states
+from rollnip.contact.coupled import LinearSystem, next_slip, next_states, solve_states
 from rollnip.contact.problem import shear_signs
 
 CONTROLS = {
@@ -58,6 +60,40 @@ def test_given_states_satisfy_their_equations(random_problem, name, friction):
         assert problem.weights @ found.shear == pytest.approx(control.traction, rel=1e-9)
     else:
         assert found.creepage == control.creepage
+
+
+@pytest.mark.parametrize("name", CONTROLS)
+@pytest.mark.parametrize("longer", [0.0, 0.1, -0.9, 30.0])
+def test_one_factorisation_serves_other_second_order_terms(random_problem, name, longer):
+    """Also where the lengths change so much that the matrix is another one."""
+    problem = random_problem(7, 9, friction=0.4, control=CONTROLS[name], coupling=0.2)
+    states = np.array([0, 1, 1, 2, 0, 3, 1, 2, 0], dtype=np.int8)
+    terms = np.random.default_rng(5).normal(size=(3, 9))
+    other = replace(
+        problem,
+        clearance=problem.clearance + terms[0],
+        creep_offset=problem.creep_offset + terms[1],
+        creep_length=problem.creep_length * (1.0 + longer * terms[2]),
+    )
+    found, afresh = LinearSystem.of(problem, states).solved(other), solve_states(other, states)
+    np.testing.assert_allclose(found.pressure, afresh.pressure, rtol=1e-9, atol=1e-11)
+    np.testing.assert_allclose(found.shear, afresh.shear, rtol=1e-9, atol=1e-11)
+    assert found.approach == pytest.approx(afresh.approach, rel=1e-9)
+    assert found.creepage == pytest.approx(afresh.creepage, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("friction", [0.0, 0.4])
+def test_slip_that_is_asked_for_in_a_held_contact(random_problem, seed, friction):
+    """That of `next_states`; free nodes and those under tension keep their states."""
+    problem = random_problem(seed, 9, friction=friction, control=CONTROLS["load, traction"])
+    states = np.array([0, 1, 1, 2, 1, 3, 1, 1, 0], dtype=np.int8)
+    if friction == 0.0:
+        states = np.minimum(states, State.STICK)
+    state = solve_states(problem, states)
+    all_asked, slip = next_states(problem, state, 1e-9), next_slip(problem, state, 1e-9)
+    held = (states == State.FREE) | (all_asked == State.FREE)
+    np.testing.assert_array_equal(slip, np.where(held, states, all_asked))
 
 
 def test_without_friction_the_creepage_is_free(random_problem):

@@ -1,15 +1,16 @@
-"""How often the second order of "finite" is evaluated while ends of zones are placed."""
+"""The start of the search from a guess, and how often the second order of "finite" is evaluated."""
 
 from dataclasses import replace
 from math import inf
 
+import numpy as np
 import pytest
 
 import rollnip as rn
 from rollnip.contact import Layout
 from rollnip.influence import KernelCache
 from rollnip.rolling import half_width_guess, pair_kernels, with_second_order
-from rollnip.rolling.placing import Placing, Standing
+from rollnip.rolling.placing import Placing
 
 FINITE = rn.Model(geometry="finite")
 
@@ -26,7 +27,7 @@ def placing(cases):
 def test_each_size_of_mesh_has_a_second_order_of_its_own(placing):
     """However little it moved on the size before: that was the one of a coarser mesh."""
     search, layout = placing
-    coarse = search.placed(Standing(layout), 26, known=False)
+    coarse = search.placed(search.guessed(layout, 26), 26, known=False)
     still = replace(coarse, change=1e-3, expected=1e-6)
     fine = search.placed(still, 40, known=True)
     assert fine.before.mesh.kernels.held is not coarse.before.mesh.kernels.held
@@ -35,7 +36,7 @@ def test_each_size_of_mesh_has_a_second_order_of_its_own(placing):
 
 def test_a_second_order_that_did_not_move_at_all_is_still(placing):
     search, layout = placing
-    stand = search.placed(Standing(layout), 26, known=False)
+    stand = search.placed(search.guessed(layout, 26), 26, known=False)
     again = search._renewed(replace(stand, change=0.0, expected=inf))
     assert again.change > 0.0
     assert again.expected == pytest.approx(9.0 * again.change)
@@ -43,8 +44,43 @@ def test_a_second_order_that_did_not_move_at_all_is_still(placing):
 
 def test_what_is_left_of_the_second_order_is_the_sum_of_its_changes(placing):
     search, layout = placing
-    stand = search.placed(Standing(layout), 26, known=False)
+    stand = search.placed(search.guessed(layout, 26), 26, known=False)
     once = search._renewed(replace(stand, change=inf, expected=inf))
     assert once.expected == inf  # one change tells nothing
     twice = search._renewed(replace(stand, change=4.0 * once.change, expected=inf))
     assert twice.expected == pytest.approx(once.change / 3.0)
+
+
+def search_for(nip, geometry):
+    kernels = pair_kernels(nip, geometry)
+    layout = Layout.sticking(half_width_guess(nip, kernels))
+    return Placing(nip, rn.Model(geometry=geometry), kernels), layout
+
+
+def states_of(solution):
+    return [zone.state for zone in solution.final.zones]
+
+
+@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved"])
+def test_a_guess_finds_the_zones_without_second_order(cases, geometry):
+    """Terms of second order under tractions that misplaced ends make singular mean nothing."""
+    nip = cases["II driven, curved"][0]
+    search, layout = search_for(nip, geometry)
+    stand = search.guessed(layout, 22)
+    for term in ("clearance", "creep_length", "creep_offset"):
+        np.testing.assert_array_equal(getattr(stand.before.second, term), 0.0)
+    final = rn.solve(nip, search.model)
+    assert list(stand.layout.states) == states_of(final)
+    edges = final.zones[0].start, final.zones[-1].stop
+    assert stand.layout.edges == pytest.approx(edges, rel=1e-2)
+
+
+def test_a_guess_knows_the_traction_of_a_torque(cases):
+    """It is no small term: without it there would be other zones."""
+    driven = cases["II driven, curved"][0]
+    torque = rn.solve(driven, rn.Model(geometry="curved")).torque_lower
+    nip = replace(driven, tangential=rn.Torque(torque))
+    search, layout = search_for(nip, "curved")
+    stand = search.guessed(layout, 22)
+    assert stand.before.second.traction == pytest.approx(driven.tangential.traction, rel=0.05)
+    assert list(stand.layout.states) == states_of(rn.solve(nip, search.model))

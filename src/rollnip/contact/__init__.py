@@ -1,8 +1,8 @@
 """Contact: which nodes touch, stick or slip, by Kalker's algorithms and a coupled active set."""
 
-from rollnip.contact.coupled import CoupledActiveSet, next_states
+from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
 from rollnip.contact.features import Zone, contact_intervals, contact_zones, states_on
-from rollnip.contact.free_ends import HeldContact, Layout, held_to
+from rollnip.contact.free_ends import GivenStates, HeldContact, Layout
 from rollnip.contact.given import Norm, Tang
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
@@ -40,6 +40,7 @@ __all__ = [
     "CoupledActiveSet",
     "CreepagePath",
     "Demand",
+    "GivenStates",
     "GridActiveSet",
     "GridProblem",
     "GridState",
@@ -62,8 +63,8 @@ __all__ = [
     "gap",
     "graded_nodes",
     "grid_intervals",
-    "held_to",
     "influence_of",
+    "next_slip",
     "next_states",
     "states_on",
     "subdivided",

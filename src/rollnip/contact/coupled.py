@@ -27,6 +27,7 @@ from rollnip.contact.problem import (
 )
 
 _TINY = np.finfo(float).tiny
+_WELL_AWAY = 0.1  # from zero: what a change of one column may leave of the determinant
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,41 +74,88 @@ def solve_states(
     numpy.linalg.LinAlgError
         where the states leave the system singular.
     """
-    (contact,) = (states != FREE).nonzero()
-    stick = (states == STICK).nonzero()[0] if problem.friction > 0.0 else contact[:0]
-    signs = shear_signs(states)
-    unknowns = _solved(*_system(problem, contact, stick, signs))
-    n_c, n_s = contact.size, stick.size
-    pressure = np.zeros(states.size)
-    pressure[contact] = unknowns[:n_c]
-    shear = problem.friction * signs * pressure
-    shear[stick] = unknowns[n_c : n_c + n_s]
-    # What is prescribed comes back to rounding; it is taken as it was given.
-    control = problem.control
-    approach, creepage = control.approach, control.creepage
-    if approach is None:
-        approach = float(unknowns[-2])
-    if creepage is None:
-        creepage = float(unknowns[-1]) if problem.friction > 0.0 else np.nan
-    return ContactState(states, pressure, shear, approach, creepage, steps, settled)
+    return LinearSystem.of(problem, states).solved(problem, steps=steps, settled=settled)
 
 
-def _solved(matrix: Array, right: Array) -> Array:
-    """Solution of a linear system; overwrites the matrix.
+@dataclass(frozen=True, slots=True)
+class LinearSystem:
+    """The linear system that given states make of a contact problem, factorised.
 
-    LAPACK wants columns and the matrix lies in rows: the transposed one is factorised where it
-    lies. For such small systems the ways around LAPACK would cost more than LAPACK.
+    Attributes
+    ----------
+    problem, states : what it was made of.
+    contact, stick : numbers of the nodes in contact, and of those whose shear is unknown.
+    signs : (n,) of the shear of nodes that slip.
+    factors, pivots : of LAPACK's LU decomposition.
     """
-    factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
-    if info != 0:
-        raise np.linalg.LinAlgError("Singular matrix")
-    solution, _ = lapack.dgetrs(factors, pivots, right, trans=1)
-    return np.asarray(solution)
+
+    problem: ContactProblem
+    states: States
+    contact: Indices
+    stick: Indices
+    signs: Array
+    factors: Array
+    pivots: Indices
+
+    @classmethod
+    def of(cls, problem: ContactProblem, states: States) -> LinearSystem:
+        """That of some states, see `solve_states`."""
+        (contact,) = (states != FREE).nonzero()
+        stick = (states == STICK).nonzero()[0] if problem.friction > 0.0 else contact[:0]
+        signs = shear_signs(states)
+        # LAPACK wants columns and the matrix lies in rows: the transposed one is factorised where
+        # it lies. For such small systems the ways around LAPACK would cost more than LAPACK.
+        matrix = _matrix(problem, contact, stick, signs)
+        factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
+        if info != 0:
+            raise np.linalg.LinAlgError("Singular matrix")
+        return cls(problem, states, contact, stick, signs, factors, pivots)
+
+    def solved(
+        self, problem: ContactProblem, *, steps: int = 1, settled: bool = False
+    ) -> ContactState:
+        """The solution for that problem, or one like it.
+
+        Clearance, lengths and offsets of the creep and the values prescribed may be others; what
+        is prescribed, influence, weights and friction may not.
+        """
+        unknowns = self._unknowns(problem)
+        n_c, n_s = self.contact.size, self.stick.size
+        pressure = np.zeros(self.states.size)
+        pressure[self.contact] = unknowns[:n_c]
+        shear = problem.friction * self.signs * pressure
+        shear[self.stick] = unknowns[n_c : n_c + n_s]
+        # What is prescribed comes back to rounding; it is taken as it was given.
+        control = problem.control
+        approach, creepage = control.approach, control.creepage
+        if approach is None:
+            approach = float(unknowns[-2])
+        if creepage is None:
+            creepage = float(unknowns[-1]) if problem.friction > 0.0 else np.nan
+        return ContactState(self.states, pressure, shear, approach, creepage, steps, settled)
+
+    def _unknowns(self, problem: ContactProblem) -> Array:
+        right = _right_side(problem, self.contact, self.stick)
+        if problem.creep_length is self.problem.creep_length:
+            return self._divided(right)
+        # The lengths are the column of the creepage: other ones change the matrix by one column
+        # (Sherman & Morrison).
+        change = np.zeros(right.size)
+        longer = problem.creep_length - self.problem.creep_length
+        change[self.contact.size : -2] = longer[self.stick]
+        both = self._divided(np.stack([right, change], axis=1))
+        first, more = both[:, 0], both[:, 1]
+        divisor = 1.0 + float(more[-1])
+        if not divisor > _WELL_AWAY:
+            return LinearSystem.of(problem, self.states)._unknowns(problem)
+        return np.asarray(first - more * (first[-1] / divisor))
+
+    def _divided(self, right: Array) -> Array:
+        solution, _ = lapack.dgetrs(self.factors, self.pivots, right, trans=1)
+        return np.asarray(solution)
 
 
-def _system(
-    problem: ContactProblem, contact: Indices, stick: Indices, signs: Array
-) -> tuple[Array, Array]:
+def _matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Array) -> Array:
     """Rows: gap 0 in contact, creep 0 in stick, load or approach, traction or creepage."""
     n_c, size, n = contact.size, contact.size + stick.size, problem.x.size
     rows = np.concatenate([contact, n + stick])
@@ -115,25 +163,34 @@ def _system(
     influence = problem.influence.take(rows, axis=0)
     if stick.size < n_c:  # where nodes slip the shear comes with the pressure
         influence[:, :n] += influence[:, n:] * ratio
-    matrix, right = np.zeros((size + 2, size + 2)), np.zeros(size + 2)
+    matrix = np.zeros((size + 2, size + 2))
     matrix[:size, :size] = influence.take(rows, axis=1)
     matrix[:n_c, -2] = -1.0
-    right[:n_c] = -problem.clearance[contact]
     matrix[n_c:size, -1] = problem.creep_length[stick]
-    right[n_c:size] = -problem.creep_offset[stick]
     control, weights = problem.control, problem.weights[contact]
     if control.load is not None:
         matrix[-2, :n_c] = weights
-        right[-2] = control.load
     else:
-        matrix[-2, -2], right[-2] = 1.0, control.approach
+        matrix[-2, -2] = 1.0
     if control.traction is not None and problem.friction > 0.0:
         matrix[-1, :n_c] = weights * ratio[contact]
         matrix[-1, n_c:size] = problem.weights[stick]
-        right[-1] = control.traction
     else:
-        matrix[-1, -1], right[-1] = 1.0, control.creepage or 0.0
-    return matrix, right
+        matrix[-1, -1] = 1.0
+    return matrix
+
+
+def _right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Array:
+    """What the rows of `_matrix` are equal to."""
+    n_c = contact.size
+    right = np.empty(n_c + stick.size + 2)
+    right[:n_c] = -problem.clearance[contact]
+    right[n_c:-2] = -problem.creep_offset[stick]
+    control = problem.control
+    right[-2] = control.approach if control.load is None else control.load
+    has_traction = control.traction is not None and problem.friction > 0.0
+    right[-1] = control.traction if has_traction else control.creepage or 0.0
+    return right
 
 
 def next_states(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
@@ -146,22 +203,52 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
     kept: Mask = np.where(in_contact, pressure >= -rounding * largest, depth < -rounding * scale)
     if problem.friction == 0.0:
         return np.asarray(np.where(kept, np.maximum(states, STICK), FREE), dtype=np.int8)
-    # The shear that would bring the creep to zero, were its own node the only one to change: it
-    # tells a slipping node apart that should stick from one that should slip the other way.
-    own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
-    sought = solution.shear - drift / own
-    bound = problem.friction * np.maximum(pressure, 0.0)
-    # Within rounding a node keeps its state.
-    slack = rounding * problem.friction * largest
-    plus = sought > bound + np.where(states == SLIP_PLUS, -slack, slack)
-    minus = sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)
     out: States = kept.astype(np.int8)  # 1: STICK
-    out[kept & plus] = SLIP_PLUS
-    out[kept & minus] = SLIP_MINUS
+    _let_slip(out, kept, problem, solution, drift, rounding * largest)
     (new,) = (kept & ~in_contact).nonzero()
     if new.size:
         out[new] = _nearest_states(states, in_contact, new)
     return out
+
+
+def next_slip(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
+    """States that creep and shear ask for; free nodes and those under tension keep theirs."""
+    states, pressure = solution.states, solution.pressure
+    out = states.copy()
+    if problem.friction == 0.0:
+        return out
+    made = problem.creep_pressure @ pressure + problem.creep_shear @ solution.shear
+    drift = made + problem.creep_offset + solution.creepage * problem.creep_length
+    little = rounding * float(np.abs(pressure).max())
+    kept: Mask = (states != FREE) & (pressure >= -little)
+    out[kept] = STICK
+    _let_slip(out, kept, problem, solution, drift, little)
+    return out
+
+
+def _let_slip(
+    out: States,
+    kept: Mask,
+    problem: ContactProblem,
+    solution: ContactState,
+    drift: Array,
+    little: float,
+) -> None:
+    """Set the states of the nodes that slip, of those ``kept`` in contact.
+
+    ``drift`` is the creep of each interval, ``little`` a pressure that counts as rounding.
+    """
+    # The shear that would bring the creep to zero, were its own node the only one to change: it
+    # tells a slipping node apart that should stick from one that should slip the other way.
+    own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
+    sought = solution.shear - drift / own
+    bound = problem.friction * np.maximum(solution.pressure, 0.0)
+    # Within rounding a node keeps its state.
+    slack, states = problem.friction * little, solution.states
+    plus = sought > bound + np.where(states == SLIP_PLUS, -slack, slack)
+    minus = sought < -bound - np.where(states == SLIP_MINUS, -slack, slack)
+    out[kept & plus] = SLIP_PLUS
+    out[kept & minus] = SLIP_MINUS
 
 
 def _nearest_states(states: States, in_contact: Mask, new: Indices) -> States:

@@ -17,7 +17,7 @@ from math import isfinite, nan, sqrt
 
 import numpy as np
 
-from rollnip.contact.coupled import next_states, solve_states
+from rollnip.contact.coupled import LinearSystem, next_slip, solve_states
 from rollnip.contact.features import Zone, transition
 from rollnip.contact.problem import (
     FREE,
@@ -190,9 +190,25 @@ def _determinant(a: _Three, b: _Three, c: _Three) -> float:
     )
 
 
-def held_to(states: States, wanted: States) -> States:
-    """Wanted states, but each node in contact or free as it is."""
-    return np.where((states == FREE) | (wanted == FREE), states, wanted)
+@dataclass(slots=True)
+class GivenStates:
+    """Solves a contact problem on states that it is given.
+
+    It keeps its last linear system, for problems on the same mesh with other second-order terms.
+    """
+
+    _last: LinearSystem | None = None
+
+    def solve(self, problem: ContactProblem, states: States) -> ContactState:
+        """The solution; that pressure is negative, gaps overlap, or what sticks, is seen later."""
+        last = self._last
+        if (
+            last is None
+            or last.problem.influence is not problem.influence
+            or not np.array_equal(last.states, states)
+        ):
+            last = self._last = LinearSystem.of(problem, states)
+        return last.solved(problem, settled=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,11 +217,11 @@ class HeldContact:
 
     Parameters
     ----------
-    max_steps : linear systems to solve at most; 1 takes stick and slip as given, too.
+    max_steps : linear systems to solve at most.
     rounding : as that of `CoupledActiveSet`.
     """
 
-    max_steps: int = 1
+    max_steps: int = 12
     rounding: float = 1e-11
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
@@ -214,7 +230,7 @@ class HeldContact:
             solution = solve_states(problem, states, steps=step, settled=True)
             if step == self.max_steps:
                 break
-            wanted = held_to(states, next_states(problem, solution, self.rounding))
+            wanted = next_slip(problem, solution, self.rounding)
             if np.array_equal(wanted, states):
                 break
             states = wanted

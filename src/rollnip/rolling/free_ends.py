@@ -17,7 +17,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import CUBIC, Size, estimated_error, zone_excess
 from rollnip.rolling.largest import largest
-from rollnip.rolling.placing import GIVEN, Placing, Standing
+from rollnip.rolling.placing import Placing, Standing
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import checked, settled
@@ -65,22 +65,24 @@ def with_free_ends(
     layout : about where the zones are, and which.
     before : the solution that says so; None: a guess does.
     """
+    placing = Placing(nip, model, kernels)
+    count = _FIRST_COUNT + _FOR_ZONE * layout.states.size
     try:
-        return _refined(Placing(nip, model, kernels), Standing(layout, before))
+        stand = placing.guessed(layout, count) if before is None else Standing(layout, before)
+        return Attempt(None) if stand is None else _refined(placing, stand, count)
     except np.linalg.LinAlgError:
         return Attempt(None)
 
 
-def _refined(placing: Placing, stand: Standing) -> Attempt:
-    nip, model = placing.nip, placing.model
-    count, too_few = _FIRST_COUNT + _FOR_ZONE * stand.layout.states.size, 0
+def _refined(placing: Placing, stand: Standing, count: int) -> Attempt:
+    nip, model, too_few = placing.nip, placing.model, 0
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
     fewest = _FEWEST_WITH_MEMORY if nip.is_viscoelastic else _FEWEST_SIZES
     while count <= most:
         known = bool(history)
         placed = placing.placed(stand, count, known=known)
-        if placed is None or placed.before is None or not placed.before.settled:
+        if placed is None or not placed.before.settled:
             return Attempt(None if placed is None else placed.before, known, too_few)
         stand, latest = placed, placed.before
         count = latest.problem.x.size - 1
@@ -92,7 +94,7 @@ def _refined(placing: Placing, stand: Standing) -> Attempt:
         if roughness * (count / most) ** _ROUGHNESS_ORDER > 1.0:
             break
         if largest(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:
-            final = settled(nip, model, latest, GIVEN, latest.zones)
+            final = settled(nip, model, latest, placing.given, latest.zones)
             final = checked(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
                 return Attempt(final)

@@ -7,33 +7,34 @@ are right.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf, log10
 
 import numpy as np
 
 from rollnip.contact import (
+    GivenStates,
     HeldContact,
     Layout,
     State,
     States,
+    Zone,
     cosine_nodes,
     elements_of_zones,
-    held_to,
+    next_slip,
     next_states,
     subdivided,
 )
 from rollnip.contact.problem import Indices
-from rollnip.model import Model
+from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import first_guess, second_order
+from rollnip.rolling.assemble import SecondOrder, first_guess, second_order
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.round import Round
-from rollnip.rolling.surfaces import PairKernels, mesh_on
-from rollnip.rolling.turns import NEARLY_STILL, change_of, held_from, turned
+from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
+from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from, turned
 
-GIVEN = HeldContact()
-_LOOKING = HeldContact(max_steps=12)
+_LOOKING = HeldContact()
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
 _MORE_FOR_SECOND = 3  # for the second order of "finite", which is held while a mesh is solved on
 _MOST_STRAIN = 0.6  # of a surface; a result may have 0.3
@@ -50,7 +51,7 @@ _NEARLY_PLACED = 0.008  # over the width of the contact
 _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
 _LOOSELY = 3.0  # more of it on the first size of mesh
 _SLACK = 1e-3  # at most: shear over the bound that may be rounding; more is slip, however coarse
-_TURNS = 2  # of the second-order terms on one mesh, while ends still move
+_TURNS = 2  # of the second-order terms on one mesh, while ends still move, but not far
 # Expected change of these over the tolerance, for which it is not evaluated anew on one size.
 _QUIET = 1.0
 _LARGEST_RATIO = 0.9
@@ -64,14 +65,14 @@ class Standing:
     Attributes
     ----------
     layout : where the zones are thought to be.
-    before : the last solution; None: not one yet.
+    before : the last solution.
     change : of the second-order terms when the second order of "finite" was last evaluated, over
         the tolerance.
     expected : the same of all times to come.
     """
 
     layout: Layout
-    before: Round | None = None
+    before: Round
     change: float = inf
     expected: float = inf
 
@@ -83,6 +84,29 @@ class Placing:
     nip: Nip
     model: Model
     kernels: PairKernels
+    given: GivenStates = field(default_factory=GivenStates)
+
+    def guessed(self, layout: Layout, count: int) -> Standing | None:
+        """About where the zones are, and which, from a mesh of some size that a guess has made.
+
+        Ends that are far off leave singular tractions, under which terms of second order mean
+        nothing: they are left out.
+
+        Returns
+        -------
+        None where zones that the solution asks for are none that have a layout.
+        """
+        kernels = held_from(self.kernels, None)
+        mesh = _mesh(layout, elements_of_zones(layout.breaks, count), kernels)
+        start = layout.states_on(mesh.inner), first_guess(self.nip, mesh), 0
+        model = replace(self.model, geometry="linear")
+        latest = self._turned(model, mesh, start, layout.zones, _TURNS)
+        asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
+        is_near = asked.distance(layout) < _FAIRLY_PLACED
+        wanted = self._wanted(latest, layout, whole=False) if is_near else None
+        if asked.is_proper and wanted is None:
+            return Standing(asked, latest)
+        return self._other(latest, wanted, asked if asked.is_proper else layout, "linear")
 
     def placed(self, start: Standing, count: int, *, known: bool) -> Standing | None:
         """The solution on a mesh of some size whose nodes lie at the ends of its zones.
@@ -110,8 +134,8 @@ class Placing:
             layout = stand.layout
             if elements is None:  # they stay while edges are looked for: a change would move these
                 elements = elements_of_zones(layout.breaks, count)
-            first = stand.before is None  # on whose mesh the second order is its own
-            stand, latest, asked = self._solved_on(stand, elements, placed)
+            hasty = self.kernels.is_linear and off > _NEARLY_PLACED
+            latest, asked = self._solved_on(stand, elements, placed, 1 if hasty else _TURNS)
             off, off_before = asked.distance(layout), off
             if self.kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
                 return None
@@ -126,12 +150,13 @@ class Placing:
             if asked.is_proper and wanted is None:
                 if is_placed and latest.settled:
                     return _standing_at(asked, latest, stand)
-                stand = replace(stand, layout=_hastened(layout, asked, earlier))
-                stand = stand if first else self._renewed(stand)
+                there = _hastened(layout, asked, earlier)
+                stand = self._renewed(Standing(there, latest, stand.change, stand.expected))
                 earlier = (layout, asked) if latest.settled else None
                 continue
             changes += 1
-            other = self._other(latest, wanted, asked if asked.is_proper else layout)
+            edges = asked if asked.is_proper else layout
+            other = self._other(latest, wanted, edges, self.model.geometry)
             if other is None or changes > _MOST_CHANGES:
                 return None
             stand, elements, earlier, off = self._renewed(other), None, None, inf
@@ -145,7 +170,7 @@ class Placing:
     def _renewed(self, stand: Standing) -> Standing:
         """The second order of the last solution and what follows from it, if it still moves."""
         before = stand.before
-        if before is None or self.kernels.is_linear or stand.expected <= _QUIET:
+        if self.kernels.is_linear or stand.expected <= _QUIET:
             return stand
         mesh = before.mesh.holding(held_from(self.kernels, before))
         second = second_order(self.nip, self.model.geometry, mesh, before.state)
@@ -157,64 +182,63 @@ class Placing:
         return Standing(stand.layout, replace(before, mesh=mesh, second=second), change, expected)
 
     def _solved_on(
-        self, stand: Standing, elements: Indices, placed: float
-    ) -> tuple[Standing, Round, Layout]:
-        """Solve on one mesh: the search, the solution, and where it asks the ends of zones to be.
+        self, stand: Standing, elements: Indices, placed: float, most: int
+    ) -> tuple[Round, Layout]:
+        """Solve on one mesh: the solution, and where it asks the ends of zones to be.
 
-        Few turns of the second-order terms while ends still move by more than ``placed``, over the
-        width; then as many as these need.
+        At ``most`` so many turns of the second-order terms while ends still move by more than
+        ``placed``, over the width; then as many as these need.
         """
         layout, before = stand.layout, stand.before
-        nodes = cosine_nodes(layout.breaks, elements)
-        held = held_from(self.kernels, None) if before is None else before.mesh.kernels
-        mesh = mesh_on(nodes, held, subdivided(nodes, elements))
-        states, second, steps = layout.states_on(mesh.inner), first_guess(self.nip, mesh), 0
-        if before is not None:
-            second, steps = before.second.carried(before.mesh, mesh), before.steps
-        problem = self.nip, self.model
-        start, zones = (states, second, steps), layout.zones
-        at_first = before is None and not self.kernels.is_linear
-        most = 1 if at_first else _TURNS
-        latest = turned(*problem, mesh, start, GIVEN, NEARLY_STILL, zones, most)
-        if at_first:
-            stand = self._renewed(Standing(layout, latest))
-            assert stand.before is not None
-            start = states, stand.before.second, stand.before.steps
-            latest = turned(*problem, stand.before.mesh, start, GIVEN, NEARLY_STILL, zones, _TURNS)
+        mesh = _mesh(layout, elements, before.mesh.kernels)
+        states, zones = layout.states_on(mesh.inner), layout.zones
+        start = states, before.second.carried(before.mesh, mesh), before.steps
+        latest = self._turned(self.model, mesh, start, zones, most)
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         if not latest.settled and asked.distance(layout) <= placed:
             start = states, latest.second, latest.steps
-            latest = turned(*problem, latest.mesh, start, GIVEN, NEARLY_STILL, zones)
+            latest = self._turned(self.model, mesh, start, zones)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        return replace(stand, before=latest), latest, asked
+        return latest, asked
+
+    def _turned(
+        self,
+        model: Model,
+        mesh: Mesh,
+        start: tuple[States, SecondOrder, int],
+        zones: tuple[Zone, ...],
+        most: int = MOST_TURNS,
+    ) -> Round:
+        return turned(self.nip, model, mesh, start, self.given, NEARLY_STILL, zones, most)
 
     def _wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
-        """States that a solution asks for; None where nodes in contact were given them.
+        """Stick and slip that a solution asks for; None where nodes in contact have their states.
 
         While the edges are not placed, not the ``whole`` is looked at, only stick and slip.
         """
         slack, given = min(self.model.tolerance, _SLACK), latest.state.states
-        wanted = next_states(latest.problem, latest.state, slack)
+        wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
         differs[layout.ends(latest.problem.x)] = False  # they are as much of one zone as of another
-        if not whole:
-            differs &= wanted != State.FREE
-        return wanted if differs.any() else None
+        if not differs.any():
+            return None
+        return next_slip(latest.problem, latest.state, slack) if whole else wanted
 
-    def _other(self, latest: Round, wanted: States | None, edges: Layout) -> Standing | None:
+    def _other(
+        self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry
+    ) -> Standing | None:
         """Other zones between some edges, where a solution does not agree with its own.
 
         None where they are not others, or none that have a layout.
         """
         given = latest.state.states
-        start = given if wanted is None else held_to(given, wanted)
-        found = _LOOKING.solve(latest.problem, start)
+        found = _LOOKING.solve(latest.problem, given if wanted is None else wanted)
         if np.array_equal(found.states, given):
             return None
         layout = Layout.found(latest.problem.x, found, self.nip.friction, edges.edges)
         if layout is None:
             return None
-        second = second_order(self.nip, self.model.geometry, latest.mesh, found)
+        second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return Standing(layout, replace(latest, state=found, second=second, steps=steps))
 
@@ -225,11 +249,17 @@ class Placing:
         return surface_strain_in_nip(self.nip, self.model.geometry, latest) > _MOST_STRAIN
 
 
+def _mesh(layout: Layout, elements: Indices, kernels: PairKernels) -> Mesh:
+    """A mesh whose nodes lie at the ends of zones."""
+    nodes = cosine_nodes(layout.breaks, elements)
+    return mesh_on(nodes, kernels, subdivided(nodes, elements))
+
+
 def _standing_at(asked: Layout, latest: Round, stand: Standing) -> Standing:
     """A solution whose zones are where it asks them to be."""
     figures = replace(latest.figures, nip_width=asked.width)
     latest = replace(latest, zones=asked.zones, figures=figures)
-    return replace(stand, layout=asked, before=latest)
+    return Standing(asked, latest, stand.change, stand.expected)
 
 
 def _hastened(here: Layout, asked: Layout, earlier: tuple[Layout, Layout] | None) -> Layout:

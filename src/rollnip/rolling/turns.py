@@ -14,7 +14,7 @@ from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import NO_SECOND_ORDER, Mesh, PairKernels
 
-_MOST_TURNS = 40
+MOST_TURNS = 40
 # Change of the second-order terms in a turn, over the tolerance. A turn shrinks what is left of
 # them at least tenfold; meshes that only place nodes need them less well than the last.
 STILL = 0.1
@@ -55,7 +55,7 @@ def turned(
     method: Method,
     still: float,
     zones: tuple[Zone, ...] | None = None,
-    most: int = _MOST_TURNS,
+    most: int = MOST_TURNS,
 ) -> Round:
     """Solve on one mesh in turns, until the second-order terms change by so many tolerances.
 

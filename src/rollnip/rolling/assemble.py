@@ -108,9 +108,14 @@ def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
     return SecondOrder(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
 
 
+def has_none(nip: Nip, geometry: Geometry) -> bool:
+    """Whether there are no second-order terms at all: they are those of `first_guess`."""
+    return geometry == "linear" and not isinstance(nip.tangential, Torque)
+
+
 def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:
     """Second-order terms of a solution on a mesh."""
-    if geometry == "linear" and not isinstance(nip.tangential, Torque):
+    if has_none(nip, geometry):
         return first_guess(nip, mesh)
     flat = mesh.linear(state)
     u = mesh.with_second(flat, state)

@@ -393,5 +393,8 @@ def _sums(nodes: Array, fine: Subdivision, pieces: Array) -> Array:
     if fine.values is None:
         return pieces
     # As many in each interval, but the one beyond the last break has not been cut.
-    last = fine.nodes.size - 3
-    return np.asarray(np.add.reduceat(pieces, np.arange(0, last + 1, last // (nodes.size - 3))))
+    parts = (fine.nodes.size - 3) // (nodes.size - 3)
+    out = pieces[::parts].copy()
+    for part in range(1, parts):
+        out[:-1] += pieces[part:-1:parts]
+    return np.asarray(out)

@@ -1,6 +1,7 @@
 """Up to four designs over each other and side by side."""
 
 import pytest
+from tests.browser.conftest import DEFAULT, fragment
 
 pytestmark = pytest.mark.slow
 
@@ -50,3 +51,32 @@ def test_a_design_that_did_not_converge_is_marked_in_the_table(designer):
     cells = designer.page.locator(".compare tbody tr", has_text="Converged").inner_text()
     assert "yes" in cells
     assert "NO" not in cells
+
+
+def test_a_kept_design_without_an_answer_keeps_its_column_and_can_be_removed(fresh):
+    loads = {"flat": 1e5, "six": 6}
+    kept = [
+        {**DEFAULT, "title": title, "nip": {**DEFAULT["nip"], "load": load}}
+        for title, load in loads.items()
+    ]
+    fresh.open(fragment({"case": DEFAULT, "kept": kept, "tab": "compare"}))
+    fresh.until("document.querySelectorAll('.compare thead th').length === 4")
+    heads = fresh.page.locator(".compare thead th span").all_inner_texts()
+    assert heads == ["A: flat", "B: six", "C: Untitled design (at hand)"]
+    sound = fresh.page.locator(".compare tbody tr", has_text="Converged").inner_text()
+    assert sound.split("\t")[1:] == ["no answer", "yes", "yes"]
+    fresh.page.click("#kept-drop-0")
+    fresh.until("document.querySelectorAll('.compare thead th').length === 3")
+    assert "A: six" in fresh.page.inner_text(".compare thead")
+
+
+def test_designs_kept_without_a_name_have_different_ones(designer):
+    keep(designer, 0)
+    keep(designer, 1)
+    designer.page.click("#kept-drop-0")
+    designer.until("document.querySelectorAll('#kept-drop-1').length === 0")
+    keep(designer, 1)
+    assert designer.page.locator(".compare thead th span").all_inner_texts()[:2] == [
+        "A: Design B",
+        "B: Design A",
+    ]

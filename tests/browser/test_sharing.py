@@ -203,3 +203,20 @@ def test_every_example_opens_with_one_click(designer):
         assert page.inner_text("#alarm") == "", tile
         assert designer.nip_width > 0, tile
         assert page.input_value("#design-title"), tile
+
+
+def test_a_link_that_was_cut_short_is_told_as_such(designer):
+    whole = fragment({"case": DEFAULT})
+    designer.page.evaluate("hash => { location.hash = hash; }", whole[:-12])
+    designer.toast("cut short or damaged")
+    designer.rest()
+
+
+def test_without_an_answer_nothing_is_saved_or_printed(fresh):
+    flat = {**DEFAULT, "nip": {**DEFAULT["nip"], "load": 1e5}}
+    fresh.open(fragment({"case": flat}))
+    fresh.page.wait_for_selector("html.stale")
+    for entry in ("csv-curves", "csv-figures", "drawing-svg", "print-report"):
+        fresh.share(entry)
+        fresh.toast("there is no answer for this design")
+        fresh.page.evaluate("document.getElementById('toast').textContent = ''")

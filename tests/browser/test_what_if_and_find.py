@@ -77,3 +77,36 @@ def test_what_cannot_be_found_is_said(designer):
     page.fill("#find-wanted", "much")
     page.click("#find-go")
     designer.until("document.getElementById('find-said').textContent.includes('much')")
+
+
+def test_what_cannot_be_found_is_said_in_the_units_shown(designer):
+    page = designer.page
+    page.click("#us")
+    designer.tab("find")
+    page.select_option("#find-path", "upper.radius")
+    page.fill("#find-wanted", "3")
+    page.press("#find-wanted", "Enter")
+    page.wait_for_selector(".found.not", timeout=30_000)
+    said = page.inner_text("#find-said")
+    page.click("#metric")
+    assert "Upper roller: diameter: nothing from" in said
+    assert "gives nip width 3\u202fin" in said
+    assert "mm" not in said
+
+
+def test_what_was_found_is_gone_when_the_design_is_another(designer):
+    page = designer.page
+    designer.tab("find")
+    page.select_option("#find-path", "upper.layers[0].thickness")
+    page.fill("#find-wanted", "10 mm")
+    page.press("#find-wanted", "Enter")
+    page.wait_for_selector("#find-use", timeout=30_000)
+    page.click("#remove-upper-0")  # two bare rollers have no answer
+    page.wait_for_selector("html.stale")
+    page.click("#find-use")
+    designer.toast("design has changed")
+    assert "Bare steel" in page.inner_text("#group-upper")
+    page.click("#undo")
+    designer.rest()
+    designer.enter("in-nip-load", "8")
+    assert page.inner_text("#find-said") == ""

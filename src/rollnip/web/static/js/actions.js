@@ -54,7 +54,8 @@ export class Actions {
   keep() {
     const { kept, case: tree } = this.store.state;
     if (kept.length >= MOST_KEPT) return this.say("Four designs is the most; remove one first.");
-    const named = { ...tree, title: tree.title || `Design ${"ABC"[kept.length]}` };
+    const free = [..."ABC"].find((letter) => kept.every(({ title }) => title !== `Design ${letter}`));
+    const named = { ...tree, title: tree.title || `Design ${free}` };
     this.store.design({ kept: [...kept, named] });
     this.store.view({ tab: "compare" });
     return this.say(`“${nameOf(named)}” is kept. Change something now, and compare.`);
@@ -95,17 +96,26 @@ export class Actions {
     });
   }
 
-  saveCsv(what) {
-    const { tree, result } = this.snapshot;
-    const text = what === "curves" ? profilesCsv(result, this.units()) : figuresCsv(result, this.units());
-    download(fileName(tree, `${what}.csv`), text, "text/csv");
+  /** {tree, result, ...} of the design at hand. Throws where there is no answer to it. */
+  get answer() {
+    if (!this.snapshot || this.failure) throw new Error("there is no answer for this design.");
+    return this.snapshot;
+  }
+
+  async saveCsv(what) {
+    await this.attempt("The figures could not be saved", () => {
+      const { tree, result } = this.answer;
+      const text = what === "curves" ? profilesCsv(result, this.units()) : figuresCsv(result, this.units());
+      download(fileName(tree, `${what}.csv`), text, "text/csv");
+    });
   }
 
   async saveDrawing(format) {
     await this.attempt("The drawing could not be saved", async () => {
-      const text = drawingSvg(this.snapshot, { palette: paletteOf(LIGHT), units: this.units() });
+      const { tree } = this.answer;
+      const text = drawingSvg(this.answer, { palette: paletteOf(LIGHT), units: this.units() });
       const content = format === "svg" ? new Blob([text], { type: "image/svg+xml" }) : await rasterOf(text);
-      download(fileName(this.snapshot.tree, `drawing.${format}`), content);
+      download(fileName(tree, `drawing.${format}`), content);
     });
   }
 
@@ -113,8 +123,8 @@ export class Actions {
   async exportChart(format) {
     await this.attempt("The chart could not be saved", async () => {
       const view = this.tabs.open;
-      const figure = view.figure(this.snapshot, paletteOf(LIGHT));
-      const name = fileName(this.snapshot.tree, `${view.id}.${format.toLowerCase()}`);
+      const figure = view.figure(this.answer, paletteOf(LIGHT));
+      const name = fileName(this.answer.tree, `${view.id}.${format.toLowerCase()}`);
       if (!figure) throw new Error("there is nothing to save yet.");
       if (format === "CSV") download(name, chartCsv(figure), "text/csv");
       else await saveChart(figure, format, name);
@@ -123,9 +133,10 @@ export class Actions {
 
   async report() {
     await this.attempt("The report could not be made", async () => {
-      const { hash } = await post("/api/case", this.snapshot.tree);
+      const { answer } = this;
+      const { hash } = await post("/api/case", answer.tree);
       const date = new Date().toISOString().slice(0, 10);
-      await fillReport(this.snapshot, this.units(), paletteOf(LIGHT), { hash, date });
+      await fillReport(answer, this.units(), paletteOf(LIGHT), { hash, date });
       document.documentElement.dataset.report = "yes";
       print();
     });

@@ -3,7 +3,7 @@
 import { Actions } from "./actions.js";
 import { announce, showAnswers, showFailure } from "./answers.js";
 import { post, sentencesOf } from "./api.js";
-import { CompareView } from "./compare.js";
+import { CompareView, MOST_KEPT } from "./compare.js";
 import { CurveView } from "./curves.js";
 import { defaultCase, designOf, nameOf } from "./design.js";
 import { byId, toast } from "./dom.js";
@@ -14,8 +14,9 @@ import { Inputs } from "./inputs.js";
 import { InsideView } from "./inside.js";
 import { designItems, examplesDialog, menu, shareItems } from "./menus.js";
 import { paletteOf } from "./palette.js";
-import { same, setAt } from "./paths.js";
+import { getAt, same, setAt } from "./paths.js";
 import { linkOf, stateIn } from "./permalink.js";
+import { inputAt } from "./quantities.js";
 import { Runner } from "./runner.js";
 import { Store } from "./store.js";
 import { Tabs } from "./tabs.js";
@@ -41,13 +42,14 @@ export class App extends Actions {
     this.table = units;
     this.library = materials;
     this.snapshot = null; // {tree, result, state, surfaces} last shown
+    this.failure = null; // {tree, error} where the design at hand has no answer
     this.store = new Store({ case: defaultCase(), kept: [], view: VIEW });
     this.theme = new Theme(() => this.recolour());
     this.runner = new Runner({
       preview: (tree, result) => this.answered(tree, result, "preview"),
       settled: (tree, result) => this.answered(tree, result, "settled"),
       surfaces: (tree, surfaces, result) => this.placed(tree, surfaces, result),
-      failed: (tree, error) => this.failed(error),
+      failed: (tree, error) => this.failed(tree, error),
       busy: (yes) => this.busy(yes),
     });
     this.inputs = new Inputs(byId("inputs"), this);
@@ -108,7 +110,7 @@ export class App extends Actions {
   async begin(hash) {
     try {
       const state = await stateIn(hash);
-      if (state) return await this.restore(state);
+      if (state !== undefined) return await this.restore(state);
     } catch (error) {
       this.complain(`This link could not be opened: ${sentencesOf(error).slice(0, 3).join(" ")}`);
     }
@@ -117,8 +119,10 @@ export class App extends Actions {
 
   /** A state from outside: every case goes through the server's check first. */
   async restore(state) {
-    const cases = [state.case, ...(state.kept ?? []).slice(0, 3)];
-    const [first, ...kept] = await Promise.all(cases.map((tree) => this.checked(tree)));
+    const { case: tree, kept: others = [] } = state ?? {};
+    if (!tree || !Array.isArray(others)) throw new Error("it holds no design.");
+    const cases = [tree, ...others.slice(0, MOST_KEPT)];
+    const [first, ...kept] = await Promise.all(cases.map((one) => this.checked(one)));
     this.store.replace({ case: first, kept, view: viewOf(state) });
   }
 
@@ -180,6 +184,7 @@ export class App extends Actions {
   answered(tree, result, state) {
     const moved = this.snapshot && state === "preview";
     this.snapshot = { tree, result, state, surfaces: this.snapshot?.surfaces ?? null };
+    this.failure = null;
     this.inputs.complain([]);
     showAnswers(result, this.units(), state);
     this.tabs.open.show(this.snapshot);
@@ -195,19 +200,31 @@ export class App extends Actions {
     this.drawings.show(this.snapshot);
   }
 
-  /** Each complaint at its input and, in words, above everything. */
-  failed(error) {
-    this.inputs.complain(error.details ?? []);
-    showFailure(sentencesOf(error));
+  failed(tree, error) {
+    this.failure = { tree, error };
+    this.showFailed();
   }
 
-  /** The same answer in other units, colours or tabs. */
+  /** Each complaint at its input and, in words, above everything. */
+  showFailed() {
+    const { tree, error } = this.failure;
+    const details = (error.details ?? []).map(({ path, message }) => ({
+      path,
+      message: this.units().said(message, getAt(tree, path ?? ""), inputAt(path ?? "", tree).dimension),
+    }));
+    this.inputs.complain(error.details ?? []);
+    showFailure(sentencesOf({ message: error.message, details }));
+  }
+
+  /** The same answer, or that there is none, in other units, colours or tabs. */
   showAll() {
-    if (!this.snapshot) return;
-    this.remember();
-    showAnswers(this.snapshot.result, this.units(), this.snapshot.state);
-    this.drawings.show(this.snapshot);
-    this.tabs.open.show(this.snapshot);
+    if (this.snapshot) {
+      this.remember();
+      showAnswers(this.snapshot.result, this.units(), this.snapshot.state);
+      this.drawings.show(this.snapshot);
+      this.tabs.open.show(this.snapshot);
+    }
+    if (this.failure) this.showFailed();
   }
 
   recolour() {

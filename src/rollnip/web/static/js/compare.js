@@ -1,6 +1,6 @@
 // Up to four designs: curves over each other, figures beside each other.
 
-import { SOLVE, isAbort, post } from "./api.js";
+import { SOLVE, post } from "./api.js";
 import { Chart } from "./charts.js";
 import { nameOf } from "./design.js";
 import { button, el, select } from "./dom.js";
@@ -9,6 +9,12 @@ import { ANSWERS, flat } from "./quantities.js";
 import { number } from "./units.js";
 
 export const MOST_KEPT = 3; // beside the design at hand
+const REFUSED = 422; // by the server: asking again would not help
+const SOUND = new Map([
+  [true, "yes"],
+  [false, "NO"],
+  [undefined, "no answer"],
+]);
 const PROFILES = [
   { key: "pressure", title: "Pressure", dimension: "pressure" },
   { key: "shear", title: "Shear", dimension: "pressure" },
@@ -24,6 +30,7 @@ export class CompareView {
     this.title = "Compare";
     this.app = app;
     this.results = new Map();
+    this.turn = 0;
     const place = el("div", { class: "chart", id: "chart-compare" });
     this.chart = new Chart(place);
     this.bar = el("div", { class: "ask" });
@@ -48,10 +55,10 @@ export class CompareView {
     this.table.hidden = kept.length === 0;
     if (kept.length === 0) return;
     if (state !== "preview") this.results.set(JSON.stringify(tree), result);
+    const turn = (this.turn += 1);
     await this.fill(kept);
-    const others = kept
-      .map((one) => ({ tree: one, result: this.results.get(JSON.stringify(one)) }))
-      .filter((one) => one.result);
+    if (turn !== this.turn) return;
+    const others = kept.map((one) => ({ tree: one, result: this.results.get(JSON.stringify(one)) ?? null }));
     this.designs = [...others, { tree, result }];
     this.chart.show(this.plot(this.app.palette()));
     this.table.replaceChildren(this.rows());
@@ -65,8 +72,8 @@ export class CompareView {
       try {
         this.results.set(key, await post(SOLVE, one));
       } catch (error) {
-        if (!isAbort(error)) this.app.complain(`“${nameOf(one)}” cannot be solved: ${error.message}`);
-        return;
+        if (error.status === REFUSED) this.results.set(key, null);
+        this.app.complain(`“${nameOf(one)}” cannot be solved: ${error.message}`);
       }
     }
   }
@@ -117,7 +124,7 @@ export class CompareView {
   /** The table; every design after the first with its difference to the first. */
   rows() {
     const palette = this.app.palette();
-    const all = this.designs.map(({ result }) => flat(result));
+    const all = this.designs.map(({ result }) => (result ? flat(result) : {}));
     const keys = ANSWERS.filter(({ key }) =>
       all.some((one) => one[key] !== null && one[key] !== undefined),
     );
@@ -135,7 +142,7 @@ export class CompareView {
       {},
       el("th", { scope: "row", text: "Converged" }),
       ...all.map((one) =>
-        el("td", { class: one.converged ? null : "bad", text: one.converged ? "yes" : "NO" }),
+        el("td", { class: one.converged ? null : "bad", text: SOUND.get(one.converged) }),
       ),
     );
     return el(

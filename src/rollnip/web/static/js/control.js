@@ -4,7 +4,7 @@ import { complaintOf, post } from "./api.js";
 import { el } from "./dom.js";
 import { getAt, idOf, setAt } from "./paths.js";
 import { inputAt } from "./quantities.js";
-import { joined, number } from "./units.js";
+import { joined, typable } from "./units.js";
 
 const STEPS = 500; // of a slider
 const DIGITS = 3; // a slider gives round values in the unit shown
@@ -16,6 +16,8 @@ export class Control {
     this.path = path;
     this.app = app;
     this.sent = null;
+    this.asked = 0; // how many texts were sent to be read
+    this.isUnread = false; // the box holds what nobody can read
     this.node = this.build();
     this.refresh(app.store.state.case);
   }
@@ -66,17 +68,33 @@ export class Control {
     if (typeof value !== "number") return;
     const { dimension, factor } = this.input;
     const units = this.app.units();
-    const text = number(units.shown(value * factor, dimension), BOX_DIGITS);
+    const text = typable(units.shown(value * factor, dimension), BOX_DIGITS);
     const unit = units.name(dimension);
     const key = `${value} ${text} ${unit}`;
     if (key === this.shownKey && this.wrong.textContent === "") return;
     this.shownKey = key;
     this.text = text;
-    this.box.value = text;
     this.unit.textContent = unit;
     this.slider.setAttribute("aria-valuetext", joined(text, unit));
-    if (value !== this.sent) this.slider.value = String(this.place(value));
+    if (value !== this.sent) {
+      this.sent = null;
+      this.slider.value = String(this.place(value));
+    }
+    this.write();
+  }
+
+  /** The value of the design in the box, whatever was typed there. */
+  write() {
+    this.box.value = this.text;
+    this.isUnread = false;
     this.complain("");
+  }
+
+  /** What the server says of the value; a text that cannot be read is worse, and stays said. */
+  refuse(message) {
+    if (this.isUnread) return;
+    const { dimension, factor } = this.input;
+    this.complain(this.app.units().said(message, this.value, dimension, factor));
   }
 
   /** Say what is wrong with the value; "" takes it back. */
@@ -100,28 +118,34 @@ export class Control {
     const at = Number(this.slider.value) / STEPS;
     const raw = log ? low * (high / low) ** at : low + at * (high - low);
     const units = this.app.units();
-    const round =
-      Math.abs(raw) < 1e-3 * (high - low) && !log
-        ? 0
-        : rounded(
-            units.shown(raw, dimension),
-            log ? 0 : units.shown(high, dimension) - units.shown(low, dimension),
-          );
+    const span = log ? 0 : units.shown(high, dimension) - units.shown(low, dimension);
+    const round = rounded(units.shown(raw, dimension), span);
     this.set(units.base(round, dimension) / factor, this.path);
   }
 
   /** Read what was typed: a plain number is in the unit shown beside the box. */
   async typed() {
     const text = this.box.value.trim();
-    if (text === this.text) return;
+    const turn = (this.asked += 1);
+    if (text === this.text) return this.isUnread ? this.write() : undefined;
     const { dimension, factor } = this.input;
+    const before = this.value;
+    const isLate = () => turn !== this.asked || this.value !== before;
     try {
       const { value } = await post("/api/quantity", this.question(text, dimension));
+      if (isLate()) return undefined;
       this.set(value / factor, null);
-      this.refresh(this.app.store.state.case);
+      return this.write();
     } catch (error) {
-      this.complain(complaintOf(error));
+      if (isLate()) return undefined;
+      this.isUnread = true;
+      return this.complain(complaintOf(error));
     }
+  }
+
+  /** The value of the design at hand; undefined where it has none any more. */
+  get value() {
+    return getAt(this.app.store.state.case, this.path);
   }
 
   question(text, dimension) {
@@ -140,9 +164,10 @@ export class Control {
   }
 }
 
-/** A value to three digits; on a linear scale to a round part of the `span`. */
+/** A value to three digits; on a linear scale to a round part of the `span`, and to zero beside it. */
 function rounded(shown, span) {
   if (span === 0) return Number(shown.toPrecision(DIGITS));
+  if (Math.abs(shown) < 1e-3 * span) return 0;
   const step = 10 ** Math.floor(Math.log10(span / STEPS) + 0.31);
   return Number((Math.round(shown / step) * step).toPrecision(12));
 }

@@ -2,11 +2,12 @@
 
 import { complaintOf, isAbort, post } from "./api.js";
 import { button, el, select } from "./dom.js";
-import { getAt, setAt } from "./paths.js";
+import { getAt, same, setAt } from "./paths.js";
 import { inputsOf } from "./quantities.js";
-import { number } from "./units.js";
+import { typable } from "./units.js";
 import { answersOf } from "./whatif.js";
 
+const CHANGED = "The design has changed meanwhile; find the value again.";
 const SPAN = 30; // the search reaches from a thirtieth to thirty times the present value
 
 /** The view "Find". */
@@ -15,6 +16,7 @@ export class FindView {
     this.id = "find";
     this.title = "Find a value";
     this.app = app;
+    this.told = null; // {tree, input} of the question that was answered
     this.asks = el("form", { class: "ask", "aria-label": "Find a value" });
     this.asks.addEventListener("submit", (event) => {
       event.preventDefault();
@@ -40,6 +42,13 @@ export class FindView {
     ]);
     if (key !== this.key) this.build(inputs, answers, result);
     this.key = key;
+    if (this.told && !this.isTold(tree)) this.said.replaceChildren();
+  }
+
+  /** Whether what was found is about this design, whatever its own value is. */
+  isTold(tree) {
+    const { path } = this.told.input;
+    return same(setAt(tree, path, null), setAt(this.told.tree, path, null));
   }
 
   build(inputs, answers, result) {
@@ -51,7 +60,7 @@ export class FindView {
       type: "text",
       id: "find-wanted",
       autocomplete: "off",
-      value: now === undefined || now === null ? "" : number(units.shown(now, this.asked.dimension), 3),
+      value: now === undefined || now === null ? "" : typable(units.shown(now, this.asked.dimension), 3),
     });
     const unit = units.name(this.asked.dimension);
     this.asks.replaceChildren(
@@ -101,6 +110,8 @@ export class FindView {
         },
         abort.signal,
       );
+      this.told = { tree, input };
+      if (!this.isTold(this.app.store.state.case)) throw new Error(CHANGED);
       this.tell(found, wanted, input, asked);
     } catch (error) {
       if (!isAbort(error))
@@ -121,27 +132,48 @@ export class FindView {
     return value;
   }
 
+  /** Take what was found into the design, where that is still what it was found for. */
+  use(value) {
+    const { case: tree } = this.app.store.state;
+    if (!this.isTold(tree)) return this.app.say(CHANGED);
+    return this.app.store.design({ case: setAt(tree, this.told.input.path, value) });
+  }
+
   tell(found, wanted, input, asked) {
     const units = this.app.units();
     if (!found.found) {
-      this.said.replaceChildren(el("div", { class: "found not" }, el("p", { text: found.message })));
+      const text = outOfReach(found, input, asked, units) ?? found.message;
+      this.said.replaceChildren(el("div", { class: "found not" }, el("p", { text })));
       return;
     }
-    const value = units.text(found.value * input.factor, input.dimension);
-    const use = () =>
-      this.app.store.design({ case: setAt(this.app.store.state.case, input.path, found.value) });
+    const place = (value) => units.text(value * input.factor, input.dimension);
+    const others = found.others.length ? ` So does ${found.others.map(place).join(", and ")}.` : "";
     this.said.replaceChildren(
       el(
         "div",
         { class: "found" },
-        el("b", { text: `${input.label}: ${value}` }),
+        el("b", { text: `${input.label}: ${place(found.value)}` }),
         el("p", {
-          text: `gives ${asked.label.toLowerCase()} ${units.text(found.result[asked.key] ?? wanted, asked.dimension)}.`,
+          text: `gives ${asked.label.toLowerCase()} ${units.text(found.result[asked.key] ?? wanted, asked.dimension)}.${others}`,
         }),
-        button("Use this value", use, { kind: "main", id: "find-use" }),
+        button("Use this value", () => this.use(found.value), { kind: "main", id: "find-use" }),
       ),
     );
   }
+}
+
+/** That no value of the range is enough, in the units shown; null where that is not what is wrong. */
+function outOfReach({ points, wanted }, input, asked, units) {
+  const solved = points.map(([, y]) => y).filter((y) => y !== null);
+  const [least, most] = [Math.min(...solved), Math.max(...solved)];
+  if (solved.length === 0 || (wanted >= least && wanted <= most)) return null;
+  const [from, to] = [points[0][0], points[points.length - 1][0]].map((x) =>
+    units.text(x * input.factor, input.dimension),
+  );
+  const [low, high, aim] = [least, most, wanted].map((y) => units.text(y, asked.dimension));
+  const lost = points.length - solved.length;
+  const unsolved = lost ? ` ${lost} of ${points.length} values tried have no answer.` : "";
+  return `${input.label}: nothing from ${from} to ${to} gives ${asked.label.toLowerCase()} ${aim}; it goes from ${low} to ${high} there.${unsolved}`;
 }
 
 function range({ low, high, log, factor }, now) {

@@ -79,9 +79,8 @@ export class Inputs {
 
   /** Show what the server found wrong at the controls it belongs to. */
   complain(details) {
-    for (const control of this.controls) control.complain("");
-    for (const { path, message } of details) {
-      this.controls.find((one) => one.path === path)?.complain(message);
+    for (const control of this.controls) {
+      control.refuse(details.find(({ path }) => path === control.path)?.message ?? "");
     }
   }
 

@@ -7,11 +7,15 @@ export async function linkOf(state) {
   return `${location.origin}${location.pathname}#${KEY}${await pack(JSON.stringify(state))}`;
 }
 
-/** The state in an address; null where there is none. Throws where it cannot be read. */
+/** The state in an address; undefined where there is none. Throws where it cannot be read. */
 export async function stateIn(hash) {
   const text = hash.replace(/^#/, "");
-  if (!text.startsWith(KEY)) return null;
-  return JSON.parse(await unpack(text.slice(KEY.length)));
+  if (!text.startsWith(KEY)) return undefined;
+  try {
+    return JSON.parse(await unpack(text.slice(KEY.length)));
+  } catch {
+    throw new Error("it is cut short or damaged; ask for the whole link.");
+  }
 }
 
 async function pack(text) {

@@ -186,11 +186,12 @@ function band(x0, x1, fillcolor, name, showlegend) {
   };
 }
 
-/** One profile of several designs: [{tree, result}], the first is what others are compared with. */
+/** One profile of several designs: [{tree, result}]; a design without a result keeps its letter. */
 export function overlay(designs, { key, title, dimension }, units, palette) {
   const dashes = ["solid", "dash", "dot", "dashdot"];
   const unit = units.name(dimension);
-  const data = designs.map(({ tree, result }, i) => {
+  const data = designs.flatMap(({ tree, result }, i) => {
+    if (!result) return [];
     const x = units.list(result.profiles.x, "length");
     const y = units.list(result.profiles[key] ?? [], dimension);
     return line(letter(i, nameOf(tree)), x, y, palette.designs[i], {
@@ -199,7 +200,7 @@ export function overlay(designs, { key, title, dimension }, units, palette) {
       hovertemplate: `%{y:.4~g} ${unit}`,
     });
   });
-  const ranges = designs.map(({ result }) => reach(result, units));
+  const ranges = designs.filter(({ result }) => result).map(({ result }) => reach(result, units));
   const range = [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))];
   const layout = layoutOf(palette, along(units), titled(title, unit), {
     xaxis: { range },

@@ -7,6 +7,7 @@ const RESULTS = {
   share: { metric: ["%", 0.01], us: ["%", 0.01] },
   angle: { metric: ["°", 1], us: ["°", 1] },
 };
+const GOT = /\bgot (-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)(?=\.?$| with )/;
 const WRITTEN = { degC: "°C", degF: "°F", "N m/m": "N·m/m", "lbf in/in": "lbf·in/in" };
 
 /** Shows values of the base system in metric or US units. */
@@ -62,6 +63,13 @@ export class Units {
     return joined(number(value / scale, 2), this.name(dimension));
   }
 
+  /** What the server says of a value, "..., got 5.08.", with that value as it is shown, `factor` times. */
+  said(message, value, dimension, factor = 1) {
+    return message.replace(GOT, (said, text) =>
+      Number(text) === value ? `got ${this.text(value * factor, dimension)}` : said,
+    );
+  }
+
   /** Values of a curve. */
   list(values, dimension) {
     return values.map((value) => (value === null ? null : this.shown(value, dimension)));
@@ -81,6 +89,14 @@ export function number(value, digits = DIGITS) {
   if (size >= 1e6 || size < 1e-5) return power(value, digits);
   const text = String(Number(value.toPrecision(digits)));
   return text.replace("-", "\u2212");
+}
+
+/** The same as a text that a box can read back. */
+export function typable(value, digits = DIGITS) {
+  return number(value, digits).replace(/·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)/, (_power, raised) => {
+    const exponent = [...raised].map((sign) => "-0123456789"["⁻⁰¹²³⁴⁵⁶⁷⁸⁹".indexOf(sign)]);
+    return `e${exponent.join("")}`;
+  });
 }
 
 function power(value, digits) {

@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -114,3 +116,30 @@ def test_a_half_space_is_drawn_some_way_down(plane):
 def test_wrong_names(skin, arguments, message):
     with pytest.raises(rn.InvalidInputError, match=message):
         plot_field(skin, **arguments)
+
+
+def test_a_power_of_ten_of_the_colours_stands_with_the_unit(viscoelastic):
+    slow = rn.solve(replace(viscoelastic.nip, speed=1e-3), viscoelastic.model)
+    ax = plot_field(slow, "loss_density")
+    ax.figure.draw_without_rendering()
+    bar = colour_bar(ax)
+    power = bar.xaxis.get_offset_text()
+    assert power.get_text().startswith("1e")
+    assert not power.get_visible()
+    assert bar.get_xlabel() == f"stress power, loss density [{power.get_text()} mW/mm³]"
+
+
+def test_an_elastic_roller_does_not_choose_the_colours_of_a_loss():
+    rubber = rn.StandardLinearSolid(modulus=2, stiffening=3, relaxation_time=0.007, poisson=0.49)
+    soft = rn.Elastic(modulus=2, poisson=0.49)
+    nip = rn.Nip(
+        upper=rn.Roller(radius=80, layers=[rn.Layer(20, soft)]),
+        lower=rn.Roller(radius=50, layers=[rn.Layer(1, rubber)]),
+        normal=rn.LineLoad(2),
+        friction=0.3,
+        speed=500,
+    )
+    solution = rn.solve(nip)
+    loss = np.abs(solution.interior("lower", np.linspace(0, 1, 9)).loss_density)
+    highest = colour_bar(plot_field(solution, "loss_density")).get_xlim()[1]
+    assert np.mean(loss > highest) < 0.1

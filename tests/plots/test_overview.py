@@ -68,3 +68,20 @@ def test_it_takes_little_time(viscoelastic, tmp_path):
         return time.perf_counter() - start
 
     assert min(seconds() for _ in range(3)) < 1.5
+
+
+def test_long_numbers_leave_the_names_of_the_axes_on_the_page():
+    steel = rn.Roller(radius=5.0, core=rn.Elastic(modulus=210000.0, poisson=0.3))
+    nip = rn.Nip(
+        upper=steel,
+        lower=steel,
+        normal=rn.LineLoad(500.0),
+        tangential=rn.Traction(30.0),
+        friction=0.1,
+    )
+    figure = plot_overview(rn.solve(nip))
+    figure.draw_without_rendering()
+    millimetre = figure.dpi / 25.4
+    for ax in figure.axes:
+        if ax.get_ylabel():
+            assert ax.yaxis.label.get_window_extent().x0 > millimetre

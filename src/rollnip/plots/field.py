@@ -169,9 +169,15 @@ def _colour_bar(ax: Axes, look: Look, drawn: QuadContourSet, shades: _Shades, te
         bar = figure.colorbar(
             drawn, cax=ax.inset_axes(bounds, transform=transform), orientation="horizontal"
         )
-    bar.set_label(text, fontsize=look.size, color=look.palette.ink)
     bar.ax.tick_params(colors=look.palette.ink, labelsize=look.small)
-    bar.set_ticks(_ticks(shades.levels, 8 if axes_inches(ax)[0] > 3.5 else 5))
+    ticks = _ticks(shades.levels, 8 if axes_inches(ax)[0] > 3.5 else 5)
+    bar.set_ticks(ticks)
+    numbers = bar.ax.xaxis.get_major_formatter()
+    numbers.format_ticks(ticks)
+    power = numbers.get_offset()  # such as 1e-6; where it is drawn it would stand in the name
+    bar.ax.xaxis.get_offset_text().set_visible(False)
+    text = text.replace("[", f"[{power} ") if power else text
+    bar.set_label(text, fontsize=look.size, color=look.palette.ink)
     bar.outline.set_edgecolor(look.palette.muted)
 
 
@@ -182,10 +188,10 @@ def _ticks(levels: Array, most: int) -> list[float]:
 
 
 def _bound(pieces: list[Piece]) -> float:
-    """Largest size worth a colour: of all, or of most of the area."""
-    sizes, areas = [], []
+    """Largest size worth a colour: of all, or of most of the area that has any."""
+    sizes, areas = [np.zeros(1)], [np.zeros(1)]
     for piece in pieces:
-        if piece.values is not None:
+        if piece.values is not None and piece.values.any():  # not an elastic roller's loss
             width, height = np.gradient(piece.x[0]), np.abs(np.gradient(piece.y[:, 0]))
             areas.append((height[:, None] * width).ravel())
             sizes.append(np.abs(piece.values).ravel())

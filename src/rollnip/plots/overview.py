@@ -14,7 +14,16 @@ from rollnip._units import format_quantity
 from rollnip.plots.field import plot_field
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.section import Name, layer_texts, roller_of
-from rollnip.plots.style import LETTER, MM, Look, PageLayout, Style, axes_inches, palette_of
+from rollnip.plots.style import (
+    LETTER,
+    MM,
+    Look,
+    PageLayout,
+    Style,
+    axes_inches,
+    palette_of,
+    text_width,
+)
 from rollnip.plots.surfaces import plot_deformed_surfaces, plot_strain
 from rollnip.rollers import Roller
 from rollnip.solution import Solution
@@ -28,6 +37,7 @@ _PLACES = {
     "strain": (0.415, _LOWER, 0.285, 0.3),
     "table": (0.79, 0.03, 0.205, 0.92),
 }  # left, bottom, width, height
+_BESIDE = 3.0  # a name, a mark and what is between them, in sizes of type
 _REMARK = 0.02  # height of a line below; the lower pictures make room
 _DIGITS = 4
 _ROUNDING = 1e-9
@@ -87,9 +97,20 @@ def plot_overview(solution: Solution, *, style: Style = "light") -> Figure:
     }
     for name, text in headings.items():
         axes[name].set_title(text, loc="left", fontsize=1.05 * look.size, color=palette.ink)
+    for name in ("pressure", "surfaces"):
+        _make_room(axes[name], look)
     _table(axes["table"], look, solution)
     _head_and_foot(figure, look, solution, remarks)
     return figure
+
+
+def _make_room(ax: Axes, look: Look) -> None:
+    """Begin axes at the left of the page farther in, where numbers are too long for their names."""
+    numbers = ax.yaxis.get_major_formatter().format_ticks(ax.get_yticks())  # type: ignore[arg-type]
+    points = max(text_width(number, look.small) for number in numbers) + _BESIDE * look.size
+    left, (first, low, last, high) = points / (72.0 * _WIDTH * MM), ax.get_position().extents
+    if left > first:
+        ax.set_position((left, low, last - left, high - low))
 
 
 class _Row(NamedTuple):

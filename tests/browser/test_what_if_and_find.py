@@ -110,3 +110,36 @@ def test_what_was_found_is_gone_when_the_design_is_another(designer):
     designer.rest()
     designer.enter("in-nip-load", "8")
     assert page.inner_text("#find-said") == ""
+
+
+@pytest.mark.parametrize("key", ["max_surface_strain", "dissipation_friction"])
+def test_every_figure_can_be_asked_for_and_stands_in_the_box(designer, key):
+    page = designer.page
+    page.select_option("#in-drive", "traction")
+    designer.rest()
+    page.click("#us")
+    designer.tab("find")
+    page.select_option("#find-answer", key)
+    designer.until("document.getElementById('find-wanted').value !== ''")
+    shown = float(page.input_value("#find-wanted"))
+    assert shown == pytest.approx(designer.figure(key), rel=6e-3)
+    page.fill("#find-wanted", f"{1.1 * shown:.3g}")
+    page.press("#find-wanted", "Enter")
+    page.wait_for_selector("#find-use", timeout=60_000)
+    with page.expect_response("**/api/solve*"):
+        page.click("#find-use")
+    designer.rest()
+    assert designer.figure(key) == pytest.approx(1.1 * shown, rel=2e-2)
+    page.click("#metric")
+
+
+def test_what_has_no_influence_is_said_so(designer):
+    page = designer.page
+    page.select_option("#in-drive", "traction")
+    designer.rest()
+    designer.tab("find")
+    page.select_option("#find-answer", "traction")
+    page.fill("#find-wanted", "3")
+    page.press("#find-wanted", "Enter")
+    page.wait_for_selector(".found.not", timeout=60_000)
+    assert "Line load: has no influence" in page.inner_text("#find-said")

@@ -3,7 +3,7 @@
 import { complaintOf, isAbort, post } from "./api.js";
 import { button, el, select } from "./dom.js";
 import { getAt, same, setAt } from "./paths.js";
-import { inputsOf } from "./quantities.js";
+import { flat, inputsOf } from "./quantities.js";
 import { typable } from "./units.js";
 import { answersOf } from "./whatif.js";
 
@@ -55,7 +55,7 @@ export class FindView {
     const units = this.app.units();
     const put = (change) => this.app.store.view({ find: { ...this.app.store.state.view.find, ...change } });
     const focused = document.activeElement?.id;
-    const now = result[this.asked.key];
+    const now = flat(result)[this.asked.key];
     this.wanted = el("input", {
       type: "text",
       id: "find-wanted",
@@ -104,7 +104,7 @@ export class FindView {
         {
           case: tree,
           path: input.path,
-          quantity: asked.key,
+          quantity: asked.key.replace("dissipation_", "dissipation."),
           wanted,
           ...range(input, getAt(tree, input.path)),
         },
@@ -124,12 +124,15 @@ export class FindView {
     const text = this.wanted.value.trim();
     const bare = /^[+\-\u2212]?[0-9.,]+(e[+-]?\d+)?$/i.test(text);
     const { dimension } = this.asked;
-    const unit = bare ? this.app.units().of(dimension).name : "";
+    const units = this.app.units();
+    const { name } = units.of(dimension);
+    const isRead = units.isRead(dimension);
+    if (!isRead && !bare) throw new Error(`Must be a plain number, of ${name}.`);
     const { value } = await post("/api/quantity", {
-      text: unit ? `${text} ${unit}` : text,
-      dimension: dimension === "share" ? "ratio" : dimension,
+      text: isRead && bare && name ? `${text} ${name}` : text,
+      dimension: isRead && dimension !== "share" ? dimension : "ratio",
     });
-    return value;
+    return isRead ? value : units.base(value, dimension);
   }
 
   /** Take what was found into the design, where that is still what it was found for. */
@@ -171,6 +174,8 @@ function outOfReach({ points, wanted }, input, asked, units) {
     units.text(x * input.factor, input.dimension),
   );
   const [low, high, aim] = [least, most, wanted].map((y) => units.text(y, asked.dimension));
+  if (low === high)
+    return `${input.label}: has no influence; from ${from} to ${to} the ${asked.label.toLowerCase()} is ${low}.`;
   const lost = points.length - solved.length;
   const unsolved = lost ? ` ${lost} of ${points.length} values tried have no answer.` : "";
   return `${input.label}: nothing from ${from} to ${to} gives ${asked.label.toLowerCase()} ${aim}; it goes from ${low} to ${high} there.${unsolved}`;

@@ -29,6 +29,11 @@ export class Units {
     return { name, scale: Number(scale), offset: Number(offset) };
   }
 
+  /** Whether the server reads texts of a dimension; what only results have it does not. */
+  isRead(dimension) {
+    return dimension === "share" || dimension in this.table;
+  }
+
   /** The unit as a person writes it. */
   name(dimension) {
     const { name } = this.of(dimension);

@@ -92,8 +92,8 @@ def _nip_strain(nip: Nip, final: Round) -> str:
     if strain <= NIP_STRAIN:
         return ""
     return (
-        f"The coverings are pressed in by {100.0 * strain:.0f} % of their thickness; the "
-        f"model was compared with finite elements up to {100.0 * NIP_STRAIN:.0f} %."
+        f"The coverings are pressed in by {100.0 * strain:.0f} % of their thickness; beyond "
+        f"{100.0 * NIP_STRAIN:.0f} % the model was not compared with finite elements."
     )
 
 
@@ -117,8 +117,8 @@ def _contact_angle(nip: Nip, final: Round) -> str:
     if angle <= CONTACT_ANGLE:
         return ""
     return (
-        f"The nip spans {2.0 * np.degrees(angle):.0f} degrees of the smaller roller; the model was "
-        f"compared with finite elements up to {2.0 * np.degrees(CONTACT_ANGLE):.0f}."
+        f"The nip spans {2.0 * np.degrees(angle):.0f} degrees of the smaller roller; beyond "
+        f"{2.0 * np.degrees(CONTACT_ANGLE):.0f} the model was not compared with finite elements."
     )
 
 
@@ -149,8 +149,8 @@ def _second_order(share: float) -> str:
     if share <= SECOND_SHARE:
         return ""
     return (
-        f"Finite strain changes the indentation by {100.0 * share:.0f} % of the approach; the "
-        f"second order was compared with finite elements up to {100.0 * SECOND_SHARE:.0f} %."
+        f"Finite strain changes the indentation by {100.0 * share:.0f} % of the approach; beyond "
+        f"{100.0 * SECOND_SHARE:.0f} % the second order was not compared with finite elements."
     )
 
 

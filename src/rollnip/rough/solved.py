@@ -131,8 +131,8 @@ def _warnings(solution: RoughSolution) -> tuple[str, ...]:
     if solution.approach is not None and solution.approach > NIP_STRAIN * covering:
         found.append(
             f"The coverings are pressed in by {100.0 * solution.approach / covering:.0f} % of "
-            f"their thickness; the model was compared with finite elements up to "
-            f"{100.0 * NIP_STRAIN:.0f} %."
+            f"their thickness; beyond {100.0 * NIP_STRAIN:.0f} % the model was not compared with "
+            "finite elements."
         )
     for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
         if roller.coating_thickness > THICKNESS_RATIO * roller.radius:

@@ -107,7 +107,7 @@ def _thickness_ratio(name: str, roller: Roller, model: Model) -> str:
         return f"{covering}; compared with finite elements was up to {limit:g}."
     return (
         f"{covering}; beyond {limit:g} the error of the creepage grows to some 20 % (at 0.4). "
-        'Geometry "finite" has it within 1.5 %.'
+        'Geometry "finite" has it within 1.5 %, where strains are small enough for it.'
     )
 
 

@@ -23,15 +23,15 @@ def half_width_guess(nip: Nip, kernels: PairKernels) -> float:
     drop = np.maximum(centre - kernels.pressed.edge, np.finfo(float).tiny)
     peak = 0.5 * nip.curvature * half_widths**2 / drop
     if isinstance(nip.normal, LineLoad):
-        name, wanted = "load", nip.normal.load
+        name, wanted, unit = "load", nip.normal.load, "N/mm"
         reached = 0.5 * np.pi * half_widths * peak
     else:
-        name, wanted = "approach", nip.normal.approach
+        name, wanted, unit = "approach", nip.normal.approach, "mm"
         reached = peak * centre
     reached = np.maximum.accumulate(reached)
     if wanted > reached[-1]:
         raise InvalidInputError(
             f"`{name}` must be small enough for a nip narrower than the smaller roller; "
-            f"got {wanted:g}, about {reached[-1]:.3g} flattens it whole."
+            f"got {wanted:g} {unit}, about {reached[-1]:.3g} {unit} flattens it whole."
         )
     return float(np.exp(np.interp(np.log(wanted), np.log(reached), np.log(half_widths))))

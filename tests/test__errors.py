@@ -1,4 +1,6 @@
 import pickle
+from decimal import Decimal
+from fractions import Fraction
 from math import inf, nan
 
 import numpy as np
@@ -25,7 +27,10 @@ def test_wrong_input_is_a_value_error():
 
 
 @pytest.mark.parametrize("check", [require_positive, require_not_negative, require_finite])
-@pytest.mark.parametrize("value", [nan, inf, -inf, None, "1", True, [1.0]])
+@pytest.mark.parametrize(
+    "value",
+    [nan, inf, -inf, None, "1", b"1", True, [1.0], np.True_, np.complex64(1.0), np.array([1, 2])],
+)
 def test_what_is_not_a_finite_number_is_refused(check, value):
     with pytest.raises(InvalidInputError, match=r"^`thickness` must be .*, got "):
         check("thickness", value)
@@ -40,6 +45,16 @@ def test_signs():
         require_positive("x", 0.0)
     with pytest.raises(InvalidInputError):
         require_not_negative("x", -1e-300)
+
+
+@pytest.mark.parametrize("check", [require_positive, require_not_negative, require_finite])
+@pytest.mark.parametrize(
+    "value", [3, np.uint8(3), np.float16(3), np.array(3), Decimal(3), Fraction(3)]
+)
+def test_numbers_of_any_type_come_back_as_floats(check, value):
+    number = check("x", value)
+    assert type(number) is float
+    assert number == 3.0
 
 
 def test_convergence_error_carries_the_last_solution():

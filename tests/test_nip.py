@@ -1,8 +1,9 @@
 """The problem: what makes a nip, and what does not."""
 
-from dataclasses import FrozenInstanceError, replace
+from dataclasses import FrozenInstanceError, fields, replace
 from math import inf, nan
 
+import numpy as np
 import pytest
 
 from rollnip import (
@@ -52,6 +53,29 @@ def test_positive_controls(kind, name, value):
 )
 def test_finite_controls(kind, name, value):
     assert refusal(kind, value) == f"`{name}` must be a finite number, got {value!r}."
+
+
+@pytest.mark.parametrize(("kind", "name"), [(LineLoad, "load"), (Approach, "approach")])
+def test_what_is_too_small_to_compute_with_is_refused(kind, name):
+    assert "must be at least 1e-15" in refusal(kind, 1e-300)
+    assert getattr(kind(1e-15), name) == 1e-15
+
+
+@pytest.mark.parametrize("kind", [LineLoad, Approach, Traction, Creepage, Torque])
+def test_controls_hold_floats(kind):
+    # The negative of an unsigned 1 is 255: a torque of the wrong sign and size.
+    (name,) = (one.name for one in fields(kind))
+    assert type(getattr(kind(np.uint8(1)), name)) is float
+
+
+def test_a_nip_holds_floats():
+    nip = replace(GOOD, friction=np.float32(0.5), speed=3, face_width=np.uint8(200))
+    assert [type(value) for value in (nip.friction, nip.speed, nip.face_width)] == [float] * 3
+
+
+@pytest.mark.parametrize("title", [3, None, "a\0b", "\ud800"])
+def test_a_title_is_text_that_files_can_hold(title):
+    assert refusal(replace, GOOD, title=title).startswith("`title` must be ")
 
 
 @pytest.mark.parametrize("value", [-2.0, 2.0, 50.0])

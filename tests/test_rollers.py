@@ -152,3 +152,15 @@ def test_profiles_that_are_none(x, height, message):
 
 def test_roller_takes_a_profile_only():
     assert refusal(Roller, radius=50.0, profile=[1.0]).startswith("`profile` must be a Profile")
+
+
+@pytest.mark.parametrize("number", [40, np.uint8(40), np.float32(40.0), np.array(40.0)])
+def test_lengths_are_held_as_floats(number):
+    roller = Roller(radius=number, layers=[Layer(number / 8, RUBBER)])
+    assert type(roller.radius) is float
+    assert type(roller.layers[0].thickness) is float
+    assert hash(roller) == hash(Roller(radius=40.0, layers=[Layer(5.0, RUBBER)]))
+
+
+def test_a_plane_of_any_float():
+    assert Roller(radius=np.float32(inf)).curvature == 0.0

@@ -6,6 +6,7 @@ A message names what is wrong, the rule, and the value that came:
 
 from __future__ import annotations
 
+from math import inf, nan
 from typing import Any
 
 
@@ -39,27 +40,37 @@ class RollnipWarning(UserWarning):
     """A result that stands, with a reservation the user should know of."""
 
 
-def require_positive(name: str, value: float) -> None:
-    """Raise InvalidInputError unless ``value`` is a positive, finite number."""
-    if not _is_number(value) or not 0.0 < value < float("inf"):
+def require_positive(name: str, value: float) -> float:
+    """Return ``value`` as a float, or raise InvalidInputError unless it is positive and finite."""
+    number = _number(value)
+    if not 0.0 < number < inf:
         raise InvalidInputError(f"`{name}` must be positive and finite, got {value!r}.")
+    return number
 
 
-def require_not_negative(name: str, value: float) -> None:
-    """Raise InvalidInputError unless ``value`` is a finite number >= 0."""
-    if not _is_number(value) or not 0.0 <= value < float("inf"):
+def require_not_negative(name: str, value: float) -> float:
+    """Return ``value`` as a float, or raise InvalidInputError unless it is finite and >= 0."""
+    number = _number(value)
+    if not 0.0 <= number < inf:
         raise InvalidInputError(f"`{name}` must be zero or positive and finite, got {value!r}.")
+    return number
 
 
-def require_finite(name: str, value: float) -> None:
-    """Raise InvalidInputError unless ``value`` is a finite number."""
-    if not _is_number(value) or not abs(value) < float("inf"):
+def require_finite(name: str, value: float) -> float:
+    """Return ``value`` as a float, or raise InvalidInputError unless it is a finite number."""
+    number = _number(value)
+    if not abs(number) < inf:
         raise InvalidInputError(f"`{name}` must be a finite number, got {value!r}.")
+    return number
 
 
-def _is_number(value: object) -> bool:
+def _number(value: object) -> float:
+    """A real number as a float, whatever its type; nan for what is none."""
+    # numpy says of what kind its numbers are: truth values and complex ones are none here.
+    kind = getattr(getattr(value, "dtype", None), "kind", "f")
+    if isinstance(value, str | bytes | bool) or kind not in "fiu":
+        return nan
     try:
-        float(value)  # type: ignore[arg-type]
+        return float(value)  # type: ignore[arg-type]
     except (TypeError, ValueError, OverflowError):
-        return False
-    return not isinstance(value, str | bool)
+        return nan

@@ -330,9 +330,8 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
     if unit in kind.units:
         return kind.units[unit]
     if not unit:
-        raise _refusal(
-            dimension, value, f"the unit is missing (a number without quotes is in {kind.base})"
-        )
+        why = f"the unit is missing (a number without quotes in a file is in {kind.base})"
+        raise _refusal(dimension, value, why)
     if unit in _REFUSED:
         raise _refusal(dimension, value, f'"{written}" {_REFUSED[unit]}')
     for other in _KINDS.values():

@@ -40,7 +40,7 @@ class Model:
         if self.geometry not in get_args(Geometry):
             known = ", ".join(f'"{name}"' for name in get_args(Geometry))
             raise InvalidInputError(f"`geometry` must be one of {known}, got {self.geometry!r}.")
-        require_positive("tolerance", self.tolerance)
+        object.__setattr__(self, "tolerance", require_positive("tolerance", self.tolerance))
         if not _FINEST <= self.tolerance <= _COARSEST:
             raise InvalidInputError(
                 f"`tolerance` must lie between {_FINEST:g} and {_COARSEST:g}, "

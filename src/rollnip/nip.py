@@ -12,25 +12,27 @@ from rollnip._errors import (
 )
 from rollnip.rollers import Roller
 
+_SMALLEST = 1e-15  # mm, N/mm; an atom's nucleus is as wide: squares of what is smaller vanish
+
 
 @dataclass(frozen=True, slots=True)
 class LineLoad:
-    """Prescribed line load F = int p dx [N/mm], positive."""
+    """Prescribed line load F = int p dx [N/mm], positive, at least 1e-15."""
 
     load: float
 
     def __post_init__(self) -> None:
-        require_positive("load", self.load)
+        object.__setattr__(self, "load", _measurable("load", self.load, "N/mm"))
 
 
 @dataclass(frozen=True, slots=True)
 class Approach:
-    """Prescribed approach of the axles from first touch [mm], positive."""
+    """Prescribed approach of the axles from first touch [mm], positive, at least 1e-15."""
 
     approach: float
 
     def __post_init__(self) -> None:
-        require_positive("approach", self.approach)
+        object.__setattr__(self, "approach", _measurable("approach", self.approach, "mm"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +42,7 @@ class Traction:
     traction: float
 
     def __post_init__(self) -> None:
-        require_finite("traction", self.traction)
+        object.__setattr__(self, "traction", require_finite("traction", self.traction))
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,9 +52,10 @@ class Creepage:
     creepage: float
 
     def __post_init__(self) -> None:
-        require_finite("creepage", self.creepage)
-        if not -2.0 < self.creepage < 2.0:
+        creepage = require_finite("creepage", self.creepage)
+        if not -2.0 < creepage < 2.0:
             raise InvalidInputError(f"`creepage` must lie between -2 and 2, got {self.creepage!r}.")
+        object.__setattr__(self, "creepage", creepage)
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +65,8 @@ class Torque:
     torque_lower: float = 0.0
 
     def __post_init__(self) -> None:
-        require_finite("torque_lower", self.torque_lower)
+        torque = require_finite("torque_lower", self.torque_lower)
+        object.__setattr__(self, "torque_lower", torque)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -84,14 +88,15 @@ class Nip:
     face_width :
         axial length [mm] for totals; None leaves everything per length.
     title :
-        free text, carried into the result.
+        free text, carried into the result; without zero characters.
 
     Raises
     ------
     InvalidInputError
-        where the parts do not make a nip: both rollers rigid or flat, speed missing for a
-        viscoelastic material, approach prescribed on a half-space core, traction beyond mu F; a
-        measured profile with friction, viscoelastic materials or a prescribed creepage.
+        where a value lies outside its range, or the parts do not make a nip: both rollers rigid
+        or flat, speed missing for a viscoelastic material, approach prescribed on a half-space
+        core, traction beyond mu F; a measured profile with friction, viscoelastic materials or a
+        prescribed creepage.
     """
 
     upper: Roller
@@ -105,11 +110,13 @@ class Nip:
 
     def __post_init__(self) -> None:
         self._check_types()
-        require_not_negative("friction", self.friction)
-        if self.speed is not None:
-            require_positive("speed", self.speed)
-        if self.face_width is not None:
-            require_positive("face_width", self.face_width)
+        _check_title(self.title)
+        friction = require_not_negative("friction", self.friction)
+        object.__setattr__(self, "friction", friction)
+        for name in ("speed", "face_width"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, require_positive(name, value))
         self._check_rollers()
         self._check_controls()
         if self.has_profile:
@@ -219,3 +226,20 @@ class Nip:
             raise InvalidInputError(
                 f"`approach` must be smaller than the radius {smallest:g} mm, got {approach!r}."
             )
+
+
+def _measurable(name: str, value: float, unit: str) -> float:
+    number = require_positive(name, value)
+    if number < _SMALLEST:
+        raise InvalidInputError(f"`{name}` must be at least {_SMALLEST:g} {unit}, got {value!r}.")
+    return number
+
+
+def _check_title(title: object) -> None:
+    """Results carry it into files, which hold neither zero characters nor halves of one."""
+    if not isinstance(title, str):
+        raise InvalidInputError(f"`title` must be a text, got {title!r}.")
+    if "\0" in title or any("\ud800" <= letter <= "\udfff" for letter in title):
+        raise InvalidInputError(
+            f"`title` must hold neither zero characters nor halves of one, got {title!r}."
+        )

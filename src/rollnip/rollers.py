@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from hashlib import sha256
 from itertools import pairwise
-from math import inf, isinf
+from math import inf
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -39,9 +39,10 @@ class Layer:
     material: Material
 
     def __post_init__(self) -> None:
-        require_positive("thickness", self.thickness)
-        if self.thickness > _LARGEST_LENGTH:
+        thickness = require_positive("thickness", self.thickness)
+        if thickness > _LARGEST_LENGTH:
             raise InvalidInputError(f"`thickness` must be at most 1e7 mm, got {self.thickness!r}.")
+        object.__setattr__(self, "thickness", thickness)
         _require_material("material", self.material)
 
 
@@ -136,12 +137,7 @@ class Roller:
     profile: Profile | None = None
 
     def __post_init__(self) -> None:
-        if not (isinstance(self.radius, float | int) and isinf(self.radius) and self.radius > 0):
-            require_positive("radius", self.radius)
-            if self.radius > _LARGEST_LENGTH:
-                raise InvalidInputError(
-                    f"`radius` must be at most 1e7 mm (or inf, a plane), got {self.radius!r}."
-                )
+        object.__setattr__(self, "radius", _checked_radius(self.radius))
         if not isinstance(self.layers, list | tuple):
             raise InvalidInputError(
                 f"`layers` must be a list of Layer objects, got {self.layers!r}."
@@ -193,6 +189,18 @@ class Roller:
         for layer in self.layers:
             depths.append(depths[-1] + layer.thickness)
         return tuple(below for _, below in pairwise(depths))
+
+
+def _checked_radius(radius: float) -> float:
+    """A positive length [mm] as a float, or inf, a plane."""
+    if isinstance(radius, float | np.floating) and radius == inf:
+        return inf
+    checked = require_positive("radius", radius)
+    if checked > _LARGEST_LENGTH:
+        raise InvalidInputError(
+            f"`radius` must be at most 1e7 mm (or inf, a plane), got {radius!r}."
+        )
+    return checked
 
 
 def _require_material(name: str, value: object) -> None:

@@ -1,6 +1,7 @@
 """The command: exit codes, one clear message, nothing half-written."""
 
 import json
+import os
 import subprocess
 import sys
 from dataclasses import replace
@@ -169,13 +170,28 @@ def test_a_closed_pipe_is_no_traceback():
 
 
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="no /dev/full here")
-def test_a_full_disk_is_one_line():
+@pytest.mark.parametrize("argument", ["schema", "--help"])
+def test_a_full_disk_is_one_line(argument):
     with Path("/dev/full").open("w") as full:
         done = subprocess.run(
-            [*COMMAND, "schema"], stdout=full, stderr=subprocess.PIPE, text=True, check=False
+            [*COMMAND, argument], stdout=full, stderr=subprocess.PIPE, text=True, check=False
         )
     assert done.returncode == 2
     assert done.stderr == "rollnip: cannot write to the standard output: No space left on device.\n"
+
+
+@pytest.mark.skipif(os.name == "nt", reason="closes descriptors of a child")
+@pytest.mark.parametrize(("descriptor", "code"), [(0, 2), (1, 0), (2, 0)])
+def test_closed_streams_are_empty_ones(descriptor, code):
+    done = subprocess.run(
+        [*COMMAND, *(["solve", "-"] if descriptor == 0 else ["version"])],
+        preexec_fn=lambda: os.close(descriptor),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == code
+    assert "Traceback" not in done.stderr
 
 
 def test_interrupted_is_130(monkeypatch, case):

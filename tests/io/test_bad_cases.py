@@ -92,6 +92,7 @@ BAD = [
     (("upper",), "50 mm", 'upper: must be a table, got "50 mm".'),
     (("nip",), [], "nip: must be a table"),
     (("title",), 5, "title: must be a text, got 5."),
+    (("title",), "a\0b", "title: `title` must hold neither zero characters nor halves of one"),
     (("materials",), [], "materials: must be a table"),
     (("materials", "x"), "black", "materials.x: must be a table with `model` one of"),
     ((*LAYER, "material"), 5, "must be the name of a material or a table with `model`"),

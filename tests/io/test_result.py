@@ -82,7 +82,7 @@ def test_json_round_trip(solution, tmp_path):
 
 
 def test_text_is_the_tree(solution):
-    strange = replace(solution, nip=replace(solution.nip, title='"Nip" µ\n\0'))
+    strange = replace(solution, nip=replace(solution.nip, title='"Nip" µ\n\x01'))
     assert json.loads(result_text(strange)) == result_dict(strange)
 
 

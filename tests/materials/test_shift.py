@@ -78,3 +78,10 @@ def test_half_or_impossible_shifts_are_refused(temperature, shift, message):
 def test_constants_out_of_range_are_refused(make):
     with pytest.raises(InvalidInputError):
         make()
+
+
+def test_constants_are_held_as_floats():
+    # The negative of an unsigned 8 is 248.
+    law = WLF(c1=np.uint8(8), c2=np.uint8(100), reference=np.uint8(23))
+    assert law.factor(40) == WLF(c1=8.0, c2=100.0, reference=23.0).factor(40.0)
+    assert type(Arrhenius(activation_energy=60, reference=23).activation_energy) is float

@@ -32,7 +32,7 @@ _HALF_WIDTH = typer.Option(help='1/e2 half-width of the volume along x, such as 
 _RATE = typer.Option(help='Of the detector, such as "250 kHz".')
 _SHIFT = typer.Option(help='Frequency shift of one beam, such as "40 kHz".')
 _ROLLER = typer.Option(help="upper or lower: whose surface is measured.")
-_GEOMETRY = typer.Option(help="linear, corrected or curved; overrides the case file.")
+_GEOMETRY = typer.Option(help="linear, corrected, curved or finite; overrides the file.")
 _CONFIDENCE = typer.Option(help='Of bands and intervals, such as "95 %".')
 
 

@@ -40,6 +40,7 @@ from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Profile, Roller
 
 _OF_THE_WHOLE = {
+    "title": "title",
     "upper": "nip",
     "lower": "nip",
     "radius": "upper.radius, lower.radius",

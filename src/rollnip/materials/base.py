@@ -74,18 +74,18 @@ class Material(ABC):
 
 def checked_poisson(poisson: float) -> float:
     """Return ``poisson`` as a float, or raise InvalidInputError unless it lies in (-1, 0.5]."""
-    require_finite("poisson", poisson)
-    if not -1.0 < poisson <= 0.5:
+    checked = require_finite("poisson", poisson)
+    if not -1.0 < checked <= 0.5:
         raise InvalidInputError(f"`poisson` must lie in (-1, 0.5], got {poisson!r}.")
-    return float(poisson)
+    return checked
 
 
 def checked_modulus(name: str, value: float) -> float:
     """Return a modulus as a float, or raise InvalidInputError unless 1e-9 <= value <= 1e12 MPa."""
-    require_positive(name, value)
-    if not _SMALLEST_MODULUS <= value <= _LARGEST_MODULUS:
+    checked = require_positive(name, value)
+    if not _SMALLEST_MODULUS <= checked <= _LARGEST_MODULUS:
         raise InvalidInputError(f"`{name}` must lie between 1e-9 and 1e12 MPa, got {value!r}.")
-    return float(value)
+    return checked
 
 
 def checked_stiffening(name: str, value: float) -> float:
@@ -93,15 +93,15 @@ def checked_stiffening(name: str, value: float) -> float:
 
     A negative one would make the material release energy in a cycle.
     """
-    require_not_negative(name, value)
-    if value > _LARGEST_MODULUS:
+    checked = require_not_negative(name, value)
+    if checked > _LARGEST_MODULUS:
         raise InvalidInputError(f"`{name}` must be at most 1e12 MPa, got {value!r}.")
-    return float(value)
+    return checked
 
 
 def checked_time(name: str, value: float) -> float:
     """Return a relaxation time as a float, or raise unless 1e-30 <= value <= 1e30 s."""
-    require_positive(name, value)
-    if not _SHORTEST_TIME <= value <= _LONGEST_TIME:
+    checked = require_positive(name, value)
+    if not _SHORTEST_TIME <= checked <= _LONGEST_TIME:
         raise InvalidInputError(f"`{name}` must lie between 1e-30 and 1e30 s, got {value!r}.")
-    return float(value)
+    return checked

@@ -42,9 +42,9 @@ class WLF:
     reference: float
 
     def __post_init__(self) -> None:
-        require_positive("c1", self.c1)
-        require_positive("c2", self.c2)
-        checked_temperature("reference", self.reference)
+        for name in ("c1", "c2"):
+            object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+        object.__setattr__(self, "reference", checked_temperature("reference", self.reference))
 
     def factor(self, temperature: float) -> float:
         """Shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
@@ -52,15 +52,15 @@ class WLF:
         Raises InvalidInputError at or below the pole T_ref - c2 and where a_T leaves
         1e-100 to 1e100.
         """
-        checked_temperature("temperature", temperature)
+        checked = checked_temperature("temperature", temperature)
         pole = self.reference - self.c2
-        if temperature <= pole:
+        if checked <= pole:
             raise InvalidInputError(
                 f"`temperature` must be above the pole of the WLF law, reference - c2 = "
                 f"{pole:g} degC, got {temperature!r}."
             )
-        difference = temperature - self.reference
-        return _power_of_ten(-self.c1 * difference / (temperature - pole), temperature)
+        difference = checked - self.reference
+        return _power_of_ten(-self.c1 * difference / (checked - pole), temperature)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,8 +88,9 @@ class Arrhenius:
     reference: float
 
     def __post_init__(self) -> None:
-        require_positive("activation_energy", self.activation_energy)
-        checked_temperature("reference", self.reference)
+        energy = require_positive("activation_energy", self.activation_energy)
+        object.__setattr__(self, "activation_energy", energy)
+        object.__setattr__(self, "reference", checked_temperature("reference", self.reference))
 
     def factor(self, temperature: float) -> float:
         """Shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
@@ -105,12 +106,12 @@ class Arrhenius:
 
 def checked_temperature(name: str, value: float) -> float:
     """Return a temperature [degC], or raise InvalidInputError at or below absolute zero."""
-    require_finite(name, value)
-    if value <= _ABSOLUTE_ZERO:
+    checked = require_finite(name, value)
+    if checked <= _ABSOLUTE_ZERO:
         raise InvalidInputError(
             f"`{name}` must be above absolute zero, -273.15 degC, got {value!r}."
         )
-    return float(value)
+    return checked
 
 
 def _power_of_ten(exponent: float, temperature: float) -> float:

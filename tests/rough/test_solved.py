@@ -156,6 +156,18 @@ def test_approach_and_load_meet(coated, with_profile, rough):
     assert by_depth.error["approach"] == 0.0
 
 
+@pytest.mark.parametrize("height", [-0.5, 0.29])
+def test_a_constant_height_moves_nothing_but_the_approach(coated, with_profile, rough, height):
+    profile = rough(2001, 5e-3)
+    moved = rn.Profile(x=profile.x, height=profile.height + height)
+    one, other = (
+        rn.solve(replace(with_profile(coated, upper=p), normal=rn.Approach(approach)))
+        for p, approach in ((profile, 0.3), (moved, 0.3 - height))
+    )
+    for name in ("load", "nip_width", "peak_pressure"):
+        assert getattr(other, name) == pytest.approx(getattr(one, name), rel=1e-5)
+
+
 def test_samples_at_unequal_distances(coated, with_profile):
     def height(x):
         return 5e-3 * np.cos(4.0 * x)

@@ -6,9 +6,11 @@ from dataclasses import replace
 from time import perf_counter
 from typing import Literal
 
+import numpy as np
+
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.model import Model
-from rollnip.nip import LineLoad, Nip
+from rollnip.nip import Approach, LineLoad, Nip
 from rollnip.rolling import SolverInfo, half_width_guess, pair_kernels
 from rollnip.rough.contact import RoughContact, rough_contact
 from rollnip.rough.sampling import sampled
@@ -51,7 +53,7 @@ def solve_rough(
             '"curved", not "finite".',
         )
     kernels = pair_kernels(nip, model.geometry)
-    sampling = sampled(nip, half_width_guess(nip, kernels))
+    sampling = sampled(nip, half_width_guess(_levelled(nip), kernels))
     rough = rough_contact(nip, sampling, kernels, model.tolerance)
     converged, status = _verdict(nip, model, rough)
     solution = RoughSolution(
@@ -74,6 +76,19 @@ def solve_rough(
     if on_failure == "raise" and not converged:
         raise ConvergenceError(status, solution)
     return solution
+
+
+def _levelled(nip: Nip) -> Nip:
+    """The nip whose approach is counted from the middle heights of its profiles.
+
+    A constant height is a larger radius: it must not decide where contact is looked for.
+    """
+    if isinstance(nip.normal, LineLoad):
+        return nip
+    profiles = (nip.upper.profile, nip.lower.profile)
+    height = sum(float(np.median(one.height)) for one in profiles if one is not None)
+    approach = nip.normal.approach + height
+    return replace(nip, normal=Approach(approach)) if approach > 0.0 else nip
 
 
 def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:

@@ -69,6 +69,8 @@ def test_a_sweep_without_a_column_of_temperatures(table):
         (HEAD.replace("temperature [degC]", "note") + ROWS, {"modulus": "E"}, "temperature"),
         (HEAD + ROWS.replace("0,5", "-0,5"), {"modulus": "E"}, "`loss` must be positive"),
         (HEAD + "20;1;2;0,1\n", {"modulus": "E"}, "at least 4"),
+        (HEAD + ROWS, {"modulus": "E", "temperature": 20.0}, "`temperature` must not be given"),
+        (HEAD + ROWS, {"modulus": "E", "frequency": 1.0}, "`frequency` must not be given"),
         ("E' [MPa];G'' [MPa];f [Hz];t [degC]\n" + ROWS, {}, "of one kind"),
     ],
 )

@@ -189,6 +189,7 @@ def _modulus_column(
 def _frequencies(columns: Columns, heads: dict[str, str], given: float | None) -> Array:
     plain = _found(heads, _FREQUENCY)
     angular = _found(heads, _ANGULAR)
+    _require_one(columns, "frequency", plain or angular, given)
     if angular is not None and plain is None:
         if columns.unit(angular) != "rad/s":
             raise InvalidInputError(
@@ -203,9 +204,18 @@ def _frequencies(columns: Columns, heads: dict[str, str], given: float | None) -
 
 def _temperatures(columns: Columns, heads: dict[str, str], given: float | None) -> Array:
     name = _found(heads, _TEMPERATURE)
+    _require_one(columns, "temperature", name, given)
     if name is not None:
         return _numbers(columns, name, "temperature")
     return _constant(columns, "temperature", given)
+
+
+def _require_one(columns: Columns, name: str, column: str | None, given: float | None) -> None:
+    if column is not None and given is not None:
+        raise InvalidInputError(
+            f'{columns.source}: `{name}` must not be given where there is a column "{column}"; '
+            "leave it out, or give the column another head."
+        )
 
 
 def _constant(columns: Columns, name: str, given: float | None) -> Array:

@@ -101,6 +101,20 @@ def test_setting_one_control_removes_the_other(path, gone):
     parse_case(changed)
 
 
+@pytest.mark.parametrize(
+    "paths",
+    [
+        ("nip.load", "nip.approach"),
+        ("nip.torque_lower", "nip.traction"),
+        ("upper.layers[0].material.shore_a", "upper.layers[0].material.modulus"),
+    ],
+)
+def test_two_that_exclude_each_other_are_refused(paths):
+    # The later one would win, and the value of the other would be reported though it was not used.
+    with pytest.raises(InvalidInputError, match="exclude each other; leave one out"):
+        with_values(CASE, dict.fromkeys(paths, 40.0))
+
+
 def test_shore_a_takes_the_place_of_the_modulus():
     changed = with_values(CASE, {"upper.layers[0].material.shore_a": 60})
     material = changed["upper"]["layers"][0]["material"]

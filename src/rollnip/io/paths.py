@@ -57,7 +57,8 @@ def with_values(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str
     Raises
     ------
     InvalidInputError
-        where a path leads nowhere, or to no key that a case may hold.
+        where a path leads nowhere, or to no key that a case may hold, or where two exclude each
+        other.
     """
     return deepcopy(with_shared(tree, changes))
 
@@ -83,7 +84,7 @@ def with_shared(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str
         elif not isinstance(here, dict):
             raise _nowhere(path, f"{walked} is no table here")
         else:
-            _drop_others(here, last, walked)
+            _drop_others(here, last, walked, changes)
         here[last] = value
     return out
 
@@ -141,13 +142,20 @@ def _step(here: Any, part: str | int, path: str, walked: str) -> Any:
     return here[part]
 
 
-def _drop_others(table: dict[str, Any], name: str, walked: str) -> None:
+def _drop_others(
+    table: dict[str, Any], name: str, walked: str, changes: Mapping[str, Any]
+) -> None:
     groups: tuple[tuple[str, ...], ...] = _EITHER if walked == "nip" else ()
     if table.get("model") == "elastic":
         groups = (_MODULI,)
     for group in groups:
         if name in group:
             for other in group:
+                if other != name and _joined(walked, other) in changes:
+                    raise InvalidInputError(
+                        f"`{walked}.{name}` and `{walked}.{other}` exclude each other; "
+                        "leave one out."
+                    )
                 table.pop(other, None)
 
 

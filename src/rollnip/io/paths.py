@@ -142,9 +142,7 @@ def _step(here: Any, part: str | int, path: str, walked: str) -> Any:
     return here[part]
 
 
-def _drop_others(
-    table: dict[str, Any], name: str, walked: str, changes: Mapping[str, Any]
-) -> None:
+def _drop_others(table: dict[str, Any], name: str, walked: str, changes: Mapping[str, Any]) -> None:
     groups: tuple[tuple[str, ...], ...] = _EITHER if walked == "nip" else ()
     if table.get("model") == "elastic":
         groups = (_MODULI,)

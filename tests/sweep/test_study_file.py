@@ -84,6 +84,7 @@ WRONG = [
     ),
     ({"parameters": [{**LOAD, "path": "nip load"}]}, "must be written like nip.load"),
     ({"parameters": [{**LOAD, "values": [1, "2 mm"]}]}, "parameters[0].values[1]: "),
+    ({"parameters": [{**SAMPLED, "count": 3.0}]}, "count: must be a whole number, got 3.0."),
     ({"parameters": [{**SAMPLED, "count": 1}]}, "parameters[0].count: must be 2 or more, got 1"),
     ({"parameters": [{**SAMPLED, "count": 3, "stop": "2 mm"}]}, "parameters[0].stop: "),
     ({"parameters": [{**SAMPLED, "count": 3, "stop": 0.5}]}, "`stop` must differ from `start`"),

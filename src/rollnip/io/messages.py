@@ -16,7 +16,13 @@ from rollnip.io.tables import TABLES, CaseTable, Table
 _CONTROLS = (("load", "approach"), ("traction", "creepage", "torque_lower"))
 _NAMED = re.compile(r"`(\w+)([^`]*)` (.*)", re.DOTALL)
 T = TypeVar("T", bound=Table)
-_WORDS = {"list_type": "a list", "string_type": "a text", "bool_type": "true or false"}
+_WORDS = {
+    "list_type": "a list",
+    "string_type": "a text",
+    "bool_type": "true or false",
+    "int_type": "a whole number",
+    "float_type": "a number",
+}
 
 
 def wrong_controls(tree: Mapping[str, Any]) -> list[str]:

@@ -216,10 +216,11 @@ def _samples(name: str, values: ArrayLike) -> NDArray[np.float64]:
         raise InvalidInputError(f"`{name}` must hold numbers.") from None
     if out.ndim != 1:
         raise InvalidInputError(f"`{name}` must be one-dimensional, got the shape {out.shape}.")
-    wrong = np.flatnonzero(~np.isfinite(out))
+    wrong = np.flatnonzero(~(np.abs(out) <= _LARGEST_LENGTH))
     if wrong.size:
         raise InvalidInputError(
-            f"`{name}` must be finite everywhere, got {out[wrong[0]]} as sample {wrong[0] + 1}."
+            f"`{name}` must be finite and at most 1e7 mm in size everywhere, got {out[wrong[0]]} "
+            f"as sample {wrong[0] + 1}."
         )
     out.setflags(write=False)
     return out

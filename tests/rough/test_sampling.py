@@ -51,6 +51,10 @@ def test_notes(coated, with_profile):
     bent = rn.Profile(x=x, height=-(x**2) / 100.0 + wavy(x).height)
     (note,) = sampled(with_profile(coated, upper=bent), 3.0).notes
     assert "curvature of the roller" in note
+    # micrometres taken for millimetres
+    (note,) = sampled(with_profile(coated, upper=wavy(x, height=1.0)), 3.0).notes
+    assert "rms slope of 4.9" in note
+    assert "right unit" in note
     # a hollow of the same size is a shape of its own
     assert not sampled(with_profile(coated, upper=rn.Profile(x=x, height=x**2 / 100.0)), 3.0).notes
 

@@ -19,6 +19,7 @@ _FAR = 8.0  # half-widths of that contact that are looked at, and what the highe
 _MOST_NODES = 2**19
 _GAP = 10.0  # median distances of samples
 _FEW_SAMPLES = 64  # in the contact of the smooth rollers
+_STEEP = 0.5  # rms slope; measured surfaces stay below it, heights in a wrong unit do not
 _CURVED = 0.5  # share of the roller's curvature that a profile must not hold
 
 
@@ -115,6 +116,12 @@ def _notes(name: str, roller: Roller, profile: Profile, half_width: float) -> li
         notes.append(
             f"The profile of the {name} roller has a gap of {steps[widest]:.3g} mm at "
             f"x = {profile.x[widest]:.5g} mm; it is bridged by a straight line."
+        )
+    slope = float(np.sqrt(np.mean((np.diff(profile.height) / steps) ** 2)))
+    if slope > _STEEP:
+        notes.append(
+            f"The profile of the {name} roller has an rms slope of {slope:.2g}, and slopes are taken "
+            "as small: are its heights in the right unit?"
         )
     inside = int(np.count_nonzero(np.abs(profile.x) <= half_width))
     if inside < _FEW_SAMPLES and np.any(profile.height != 0.0):

@@ -120,8 +120,8 @@ def _notes(name: str, roller: Roller, profile: Profile, half_width: float) -> li
     slope = float(np.sqrt(np.mean((np.diff(profile.height) / steps) ** 2)))
     if slope > _STEEP:
         notes.append(
-            f"The profile of the {name} roller has an rms slope of {slope:.2g}, and slopes are taken "
-            "as small: are its heights in the right unit?"
+            f"The profile of the {name} roller has an rms slope of {slope:.2g}, and slopes are "
+            "taken as small: are its heights in the right unit?"
         )
     inside = int(np.count_nonzero(np.abs(profile.x) <= half_width))
     if inside < _FEW_SAMPLES and np.any(profile.height != 0.0):

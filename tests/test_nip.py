@@ -75,7 +75,7 @@ def test_a_nip_holds_floats():
 
 @pytest.mark.parametrize("title", [3, None, "a\0b", "\ud800"])
 def test_a_title_is_text_that_files_can_hold(title):
-    assert refusal(replace, GOOD, title=title).startswith("`title` must be ")
+    assert refusal(replace, GOOD, title=title).startswith("`title` must ")
 
 
 @pytest.mark.parametrize("value", [-2.0, 2.0, 50.0])

@@ -61,12 +61,15 @@ def states_of(solution):
     return [zone.state for zone in solution.final.zones]
 
 
+@pytest.mark.parametrize("traction", [0.53, 0.0])  # with slip, and without: other ways through
 @pytest.mark.parametrize("geometry", ["linear", "corrected", "curved"])
-def test_a_guess_finds_the_zones_without_second_order(cases, geometry):
+def test_a_guess_finds_the_zones_without_second_order(cases, geometry, traction):
     """Terms of second order under tractions that misplaced ends make singular mean nothing."""
-    nip = cases["II driven, curved"][0]
+    nip = replace(cases["II driven, curved"][0], tangential=rn.Traction(traction))
     search, layout = search_for(nip, geometry)
     stand = search.guessed(layout, 22)
+    np.testing.assert_array_equal(stand.before.problem.creep_offset, 0.0)
+    np.testing.assert_array_equal(stand.before.problem.creep_length, stand.before.mesh.dx)
     for term in ("clearance", "creep_length", "creep_offset"):
         np.testing.assert_array_equal(getattr(stand.before.second, term), 0.0)
     final = rn.solve(nip, search.model)

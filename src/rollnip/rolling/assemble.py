@@ -108,14 +108,16 @@ def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
     return SecondOrder(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
 
 
-def has_none(nip: Nip, geometry: Geometry) -> bool:
+def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
     """Whether there are no second-order terms at all: they are those of `first_guess`."""
-    return geometry == "linear" and not isinstance(nip.tangential, Torque)
+    if isinstance(nip.tangential, Torque):
+        return False
+    return geometry == "linear" or (geometry == "curved" and nip.friction == 0.0)
 
 
 def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:
     """Second-order terms of a solution on a mesh."""
-    if has_none(nip, geometry):
+    if has_no_second_order(nip, geometry):
         return first_guess(nip, mesh)
     flat = mesh.linear(state)
     u = mesh.with_second(flat, state)

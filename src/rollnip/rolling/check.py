@@ -102,13 +102,12 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
 def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
     """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval."""
     dx = x[1:] - x[:-1]
-    upper: Array
-    lower: Array
     upper, lower = stretch_excess(x, nip, geometry, u)
     if geometry in ("linear", "corrected"):
         # Small strains: the product of creepage and strain is left out.
-        return creepage * dx + upper - lower
-    return creepage * dx + (1.0 + 0.5 * creepage) * upper - (1.0 - 0.5 * creepage) * lower
+        return np.asarray(creepage * dx + upper - lower)
+    half = 0.5 * creepage
+    return np.asarray(creepage * dx + (1.0 + half) * upper - (1.0 - half) * lower)
 
 
 def fine_points(final: Round) -> Array:

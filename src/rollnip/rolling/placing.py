@@ -39,7 +39,7 @@ _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each fu
 _MORE_FOR_SECOND = 3  # for the second order of "finite", which is held while a mesh is solved on
 _MOST_STRAIN = 0.6  # of a surface; a result may have 0.3
 _MOST_STRAINED = 2  # meshes in succession, not counting
-_NOT_STRAINED = 2  # the first ones, whose zones are a guess
+_NOT_STRAINED = 2  # the first ones, whose zones are not much more than a guess
 _MOST_CHANGES = 2  # of the zones, on meshes of one size
 _MORE_FOR_CHANGE = 3  # meshes, to place the new ends
 _SLOPES = 0.5, 3.0  # of what a break is asked to move, over how far it is off
@@ -134,14 +134,14 @@ class Placing:
             layout = stand.layout
             if elements is None:  # they stay while edges are looked for: a change would move these
                 elements = elements_of_zones(layout.breaks, count)
-            hasty = self.kernels.is_linear and off > _NEARLY_PLACED
+            hasty = loosely and off > _NEARLY_PLACED
             latest, asked = self._solved_on(stand, elements, placed, 1 if hasty else _TURNS)
             off, off_before = asked.distance(layout), off
             if self.kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
                 return None
             is_placed = off <= placed and (self.kernels.is_linear or stand.expected <= _QUIET)
             doubted = is_placed or (not known and off < _FAIRLY_PLACED)
-            known = known or doubted
+            known = known or (doubted and not hasty)
             is_strained = meshes > _NOT_STRAINED and not is_placed and self._strains(latest)
             strained = strained + 1 if is_strained else 0
             if strained == _MOST_STRAINED:

@@ -9,7 +9,7 @@ from typing import Protocol
 from rollnip.contact import ContactProblem, ContactState, States, Zone, contact_zones
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import SecondOrder, contact_problem, has_none, second_order
+from rollnip.rolling.assemble import SecondOrder, contact_problem, has_no_second_order, second_order
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import NO_SECOND_ORDER, Mesh, PairKernels
@@ -68,7 +68,7 @@ def turned(
         problem = contact_problem(nip, mesh, second)
         state = method.solve(problem, states)
         steps += state.steps
-        if not state.settled or has_none(nip, model.geometry):
+        if not state.settled or has_no_second_order(nip, model.geometry):
             break
         updated = second_order(nip, model.geometry, mesh, state)
         change = change_of(updated, second, mesh, nip, state)

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 import rollnip as rn
 from rollnip.compliance import flat_transfer, ring_transfer
-from rollnip.influence import second, second_response
+from rollnip.influence import covering_window, second, second_response, surface_kernels
 from rollnip.influence.surface import moduli
 
 RUBBER = rn.Elastic(modulus=1.0, poisson=0.5)
@@ -85,6 +85,30 @@ def work_of_quadratic_stress(roller, response, t, z, weight):
     work -= np.fft.rfft(whole * zx) * g[1] + np.fft.rfft(whole * xz) * g[2]
     work += np.fft.rfft(det) * g[5]
     return -np.sum((weight * (1.0 - roller.curvature * z))[:, None] * work, axis=1).T
+
+
+def test_a_short_grid_is_told_how_far_the_contact_moves(monkeypatch):
+    """A grid as long as the layers let spread knows it; the hoop strain -u_z/R hangs on it."""
+    half_width, roller = 0.05, covered(25.0, 3.0, RUBBER)
+    nodes = np.linspace(-half_width, half_width, 41)
+    p = 0.002 * np.sqrt(1.0 - (nodes[1:-1] / half_width) ** 2)
+    window = covering_window((roller,), None)
+    inward = surface_kernels(roller, None, "finite", window).inward_at(0.0, nodes, p, 0.0 * p)
+    short = second_response(roller, None, half_width)
+    assert short.is_short
+    monkeypatch.setattr(second, "_DEEPEST", 80.0)
+    long = second_response(roller, None, half_width)
+    assert not long.is_short
+
+    def rest_and_stretch(response, inward):
+        u, _ = response.displacement(nodes, p, 0.0 * p, inward)
+        return (u(np.array([half_width])) - u(np.array([-half_width]))) / (2.0 * half_width)
+
+    right = rest_and_stretch(long, None)
+    assert right == pytest.approx(-inward / 25.0, rel=0.25)  # at the edge it is less
+    assert rest_and_stretch(short, inward) == pytest.approx(right, rel=0.01)
+    assert rest_and_stretch(short, None) != pytest.approx(right, rel=0.05)
+    assert rest_and_stretch(long, inward) == pytest.approx(right, rel=0.01)
 
 
 @pytest.mark.parametrize("material", [RUBBER, FOAM])

@@ -76,3 +76,17 @@ def test_curved(case):
     assert solution.peak_pressure == pytest.approx(case["peak_pressure"], rel=0.035)
     if "creepage" in case:
         assert solution.creepage == pytest.approx(case["creepage"], rel=0.06, abs=5e-3)
+
+
+def test_light_loads_creep_in_proportion():
+    """Far below the thickness nothing but the contact has a length: xi/F is constant."""
+    upper = rn.Roller(radius=50.0, layers=(rn.Layer(5.0, rn.Elastic(modulus=2.0, poisson=0.5)),))
+    found = []
+    for load in (1e-2, 1e-4, 1e-6):
+        nip = rn.Nip(
+            upper=upper, lower=rn.Roller(radius=40.0), normal=rn.LineLoad(load), friction=0.5
+        )
+        solution = rn.solve(nip)
+        assert solution.model.geometry == "finite"
+        found.append(solution.creepage / load)
+    assert found == pytest.approx([found[0]] * 3, rel=5e-3)

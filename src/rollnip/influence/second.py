@@ -78,6 +78,8 @@ class SecondResponse:
         [mm]; for k = 0 of the impulse itself [1/mm]. What is too short for the contact is left out.
     angle : (n,) x/R near the contact, and as at its border elsewhere.
     excess : (n,) the same of x^3/(6 R^2), what the arc is longer than the tangent [mm].
+    is_short : whether the layers let more spread than the grid is long. It lacks the longest waves
+        then, which move the contact as a whole.
     """
 
     x: Array
@@ -90,13 +92,16 @@ class SecondResponse:
     impulse: Array
     angle: Array
     excess: Array
+    is_short: bool
 
     def fitted(self, half_width: float) -> SecondResponse:
         """The same table for another contact, of a half-width [mm] that it resolves."""
         impulse, angle, excess = _fit(self.x, self.k, self.curvature, half_width)
         return replace(self, impulse=impulse, angle=angle, excess=excess)
 
-    def displacement(self, nodes: Array, pressure: Array, shear: Array) -> tuple[EvenSpline, ...]:
+    def displacement(
+        self, nodes: Array, pressure: Array, shear: Array, inward: float | None = None
+    ) -> tuple[EvenSpline, ...]:
         """Second-order (u_x, u_z) as functions of x under nodal tractions of the own frame.
 
         With the linear ones they say of the material at the abscissa x that it was at the arc
@@ -106,10 +111,11 @@ class SecondResponse:
         ----------
         nodes : (N+1,) of the mesh [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
+        inward : the linear u_z at x = 0 [mm], which a short grid does not know.
         """
         tractions = self._transform(nodes, shear, pressure)
         tractions[:, 0] *= 1j
-        moved, loads = self._moved(tractions)
+        moved, loads = self._moved(tractions, inward)
         made = self._quadratic(tractions)
         made += _times(self.surface[:, :2], loads)
         moved += self._back(made.T)
@@ -169,13 +175,15 @@ class SecondResponse:
         transforms[-2 * nz :] *= -1j
         return _times(self.fields.transpose(0, 2, 1), transforms.T) * (-1j, 1.0)
 
-    def _moved(self, tractions: ComplexArray) -> tuple[Array, ComplexArray]:
+    def _moved(self, tractions: ComplexArray, inward: float | None) -> tuple[Array, ComplexArray]:
         """Change to present places, (2, n), and loads i t_x, t_z that turn and stretch, (nk, 2)."""
         transforms = np.empty((6, self.k.size), dtype=complex)
         transforms[:4] = _times(self.surface, tractions).T
         transforms[4:] = tractions.T
         transforms[4] *= -1j
         u_x, u_z, slope_x, slope_z, q, p = self._back(transforms)
+        if inward is not None:
+            u_z += inward - u_z[self.x.size // 2]
         # The place x on the tangent is at the arc x + bend of the undeformed circle.
         bend = self.angle * u_z + self.excess
         shift = u_x - bend
@@ -278,6 +286,7 @@ def second_table(roller: Roller, speed: float | None, size: float) -> SecondResp
         impulse=impulse,
         angle=angle,
         excess=excess,
+        is_short=_spread(roller, size) < roller.coating_thickness,
     )
 
 
@@ -288,13 +297,19 @@ def _grid(roller: Roller, size: float) -> Array:
     largest.
     """
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
-    deep = min(max(roller.coating_thickness, 0.5 * largest), _DEEPEST * largest)
-    window, step = 2.0 * (largest + _reach(roller) * deep), size / _PER_HALF_WIDTH
+    window = 2.0 * (largest + _reach(roller) * _spread(roller, size))
+    step = size / _PER_HALF_WIDTH
     turn = 2.0 * pi * roller.radius
     count = 2 * int(next_fast_len(int(np.ceil(0.5 * min(window, turn) / step)), real=True))
     step = min(step, turn / count) / _FINER
     half = _FINER * count // 2
     return np.asarray(step * np.arange(-half, half), dtype=float)
+
+
+def _spread(roller: Roller, size: float) -> float:
+    """Thickness that counts for the length of the grid [mm]."""
+    largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
+    return float(min(max(roller.coating_thickness, 0.5 * largest), _DEEPEST * largest))
 
 
 def _reach(roller: Roller) -> float:

@@ -10,6 +10,7 @@ import numpy as np
 
 from rollnip.compliance import flat_compliance, half_space_limit, ring_compliance
 from rollnip.influence._weights import ComplexArray, keep_freed_memory
+from rollnip.influence.hats import displacement_under
 from rollnip.influence.kernel import Array, Kernel, Window, half_space_kernel, tabulate
 from rollnip.materials import Material
 from rollnip.rollers import Roller
@@ -42,6 +43,12 @@ class SurfaceKernels:
     def xz(self) -> Kernel:
         """u_x of t_z."""
         return self.together.channel(2)
+
+    def inward_at(self, x: float, nodes: Array, t_z: Array, t_x: Array) -> float:
+        """u_z at a place under tractions at nodes[1:-1], linear between nodes [mm]."""
+        made = displacement_under(self.together, np.array([x]), nodes, np.stack([t_z, t_x], axis=1))
+        _, zz, xz = made[:, 0]
+        return float(zz[0] - xz[1])
 
 
 def is_ring(roller: Roller, geometry: str) -> bool:

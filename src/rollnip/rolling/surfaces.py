@@ -153,12 +153,15 @@ class PairKernels:
         """Second-order displacements under tractions at nodes[1:-1], as functions."""
         functions: list[Field | None] = []
         ends: list[tuple[float, float]] = []
-        for response, sign in ((self.second_upper, 1.0), (self.second_lower, -1.0)):
-            if response is None:
+        sides = (self.upper, self.second_upper, 1.0), (self.lower, self.second_lower, -1.0)
+        for surface, response, sign in sides:
+            if surface is None or response is None:
                 functions += [None, None]
                 ends += [(0.0, 0.0)] * 2
                 continue
-            functions += response.displacement(nodes, pressure, sign * shear)
+            own = nodes, pressure, sign * shear
+            inward = surface.inward_at(0.0, *own) if response.is_short else None
+            functions += response.displacement(*own, inward)
             ends += [(float(response.x[0]), float(response.x[-1]))] * 2
         return SecondFields(tuple(functions), tuple(ends))
 
@@ -252,9 +255,7 @@ class Mesh:
     def finer(self, u: Displacements) -> Displacements:
         """Displacements at nodes[1:] carried on to the finer nodes but the first."""
         values = self.fine.values
-        if values is None:
-            return u
-        return Displacements(u.four @ values[1:, 1:].T)
+        return u if values is None else Displacements(u.four @ values[1:, 1:].T)
 
     def sums(self, pieces: Array) -> Array:
         """Over the intervals of nodes[1:], of what belongs to those of the finer nodes."""
@@ -306,13 +307,12 @@ def mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision | None = None)
     fine = Subdivision(nodes) if fine is None else fine
     unit = None if fine.acting is None else fine.acting[1:-1, 1:-1]
     weights = load_weights(fine.nodes)
-    inner = nodes[1:-1]
     per_traction = pair_displacements(kernels, nodes[1:], fine.nodes, unit)
     return Mesh(
         nodes=nodes,
         fine=fine,
-        inner=inner,
-        dx=nodes[2:] - inner,
+        inner=nodes[1:-1],
+        dx=nodes[2:] - nodes[1:-1],
         weights=weights if unit is None else weights @ unit,
         per_traction=per_traction,
         influence=_influence(nodes, fine, per_traction, kernels.hoops),
@@ -371,8 +371,7 @@ def _influence(
     if any(hoops):
         shorter = np.empty(ahead.shape)
         np.subtract(hoops[0] * zz_u, hoops[1] * zz_l, out=shorter[:, :n])
-        np.add(hoops[0] * xz_u, hoops[1] * xz_l, out=shorter[:, n:])
-        np.negative(shorter[:, n:], out=shorter[:, n:])
+        np.subtract(-hoops[0] * xz_u, hoops[1] * xz_l, out=shorter[:, n:])
         out[n:] -= _integrated(nodes, fine, shorter)
     if fine.acting is not None:  # the surfaces stick up to a leading edge at the last node
         out[2 * n - 2, 2 * n - 2] *= 1.0 - CREEP_TO_EDGE

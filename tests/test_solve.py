@@ -43,7 +43,6 @@ def test_traction_and_creepage_are_two_ways_to_the_same_nip():
     ("changes", "limit"),
     [
         ({"normal": rn.Approach(0.1), "tangential": rn.Traction(0.9)}, "friction"),
-        ({"tangential": rn.Torque(12.0)}, "friction"),
         ({"normal": rn.LineLoad(1e6)}, "smaller roller"),
         ({"normal": rn.Approach(24.0)}, "smaller roller"),
     ],
@@ -51,6 +50,14 @@ def test_traction_and_creepage_are_two_ways_to_the_same_nip():
 def test_what_has_no_solution_is_refused(changes, limit):
     with pytest.raises(rn.InvalidInputError, match=limit):
         solve(replace(NIP, **changes))
+
+
+@pytest.mark.parametrize("torque", [12.0, 40.0])
+def test_a_torque_beyond_friction_does_not_settle(torque):
+    """What traction it takes hangs on a solution that there is not: it is told as a guess."""
+    returned = solve(replace(NIP, tangential=rn.Torque(torque)))
+    assert not returned.converged
+    assert "may be asked for, and friction * load carries" in returned.status
 
 
 def test_failure_is_returned_or_raised():

@@ -18,7 +18,7 @@ from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.contact import Safeguarded
 from rollnip.influence import KernelCache
 from rollnip.model import Model
-from rollnip.nip import Nip, Torque
+from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.rolling import (
     PairKernels,
     Round,
@@ -32,6 +32,8 @@ from rollnip.rolling import (
 from rollnip.rough import solve_rough
 from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import Strains, validity_warnings
+
+_CLEARLY = 1.5  # times a limit that is known roughly
 
 
 def solve(
@@ -146,7 +148,12 @@ def _require_grip(nip: Nip, final: Round) -> None:
     wanted = final.problem.control.traction
     if wanted is None or has_grip(final):
         return
+    if isinstance(nip.tangential, Torque) and not final.settled:
+        return  # the traction that it takes is rough; `_verdict` says what it may be
     limit = nip.friction * final.figures.load
+    given = isinstance(nip.normal, LineLoad)
+    if not given and not final.settled and abs(wanted) < _CLEARLY * limit:
+        return  # the load is rough
     name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
     raise InvalidInputError(
         f"`{name}` asks for a traction of {wanted:.6g} N/mm, but friction * load carries less "
@@ -154,9 +161,23 @@ def _require_grip(nip: Nip, final: Round) -> None:
     )
 
 
+def _may_spin(nip: Nip, final: Round) -> bool:
+    """Whether a round that did not settle takes more traction than friction carries."""
+    wanted = final.problem.control.traction
+    load = final.figures.load
+    return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
+
+
 def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Whether the solution stands, and a sentence that says so or what to do."""
     too_large = excess(nip, final, model.tolerance)
+    if not final.settled and _may_spin(nip, final):
+        return False, (
+            "Contact, stick and slip did not settle: a traction of about "
+            f"{final.problem.control.traction:.4g} N/mm may be asked for, and friction * load "
+            f"carries {nip.friction * final.figures.load:.4g} N/mm; lower it, or raise the load "
+            "or the friction."
+        )
     if not final.settled:
         geometry = final.geometry_change > 0.1 * model.tolerance
         what = (
@@ -165,7 +186,10 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
             else "Contact, stick and slip did not settle"
         )
         simpler = "" if model.geometry == "linear" else '`geometry = "linear"`, '
-        return False, f"{what}; try {simpler}a smaller load or another tolerance."
+        less = (
+            "a smaller load" if has_grip(final) else "less traction, which friction hardly carries,"
+        )
+        return False, f"{what}; try {simpler}{less} or another tolerance."
     left = final.residual
     if not left <= model.tolerance:
         return False, (

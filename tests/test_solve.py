@@ -52,6 +52,31 @@ def test_what_has_no_solution_is_refused(changes, limit):
         solve(replace(NIP, **changes))
 
 
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (([NIP],), r"^`nip` must be a Nip, got a list\.$"),
+        (
+            (rn.Case(nip=NIP, model=Model(), source=""),),
+            r"^`nip` must be a Nip, got a Case; of a case take `case.nip`\.$",
+        ),
+        (
+            (NIP, "linear"),
+            r"^`model` must be a Model, such as Model\(geometry='linear'\), got 'linear'\.$",
+        ),
+        ((NIP, 1e-3), r"^`model` must be a Model, got a float\.$"),
+    ],
+)
+def test_arguments_of_another_kind_are_refused(arguments, said):
+    with pytest.raises(rn.InvalidInputError, match=said):
+        solve(*arguments)
+
+
+def test_what_to_do_on_failure_is_one_of_two():
+    with pytest.raises(rn.InvalidInputError, match=r"^`on_failure` must be .* got 'x'\.$"):
+        solve(NIP, on_failure="x")
+
+
 @pytest.mark.parametrize("torque", [12.0, 40.0])
 def test_a_torque_beyond_friction_does_not_settle(torque):
     """What traction it takes hangs on a solution that there is not: it is told as a guess."""

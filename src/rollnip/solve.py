@@ -69,13 +69,14 @@ def solve(
     ------
     InvalidInputError
         where the problem has no solution: a traction beyond friction times load, a nip as wide
-        as a roller.
+        as a roller; and where an argument is of another kind.
     ConvergenceError
         where ``on_failure`` is "raise" and the solution could not be verified, or where there
         is none at all.
     """
     start = perf_counter()
     model = Model() if model is None else model
+    _require_kinds(nip, model, on_failure)
     if nip.has_profile:
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
     method = Safeguarded() if method is None else method
@@ -84,6 +85,21 @@ def solve(
     if on_failure == "raise" and not solution.converged:
         raise ConvergenceError(solution.status, solution)
     return solution
+
+
+def _require_kinds(nip: object, model: object, on_failure: object) -> None:
+    """Raise InvalidInputError for arguments of another kind, such as a case instead of its nip."""
+    if not isinstance(nip, Nip):
+        hint = "; of a case take `case.nip`" if hasattr(nip, "nip") else ""
+        raise InvalidInputError(f"`nip` must be a Nip, got a {type(nip).__name__}{hint}.")
+    if not isinstance(model, Model):
+        raise InvalidInputError(
+            f"`model` must be a Model, such as Model(geometry={model!r}), got {model!r}."
+            if isinstance(model, str)
+            else f"`model` must be a Model, got a {type(model).__name__}."
+        )
+    if on_failure not in ("raise", "return"):
+        raise InvalidInputError(f'`on_failure` must be "raise" or "return", got {on_failure!r}.')
 
 
 def _solved(

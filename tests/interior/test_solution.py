@@ -131,3 +131,24 @@ def test_losses_in_the_layers_are_the_dissipation(lossy):
             field = lossy.interior(name, below - half + half * g, 0.0)
             total += half * float(w @ field.loss_per_depth)
     assert total == pytest.approx(lossy.dissipation_viscous, rel=3e-4)
+
+
+@pytest.mark.parametrize("thickness", [1e-3, 1e-7])
+def test_interface_under_a_film_carries_the_tractions(thickness):
+    """However thin it is: no wave is needed that tractions do not have."""
+    film = rn.Layer(thickness, rn.Elastic(modulus=3.0, poisson=0.5))
+    rubber = rn.Layer(5.0, rn.Elastic(modulus=3.6, poisson=0.5))
+    nip = rn.Nip(
+        upper=rn.Roller(radius=100.0, layers=(film, rubber)),
+        lower=rn.Roller(radius=75.0),
+        normal=rn.LineLoad(3.5),
+        friction=0.6,
+    )
+    solution = rn.solve(nip, rn.Model(geometry="curved"))
+    below = solution.interfaces[0]
+    pressure = np.interp(below.x, solution.final.x, solution.pressure, left=0.0, right=0.0)
+    shear = np.interp(below.x, solution.final.x, solution.shear, left=0.0, right=0.0)
+    allowed = 0.01 * solution.peak_pressure
+    np.testing.assert_allclose(below.peel, -pressure, atol=allowed)
+    np.testing.assert_allclose(np.abs(below.shear), np.abs(shear), atol=allowed)
+    assert below.peel_min == pytest.approx(-solution.peak_pressure, rel=1e-3)

@@ -32,6 +32,9 @@ _FADED = 16.0
 """k z at which a transform has fallen to e^-16; what is left out is 1e-8 of the peak."""
 _MOST_PANELS = 32
 """Widths P of panels that rows near the surface are worth; below their reach: closed form."""
+_THINNEST = 5e-4
+"""Of the half-width: rows in thinner layers get no more wave numbers than those at this depth. What
+is left out of tractions that go as a root at their edges is 4e-3 of the peak there."""
 AnyArray = NDArray[Any]
 
 _STRESS, _STRAIN, _RATE = slice(2, 5), slice(5, 8), slice(8, 11)
@@ -61,8 +64,8 @@ class Rows:
         return float(self.last.max())
 
     @classmethod
-    def of(cls, medium: Medium, z: Array, waves: Waves) -> Rows:
-        """Sort the depths into near and far ones."""
+    def of(cls, medium: Medium, z: Array, waves: Waves, half_width: float) -> Rows:
+        """Sort the depths into near and far ones, under tractions of a half-width [mm]."""
         layers = medium.layers_of(z)
         most = _MOST_PANELS * waves.width
         near = (layers == 0) & (z * most < _FADED)
@@ -70,7 +73,7 @@ class Rows:
         # Half-space and layer differ by what the bottom of the top layer sends back.
         echo = np.maximum(most, _FADED / np.maximum(2.0 * top - z, top))
         direct = _FADED / np.maximum(z, _FADED / (most + _FADED / top))
-        last = np.where(near, echo, direct)
+        last = np.minimum(np.where(near, echo, direct), _FADED / (_THINNEST * half_width))
         return cls(z, layers, medium.poisson_of(layers), near, last)
 
 
@@ -95,7 +98,7 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
     reach = float(np.max(np.abs(places))) + tractions.half_width
     deepest = float(np.max(Depth.of(z, medium.curvature).logarithmic))
     waves = Waves.resolving(reach, max(medium.slowest, deepest))
-    rows = Rows.of(medium, z, waves)
+    rows = Rows.of(medium, z, waves, tractions.half_width)
     parts = 11 if medium.is_viscoelastic else 5
     values = np.zeros((parts, z.size, x.size))
     loss = np.zeros(z.size)

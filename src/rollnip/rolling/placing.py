@@ -135,7 +135,9 @@ class Placing:
             if elements is None:  # they stay while edges are looked for: a change would move these
                 elements = elements_of_zones(layout.breaks, count)
             hasty = loosely and off > _NEARLY_PLACED
-            latest, asked = self._solved_on(stand, elements, placed, 1 if hasty else _TURNS)
+            # Transitions that a guess has found will move again, whatever the second order.
+            most = 1 if hasty and layout.states.size > 1 else _TURNS
+            latest, asked = self._solved_on(stand, elements, placed, most)
             off, off_before = asked.distance(layout), off
             if self.kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
                 return None

@@ -28,7 +28,12 @@ from rollnip.contact import (
 from rollnip.contact.problem import Indices
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import SecondOrder, first_guess, second_order
+from rollnip.rolling.assemble import (
+    SecondOrder,
+    first_guess,
+    has_no_second_order,
+    second_order,
+)
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
@@ -89,8 +94,9 @@ class Placing:
     def guessed(self, layout: Layout, count: int) -> Standing | None:
         """About where the zones are, and which, from a mesh of some size that a guess has made.
 
-        Ends that are far off leave singular tractions, under which terms of second order mean
-        nothing: they are left out.
+        Ends that are far off leave singular tractions, and where these slip, terms of second order
+        under them mean nothing: zones are looked for without. Where all sticks, the mesh is solved
+        once more with them.
 
         Returns
         -------
@@ -98,15 +104,19 @@ class Placing:
         """
         kernels = held_from(self.kernels, None)
         mesh = _mesh(layout, elements_of_zones(layout.breaks, count), kernels)
-        start = layout.states_on(mesh.inner), first_guess(self.nip, mesh), 0
-        model = replace(self.model, geometry="linear")
-        latest = self._turned(model, mesh, start, layout.zones, _TURNS)
+        states, zones = layout.states_on(mesh.inner), layout.zones
+        start = states, first_guess(self.nip, mesh), 0
+        latest = self._turned(replace(self.model, geometry="linear"), mesh, start, zones, _TURNS)
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         is_near = asked.distance(layout) < _FAIRLY_PLACED
         wanted = self._wanted(latest, layout, whole=False) if is_near else None
-        if asked.is_proper and wanted is None:
-            return Standing(asked, latest)
-        return self._other(latest, wanted, asked if asked.is_proper else layout, "linear")
+        if wanted is not None or not asked.is_proper:
+            return self._other(latest, wanted, asked if asked.is_proper else layout, "linear")
+        if self.kernels.is_linear and not has_no_second_order(self.nip, self.model.geometry):
+            second = second_order(self.nip, self.model.geometry, mesh, latest.state)
+            latest = self._turned(self.model, mesh, (states, second, latest.steps), zones, 1)
+            asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
+        return Standing(asked if asked.is_proper else layout, latest)
 
     def placed(self, start: Standing, count: int, *, known: bool) -> Standing | None:
         """The solution on a mesh of some size whose nodes lie at the ends of its zones.

@@ -12,7 +12,7 @@ from rollnip._errors import (
 )
 from rollnip.rollers import Roller
 
-_SMALLEST = 1e-15  # mm, N/mm; an atom's nucleus is as wide: squares of what is smaller vanish
+_SMALLEST = 1e-15  # mm, N/mm; far below what can be measured, far above what underflows
 
 
 @dataclass(frozen=True, slots=True)

@@ -202,10 +202,7 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
             else "Contact, stick and slip did not settle"
         )
         simpler = "" if model.geometry == "linear" else '`geometry = "linear"`, '
-        less = (
-            "a smaller load" if has_grip(final) else "less traction, which friction hardly carries,"
-        )
-        return False, f"{what}; try {simpler}{less} or another tolerance."
+        return False, f"{what}; try {simpler}a smaller load or another tolerance."
     left = final.residual
     if not left <= model.tolerance:
         return False, (

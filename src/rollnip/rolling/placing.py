@@ -111,12 +111,12 @@ class Placing:
         is_near = asked.distance(layout) < _FAIRLY_PLACED
         wanted = self._wanted(latest, layout, whole=False) if is_near else None
         if wanted is not None or not asked.is_proper:
-            return self._other(latest, wanted, asked if asked.is_proper else layout, "linear")
+            return self._other(latest, wanted, _proper(asked, layout), "linear")
         if self.kernels.is_linear and not has_no_second_order(self.nip, self.model.geometry):
             second = second_order(self.nip, self.model.geometry, mesh, latest.state)
             latest = self._turned(self.model, mesh, (states, second, latest.steps), zones, 1)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        return Standing(asked if asked.is_proper else layout, latest)
+        return Standing(_proper(asked, layout), latest)
 
     def placed(self, start: Standing, count: int, *, known: bool) -> Standing | None:
         """The solution on a mesh of some size whose nodes lie at the ends of its zones.
@@ -167,8 +167,7 @@ class Placing:
                 earlier = (layout, asked) if latest.settled else None
                 continue
             changes += 1
-            edges = asked if asked.is_proper else layout
-            other = self._other(latest, wanted, edges, self.model.geometry)
+            other = self._other(latest, wanted, _proper(asked, layout), self.model.geometry)
             if other is None or changes > _MOST_CHANGES:
                 return None
             stand, elements, earlier, off = self._renewed(other), None, None, inf
@@ -265,6 +264,11 @@ def _mesh(layout: Layout, elements: Indices, kernels: PairKernels) -> Mesh:
     """A mesh whose nodes lie at the ends of zones."""
     nodes = cosine_nodes(layout.breaks, elements)
     return mesh_on(nodes, kernels, subdivided(nodes, elements))
+
+
+def _proper(asked: Layout, layout: Layout) -> Layout:
+    """Where a solution asks the ends to be; where that is no layout, where they are."""
+    return asked if asked.is_proper else layout
 
 
 def _standing_at(asked: Layout, latest: Round, stand: Standing) -> Standing:

@@ -18,6 +18,7 @@ os.environ.setdefault("OMP_NUM_THREADS", "1")
 # Kernels start in the folder of their page; the command sits beside the interpreter.
 os.environ["PATH"] = str(Path(sys.executable).parent) + os.pathsep + os.environ["PATH"]
 os.environ["COLUMNS"] = "80"
+os.environ["ROLLNIP_SOURCE"] = str(HERE.parent)  # where hidden cells find helpers and data
 # Kernels read no settings of whoever builds, and say nothing but errors.
 profile = HERE / "_build" / "ipython" / "profile_default"
 profile.mkdir(parents=True, exist_ok=True)
@@ -123,6 +124,7 @@ html_sidebars = {
         "conventions",
         "verification",
         "geometry",
+        "finite-strain",
     )
 }
 html_show_sourcelink = False

@@ -88,8 +88,8 @@ def test_the_collocation_has_converged():
         assert tuple(coarse) == pytest.approx(tuple(fine), rel=1e-11)
 
 
-def test_a_published_solution():
-    """a/h = 1, nu = 0.5: P R/(E h^2), p(0) R/(E h), delta R/h^2 to the digits printed."""
+def test_the_solution_under_a_prescribed_approach():
+    """a/h = 1, nu = 0.5: P R/(E h^2), p(0) R/(E h), delta R/h^2 to the digits stored."""
     assert tuple(bonded_layer(0.5, 1.0)) == pytest.approx((1.99313, 1.33488, 0.438344), rel=4e-6)
 
 

@@ -1,20 +1,33 @@
 """Every figure of the registry holds; the registry is what it says; a wrong engine is seen."""
 
+import re
 from dataclasses import replace
 from itertools import groupby
 from math import isfinite
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
 from rollnip._errors import ConvergenceError
+from rollnip.model import Geometry, Model
 from rollnip.nip import LineLoad
-from rollnip.verification import _nips, all_cases, cases_about, figure_text, verify
+from rollnip.verification import (
+    _nips,
+    all_cases,
+    cases_about,
+    figure_text,
+    markdown,
+    sources,
+    summary,
+    verify,
+)
 from rollnip.verification.case import Experiment, Tolerance
 from rollnip.verification.half_spaces import carter_cases, half_spaces
+from rollnip.verification.sources import Kind, Source
 
 CASES = all_cases()
-PAGE = Path(__file__).parents[2] / "docs" / "verification.md"
+ROOT = Path(__file__).parents[2]
 
 
 @pytest.mark.parametrize("case", CASES, ids=lambda case: f"{case.name}: {case.quantity}")
@@ -24,9 +37,45 @@ def test_figure(outcomes, case):
     assert abs(outcome.got - case.expected) <= case.tolerance * case.scale, case.reason
 
 
-def test_at_least_forty_figures_from_twelve_sources():
-    assert len(CASES) >= 40
-    assert len({case.source for case in CASES}) >= 12
+def test_every_kind_of_evidence_is_there():
+    """A dozen closed forms, several programs, printed numbers and laws."""
+    sources = {case.source for case in CASES}
+    counts = {kind: sum(source.kind is kind for source in sources) for kind in Kind}
+    assert counts[Kind.CLOSED_FORM] >= 12
+    assert counts[Kind.PROGRAM] >= 4
+    assert counts[Kind.PRINTED] >= 1
+    assert counts[Kind.LAW] >= 8
+
+
+def test_the_default_geometry_is_judged(outcomes):
+    """Figures of the default geometry come from finite elements, each solved in that geometry."""
+    default = Model().geometry
+    judged = [o for o in outcomes.values() if o.geometry == default]
+    assert len(judged) >= 20
+    assert {o.case.source for o in judged} >= {sources.FINITE_ELEMENTS}
+    for outcome in outcomes.values():
+        for geometry in get_args(Geometry):
+            if outcome.case.name.endswith(f", {geometry}"):
+                assert outcome.geometry == geometry
+
+
+def test_a_citation_is_whole():
+    """What is printed or a closed form has authors and a year; a program says where it is."""
+    for source in {case.source for case in CASES}:
+        if source.kind is Kind.PRINTED:
+            assert re.search(r"\b(18|19|20)\d\d\b", source.text), source
+            assert re.match(r"[A-Z]\.", source.text), source
+        if source.kind is Kind.PROGRAM:
+            (path,) = re.findall(r"tests/[\w/.]+\b", source.text)
+            assert (ROOT / path).is_file(), path
+
+
+def test_the_summary_counts_what_stands_behind(outcomes):
+    found = list(outcomes.values())
+    text = summary(found)
+    assert text.startswith(f"{len(found)} figures: all passed")
+    counts = [int(n) for n in re.findall(r": (\d+) from", text)]
+    assert sum(counts) == len(found)
 
 
 def test_every_case_says_what_and_why():
@@ -35,7 +84,7 @@ def test_every_case_says_what_and_why():
         assert isfinite(case.expected)
         assert case.scale > 0.0
         assert 0.0 <= case.tolerance <= 0.05 or case.tolerance == 1.0 == case.scale
-        assert len(case.source) > 15
+        assert len(case.source.text) > 15
         assert case.reason
 
 
@@ -86,7 +135,7 @@ def test_a_problem_is_solved_once():
         asked.append(1)
         return 2.0
 
-    experiment = Experiment("name", "source", problem)
+    experiment = Experiment("name", Source(Kind.LAW, "a law"), problem)
     exact = Tolerance(0.0, "exact")
     cases = [experiment.figure(q, "", 2.0, float, exact) for q in ("one", "two")]
     assert [outcome.passed for outcome in verify(cases)] == [True, True]
@@ -94,18 +143,18 @@ def test_a_problem_is_solved_once():
 
 
 def test_nan_is_no_pass():
-    figure = Experiment("name", "source", lambda: float("nan")).figure
+    figure = Experiment("name", Source(Kind.LAW, "a law"), lambda: float("nan")).figure
     (outcome,) = verify([figure("q", "", 1.0, float, Tolerance(1e9, "anything"))])
     assert not outcome.passed
     assert outcome.error == float("inf")
 
 
-def test_the_page_shows_every_case():
-    """Made by `rollnip verify --markdown > docs/verification.md`."""
-    page = PAGE.read_text(encoding="utf-8")
+def test_the_page_shows_every_case(outcomes):
+    """The page of the documentation is written from these outcomes while it is built."""
+    page = markdown(list(outcomes.values()))
     for case in CASES:
         assert f"## {case.name}\n" in page
-        assert f"Source: {case.source}." in page
+        assert f"{case.source.kind.value.capitalize()}: {case.source.text}." in page
         quantity = case.quantity.replace("|", "\\|")
         assert f"| {quantity} | {figure_text(case.expected, case.unit)} |" in page
     assert "**NO**" not in page

@@ -31,7 +31,7 @@ def verify(
 ) -> None:
     """Recompute published figures and closed forms, and compare.
 
-    Leaves with 0 where every figure is within its tolerance, 1 where one is not.
+    The exit code is 0 where every figure is within its tolerance, and 1 where one is not.
     """
     from rollnip.cli.app import _clear_failures
 
@@ -84,10 +84,17 @@ def print_outcomes(outcomes: Sequence[Outcome], console: Console | None = None) 
     for name, group in groupby(outcomes, key=lambda outcome: outcome.case.name):
         members = list(group)
         console.print(Text(f"\n{name}", style="bold"))
-        console.print(Text(members[0].case.source, style="dim"))
+        console.print(Text(_origin(members[0]), style="dim"))
         console.print(_table(members))
     passed = all(outcome.passed for outcome in outcomes)
     console.print(Text(f"\n{summary(outcomes)}", style="green" if passed else "bold red"))
+
+
+def _origin(outcome: Outcome) -> str:
+    """Return the kind and the source of a figure, and the geometry it was solved in."""
+    source = outcome.case.source
+    geometry = f" Geometry {outcome.geometry}." if outcome.geometry else ""
+    return f"{source.kind.value.capitalize()}: {source.text}.{geometry}"
 
 
 def _table(outcomes: Sequence[Outcome]) -> RenderableType:

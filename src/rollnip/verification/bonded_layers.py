@@ -11,12 +11,8 @@ from rollnip.rollers import Roller
 from rollnip.solution import Solution
 from rollnip.verification._nips import approach, bed, half_width, peak_pressure, solved
 from rollnip.verification.case import Experiment, VerificationCase
+from rollnip.verification.sources import COLLOCATION
 
-_SOURCE = (
-    "Chebyshev collocation of the integral equation of one bonded layer (the problem of Meijers "
-    "1968), converged to 12 digits; recomputed in the tests"
-)
-_PUBLISHED = "Bonded layer of nu 0.5 at a/h = 1: reference solution, to the digits shown"
 _RADIUS = 1000.0  # thicknesses of 1 mm; what is linear has no other length
 
 
@@ -54,7 +50,7 @@ def bonded_layers() -> tuple[VerificationCase, ...]:
 def _under_load(row: Indentation) -> tuple[VerificationCase, ...]:
     figure = Experiment(
         f"Bonded layer, nu {row.poisson:g}, a/h = {row.half_width:g}",
-        _SOURCE,
+        COLLOCATION,
         partial(_solve, row.poisson, LineLoad(row.load / _RADIUS)),
     ).figure
     return (
@@ -67,7 +63,7 @@ def _under_load(row: Indentation) -> tuple[VerificationCase, ...]:
 def _under_approach() -> tuple[VerificationCase, ...]:
     figure = Experiment(
         "Bonded layer, nu 0.5, approach prescribed",
-        _PUBLISHED,
+        COLLOCATION,
         partial(_solve, 0.5, Approach(0.438344 / _RADIUS)),
     ).figure
     return (

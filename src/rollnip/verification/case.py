@@ -8,6 +8,8 @@ from math import inf, isfinite, nan
 from typing import Any, NamedTuple
 
 from rollnip._errors import RollnipError
+from rollnip.solution import Solution
+from rollnip.verification.sources import Source
 
 
 class Tolerance(NamedTuple):
@@ -51,7 +53,7 @@ class VerificationCase:
     """
 
     name: str
-    source: str
+    source: Source
     quantity: str
     unit: str
     expected: float
@@ -79,7 +81,7 @@ class Experiment:
     """
 
     name: str
-    source: str
+    source: Source
     problem: Callable[[], Any]
 
     def figure(
@@ -115,11 +117,13 @@ class Outcome:
     ----------
     case : the figure.
     got : the figure computed; nan where it could not be.
-    message : why not; "" otherwise.
+    geometry : of the nips that were solved for it, as their solutions say; "" where none was.
+    message : why it could not be computed; "" otherwise.
     """
 
     case: VerificationCase
     got: float
+    geometry: str = ""
     message: str = ""
 
     @property
@@ -145,6 +149,14 @@ def verify(cases: Iterable[VerificationCase]) -> Iterator[Outcome]:
         try:
             if case.problem not in solved:
                 solved[case.problem] = case.problem()
-            yield Outcome(case, float(case.read(solved[case.problem])))
+            result = solved[case.problem]
+            yield Outcome(case, float(case.read(result)), _geometry(result))
         except (RollnipError, ArithmeticError, LookupError, TypeError, ValueError) as error:
-            yield Outcome(case, nan, f"{type(error).__name__}: {error}")
+            yield Outcome(case, nan, message=f"{type(error).__name__}: {error}")
+
+
+def _geometry(result: object) -> str:
+    """Return the geometry of a solution, or of several; "" where a result holds none."""
+    parts = result if isinstance(result, tuple) else (result,)
+    found = {part.model.geometry for part in parts if isinstance(part, Solution)}
+    return " and ".join(sorted(found))

@@ -19,11 +19,8 @@ from rollnip.verification._nips import (
     trailing_edge,
 )
 from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.sources import CONFIGURATION_TWO
 
-_SOURCE = (
-    "Braat & Kalker (1993), configuration II; the linear equations solved by an independent "
-    "program, to the digits shown"
-)
 _PRINTED = Tolerance(1e-2, "three digits printed, and a small difference of large strains")
 _BALANCE = Tolerance(3e-3, "three digits printed (0.1 %), and the solver's 0.1 %")
 
@@ -53,7 +50,9 @@ def solve_two(traction: float) -> Solution:
 
 
 def _free() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Configuration II, rolling freely", _SOURCE, partial(solve_two, 0.0)).figure
+    figure = Experiment(
+        "Configuration II, rolling freely", CONFIGURATION_TWO, partial(solve_two, 0.0)
+    ).figure
     return (
         figure("approach", "mm", 0.29396, approach),
         figure("creepage", "", -0.0161, creepage, _PRINTED),
@@ -65,7 +64,9 @@ def _free() -> tuple[VerificationCase, ...]:
 
 def _lower_drives() -> tuple[VerificationCase, ...]:
     figure = Experiment(
-        "Configuration II, traction -0.53 (lower drives)", _SOURCE, partial(solve_two, -0.53)
+        "Configuration II, traction -0.53 (lower drives)",
+        CONFIGURATION_TWO,
+        partial(solve_two, -0.53),
     ).figure
     return (
         figure("approach", "mm", 0.30594, approach),
@@ -79,7 +80,9 @@ def _lower_drives() -> tuple[VerificationCase, ...]:
 
 def _upper_drives() -> tuple[VerificationCase, ...]:
     figure = Experiment(
-        "Configuration II, traction +0.53 (upper drives)", _SOURCE, partial(solve_two, 0.53)
+        "Configuration II, traction +0.53 (upper drives)",
+        CONFIGURATION_TWO,
+        partial(solve_two, 0.53),
     ).figure
     return (
         figure("torque on the upper axle", "N", 27.80, _of("torque_upper")),

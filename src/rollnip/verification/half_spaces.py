@@ -24,10 +24,8 @@ from rollnip.verification._nips import (
     stick_length,
 )
 from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.sources import BENTALL_JOHNSON, CARTER, HERTZ
 
-_HERTZ = "Hertz (1882); Johnson (1985), Contact Mechanics, eqs 4.43 and 4.45"
-_CARTER = "Carter (1926); Johnson (1985), Contact Mechanics, section 8.3"
-_BENTALL = "Bentall & Johnson (1967); Johnson (1985), Contact Mechanics, section 8.2"
 _STEEL = Elastic(modulus=210e3, poisson=0.3)
 _FRICTION = 0.3
 _LOAD = 500.0
@@ -40,7 +38,7 @@ def half_spaces() -> tuple[VerificationCase, ...]:
 
 
 def _hertz() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Hertz, steel on bronze", _HERTZ, _solve_hertz).figure
+    figure = Experiment("Hertz, steel on bronze", HERTZ, _solve_hertz).figure
     exact = hertz_line(
         load=_LOAD,
         radius=effective_radius(50.0, 25.0),
@@ -73,7 +71,7 @@ def carter_cases(share: float) -> tuple[VerificationCase, ...]:
     """Carter at a traction of ``share`` mu F."""
     figure = Experiment(
         f"Carter, traction {share:g} mu F",
-        _CARTER,
+        CARTER,
         partial(_solve_carter, Traction(share * _FRICTION * _LOAD)),
     ).figure
     exact = carter(
@@ -99,12 +97,12 @@ def _carter_backwards() -> tuple[VerificationCase, ...]:
     )
     figure = Experiment(
         "Carter, creepage of -0.5 mu F prescribed",
-        _CARTER,
+        CARTER,
         partial(_solve_carter, Creepage(exact.creepage)),
     ).figure
     slides = Experiment(
         "Carter, twice the creepage of sliding prescribed",
-        _CARTER,
+        CARTER,
         partial(_solve_carter, Creepage(2.0 * _FRICTION * exact.hertz.half_width / 25.0)),
     ).figure
     return (
@@ -139,7 +137,7 @@ _PAIR = {
 
 def _slipping() -> tuple[VerificationCase, ...]:
     figure = Experiment(
-        "Bentall & Johnson, friction 1e-4", _BENTALL, partial(_solve_dissimilar, 1e-4)
+        "Bentall & Johnson, friction 1e-4", BENTALL_JOHNSON, partial(_solve_dissimilar, 1e-4)
     ).figure
     exact = free_rolling_vanishing_friction(**_PAIR)
     finite = Tolerance(1e-2, "friction is small, not zero: it moves the places by 1 % of c")
@@ -161,7 +159,9 @@ def _reversal(solution: Solution) -> float:
 
 def _sticking() -> tuple[VerificationCase, ...]:
     figure = Experiment(
-        "Bentall & Johnson, friction 10 (full stick)", _BENTALL, partial(_solve_dissimilar, 10.0)
+        "Bentall & Johnson, friction 10 (full stick)",
+        BENTALL_JOHNSON,
+        partial(_solve_dissimilar, 10.0),
     ).figure
     exact = free_rolling_full_stick(**_PAIR)
     return (

@@ -19,14 +19,14 @@ from rollnip.influence import SurfaceKernels, covering_window, surface_kernels
 from rollnip.materials import Elastic
 from rollnip.rollers import Roller
 from rollnip.verification.case import Experiment, Tolerance, VerificationCase
-
-_PRINTED = "Transformed compliances of one bonded layer, E = h = k = 1: printed figures"
-_FORM = "Closed form of C_zz of one bonded layer, from the plane-strain layer equations"
-_DIGITS = "Integration of the layer equations with 40 digits; recomputed in the tests"
-_LAME = "Lame (1852), thick cylinder; Timoshenko & Goodier (1970), chapter 4"
-_FLAMANT = "Flamant (1892); Johnson (1985), Contact Mechanics, sections 2.2 and 2.3"
-_MCEWEN = "McEwen (1949); Johnson (1985), Contact Mechanics, section 4.2"
-_DISC = "ELLEA1, layered elastic half-space under a disc: printed deflection"
+from rollnip.verification.sources import (
+    BONDED_LAYER_FORM,
+    ELLEA,
+    FLAMANT,
+    FORTY_DIGITS,
+    LAME,
+    MCEWEN,
+)
 
 STACK = ((0.1, 5500.0, 0.3), (4.0, 2.0, 0.5), (1.0, 20.0, 0.45))
 """Thickness [mm], modulus [MPa] and Poisson ratio of three layers, from the surface down."""
@@ -56,7 +56,7 @@ def _single_layer() -> tuple[VerificationCase, ...]:
     )
     problems = {poisson: partial(_one_layer, poisson, 1.0) for poisson in (0.5, 0.3)}
     return tuple(
-        Experiment(f"One bonded layer, nu {poisson:g}", _PRINTED, problems[poisson]).figure(
+        Experiment(f"One bonded layer, nu {poisson:g}", FORTY_DIGITS, problems[poisson]).figure(
             name, "", expected, read, tolerance
         )
         for poisson, name, expected, read, tolerance in rows
@@ -70,9 +70,9 @@ def _one_layer(poisson: float, k: float) -> SurfaceCompliance:
 def _closed_form() -> tuple[VerificationCase, ...]:
     exact = Tolerance(1e-11, "rounding; the closed form itself loses digits at small k")
     return tuple(
-        Experiment(f"One bonded layer, k h = {k:g}", _FORM, partial(_one_layer, nu, k)).figure(
-            f"C_zz k, nu {nu:g}", "", k * _closed_form_zz(nu, k), partial(_times, k), exact
-        )
+        Experiment(
+            f"One bonded layer, k h = {k:g}", BONDED_LAYER_FORM, partial(_one_layer, nu, k)
+        ).figure(f"C_zz k, nu {nu:g}", "", k * _closed_form_zz(nu, k), partial(_times, k), exact)
         for nu, k in ((0.5, 0.5), (0.3, 3.0), (-0.5, 10.0))
     )
 
@@ -89,7 +89,9 @@ def _closed_form_zz(poisson: float, k: float) -> float:
 
 
 def _stack(k: float) -> tuple[VerificationCase, ...]:
-    figure = Experiment(f"Three layers, k = {k:g}/mm", _DIGITS, partial(_three_layers, k)).figure
+    figure = Experiment(
+        f"Three layers, k = {k:g}/mm", FORTY_DIGITS, partial(_three_layers, k)
+    ).figure
     digits = Tolerance(1e-9, "ten digits stored")
     xx, zz, xz = STACK_COMPLIANCE[k]
     return (
@@ -106,7 +108,7 @@ def _three_layers(k: float) -> SurfaceCompliance:
 
 def _ring() -> tuple[VerificationCase, ...]:
     """A ring of 50 mm on a core of 40 mm, E = 2, nu = 0.3, squeezed and twisted as a whole."""
-    figure = Experiment("Ring on a rigid core, harmonic 0", _LAME, _ring_at_zero).figure
+    figure = Experiment("Ring on a rigid core, harmonic 0", LAME, _ring_at_zero).figure
     outer, inner, shear = 50.0, 40.0, 2.0 / 2.6
     gap = outer - inner**2 / outer
     squeeze = gap / (2.0 * shear * (1.0 / 0.4 + (inner / outer) ** 2))
@@ -123,8 +125,8 @@ def _ring_at_zero() -> SurfaceCompliance:
 
 
 def _half_space() -> tuple[VerificationCase, ...]:
-    line = Experiment("Line force on a half-space", _FLAMANT, _flamant).figure
-    shear = Experiment("Hertz pressure, shear below the axis", _MCEWEN, _below_hertz).figure
+    line = Experiment("Line force on a half-space", FLAMANT, _flamant).figure
+    shear = Experiment("Hertz pressure, shear below the axis", MCEWEN, _below_hertz).figure
     fall = -2.0 * (1.0 - 0.3**2) / 2.0 / pi * log(10.0)
     table = Tolerance(1e-6, "the inverse transform is tabulated to 1e-7")
     panels = Tolerance(1e-5, "quadrature over the wave numbers")
@@ -159,7 +161,7 @@ def _below_hertz() -> tuple[float, float]:
 
 
 def _disc() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Three-layer half-space under a disc", _DISC, _deflection).figure
+    figure = Experiment("Three-layer half-space under a disc", ELLEA, _deflection).figure
     printed = Tolerance(1e-4, "five digits printed")
     return (figure("deflection at the centre", "mm", 1.0508, float, printed),)
 

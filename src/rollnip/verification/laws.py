@@ -23,13 +23,8 @@ from rollnip.solution import Solution
 from rollnip.verification._nips import creepage, half_width, peak_pressure, solved
 from rollnip.verification.case import ROUNDING, Experiment, Tolerance, VerificationCase
 from rollnip.verification.configuration_two import nip_two, solve_two
+from rollnip.verification.sources import BETTI, DIMENSIONS, ENERGY, EQUILIBRIUM, MIRROR, PASSIVITY
 
-_BETTI = "Betti's reciprocal theorem: C_zx = -C_xz"
-_SECOND_LAW = "Passivity: layers neither push by themselves nor give energy away"
-_ENERGY = "Conservation of energy in steady rolling"
-_STATICS = "Equilibrium of a roller: a pressure on a bare rigid roller passes through its axle"
-_DIMENSIONS = "Dimensional analysis: lengths and moduli times 1000 leave strains as they are"
-_MIRROR = "Symmetry: swapping the rollers turns the signs of shear and creepage"
 _RUBBER = StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.007, poisson=0.5)
 
 
@@ -51,7 +46,7 @@ def _reciprocity() -> tuple[VerificationCase, ...]:
         ("Reciprocity of ring layers", ring),
     )
     return tuple(
-        Experiment(name, _BETTI, problem).figure(
+        Experiment(name, BETTI, problem).figure(
             "largest |C_zx + C_xz| over |C|", "", 0.0, _asymmetry, ROUNDING, scale=1.0
         )
         for name, problem in problems
@@ -65,7 +60,7 @@ def _asymmetry(transfer: DepthTransfer) -> float:
 
 
 def _passivity() -> tuple[VerificationCase, ...]:
-    experiment = Experiment("Passivity of a viscoelastic coating", _SECOND_LAW, _lossy_coating)
+    experiment = Experiment("Passivity of a viscoelastic coating", PASSIVITY, _lossy_coating)
     return (
         experiment.figure("negative loss over |C|", "", 0.0, _negative_loss, ROUNDING, scale=1.0),
         experiment.figure(
@@ -109,7 +104,7 @@ def _energy() -> tuple[VerificationCase, ...]:
         ("Energy, viscoelastic covering driven", partial(_solve_viscous, 1.0)),
     )
     return tuple(
-        Experiment(name, _ENERGY, problem).figure("dissipation/power in", "", 1.0, _spent, balance)
+        Experiment(name, ENERGY, problem).figure("dissipation/power in", "", 1.0, _spent, balance)
         for name, problem in problems
     )
 
@@ -138,7 +133,7 @@ def _spent(solution: Solution) -> float:
 
 
 def _idler() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Idler under a viscoelastic covering", _STATICS, _solve_idler).figure
+    figure = Experiment("Idler under a viscoelastic covering", EQUILIBRIUM, _solve_idler).figure
     balance = Tolerance(3e-3, "work of linear tractions on the mesh: second order, 0.1 %")
     return (
         figure("traction/(mu F)", "", 0.0, lambda s: float(s.traction / 4.0), scale=1.0),
@@ -161,7 +156,7 @@ def _axle_power(solution: Solution) -> float:
 
 
 def _dimensions() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Configuration II, a thousand times as large", _DIMENSIONS, _scaled).figure
+    figure = Experiment("Configuration II, a thousand times as large", DIMENSIONS, _scaled).figure
     same = Tolerance(1e-3, "the tables start at a power of two: within the solver's tolerance")
     return (
         figure("creepage, ratio", "", 1.0, _ratio(creepage), same),
@@ -175,7 +170,7 @@ def _scaled() -> tuple[Solution, Solution]:
 
 
 def _mirror() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Configuration II, rollers swapped", _MIRROR, _swapped).figure
+    figure = Experiment("Configuration II, rollers swapped", MIRROR, _swapped).figure
     same = Tolerance(1e-6, "the same equations in another order")
     return (
         figure("creepage, ratio", "", -1.0, _ratio(creepage), same),

@@ -24,10 +24,8 @@ from rollnip.verification._nips import (
     trailing_edge,
 )
 from rollnip.verification.case import ROUNDING, Experiment, Tolerance, VerificationCase
+from rollnip.verification.sources import CORRESPONDENCE, ONE_MATERIAL, PLIES
 
-_PLIES = "Identity: one layer cut into plies is the layer"
-_ONE = "Identity: layers of the core's own material are the half-space; Johnson (1985), section 2"
-_SPEED = "Correspondence principle: V -> 0 is elastic with E0, V -> infinity with E0 + k"
 _RUBBER = Elastic(modulus=0.91, poisson=0.5)
 
 Pair = tuple[Solution, Solution]
@@ -47,11 +45,11 @@ def _wave_numbers() -> NDArray[np.float64]:
 
 def _plies() -> tuple[VerificationCase, ...]:
     experiments = (
-        Experiment("Layer in three plies, flat", _PLIES, _flat_plies),
-        Experiment("Layer in three plies, ring", _PLIES, _ring_plies),
+        Experiment("Layer in three plies, flat", PLIES, _flat_plies),
+        Experiment("Layer in three plies, ring", PLIES, _ring_plies),
     )
     claimed = Tolerance(1.0, "within the error the solution claims")
-    figure = Experiment("Configuration I in plies", _PLIES, _solved_plies).figure
+    figure = Experiment("Configuration I in plies", PLIES, _solved_plies).figure
     return (
         *(
             e.figure("largest change of C over |C|", "", 0.0, _change, ROUNDING, scale=1.0)
@@ -104,8 +102,10 @@ def _claim(read: Callable[[Solution], float]) -> Callable[[Pair], float]:
 
 
 def _one_material() -> tuple[VerificationCase, ...]:
-    compliance = Experiment("Layers on a half-space of the same", _ONE, _same_compliance).figure
-    figure = Experiment("Hertz on layers of the core's material", _ONE, _solve_same).figure
+    compliance = Experiment(
+        "Layers on a half-space of the same", ONE_MATERIAL, _same_compliance
+    ).figure
+    figure = Experiment("Hertz on layers of the core's material", ONE_MATERIAL, _solve_same).figure
     exact = hertz_line(load=5.0, radius=25.0, contact_modulus=2.0 / 0.84)
     return (
         compliance("largest change of C over |C|", "", 0.0, _change, ROUNDING, scale=1.0),
@@ -136,7 +136,7 @@ def _solve_same() -> Solution:
 
 def _speed(name: str, speed: float, modulus: float) -> tuple[VerificationCase, ...]:
     figure = Experiment(
-        f"Viscoelastic covering, {name}", _SPEED, partial(_at_speed, speed, modulus)
+        f"Viscoelastic covering, {name}", CORRESPONDENCE, partial(_at_speed, speed, modulus)
     ).figure
     return (
         figure("approach over elastic", "", 1.0, _ratio(approach)),

@@ -13,15 +13,8 @@ from rollnip.rollers import Layer, Roller
 from rollnip.solution import Solution
 from rollnip.verification._nips import approach, half_width, solved
 from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.sources import FIGURE_FOUR, PLATE_ON_SPRINGS
 
-_FIGURE = (
-    "Braat & Kalker (1993), figure 4 with a top layer of 0.1 mm; solved by an independent "
-    "program, to the digits shown"
-)
-_PLATE = (
-    "Thin plate on a bed of springs under a cylinder: Hetenyi (1946); Johnson (1985), Contact "
-    "Mechanics, section 5.8"
-)
 _TOP = Layer(0.1, Elastic(modulus=5500.0, poisson=0.3))
 
 
@@ -31,7 +24,7 @@ def plates() -> tuple[VerificationCase, ...]:
 
 
 def _figure_four() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Figure 4, stiff top layer", _FIGURE, _solve_figure_four).figure
+    figure = Experiment("Figure 4, stiff top layer", FIGURE_FOUR, _solve_figure_four).figure
     inside = Tolerance(0.03, "just inside: within the thickness of the top layer, 0.1 mm of 3.44")
     whole = Tolerance(0.0, "a count")
     return (
@@ -72,7 +65,7 @@ def _outer_peaks(solution: Solution) -> float:
 
 def _on_springs() -> tuple[VerificationCase, ...]:
     """A soft layer of nu 0, 1 mm on a rigid base: springs of E/h; bending length 2.5 mm."""
-    figure = Experiment("Plate on a soft thin layer", _PLATE, _solve_on_springs).figure
+    figure = Experiment("Plate on a soft thin layer", PLATE_ON_SPRINGS, _solve_on_springs).figure
     exact = plate_on_foundation(
         load=5.0,
         radius=50.0,

@@ -39,5 +39,5 @@ def cases_about(text: str) -> tuple[VerificationCase, ...]:
     return tuple(
         case
         for case in all_cases()
-        if wanted in f"{case.name}\n{case.source}\n{case.quantity}".casefold()
+        if wanted in f"{case.name}\n{case.source.text}\n{case.quantity}".casefold()
     )

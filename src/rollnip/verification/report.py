@@ -7,7 +7,9 @@ from itertools import groupby
 from math import isfinite
 from typing import Any
 
+from rollnip.model import Model
 from rollnip.verification.case import Outcome
+from rollnip.verification.sources import Kind
 
 _SMALLEST_PERCENT = 1e-5
 
@@ -30,15 +32,25 @@ def share_text(value: float) -> str:
 
 
 def summary(outcomes: Sequence[Outcome]) -> str:
-    """How many figures, from how many sources, and how many failed."""
-    sources = len({outcome.case.source for outcome in outcomes})
+    """Say how many figures there are, what stands behind them, and how many failed."""
     failed = sum(not outcome.passed for outcome in outcomes)
     verdict = f"{failed} FAILED" if failed else "all passed"
-    counts = [
-        f"{count} {what}{'' if count == 1 else 's'}"
-        for count, what in ((len(outcomes), "figure"), (sources, "source"))
-    ]
-    return f"{' from '.join(counts)}: {verdict}"
+    return f"{_plural(len(outcomes), 'figure')}: {verdict} ({_by_kind(outcomes)})"
+
+
+def _by_kind(outcomes: Sequence[Outcome]) -> str:
+    """Say how many figures and sources there are of each kind."""
+    parts = []
+    for kind in Kind:
+        sources = [o.case.source for o in outcomes if o.case.source.kind is kind]
+        if sources:
+            several = _plural(len(set(sources)), "source")
+            parts.append(f"{kind.value}: {len(sources)} from {several}")
+    return "; ".join(parts)
+
+
+def _plural(count: int, what: str) -> str:
+    return f"{count} {what}{'' if count == 1 else 's'}"
 
 
 def document(outcomes: Sequence[Outcome]) -> dict[str, Any]:
@@ -48,6 +60,10 @@ def document(outcomes: Sequence[Outcome]) -> dict[str, Any]:
         "passed": all(outcome.passed for outcome in outcomes),
         "figures": len(outcomes),
         "sources": len({outcome.case.source for outcome in outcomes}),
+        "by_kind": {
+            kind.value: sum(outcome.case.source.kind is kind for outcome in outcomes)
+            for kind in Kind
+        },
         "failed": sum(not outcome.passed for outcome in outcomes),
         "cases": [_entry(outcome) for outcome in outcomes],
     }
@@ -57,7 +73,9 @@ def _entry(outcome: Outcome) -> dict[str, Any]:
     case = outcome.case
     return {
         "case": case.name,
-        "source": case.source,
+        "source": case.source.text,
+        "kind": case.source.kind.value,
+        "geometry": outcome.geometry or None,
         "quantity": case.quantity,
         "unit": case.unit,
         "expected": case.expected,
@@ -87,8 +105,11 @@ def _page(outcomes: Sequence[Outcome]) -> Iterator[str]:
     yield (
         "Every figure below is computed afresh by `rollnip verify`. The error is relative to the "
         "expected figure or, where that is zero or small by cancellation, to the size that the "
-        "quantity or the reason names. Units: mm, N, MPa, s. Geometry is linear and settings are "
-        "the defaults unless stated."
+        "quantity or the reason names. Units: mm, N, MPa, s. Each table says in which geometry "
+        f"its nips were solved; the default is `{Model().geometry}`. Closed forms and the linear "
+        "programs know flat layers and small strain only, so most tables are of `linear`, which "
+        "shares everything with the default but its terms of finite strain; these are judged by "
+        "finite elements below and on the page about [geometry](geometry.md)."
     )
     yield ""
     yield f"**{summary(outcomes)}.**"
@@ -100,7 +121,12 @@ def _section(name: str, outcomes: Sequence[Outcome]) -> Iterator[str]:
     yield ""
     yield f"## {name}"
     yield ""
-    yield f"Source: {outcomes[0].case.source}."
+    source = outcomes[0].case.source
+    yield f"{source.kind.value.capitalize()}: {source.text}."
+    geometries = sorted({outcome.geometry for outcome in outcomes} - {""})
+    if geometries:
+        yield ""
+        yield f"Geometry: {' and '.join(f'`{name}`' for name in geometries)}."
     yield ""
     yield "| quantity | expected | got | error | tolerance | why | pass |"
     yield "|---|---|---|---|---|---|---|"

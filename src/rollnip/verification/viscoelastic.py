@@ -21,10 +21,8 @@ from rollnip.verification._nips import (
     trailing_edge,
 )
 from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.sources import HUNTER, MAY_MORRIS_ATACK, WANG_KNOTHE
 
-_HUNTER = "Hunter (1961), the modified-Bessel solution at E_g/E_r = 2, to the digits shown"
-_STRIP = "May, Morris & Atack (1959); Johnson (1985), Contact Mechanics, section 9.4"
-_KNOTHE = "Wang & Knothe, rolling contact of two viscoelastic cylinders, printed figures"
 _RADIUS, _MODULUS = 10.0, 4.0  # E*; the relaxed Hertz half-width a0 is 1 under _LOAD
 _LOAD = pi * _MODULUS / (4.0 * _RADIUS)
 _PEAK = 2.0 * _LOAD / pi
@@ -45,9 +43,7 @@ def viscoelastic() -> tuple[VerificationCase, ...]:
 def _hunter(
     deborah: float, leading: float, trailing: float, peak: float, resistance: float
 ) -> tuple[VerificationCase, ...]:
-    figure = Experiment(
-        f"Hunter, De = {deborah:g}", _HUNTER, partial(_solve_hunter, deborah)
-    ).figure
+    figure = Experiment(f"Hunter, De = {deborah:g}", HUNTER, partial(_solve_hunter, deborah)).figure
     return (
         figure("leading edge/a0", "", leading, leading_edge),
         figure("trailing edge/a0", "", trailing, lambda s: -trailing_edge(s)),
@@ -88,7 +84,7 @@ def _hunter_form() -> tuple[VerificationCase, ...]:
         relaxation_time=_TIME,
         speed=0.5 / _TIME,
     )
-    figure = Experiment("Closed form of Hunter, De = 1", _HUNTER, contact).figure
+    figure = Experiment("Closed form of Hunter, De = 1", HUNTER, contact).figure
     printed = Tolerance(1e-4, "five digits printed, four of the peak")
     return (
         figure("leading edge/a0", "", 0.94834, lambda c: float(c.leading), printed),
@@ -108,7 +104,9 @@ def _strip_form() -> ViscoelasticStrip:
 
 
 def _strip() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Viscoelastic strip, V tau = a, f = 1", _STRIP, _strip_form).figure
+    figure = Experiment(
+        "Viscoelastic strip, V tau = a, f = 1", MAY_MORRIS_ATACK, _strip_form
+    ).figure
     printed = Tolerance(5e-6, "six digits printed: half a unit of the last one")
     return (
         figure("trailing/leading edge", "", 0.833125, lambda c: float(c.trailing / 2.0), printed),
@@ -119,7 +117,7 @@ def _strip() -> tuple[VerificationCase, ...]:
 
 def _thin_layer() -> tuple[VerificationCase, ...]:
     figure = Experiment(
-        "Thin viscoelastic layer, nu 0, a/h = 100", _STRIP, _solve_thin_layer
+        "Thin viscoelastic layer, nu 0, a/h = 100", MAY_MORRIS_ATACK, _solve_thin_layer
     ).figure
     exact = _strip_form()
     theory = Tolerance(6e-3, "the strip has no shear: 0.2 to 0.3 % of a at a/h = 100, and 0.3 %")
@@ -150,7 +148,9 @@ def _solve_thin_layer() -> Solution:
 
 
 def _relaxed() -> tuple[VerificationCase, ...]:
-    figure = Experiment("Wang & Knothe, creep time 0", _KNOTHE, partial(_solve_knothe, 1e-6)).figure
+    figure = Experiment(
+        "Wang & Knothe, creep time 0", WANG_KNOTHE, partial(_solve_knothe, 1e-6)
+    ).figure
     exact = carter(
         load=600.0,
         radius=50.0,
@@ -167,7 +167,7 @@ def _relaxed() -> tuple[VerificationCase, ...]:
 
 def _glassy() -> tuple[VerificationCase, ...]:
     figure = Experiment(
-        "Wang & Knothe, creep time 2 s", _KNOTHE, partial(_solve_knothe, 1.0)
+        "Wang & Knothe, creep time 2 s", WANG_KNOTHE, partial(_solve_knothe, 1.0)
     ).figure
     return (figure("peak pressure", "MPa", 85.31, peak_pressure),)
 

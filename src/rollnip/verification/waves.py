@@ -14,9 +14,8 @@ from rollnip.rollers import Profile, Roller
 from rollnip.solution import Solution
 from rollnip.verification._nips import half_space, half_width, peak_pressure, solved
 from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.sources import HERTZ, WESTERGAARD
 
-_HERTZ = "Hertz (1882); Johnson (1985), Contact Mechanics, eqs 4.43 and 4.45"
-_WESTERGAARD = "Westergaard (1939); Johnson (1985), Contact Mechanics, section 13.2"
 _STEEL = Elastic(modulus=210e3, poisson=0.3)
 _MODULUS = contact_modulus(210e3, 0.3, 210e3, 0.3)
 _LOAD = 500.0
@@ -29,12 +28,12 @@ _PARTIAL, _FULL = 0.5, 1.5  # mean pressure over that of full contact
 def waves() -> tuple[VerificationCase, ...]:
     """Hertz by transforms; waves in the middle of a nip that touch in part and wholly."""
     hertz = hertz_line(load=_LOAD, radius=25.0, contact_modulus=_MODULUS)
-    flat = Experiment("Measured profile, flat, on steel", _HERTZ, _solve_flat).figure
+    flat = Experiment("Measured profile, flat, on steel", HERTZ, _solve_flat).figure
     part = Experiment(
-        "Measured profile, waves in partial contact", _WESTERGAARD, partial(_solve_wavy, _PARTIAL)
+        "Measured profile, waves in partial contact", WESTERGAARD, partial(_solve_wavy, _PARTIAL)
     ).figure
     whole = Experiment(
-        "Measured profile, waves in full contact", _WESTERGAARD, partial(_solve_wavy, _FULL)
+        "Measured profile, waves in full contact", WESTERGAARD, partial(_solve_wavy, _FULL)
     ).figure
     return (
         flat("half-width", "mm", hertz.half_width, half_width, _GRID),

@@ -60,7 +60,7 @@ def test_hertz():
     stiffness = modulus / 0.75
     half = (4.0 * load * radius / 3.141592653589793 / stiffness) ** 0.5
     layer = ((10.0, modulus, 0.5),)
-    case = judge.Case(judge.Covered(radius, layer), judge.Covered(float("inf")), load)
+    case = judge.Case(judge.Covered(radius, layer), judge.Covered(1e9), load)
     answer = judge.solve(case, half_window=2.0 * half, count=16384)
     assert 0.5 * (answer.leading - answer.trailing) == pytest.approx(half, rel=5e-3)
     assert answer.peak == pytest.approx(2.0 * load / (3.141592653589793 * half), rel=5e-3)

@@ -75,6 +75,7 @@ nb_execution_mode = "auto"
 nb_execution_raise_on_error = True
 nb_execution_timeout = 120
 nb_merge_streams = True
+nb_render_markdown_format = "myst"  # tables that cells write
 nb_execution_in_temp = True
 
 # Mathematics: one vendored file with all its letters; no menu, which would ask for more files.

@@ -55,12 +55,12 @@ def test_figure_four():
 
 
 def test_hertz():
-    """A layer much thicker than the nip is a half-space: half-width and peak pressure of Hertz."""
+    """A layer ten times as thick as the half-width a is a half-space but for (a/d)^2 = 1 %."""
     modulus, load, radius = 2.0, 0.02, 25.0
     stiffness = modulus / 0.75
     half = (4.0 * load * radius / 3.141592653589793 / stiffness) ** 0.5
-    layer = ((10.0, modulus, 0.5),)
+    layer = ((5.0, modulus, 0.5),)
     case = judge.Case(judge.Covered(radius, layer), judge.Covered(1e9), load)
-    answer = judge.solve(case, half_window=2.0 * half, count=16384)
-    assert 0.5 * (answer.leading - answer.trailing) == pytest.approx(half, rel=5e-3)
-    assert answer.peak == pytest.approx(2.0 * load / (3.141592653589793 * half), rel=5e-3)
+    answer = judge.solve(case, half_window=2.0 * half, count=32768)
+    assert 0.5 * (answer.leading - answer.trailing) == pytest.approx(half, rel=1e-2)
+    assert answer.peak == pytest.approx(2.0 * load / (3.141592653589793 * half), rel=1e-2)

@@ -48,6 +48,7 @@ class HandMade:
     profiles: Profiles
     solver: SolverInfo
     warnings: tuple[str, ...]
+    max_surface_strain: float | None = 0.04
     interfaces: tuple[InterfaceStress, ...] = ()
 
 

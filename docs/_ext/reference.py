@@ -122,6 +122,29 @@ class Units(Markup):
         return table(("quantity", "plain numbers are in", "accepted"), rows)
 
 
+class Figures(Markup):
+    """Every figure of a result, from the registry; ``profiles``: every distribution."""
+
+    def lines(self) -> Iterable[str]:
+        """One row for each figure."""
+        from rollnip.figures import FIGURES, PROFILES
+
+        chosen = PROFILES if self.arguments == ["profiles"] else FIGURES
+        rows = [
+            (
+                f"`{one.key}`",
+                f"${one.symbol}$",
+                "-" if one.unit == "1" else one.unit,
+                f"{one.sentence} {one.sign}".rstrip(),
+                "yes" if one.claimed else "-",
+            )
+            for one in chosen.values()
+        ]
+        if chosen is PROFILES:
+            return table(("key", "symbol", "unit", "what it is"), (row[:4] for row in rows))
+        return table(("key", "symbol", "unit", "what it is", "error claimed"), rows)
+
+
 class Command(Markup):
     """Arguments and options of one command, from the command line itself."""
 
@@ -212,6 +235,7 @@ def setup(app: Any) -> dict[str, bool]:
     for name, directive in (
         ("case-keys", CaseKeys),
         ("units", Units),
+        ("figures", Figures),
         ("command", Command),
         ("names", Names),
     ):

@@ -205,7 +205,7 @@ def test_geometry_core_plane_and_face_width_under_advanced(designer):
         assert geometry in page.inner_text("#solver-line")
     tree = sent(designer, lambda: page.check("#in-has-width"))
     assert tree["nip"]["face_width"] == 1000
-    assert "Pressing force, whole face" in page.inner_text("#figures")
+    assert "Line load, whole face" in page.inner_text("#figures")
     assert "4000" in page.inner_text("#figures")
     tree = sent(designer, lambda: page.check("#in-lower-plane"))
     assert tree["lower"]["radius"] == "inf"

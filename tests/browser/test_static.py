@@ -44,4 +44,5 @@ def test_no_text_ever_becomes_markup_or_code(path):
 def test_every_module_that_is_imported_is_there():
     for path in STATIC.rglob("*.js"):
         for name in re.findall(r'from "\./([\w.]+)"', path.read_text(encoding="utf-8")):
-            assert (path.parent / name).is_file(), f"{path.name} imports {name}"
+            is_served = name == "figures.js"  # the registry of figures, written by the server
+            assert is_served or (path.parent / name).is_file(), f"{path.name} imports {name}"

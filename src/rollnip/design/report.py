@@ -12,6 +12,7 @@ from rollnip.design.aims import AtLeast, LimitKept
 from rollnip.design.optimise import Optimum
 from rollnip.design.quantities import QUANTITIES, result_error
 from rollnip.design.scatter import Chance, Scatter, Share, Tolerance
+from rollnip.figures import FIGURES
 from rollnip.plots import plot_distribution, plot_shares
 from rollnip.plots.style import FULL, MM, Style, palette_of
 
@@ -164,9 +165,7 @@ def _limit(limit: LimitKept) -> str:
 
 def _with_error(row: Mapping[str, Any], name: str) -> str:
     value, error = float(row[name]), result_error(row, name) or 0.0
-    load, width = row.get("load") or 0.0, row.get("nip_width") or 0.0
-    size = {"traction": load, "torque_upper": load * width, "torque_lower": load * width}
-    if abs(value) <= _ROUNDING * abs(size.get(name, 0.0)):
+    if abs(value) <= FIGURES[name].noise(row):
         value = 0.0
     doubt = f" ± {format_quantity(error, digits=2)}" if error > _ROUNDING * abs(value) else ""
     return f"{_shown(value, QUANTITIES[name])}{doubt}"

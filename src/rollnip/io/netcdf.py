@@ -7,42 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from rollnip._errors import RollnipError
+from rollnip.figures import CLAIMED, FIGURES, PROFILES, Figure
 
-UNITS = {
-    "load": "N/mm",
-    "approach": "mm",
-    "traction": "N/mm",
-    "creepage": "1",
-    "speed_ratio": "1",
-    "nip_width": "mm",
-    "dwell_time": "s",
-    "peak_pressure": "MPa",
-    "peak_pressure_x": "mm",
-    "mean_pressure": "MPa",
-    "torque_upper": "N",
-    "torque_lower": "N",
-    "rolling_resistance": "1",
-}
-PROFILE_UNITS = {
-    "x": "mm",
-    "pressure": "MPa",
-    "shear": "MPa",
-    "gap": "mm",
-    "slip_velocity": "mm/s",
-    "strain_upper": "1",
-    "strain_lower": "1",
-    "speed_upper": "mm/s",
-    "speed_lower": "mm/s",
-}
-_TOTAL_UNITS = {
-    "face_width": "mm",
-    "load": "N",
-    "traction": "N",
-    "torque_upper": "N m",
-    "torque_lower": "N m",
-    "dissipation_friction": "W",
-    "dissipation_viscous": "W",
-}
 _NAN = float("nan")
 _Variables = dict[str, tuple[Any, ...]]
 
@@ -62,15 +28,15 @@ def write_netcdf(tree: dict[str, Any], path: Path) -> None:
     profiles = tree["profiles"]
     size = len(profiles["x"])
     variables: _Variables = {
-        name: ("x", _floats(profiles[name], size), {"units": unit})
-        for name, unit in PROFILE_UNITS.items()
-        if name != "x"
+        name: ("x", _floats(profiles[name], size), _described(curve))
+        for name, curve in PROFILES.items()
     }
+    place = variables.pop("x")
     variables |= _scalars(tree) | _contact(tree["contact"]) | _zones(tree["zones"])
     dataset = xr.Dataset(
         variables,
         coords={
-            "x": ("x", _floats(profiles["x"], size), {"units": "mm"}),
+            "x": place,
             "edge": ("edge", ["trailing", "leading"]),
         },
         attrs=_attributes(tree),
@@ -84,18 +50,39 @@ def _floats(values: list[float | None] | None, size: int) -> list[float]:
     return [_NAN if value is None else value for value in values]
 
 
-def _scalar(value: float | None, unit: str) -> tuple[Any, ...]:
-    return ((), _NAN if value is None else value, {"units": unit})
+def _described(figure: Figure, unit: str = "") -> dict[str, str]:
+    """Attributes of a variable: its unit, its name, what it is and its sign."""
+    about = f"{figure.sentence} {figure.sign}".rstrip()
+    return {"units": unit or figure.unit, "long_name": figure.label, "comment": about}
+
+
+def _scalar(value: float | None, attributes: dict[str, str]) -> tuple[Any, ...]:
+    return ((), _NAN if value is None else value, attributes)
+
+
+def _value(tree: dict[str, Any], figure: Figure) -> float | None:
+    table, _, key = figure.key.rpartition(".")
+    value: float | None = (tree[table] if table else tree)[key]
+    return value
 
 
 def _scalars(tree: dict[str, Any]) -> _Variables:
-    variables = {name: _scalar(tree[name], unit) for name, unit in UNITS.items()}
-    for name, value in tree["dissipation"].items():
-        variables[f"dissipation_{name}"] = _scalar(value, "N/s")
-    for name, value in tree["error"].items():
-        variables[f"error_{name}"] = _scalar(value, UNITS[name])
-    for name, value in tree.get("totals", {}).items():
-        variables[f"total_{name}"] = _scalar(value, _TOTAL_UNITS[name])
+    variables = {one.name: _scalar(_value(tree, one), _described(one)) for one in FIGURES.values()}
+    for one in CLAIMED.values():
+        about = {"units": one.unit, "long_name": f"estimated error of the {one.label}"}
+        variables[f"error_{one.name}"] = _scalar(tree["error"][one.name], about)
+    if "totals" in tree:
+        variables |= _totals(tree["totals"])
+    return variables
+
+
+def _totals(totals: dict[str, float | None]) -> _Variables:
+    width = {"units": "mm", "long_name": "face width"}
+    variables = {"total_face_width": _scalar(totals["face_width"], width)}
+    for one in FIGURES.values():
+        if one.total is not None:
+            about = {"units": one.total.unit, "long_name": f"{one.label}, whole face"}
+            variables[f"total_{one.name}"] = _scalar(totals[one.name], about)
     return variables
 
 

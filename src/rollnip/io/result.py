@@ -8,15 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from rollnip._files import check_target, write_whole
+from rollnip.figures import CLAIMED, FIGURES, PROFILES
 from rollnip.interior import INTERFACE_FIGURES
-from rollnip.io.netcdf import PROFILE_UNITS, require_netcdf, write_netcdf
+from rollnip.io.netcdf import require_netcdf, write_netcdf
 from rollnip.solution import Solution, Zone
 
 SCHEMA = 1
 SUFFIXES = (".json", ".nc")
-_ERRORS = ("approach", "load", "creepage", "nip_width", "peak_pressure")
-_CONTROLS = ("load", "approach", "traction", "creepage", "speed_ratio")
-_NIP = ("nip_width", "dwell_time", "peak_pressure", "peak_pressure_x", "mean_pressure")
 
 
 def result_dict(solution: Solution, *, interfaces: bool = True) -> dict[str, Any]:
@@ -32,20 +30,16 @@ def result_dict(solution: Solution, *, interfaces: bool = True) -> dict[str, Any
         "converged": bool(solution.converged),
         "geometry": solution.model.geometry,
     }
-    tree |= {name: _number(getattr(solution, name)) for name in _CONTROLS}
+    for figure in FIGURES.values():
+        table, _, key = figure.key.rpartition(".")
+        (tree.setdefault(table, {}) if table else tree)[key] = figure.value(solution)
     tree["contact"] = [[_number(edge) for edge in interval] for interval in solution.contact]
-    tree |= {name: _number(getattr(solution, name)) for name in _NIP}
     tree["zones"] = [_zone(zone) for zone in solution.zones]
-    for name in ("torque_upper", "torque_lower", "rolling_resistance"):
-        tree[name] = _number(getattr(solution, name))
-    tree["dissipation"] = {
-        "friction": _number(solution.dissipation_friction),
-        "viscous": _number(solution.dissipation_viscous),
-    }
     if solution.nip.face_width is not None:
         tree["totals"] = _totals(solution, solution.nip.face_width)
-    tree["error"] = {name: _number(solution.error.get(name)) for name in _ERRORS}
-    tree["profiles"] = {name: _numbers(getattr(solution.profiles, name)) for name in PROFILE_UNITS}
+    tree["error"] = {name: figure.error(solution) for name, figure in CLAIMED.items()}
+    profiles = solution.profiles
+    tree["profiles"] = {name: _numbers(getattr(profiles, name)) for name in PROFILES}
     tree["solver"] = {
         "elements": int(solution.solver.elements),
         "iterations": int(solution.solver.iterations),
@@ -127,17 +121,11 @@ def _zone(zone: Zone) -> dict[str, Any]:
 
 
 def _totals(solution: Solution, width: float) -> dict[str, float | None]:
-    """Values times the face width: N, N m (1e-3 N mm) and W (1e-3 N mm/s)."""
-
-    def total(value: float | None, scale: float) -> float | None:
-        return None if value is None else _number(value * width * scale)
-
-    return {
-        "face_width": width,
-        "load": total(solution.load, 1.0),
-        "traction": total(solution.traction, 1.0),
-        "torque_upper": total(solution.torque_upper, 1e-3),
-        "torque_lower": total(solution.torque_lower, 1e-3),
-        "dissipation_friction": total(solution.dissipation_friction, 1e-3),
-        "dissipation_viscous": total(solution.dissipation_viscous, 1e-3),
-    }
+    """The figures of the whole face: N, N m, W."""
+    totals: dict[str, float | None] = {"face_width": width}
+    for figure in FIGURES.values():
+        if figure.total is not None:
+            value = figure.value(solution)
+            scale = width * figure.total.factor
+            totals[figure.name] = None if value is None else _number(value * scale)
+    return totals

@@ -10,7 +10,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rollnip._summary import line
 from rollnip._units import format_quantity
+from rollnip.figures import FIGURES
 from rollnip.plots.field import plot_field
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.section import Name, layer_texts, roller_of
@@ -40,9 +42,14 @@ _PLACES = {
 _BESIDE = 3.0  # a name, a mark and what is between them, in sizes of type
 _REMARK = 0.02  # height of a line below; the lower pictures make room
 _DIGITS = 4
-_ROUNDING = 1e-9
+_ROUNDING = 1e-9  # of the stresses inside
 _MOST_LAYERS = 4  # listed of each roller
 _REMARKS, _LETTERS = 3, 190  # lines, and how many letters each
+_KEYS = {
+    "Nip": ("load", "approach", "nip_width", "dwell_time", "peak_pressure", "mean_pressure"),
+    "Drive": ("traction", "creepage", "torque_upper", "torque_lower"),
+    "Losses": ("rolling_resistance", "dissipation.friction", "dissipation.viscous"),
+}
 _SIGNS = (
     "x points to the inlet",
     "traction, creepage > 0: upper drives",
@@ -121,34 +128,22 @@ class _Row(NamedTuple):
     unit: str = ""
 
 
-def _number(
-    name: str, value: float | None, unit: str = "", scale: float = 1.0, size: float = 0.0
-) -> _Row:
-    """A number; nought where it is a rounding error of ``size``, a dash where not defined."""
-    if value is None:
-        return _Row(name, "–")
-    rounded = 0.0 if abs(value) < _ROUNDING * size else scale * value
+def _number(name: str, value: float, unit: str = "", size: float = 0.0) -> _Row:
+    """A number; 0 where it is a rounding error of ``size``."""
+    rounded = 0.0 if abs(value) < _ROUNDING * size else value
     return _Row(name, format_quantity(rounded, digits=_DIGITS).replace("-", "−"), unit)
 
 
+def _figure(key: str, solution: Solution) -> _Row:
+    """A figure of the registry; a dash where it is not defined."""
+    one = line(FIGURES[key], solution)
+    return _Row(one.label, "–" if one.value == "-" else one.value.replace("-", "−"), one.unit)
+
+
 def _rows(solution: Solution) -> Iterator[_Row]:
-    load, moment = solution.load, solution.load * solution.nip_width
-    yield _Row("Nip")
-    yield _number("line load", load, "N/mm")
-    yield _number("approach", solution.approach, "mm")
-    yield _number("nip width", solution.nip_width, "mm")
-    yield _number("dwell time", solution.dwell_time, "ms", 1e3)
-    yield _number("peak pressure", solution.peak_pressure, "MPa")
-    yield _number("mean pressure", solution.mean_pressure, "MPa")
-    yield _Row("Drive")
-    yield _number("traction", solution.traction, "N/mm", size=load)
-    yield _number("creepage", solution.creepage, "%", 100.0)
-    yield _number("torque, upper axle", solution.torque_upper, "N mm/mm", size=moment)
-    yield _number("torque, lower axle", solution.torque_lower, "N mm/mm", size=moment)
-    yield _Row("Losses")
-    yield _number("rolling resistance", solution.rolling_resistance)
-    yield _number("friction", solution.dissipation_friction, "mW/mm")
-    yield _number("viscous", solution.dissipation_viscous, "mW/mm")
+    for heading, keys in _KEYS.items():
+        yield _Row(heading)
+        yield from (_figure(key, solution) for key in keys)
     yield from _bond_rows(solution)
     yield from _roller_rows("Upper roller", solution.nip.upper)
     yield from _roller_rows("Lower roller", solution.nip.lower)

@@ -14,10 +14,11 @@ from numpy.typing import NDArray
 
 from rollnip._errors import RollnipError
 from rollnip._files import check_target, write_whole
-from rollnip.io.netcdf import PROFILE_UNITS, require_netcdf
+from rollnip.figures import PROFILES
+from rollnip.io.netcdf import require_netcdf
 from rollnip.sweep.store import About, Store
 
-_ALL = tuple(PROFILE_UNITS)
+_ALL = tuple(PROFILES)
 _POINT_BYTES = 8 * len(_ALL)
 
 
@@ -77,7 +78,7 @@ def _variable(target: Any, name: str, points: int) -> Any:
         compression="gzip",
         compression_opts=1,
     )
-    variable.attrs["units"] = PROFILE_UNITS[name]
+    variable.attrs["units"] = PROFILES[name].unit
     return variable
 
 

@@ -9,24 +9,17 @@ from math import isfinite
 from typing import Any
 
 from rollnip._errors import ConvergenceError, RollnipError
+from rollnip.figures import CLAIMED, FIGURES
 from rollnip.influence import KernelCache
 from rollnip.io import Case, case_hash, parse_case
-from rollnip.io.netcdf import UNITS
 from rollnip.solution import Solution
 from rollnip.solve import solve
 
 Row = dict[str, float | bool | str | None]
 
 SCALARS: Mapping[str, str] = {
-    **UNITS,
-    "dissipation.friction": "N/s",
-    "dissipation.viscous": "N/s",
-    "max_surface_strain": "1",
-    "error.approach": "mm",
-    "error.load": "N/mm",
-    "error.creepage": "1",
-    "error.nip_width": "mm",
-    "error.peak_pressure": "MPa",
+    **{key: figure.unit for key, figure in FIGURES.items()},
+    **{f"error.{name}": figure.unit for name, figure in CLAIMED.items()},
     "solver.elements": "1",
     "solver.iterations": "1",
     "solver.residual": "1",
@@ -128,20 +121,17 @@ def scalars(solution: Solution) -> Row:
         "converged": bool(solution.converged),
         "geometry": solution.model.geometry,
     }
-    error = solution.error
-    row |= {name: _number(_value(solution, name, error)) for name in SCALARS}
+    row |= {name: _value(solution, name) for name in SCALARS}
     return row | {"warnings": " ".join(solution.warnings)}
 
 
-def _value(solution: Solution, name: str, error: Mapping[str, float]) -> float | None:
-    table, _, key = name.rpartition(".")
+def _value(solution: Solution, name: str) -> float | None:
+    if name in FIGURES:
+        return FIGURES[name].value(solution)
+    table, _, key = name.partition(".")
     if table == "error":
-        return error.get(key)
-    if table == "dissipation":
-        return getattr(solution, f"dissipation_{key}")  # type: ignore[no-any-return]
-    if table == "solver":
-        return getattr(solution.solver, key)  # type: ignore[no-any-return]
-    return getattr(solution, name)  # type: ignore[no-any-return]
+        return CLAIMED[key].error(solution)
+    return _number(getattr(solution.solver, key))
 
 
 def _number(value: float | None) -> float | None:

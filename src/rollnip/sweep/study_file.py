@@ -14,9 +14,9 @@ import numpy as np
 
 from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
 from rollnip._units import Dimension, base_unit, parse_quantity
+from rollnip.figures import PROFILES
 from rollnip.io import Columns, dimension_at, parse_case, read_columns, value_at
 from rollnip.io.document import read_document
-from rollnip.io.netcdf import PROFILE_UNITS
 from rollnip.io.study import ParameterTable, StudyTable, parse_study
 from rollnip.sweep.row import SCALARS
 from rollnip.sweep.sampling import Range, samples
@@ -66,7 +66,7 @@ class _Reader:
             tree=self.case,
             axes=axes,
             results=self._names("results", self.table.results, SCALARS),
-            profiles=self._names("profiles", self.table.profiles or [], PROFILE_UNITS),
+            profiles=self._names("profiles", self.table.profiles or [], PROFILES),
             source=self.source,
         )
         self._check_cases(study)
@@ -252,7 +252,7 @@ class _Reader:
             return dimension
 
     def _names(
-        self, key: str, wanted: Sequence[str] | None, known: Mapping[str, str]
+        self, key: str, wanted: Sequence[str] | None, known: Mapping[str, object]
     ) -> tuple[str, ...]:
         if wanted is None:
             return tuple(known)

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from rollnip.io.netcdf import PROFILE_UNITS
+from rollnip.figures import PROFILES
 from rollnip.solution import Solution
 from rollnip.sweep.row import Row, own_kernels, ready, solved, without_solution
 from rollnip.sweep.study import Value, case_with
@@ -109,8 +109,8 @@ def _end_with(sentinel: int) -> None:
 
 
 def _profiles(solution: Solution) -> bytes:
-    """The profiles in the order of `PROFILE_UNITS`; those not defined are nan."""
+    """The profiles in the order of `PROFILES`; those not defined are nan."""
     profiles = solution.profiles
     nothing = np.full(profiles.x.size, np.nan)
-    found = (getattr(profiles, name) for name in PROFILE_UNITS)
+    found = (getattr(profiles, name) for name in PROFILES)
     return np.concatenate([nothing if one is None else one for one in found]).tobytes()

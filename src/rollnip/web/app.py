@@ -15,7 +15,7 @@ from rollnip.web.answers import RefusedError, error_tree, json_bytes
 from rollnip.web.bodies import CASE
 from rollnip.web.desk import Desk
 from rollnip.web.guard import Guard
-from rollnip.web.library import Library
+from rollnip.web.library import Library, figures_module
 from rollnip.web.limits import Limits
 
 try:
@@ -50,7 +50,12 @@ def application(limits: Limits, host: str) -> tuple[Guard, Desk]:
     app.state.desk = desk = Desk(limits)
     app.state.library = Library.read()
     app.include_router(router)
-    for path, page in (("/", _index), ("/static/plotly.min.js", _plotly)):
+    pages = {
+        "/": _index,
+        "/static/plotly.min.js": _plotly,
+        "/static/js/figures.js": _figures,
+    }
+    for path, page in pages.items():
         app.add_api_route(path, page, methods=["GET", "HEAD"], include_in_schema=False)
     app.mount("/static", StaticFiles(directory=STATIC), name="static")
     app.add_exception_handler(RefusedError, _refused)
@@ -99,6 +104,10 @@ def _index() -> FileResponse:
 
 def _plotly() -> FileResponse:
     return FileResponse(PLOTLY, media_type="text/javascript")
+
+
+def _figures() -> Response:
+    return Response(figures_module(), media_type="text/javascript")
 
 
 async def _refused(_request: Request, error: Exception) -> Response:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import tomllib
 from dataclasses import dataclass
 from importlib.resources import files
@@ -9,6 +10,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from rollnip._units import Dimension, base_unit, conversions
+from rollnip.figures import FIGURES, ROUNDING, Figure
 from rollnip.materials import shore_a_band, shore_a_modulus
 
 _DATA = Path(str(files("rollnip.web"))) / "data"
@@ -28,6 +30,21 @@ _SHOWN: dict[Dimension, tuple[str, str]] = {
     "frequency": ("Hz", "Hz"),
     "angle": ("deg", "deg"),
 }
+# Dimensions and totals of results alone: [unit, scale] of the metric and the US page.
+_SHARE, _DEGREE = ["%", 0.01], ["°", 1.0]
+_SHOWN_RESULTS = {
+    "power per length": {"metric": ["W/m", 1.0], "us": ["W/ft", 1.0 / 0.3048]},
+    "share": {"metric": _SHARE, "us": _SHARE},
+    "angle": {"metric": _DEGREE, "us": _DEGREE},
+}
+_SHOWN_TOTALS = {
+    "N": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
+    "N m": {"metric": ["N·m", 1.0], "us": ["lbf·ft", 1.3558179483314]},
+    "W": {"metric": ["W", 1.0], "us": ["W", 1.0]},
+}
+# In the order of the page: what is read first stands first.
+_FIRST = ("nip_width", "approach", "load", "peak_pressure", "mean_pressure", "dwell_time")
+_NOT_SHOWN = ("peak_pressure_x",)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +82,39 @@ def units() -> dict[str, Any]:
         }
         for dimension in get_args(Dimension)
     }
+
+
+def figures_module() -> str:
+    """The registry of figures as the JavaScript module that the page imports."""
+    keys = [*_FIRST, *(key for key in FIGURES if key not in (*_FIRST, *_NOT_SHOWN))]
+    parts = {
+        "ROUNDING": ROUNDING,
+        "FIGURES": [_figure(FIGURES[key]) for key in keys],
+        "TOTALS": [
+            {"key": one.name, "label": f"{_capital(one.label)}, whole face"}
+            | {"units": _SHOWN_TOTALS[one.total.unit]}
+            for one in FIGURES.values()
+            if one.total is not None
+        ],
+        "RESULT_UNITS": _SHOWN_RESULTS,
+    }
+    lines = (f"export const {name} = {json.dumps(part)};\n" for name, part in parts.items())
+    return "".join(lines)
+
+
+def _figure(figure: Figure) -> dict[str, Any]:
+    return {
+        "key": figure.name,
+        "label": _capital(figure.label),
+        "dimension": figure.dimension,
+        "digits": figure.digits,
+        "hint": f"{figure.sentence} {figure.sign}".rstrip(),
+        "size": dict(figure.size),
+    }
+
+
+def _capital(label: str) -> str:
+    return label[0].upper() + label[1:]
 
 
 def _names_a_file(case: dict[str, Any]) -> bool:

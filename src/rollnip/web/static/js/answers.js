@@ -5,7 +5,6 @@ import { ANSWERS, errorOf, flat, totalsOf } from "./quantities.js";
 import { number } from "./units.js";
 
 const SECONDS = ["peak_pressure", "approach", "dwell_time", "speed_ratio"];
-const SHORT = { approach: "Indentation" };
 const ROOT = document.documentElement;
 
 /** Show a result. `state` is "preview" while a slider moves, else "settled". */
@@ -39,7 +38,7 @@ function second(key, all, units) {
   return el(
     "div",
     {},
-    el("dt", { text: SHORT[key] ?? label }),
+    el("dt", { text: label }),
     el("dd", { "data-key": key }, ...withUnit(shown)),
   );
 }

@@ -94,7 +94,7 @@ export class Inputs {
         "Pressed by",
         [
           ["load", "Line load"],
-          ["approach", "Indentation"],
+          ["approach", "Approach"],
         ],
         kind,
         choose,

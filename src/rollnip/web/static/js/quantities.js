@@ -1,10 +1,9 @@
 // The inputs and the answers by name: how each is called, measured and explained.
 
+import { FIGURES, ROUNDING, TOTALS } from "./figures.js";
 import { getAt } from "./paths.js";
 import { number } from "./units.js";
 
-const NO_FORCE = 1e-9; // of the line load: forces below it (torques: at an arm of 1 mm) are rounding
-const NO_LOSS = 1e-6; // of line load times speed: losses below it are the mesh's, not the nip's
 const TINY = 2e-5; // relative errors below it say nothing to anybody
 
 const MATERIAL = {
@@ -62,9 +61,13 @@ const MATERIAL = {
   "shift.activation_energy": { label: "Activation energy", dimension: "molar energy", low: 10, high: 400 },
 };
 
+function labelOf(key) {
+  return FIGURES.find((figure) => figure.key === key).label;
+}
+
 const NIP = {
   load: {
-    label: "Line load",
+    label: labelOf("load"),
     dimension: "line load",
     low: 0.05,
     high: 200,
@@ -72,7 +75,7 @@ const NIP = {
     hint: "Force of both sides together over the width of the face.",
   },
   approach: {
-    label: "Indentation",
+    label: labelOf("approach"),
     dimension: "length",
     low: 0.005,
     high: 8,
@@ -88,19 +91,19 @@ const NIP = {
   },
   speed: { label: "Speed", dimension: "speed", low: 5, high: 50000, log: true },
   traction: {
-    label: "Traction",
+    label: labelOf("traction"),
     dimension: "line load",
     hint: "Force the upper roller drives the lower one with; negative: it is driven.",
   },
   creepage: {
-    label: "Creepage",
+    label: labelOf("creepage"),
     dimension: "share",
     low: -0.06,
     high: 0.06,
     hint: "Surface speed of the upper roller over the lower one's, set by gears or drives.",
   },
   torque_lower: {
-    label: "Torque on the lower roller",
+    label: labelOf("torque_lower"),
     dimension: "force",
     low: -200,
     high: 200,
@@ -177,133 +180,32 @@ function named(where, input) {
 const positive = (value) =>
   value > 0 ? "the upper roller's surface runs faster" : "the lower roller's surface runs faster";
 
-/** The answers: key in the result, name, dimension and a hint in plain words. */
-export const ANSWERS = [
-  {
-    key: "nip_width",
-    label: "Nip width",
-    dimension: "length",
-    hint: () => "Length of contact along the circumference: what an ink print of the nip at rest shows.",
-  },
-  {
-    key: "approach",
-    label: "Indentation",
-    dimension: "length",
-    hint: () => "How far the axles come together after first touch (the approach).",
-  },
-  {
-    key: "load",
-    label: "Line load",
-    dimension: "line load",
-    hint: () => "Pressing force per width of the face.",
-  },
-  {
-    key: "peak_pressure",
-    label: "Peak pressure",
-    dimension: "pressure",
-    hint: () => "The highest pressure in the nip: what the web feels at most.",
-  },
-  {
-    key: "mean_pressure",
-    label: "Mean pressure",
-    dimension: "pressure",
-    hint: () => "Line load over the nip width.",
-  },
-  {
-    key: "dwell_time",
-    label: "Dwell time",
-    dimension: "time",
-    hint: () => "How long a point of the web is pressed.",
-  },
-  {
-    key: "speed_ratio",
-    label: "Speed ratio",
-    dimension: "ratio",
-    digits: 5,
-    hint: (r) =>
-      `Surface speed of the upper over the lower roller, away from the nip${r.speed_ratio ? `: ${number(1000 * Math.abs(r.speed_ratio - 1))} m in 1000 m` : ""}.`,
-  },
-  {
-    key: "creepage",
-    label: "Creepage",
-    dimension: "share",
-    hint: (r) =>
-      `Difference of the surface speeds over their mean${r.creepage ? `: ${positive(r.creepage)}` : ""}.`,
-  },
-  {
-    key: "traction",
-    label: "Traction",
-    dimension: "line load",
-    hint: () => "Force along the surface per width; positive: the upper roller drives.",
-  },
-  {
-    key: "torque_upper",
-    label: "Torque, upper roller",
-    dimension: "force",
-    hint: () => "On its axle, per width of the face; positive puts power in.",
-  },
-  {
-    key: "torque_lower",
-    label: "Torque, lower roller",
-    dimension: "force",
-    hint: () => "On its axle, per width of the face; positive puts power in.",
-  },
-  {
-    key: "max_surface_strain",
-    label: "Largest surface strain",
-    dimension: "share",
-    hint: () => "Most that either surface is stretched or squeezed along the nip.",
-  },
-  {
-    key: "dissipation_friction",
-    label: "Loss by slip",
-    dimension: "power per length",
-    hint: () => "Heat made where the surfaces slip, per width of the face.",
-  },
-  {
-    key: "dissipation_viscous",
-    label: "Loss in the rubber",
-    dimension: "power per length",
-    hint: () => "Heat made inside viscoelastic coverings, per width of the face.",
-  },
-  {
-    key: "rolling_resistance",
-    label: "Rolling resistance",
-    dimension: "ratio",
-    hint: () => "Loss in the rubber over line load times speed, as a coefficient.",
-  },
-];
+// What a figure means at the size it has.
+const MEANINGS = {
+  nip_width: () => " An ink print of the nip at rest shows it.",
+  speed_ratio: (value) => (value ? ` Here ${number(1000 * Math.abs(value - 1))} m in 1000 m.` : ""),
+  creepage: (value) => (value ? ` Here ${positive(value)}.` : ""),
+};
 
-const TOTALS = [
-  { key: "load", label: "Pressing force, whole face", unit: "N" },
-  { key: "traction", label: "Traction, whole face", unit: "N" },
-  { key: "torque_upper", label: "Torque upper, whole face", unit: "N·m" },
-  { key: "torque_lower", label: "Torque lower, whole face", unit: "N·m" },
-  { key: "dissipation_friction", label: "Loss by slip, whole face", unit: "W" },
-  { key: "dissipation_viscous", label: "Loss in the rubber, whole face", unit: "W" },
-];
-const US_TOTALS = { N: ["lbf", 4.4482216152605], "N·m": ["lbf·ft", 1.3558179483314], W: ["W", 1] };
+/** The answers: key in the flat result, label, dimension, digits, and a hint in plain words. */
+export const ANSWERS = FIGURES.map((figure) => ({
+  ...figure,
+  hint: ({ [figure.key]: value }) => figure.hint + (MEANINGS[figure.key]?.(value) ?? ""),
+}));
 
 /** The result with every scalar on its first level, as sweeps give it; what is rounding only is zero. */
 export function flat(result) {
-  const { load, nip_width: nip, dwell_time: dwell, dissipation } = result;
-  const force = NO_FORCE * load;
-  const power = dwell ? (NO_LOSS * load * nip) / dwell : 0;
-  const forces = ["traction", "torque_upper", "torque_lower"].map((key) => [
-    key,
-    cleaned(result[key], force),
-  ]);
-  return {
-    ...result,
-    ...Object.fromEntries(forces),
-    dissipation_friction: cleaned(dissipation.friction, power),
-    dissipation_viscous: cleaned(dissipation.viscous, power),
-    max_surface_strain: result.max_surface_strain ?? largestStrain(result),
-  };
+  const { friction, viscous } = result.dissipation;
+  const all = { ...result, dissipation_friction: friction, dissipation_viscous: viscous };
+  const cleaned = FIGURES.map(({ key, size }) => [key, isNoise(all, key, size) ? 0 : all[key]]);
+  return { ...all, ...Object.fromEntries(cleaned) };
 }
 
-function cleaned(value, none) {
-  return value !== null && Math.abs(value) < none ? 0 : value;
+function isNoise(all, key, size) {
+  const value = all[key];
+  if (value === null || value === undefined) return false;
+  const factors = Object.entries(size).map(([name, power]) => Math.abs(all[name] ?? 0) ** power);
+  return Math.abs(value) < factors.reduce((product, factor) => product * factor, ROUNDING);
 }
 
 /** An estimated error worth showing, or null. */
@@ -312,19 +214,11 @@ export function errorOf(all, key) {
   return error && error > TINY * Math.abs(all[key]) ? error : null;
 }
 
-function largestStrain({ profiles, contact }) {
-  const [first, last] = [contact[0][0], contact[contact.length - 1][1]];
-  const inside = profiles.x.map((x) => x >= first && x <= last);
-  const strains = [...profiles.strain_upper, ...profiles.strain_lower];
-  const sizes = strains.filter((value, i) => value !== null && inside[i % inside.length]).map(Math.abs);
-  return sizes.length ? Math.max(...sizes) : null;
-}
-
 /** Totals over the face width as {label, text, unit}. */
 export function totalsOf(result, system) {
   if (!result.totals) return [];
-  return TOTALS.filter(({ key }) => result.totals[key] !== null).map(({ key, label, unit }) => {
-    const [name, scale] = system === "us" ? US_TOTALS[unit] : [unit, 1];
-    return { label, text: number(result.totals[key] / scale), unit: name };
+  return TOTALS.filter(({ key }) => result.totals[key] !== null).map(({ key, label, units }) => {
+    const [unit, scale] = units[system];
+    return { label, text: number(result.totals[key] / scale), unit };
   });
 }

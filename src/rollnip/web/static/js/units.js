@@ -1,12 +1,8 @@
 // Values are kept in mm, N, MPa, s for good; units are only a way of showing them.
 
+import { RESULT_UNITS } from "./figures.js";
+
 const DIGITS = 4;
-// What the server's table of inputs does not have: [unit, scale] for metric and US.
-const RESULTS = {
-  "power per length": { metric: ["W/m", 1], us: ["W/ft", 1 / 0.3048] },
-  share: { metric: ["%", 0.01], us: ["%", 0.01] },
-  angle: { metric: ["°", 1], us: ["°", 1] },
-};
 const GOT = /\bgot (-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)(?=\.?$| with )/;
 const WRITTEN = { degC: "°C", degF: "°F", "N m/m": "N·m/m", "lbf in/in": "lbf·in/in" };
 
@@ -19,8 +15,8 @@ export class Units {
 
   /** {name, scale, offset} of a dimension; name "" where it has no unit. */
   of(dimension) {
-    if (RESULTS[dimension]) {
-      const [name, scale] = RESULTS[dimension][this.system];
+    if (RESULT_UNITS[dimension]) {
+      const [name, scale] = RESULT_UNITS[dimension][this.system];
       return { name, scale, offset: 0 };
     }
     const kind = this.table[dimension];

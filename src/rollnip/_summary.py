@@ -1,0 +1,156 @@
+"""The summary of a solution: lines of text, and the same as HTML for notebooks."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from html import escape
+from typing import Any, NamedTuple
+
+from rollnip._units import format_quantity
+from rollnip.figures import FIGURES, ROUNDING, Figure
+
+SIGNS = (
+    "x points to the inlet (leading edge). Traction and creepage > 0: the upper roller drives. "
+    "Torque > 0: that axle puts power in."
+)
+FASTER = {-1: "the upper surface is faster", 1: "the lower surface is faster"}
+"""Which surface is faster in a slip zone, by its direction."""
+
+_DIGITS = 4
+_MOST_INTERVALS = 4  # listed one by one
+_HEADINGS = {"nip": "Nip", "drive": "Drive", "losses": "Losses"}
+_BRIEF = ("nip_width", "peak_pressure", "creepage", "traction")
+_STYLE = "text-align:left;border:0;padding:0.1em 0.8em 0.1em 0"
+
+
+class Line(NamedTuple):
+    """One line of a summary: a figure as text; ``value`` is "-" where it is not defined.
+
+    ``note`` says why a figure is not defined.
+    """
+
+    label: str
+    value: str
+    unit: str = ""
+    error: str = ""
+    note: str = ""
+
+
+def line(figure: Figure, solution: Any) -> Line:
+    """The line of one figure; 0 where the figure is a rounding error."""
+    value = figure.cleaned(solution)
+    if value is None:
+        return Line(figure.label, "-", note=figure.undefined or "not defined")
+    error = figure.error(solution)
+    shown = ""
+    if error is not None and error > ROUNDING * abs(value):
+        shown = f"± {format_quantity(abs(error * figure.factor), digits=2)}"
+    return Line(figure.label, figure.number(value), figure.shown_unit, shown)
+
+
+def sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
+    """Headings with their lines: nip, drive, losses, and the whole face where it has a width."""
+    for section, heading in _HEADINGS.items():
+        lines = []
+        for figure in FIGURES.values():
+            if figure.section == section:
+                lines.append(line(figure, solution))
+                lines += _contact(solution) if figure.key == "nip_width" else ()
+        yield heading, lines
+    if solution.nip.face_width is not None:
+        yield "Whole face", list(_totals(solution, solution.nip.face_width))
+
+
+def verdict(solution: Any) -> tuple[str, str]:
+    """Whether the solution converged, and how it was reached, in words."""
+    solver = solution.solver
+    how = (
+        f"geometry {solution.model.geometry}, {solver.elements} elements, "
+        f"residual {format_quantity(solver.residual, digits=2)}, {solver.seconds:.2f} s"
+    )
+    if solution.converged:
+        return "converged and verified", f" ({how})"
+    return "NOT CONVERGED", f": {solution.status} ({how})"
+
+
+def brief(solution: Any) -> str:
+    """One line: the title, whether it converged, and the main figures."""
+    name = f'"{solution.nip.title}", ' if solution.nip.title else ""
+    state = "converged" if solution.converged else "NOT CONVERGED"
+    figures = (line(FIGURES[key], solution) for key in _BRIEF)
+    texts = ", ".join(
+        f"{one.label} {one.value} {one.unit}".rstrip() for one in figures if one.value != "-"
+    )
+    kind = type(solution).__name__
+    return f"<{kind} {name}{state}, geometry {solution.model.geometry}: {texts}>"
+
+
+def text(solution: Any) -> str:
+    """The summary as lines of plain text."""
+    lines = [solution.nip.title or "Nip", "".join(verdict(solution))]
+    for heading, rows in sections(solution):
+        lines += ["", heading, *map(_plain, rows)]
+    if solution.zones:
+        lines += ["", "Stick and slip", *map(_plain, zones(solution))]
+    lines += ["", *(f"Note: {warning}" for warning in solution.warnings), SIGNS]
+    return "\n".join(lines)
+
+
+def html(solution: Any) -> str:
+    """The summary as HTML, as a notebook shows it."""
+    title = escape(solution.nip.title or "Nip")
+    parts = [f"<p><strong>{title}</strong><br>{escape(''.join(verdict(solution)))}</p>", "<table>"]
+    for heading, rows in sections(solution):
+        parts.append(f'<tr><th colspan="3" style="{_STYLE}">{escape(heading)}</th></tr>')
+        parts += map(_row, rows)
+    parts.append("</table>")
+    notes = [*(f"Note: {warning}" for warning in solution.warnings), SIGNS]
+    return "".join([*parts, *(f"<p>{escape(note)}</p>" for note in notes)])
+
+
+def zones(solution: Any) -> Iterator[Line]:
+    """A line for each zone of stick and slip."""
+    for zone in solution.zones:
+        ends = (format_quantity(end, digits=_DIGITS) for end in (zone.start, zone.stop))
+        yield Line(zone.state, " to ".join(ends), "mm", note=FASTER.get(zone.direction or 0, ""))
+
+
+def _contact(solution: Any) -> Iterator[Line]:
+    """Where it touches: each interval, or the outermost edges and the length of many."""
+    intervals = solution.contact
+    if len(intervals) > _MOST_INTERVALS:
+        length = sum(leading - trailing for trailing, leading in intervals)
+        yield from _edges(solution, intervals[0][0], intervals[-1][1])
+        yield Line(f"  touching in {len(intervals)} pieces", _number(length), "mm")
+        return
+    for trailing, leading in intervals:
+        yield from _edges(solution, trailing, leading)
+
+
+def _edges(solution: Any, trailing: float, leading: float) -> Iterator[Line]:
+    for label, edge in (("  from x", trailing), ("  to x", leading)):
+        is_noise = abs(edge) < ROUNDING * solution.nip_width
+        yield Line(label, _number(0.0 if is_noise else edge), "mm")
+
+
+def _totals(solution: Any, width: float) -> Iterator[Line]:
+    yield Line("face width", _number(width), "mm")
+    for figure in FIGURES.values():
+        value = figure.cleaned(solution)
+        if figure.total is not None and value is not None:
+            total = value * width * figure.total.factor
+            yield Line(figure.label, _number(total), figure.total.unit)
+
+
+def _number(value: float) -> str:
+    return format_quantity(value, digits=_DIGITS)
+
+
+def _plain(row: Line) -> str:
+    parts: Iterable[str] = (f"  {row.label:26s}", f"{row.value:>11s}", f" {row.unit:7s}")
+    return " ".join(["".join(parts), row.error or row.note]).rstrip()
+
+
+def _row(row: Line) -> str:
+    cells = (row.label, f"{row.value} {row.unit}".rstrip(), row.error or row.note)
+    return "<tr>" + "".join(f'<td style="{_STYLE}">{escape(cell)}</td>' for cell in cells) + "</tr>"

@@ -1,0 +1,127 @@
+"""The registry of figures: complete, described once, and read by everyone who shows a figure."""
+
+import json
+import re
+from dataclasses import replace
+from importlib.resources import files
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+import rollnip as rn
+from rollnip.figures import CLAIMED, FIGURES, PROFILES, ROUNDING, Dimension
+from rollnip.io import result_dict
+from rollnip.solution import Profiles, Solution
+from rollnip.sweep import SCALARS
+
+SOURCE = Path(str(files("rollnip")))
+READERS = (
+    "io/netcdf.py",
+    "io/result.py",
+    "cli/summary.py",
+    "plots/overview.py",
+    "sweep/row.py",
+    "web/static/js/quantities.js",
+    "web/static/js/answers.js",
+    "web/static/js/units.js",
+)
+
+
+@pytest.mark.parametrize("one", FIGURES.values(), ids=FIGURES)
+def test_a_figure_says_everything_in_plain_sentences(one):
+    assert isinstance(getattr(Solution, one.name, None), property) or one.name in (
+        "max_surface_strain",  # a field of the solution
+    )
+    assert one.symbol
+    assert one.label == one.label.strip()
+    for sentence in filter(None, (one.sentence, one.sign)):
+        assert re.fullmatch(r"[A-Z][^.]*\.", sentence), sentence
+    assert set(one.size) <= set(FIGURES)
+
+
+def test_labels_and_symbols_tell_figures_apart():
+    assert len({one.label for one in FIGURES.values()}) == len(FIGURES)
+    assert len({one.symbol for one in FIGURES.values()}) == len(FIGURES)
+
+
+def test_the_result_holds_every_figure_and_every_claim(solution):
+    tree = result_dict(solution)
+    for key, one in FIGURES.items():
+        table, _, last = key.rpartition(".")
+        assert (tree[table] if table else tree)[last] == one.value(solution)
+    assert list(tree["error"]) == list(CLAIMED)
+    assert list(tree["profiles"]) == list(PROFILES) == list(Profiles.__dataclass_fields__)
+
+
+def test_tables_of_sweeps_hold_every_figure_with_its_unit():
+    assert {name: SCALARS[name] for name in FIGURES} == {
+        name: one.unit for name, one in FIGURES.items()
+    }
+    assert {name for name in SCALARS if name.startswith("error.")} == {
+        f"error.{name}" for name in CLAIMED
+    }
+
+
+@pytest.mark.parametrize("reader", READERS)
+def test_no_label_and_no_sentence_stands_twice(reader):
+    text = (SOURCE / reader).read_text(encoding="utf-8").casefold()
+    # Some labels are keys of the result or dimensions as well.
+    others = {*FIGURES, *PROFILES, *get_args(Dimension)}
+    for one in (*FIGURES.values(), *PROFILES.values()):
+        assert one.label in others or f'"{one.label}"'.casefold() not in text
+        assert one.sentence.casefold() not in text
+
+
+def test_the_page_gets_the_registry_as_a_module():
+    library = pytest.importorskip("rollnip.web.library")
+    lines = dict(
+        re.findall(r"^export const (\w+) = (.*);$", library.figures_module(), re.MULTILINE)
+    )
+    shown = json.loads(lines["FIGURES"])
+    assert {one["key"] for one in shown} == {
+        one.name for key, one in FIGURES.items() if key != "peak_pressure_x"
+    }
+    assert all(
+        one["label"].casefold() == one["label"][0].lower() + one["label"][1:] for one in shown
+    )
+    assert json.loads(lines["ROUNDING"]) == ROUNDING
+    assert json.loads(lines["RESULT_UNITS"])["share"]["metric"] == ["%", 0.01]
+
+
+def test_noise_is_zero_and_a_small_figure_is_not(solution):
+    loss = FIGURES["dissipation.friction"]
+    assert loss.cleaned(replace(solution, dissipation_friction=5e-15)) == 0.0
+    # A slow cover: 1e-8 of load times speed is meant.
+    slow = replace(solution, dissipation_friction=1e-8 * 1.78 * 100.0)
+    assert loss.cleaned(slow) == pytest.approx(1.78e-6)
+    place = FIGURES["peak_pressure_x"]
+    assert place.cleaned(replace(solution, peak_pressure_x=-1e-12)) == 0.0
+    assert place.cleaned(replace(solution, peak_pressure_x=1e-6)) == 1e-6
+
+
+def rolling_freely(**changes):
+    rubber = rn.Elastic(modulus=0.91, poisson=0.5)
+    roller = rn.Roller(radius=50, layers=[rn.Layer(2.0, rubber)])
+    nip = rn.Nip(
+        upper=roller, lower=rn.Roller(radius=25), normal=rn.LineLoad(1.78), friction=0.5, speed=100
+    )
+    return rn.solve(replace(nip, **changes))
+
+
+def test_what_is_exactly_zero_in_free_rolling_is_shown_as_zero():
+    # Elastic and incompressible, no traction: torques, traction and losses are 0 by symmetry.
+    solution = rolling_freely()
+    noisy = ("traction", "torque_upper", "torque_lower", "peak_pressure_x", "dissipation.friction")
+    assert any(FIGURES[key].value(solution) != 0.0 for key in noisy)
+    assert [FIGURES[key].cleaned(solution) for key in noisy] == [0.0] * len(noisy)
+
+
+def test_the_smallest_losses_that_are_meant_are_shown():
+    slow = rn.StandardLinearSolid(modulus=2, stiffening=0.2, relaxation_time=0.003, poisson=0.45)
+    roller = rn.Roller(radius=50, layers=[rn.Layer(2.0, slow)])
+    solution = rolling_freely(upper=roller, speed=1e-3)
+    for key in ("dissipation.viscous", "rolling_resistance", "torque_upper"):
+        value = FIGURES[key].value(solution)
+        assert value is not None
+        assert FIGURES[key].cleaned(solution) == value != 0.0

@@ -21,16 +21,18 @@ def away(fit, solid):
 
 
 @pytest.mark.parametrize("solid", [ZENER, PRONY], ids=["fractional Zener", "Prony"])
-@pytest.mark.parametrize("seed", [1, 2, 3])
-def test_a_prony_series_keeps_within_its_stated_deviation(solid, seed):
-    fit = fit_dma(isotherms(solid, LAW, seed=seed), DmaMethod(reference=23.0))
-    wrong = away(fit, solid)
-    rms = np.sqrt(np.mean(wrong**2, axis=1))
-    assert np.all(rms < fit.deviation)
+def test_a_prony_series_keeps_within_its_stated_deviation(solid):
+    fits = [
+        fit_dma(isotherms(solid, LAW, seed=seed), DmaMethod(reference=23.0)) for seed in (1, 2, 3)
+    ]
+    wrong = np.array([away(fit, solid) for fit in fits])
+    stated = np.array([fit.deviation for fit in fits])
+    # of a sample the distance to the truth is one draw: the law is about samples
+    assert np.all(np.sqrt(np.mean(wrong**2, axis=(0, 2))) < np.mean(stated, axis=0))
     # twice the stated rms nearly everywhere; the ends of the range have data on one side only
-    held = np.mean(np.abs(wrong) < 2.0 * np.array(fit.deviation)[:, None], axis=1)
+    held = np.mean(np.abs(wrong) < 2.0 * stated[:, :, None], axis=(0, 2))
     assert np.all(held > 0.95)
-    assert fit.warnings == ()
+    assert all(fit.warnings == () for fit in fits)
 
 
 def test_fractional_zener_is_found_again():

@@ -52,6 +52,9 @@ def fit(
     terms: Annotated[
         int | None, typer.Option(help="Of the Prony series; none: by cross-validation.")
     ] = None,
+    robust: Annotated[
+        bool, typer.Option("--robust", help="Count rows that lie far off less.")
+    ] = False,
     modulus: Annotated[
         str | None, typer.Option(help="E or G, where the heads do not say it.")
     ] = None,
@@ -97,6 +100,7 @@ def fit(
                 reference=degrees,
                 vertical=vertical,  # type: ignore[arg-type]
                 terms=terms,
+                robust=robust,
             )
             found = fit_dma(data, method)
         text = material_toml(found, name)

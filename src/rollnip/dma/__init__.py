@@ -3,6 +3,7 @@
 from rollnip.dma.data import DmaData, read_dma
 from rollnip.dma.export import frequency_warning, material_toml, nip_frequency, valid_range
 from rollnip.dma.fit import DmaFit, DmaMethod, fit_dma
+from rollnip.dma.master import Master
 from rollnip.dma.pictures import (
     plot_deviation,
     plot_dma,
@@ -10,7 +11,8 @@ from rollnip.dma.pictures import (
     plot_phase,
     plot_shifts,
 )
-from rollnip.dma.shifts import Master, ShiftFit
+from rollnip.dma.quality import Quality
+from rollnip.dma.shifts import ShiftFit
 from rollnip.dma.spectrum import Reduced
 
 __all__ = [
@@ -18,6 +20,7 @@ __all__ = [
     "DmaFit",
     "DmaMethod",
     "Master",
+    "Quality",
     "Reduced",
     "ShiftFit",
     "fit_dma",

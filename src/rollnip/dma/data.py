@@ -38,6 +38,7 @@ class DmaData:
     storage, loss : (n,) real and imaginary part of E* [MPa].
     poisson : with which shear moduli were, or would be, converted.
     source : where they come from.
+    rows : where each measurement stands in the source, for messages; empty where it is not known.
 
     Raises
     ------
@@ -52,6 +53,7 @@ class DmaData:
     loss: Array
     poisson: float = 0.5
     source: str = "data"
+    rows: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         count = self.frequency.size
@@ -71,6 +73,10 @@ class DmaData:
                 )
         checked_temperature("temperature", float(np.min(self.temperature)))
         require_finite("poisson", self.poisson)
+
+    def row(self, index: int) -> str:
+        """Where a measurement stands in the source."""
+        return self.rows[index] if self.rows else f"measurement {index + 1}"
 
     def isotherms(self, width: float = 1.0) -> list[NDArray[np.int64]]:
         """Indices of the measurements of each temperature, coldest first.

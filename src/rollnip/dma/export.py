@@ -84,11 +84,13 @@ def valid_range(fit: DmaFit, temperature: float | None = None) -> tuple[float, f
 def _comments(fit: DmaFit) -> Iterator[str]:
     low, high = (format_quantity(v, digits=3) for v in fit.frequency_range)
     cold, warm = fit.temperature_range
-    storage, loss = (100.0 * v for v in fit.deviation)
+    storage, loss = (100.0 * v for v in fit.quality.rms)
+    most_storage, most_loss = (100.0 * v for v in fit.quality.largest)
     yield f"# From {fit.master.data.source}, {fit.master.data.frequency.size} measurements."
     yield f"# Valid from {low} Hz to {high} Hz at {fit.master.reference:g} degC,"
     yield f"# measured at {cold:.4g} to {warm:.4g} degC; outside of that it is extrapolated."
-    yield f"# Deviation from the data: storage {storage:.2g} % rms, loss {loss:.2g} % rms."
+    yield f"# Deviation from the data: storage {storage:.2g} % rms, {most_storage:+.2g} % at most;"
+    yield f"# loss {loss:.2g} % rms, {most_loss:+.2g} % at most."
     shift = fit.shift
     units = {"c1": "", "c2": " K", "activation_energy": " kJ/mol"}
     for name, value, error in zip(shift.names, shift.values, shift.standard_errors, strict=True):

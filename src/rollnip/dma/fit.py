@@ -11,17 +11,15 @@ from scipy.optimize import least_squares
 
 from rollnip._errors import InvalidInputError
 from rollnip.dma.data import DmaData
-from rollnip.dma.shifts import (
-    Law,
-    Master,
-    ShiftFit,
-    Vertical,
-    fit_free,
-    fit_law,
-    unshifted,
-    with_errors,
+from rollnip.dma.master import Master, Vertical, robust_weights, scatter, unshifted
+from rollnip.dma.quality import Quality, judged, plateau_warnings, quality_warnings
+from rollnip.dma.shifts import Law, ShiftFit, fit_free, fit_law
+from rollnip.dma.spectrum import (
+    Reduced,
+    crossvalidated,
+    non_negative,
+    relaxation_times,
 )
-from rollnip.dma.spectrum import Reduced, crossvalidated, non_negative, relaxation_times
 from rollnip.materials import WLF, Arrhenius, FractionalZener, Prony
 from rollnip.materials.shift import checked_temperature
 
@@ -33,8 +31,9 @@ _MOST_ISOTHERMS = 200  # beyond it free shifts take too long to be worth it
 _FAR, _MANY = 0.15, 4.0  # decades, standard errors: a free shift that departs from the law
 _NEAR_POLE = 3.0  # K
 _VAGUE = 0.5  # of a constant: a standard error that says it is not told
-_WORSE = 1.5  # deviation of the model over the scatter of the data
 _NO_PLATEAU = 1e-3  # of the least storage modulus, where the data bound the relaxed one only
+_SOFTEST = 1e-9  # MPa: the least modulus a material may have
+_REWEIGHED = 2  # times the shifts are searched again with weights of a robust fit
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -52,9 +51,12 @@ class DmaMethod:
     vertical :
         "none"; "entropic": moduli in proportion to the absolute temperature; "free".
     terms :
-        of the Prony series; chosen by cross-validation by default.
+        of the Prony series; by default one and a half to three a decade and as smooth as
+        cross-validation asks.
     width :
         temperatures this near [K] are one isotherm.
+    robust :
+        count rows that lie far off less.
 
     Raises
     ------
@@ -68,6 +70,7 @@ class DmaMethod:
     vertical: Vertical = "none"
     terms: int | None = None
     width: float = 1.0
+    robust: bool = False
 
     def __post_init__(self) -> None:
         for name, kinds in (("model", Kind), ("vertical", Vertical)):
@@ -100,11 +103,12 @@ class DmaFit:
     shift : the law with its constants and their standard errors.
     free : the isotherms shifted each by itself; None where that was not done.
     free_errors : (m,) standard errors of those shifts [decades].
-    scatter : relative standard errors of storage and loss modulus, from the data themselves.
-    deviation : relative rms deviation of storage and loss modulus of the material from the data.
+    scatter : relative scatter of storage and loss modulus between neighbouring frequencies; None
+        where the isotherms are too short to tell it.
+    quality : how far the material lies from the data.
     frequency_range : lowest and highest frequency [Hz] of the data at the reference temperature.
     temperature_range : lowest and highest temperature measured [degC].
-    crossvalidation : (k,) mean squares of what was left out, for 1 to k terms; empty otherwise.
+    crossvalidation : (k,) mean squares of what was left out, for each spectrum tried; or empty.
     warnings : in plain words.
     """
 
@@ -113,12 +117,17 @@ class DmaFit:
     shift: ShiftFit
     free: Master | None
     free_errors: Array
-    scatter: tuple[float, float]
-    deviation: tuple[float, float]
+    scatter: tuple[float, float] | None
+    quality: Quality
     frequency_range: tuple[float, float]
     temperature_range: tuple[float, float]
     crossvalidation: Array
     warnings: tuple[str, ...]
+
+    @property
+    def deviation(self) -> tuple[float, float]:
+        """Relative rms deviation of storage and loss modulus of the material from the data."""
+        return self.quality.rms
 
 
 def fit_dma(data: DmaData, method: DmaMethod | None = None) -> DmaFit:
@@ -143,43 +152,30 @@ def fit_dma(data: DmaData, method: DmaMethod | None = None) -> DmaFit:
     method = DmaMethod() if method is None else method
     start = unshifted(data, method.reference, method.vertical, method.width)
     shift = _shifted(start, method)
-    if start.temperatures.size > 1 and not isinstance(method.shift, WLF | Arrhenius):
-        shift = _shifted(replace(start, errors=with_errors(shift.master).errors), method)
-    master = with_errors(shift.master)
-    shift = replace(shift, master=master)
+    for _ in range(_REWEIGHED if method.robust else 0):
+        start = replace(start, weights=robust_weights(shift.master).weights)
+        shift = _shifted(start, method)
+    master = shift.master
     free, errors = _free(master)
-    material, squares, said = _material(master, shift, method)
-    deviation = deviations(material, master)
+    material, squares = _material(master, shift, method)
+    quality, noise = judged(material, master), scatter(master)
     return DmaFit(
         material=material,
         master=master,
         shift=shift,
         free=free,
         free_errors=errors,
-        scatter=master.errors,
-        deviation=deviation,
+        scatter=noise,
+        quality=quality,
         frequency_range=master.frequency_range,
         temperature_range=(float(np.min(data.temperature)), float(np.max(data.temperature))),
         crossvalidation=squares,
         warnings=(
-            *said,
+            *plateau_warnings(material, master),
             *_shift_warnings(master, shift, free, errors),
-            *_model_warnings(deviation, master, method),
+            *_model_warnings(quality, noise, master, method),
         ),
     )
-
-
-def deviations(material: Prony | FractionalZener, master: Master) -> tuple[float, float]:
-    """Relative rms deviation of storage and loss modulus of a material from a master curve."""
-    storage, loss = relative_deviations(material, master.reduced)
-    return float(np.sqrt(np.mean(storage**2))), float(np.sqrt(np.mean(loss**2)))
-
-
-def relative_deviations(material: Prony | FractionalZener, data: Reduced) -> tuple[Array, Array]:
-    """Measured over computed less 1, of storage and loss modulus, each (n,)."""
-    unheated = replace(material, temperature=None, shift=None)
-    found = unheated.modulus_at(1j * data.omega)
-    return data.storage / found.real - 1.0, data.loss / found.imag - 1.0
 
 
 def _shifted(start: Master, method: DmaMethod) -> ShiftFit:
@@ -210,7 +206,7 @@ def _free(master: Master) -> tuple[Master | None, Array]:
 
 def _material(
     master: Master, shift: ShiftFit, method: DmaMethod
-) -> tuple[Prony | FractionalZener, Array, list[str]]:
+) -> tuple[Prony | FractionalZener, Array]:
     law = None if np.any(master.vertical) else shift.law
     temperature = None if law is None else master.reference
     data, poisson = master.reduced, master.data.poisson
@@ -225,16 +221,13 @@ def _material(
             temperature=temperature,
             shift=_rounded_law(law),
         )
-        return zener, np.zeros(0), []
-    count, squares = (method.terms, np.zeros(0)) if method.terms else crossvalidated(data)
+        return zener, np.zeros(0)
+    count, strength, squares = method.terms or 0, 0.0, np.zeros(0)
+    if not method.terms:
+        count, strength, squares = crossvalidated(data)
     times = relaxation_times(data.omega, count)
-    moduli, _ = non_negative(data, times)
-    least, said = _NO_PLATEAU * float(np.min(data.storage)), []
-    if moduli[0] < least:
-        said = [
-            "The data do not reach the rubbery plateau: the relaxed modulus is not told by them, "
-            f"and set to {least:.3g} MPa; below the valid frequencies the material is a guess."
-        ]
+    moduli, _ = non_negative(data, times, strength)
+    least = max(_NO_PLATEAU * float(np.min(data.storage)), _SOFTEST)
     terms = [
         (_rounded(float(e)), _rounded(float(t)))
         for e, t in zip(moduli[1:], times, strict=True)
@@ -247,7 +240,7 @@ def _material(
         temperature=temperature,
         shift=_rounded_law(law),
     )
-    return prony, squares, said
+    return prony, squares
 
 
 def fractional_zener(data: Reduced) -> tuple[float, float, float, float]:
@@ -341,15 +334,14 @@ def _gaps(master: Master) -> list[str]:
     ]
 
 
-def _model_warnings(deviation: tuple[float, float], master: Master, method: DmaMethod) -> list[str]:
-    worse = [d / s for d, s in zip(deviation, master.errors, strict=True)]
-    said = []
-    if max(worse) > _WORSE and max(deviation) > 0.01:
-        other = "" if method.model == "prony" else ' `model = "prony"` follows them closer.'
-        said.append(
-            f"The material departs from the data by {100 * max(deviation):.1f} % rms, more than "
-            f"they scatter.{other}"
-        )
+def _model_warnings(
+    quality: Quality, noise: tuple[float, float] | None, master: Master, method: DmaMethod
+) -> list[str]:
+    prony = method.model == "prony"
+    other = (
+        " More terms follow them closer." if prony else ' `model = "prony"` follows them closer.'
+    )
+    said = quality_warnings(quality, noise, best=prony and not method.terms, other=other)
     if np.any(master.vertical):
         said.append(
             f"Moduli were shifted too, which a material cannot follow: it holds at "

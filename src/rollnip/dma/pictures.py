@@ -9,7 +9,8 @@ from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 
-from rollnip.dma.fit import DmaFit, relative_deviations
+from rollnip.dma.fit import DmaFit
+from rollnip.dma.quality import relative_deviations
 from rollnip.plots.style import FULL, MM, Look, Style, label, palette_of, prepare
 
 _HEIGHT = 150.0  # mm

@@ -16,13 +16,12 @@ from numpy.typing import NDArray
 from scipy.optimize import OptimizeResult, least_squares
 
 from rollnip._errors import InvalidInputError
-from rollnip.dma.data import DmaData
-from rollnip.dma.spectrum import Reduced, most_terms, non_negative, relaxation_times
+from rollnip.dma.master import Master
+from rollnip.dma.spectrum import most_terms, non_negative, relaxation_times
 from rollnip.materials import WLF, Arrhenius
 
 Array = NDArray[np.float64]
 Law = Literal["wlf", "arrhenius", "none"]
-Vertical = Literal["none", "entropic", "free"]
 
 _ZERO = 273.15  # degC in K
 _CLEAR = 1.0  # K by which the pole of WLF lies below the coldest measurement at least
@@ -33,49 +32,8 @@ _ENERGIES = (30.0, 60.0, 100.0, 160.0, 240.0, 400.0)  # kJ/mol tried
 _LARGEST = 30.0  # decades of shift at a start
 _LARGEST_LEVEL = 3.0  # factor on the moduli of an isotherm
 _STEP = 1e-4
+_FOLDS, _LEAST_FOLDS = 10, 4  # of isotherms left out together
 _LN10 = log(10.0)
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Master:
-    """Data, and how each isotherm is shifted to the reference temperature.
-
-    Attributes
-    ----------
-    data : as measured.
-    groups : indices of the measurements of each isotherm, coldest first.
-    temperatures : (m,) mean of each isotherm [degC].
-    reference : temperature shifted to [degC].
-    horizontal : (m,) log10 a_T: reduced frequency = frequency a_T.
-    vertical : (m,) ln b_T: modulus at the reference = modulus / b_T.
-    errors : relative standard errors of storage and loss.
-    """
-
-    data: DmaData
-    groups: tuple[NDArray[np.int64], ...]
-    temperatures: Array
-    reference: float
-    horizontal: Array
-    vertical: Array
-    errors: tuple[float, float] = (0.02, 0.02)
-
-    @property
-    def reduced(self) -> Reduced:
-        """All data at the reference temperature, coldest isotherm first."""
-        omega, storage, loss = [], [], []
-        for group, a, b in zip(self.groups, self.horizontal, self.vertical, strict=True):
-            omega.append(2.0 * np.pi * self.data.frequency[group] * 10.0**a)
-            storage.append(self.data.storage[group] * exp(-b))
-            loss.append(self.data.loss[group] * exp(-b))
-        return Reduced(
-            np.concatenate(omega), np.concatenate(storage), np.concatenate(loss), self.errors
-        )
-
-    @property
-    def frequency_range(self) -> tuple[float, float]:
-        """Lowest and highest reduced frequency [Hz]."""
-        omega = self.reduced.omega / (2.0 * np.pi)
-        return float(np.min(omega)), float(np.max(omega))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -95,18 +53,6 @@ class ShiftFit:
     values: tuple[float, ...]
     standard_errors: tuple[float, ...]
     master: Master
-
-
-def unshifted(data: DmaData, reference: float | None, vertical: Vertical, width: float) -> Master:
-    """The isotherms side by side; the reference is the middle one by default."""
-    groups = tuple(data.isotherms(width))
-    temperatures = np.array([float(np.mean(data.temperature[g])) for g in groups])
-    if reference is None:
-        reference = round(float(temperatures[len(groups) // 2]), 1)
-    levels = np.zeros(temperatures.size)
-    if vertical == "entropic":
-        levels = np.log((temperatures + _ZERO) / (reference + _ZERO))
-    return Master(data, groups, temperatures, reference, np.zeros(temperatures.size), levels)
 
 
 def fit_law(master: Master, law: Law, *, levels: bool = False) -> ShiftFit:
@@ -139,8 +85,43 @@ def fit_law(master: Master, law: Law, *, levels: bool = False) -> ShiftFit:
         vertical[_moved(master)] = found.x[size:]
     fitted = replace(master, horizontal=shape.shifts(x), vertical=vertical)
     values, slopes = shape.constants(x), shape.slopes(x)
-    errors = np.sqrt(np.diag(slopes @ _covariance(found)[:size, :size] @ slopes.T))
+    within = np.diag(slopes @ _covariance(found)[:size, :size] @ slopes.T)
+    errors = np.sqrt(np.maximum(within, _between(fitted, law, x)))
     return ShiftFit(shape.law(values), shape.names, values, tuple(float(e) for e in errors), fitted)
+
+
+def _between(master: Master, law: Law, x: Array) -> Array:
+    """Variances of the constants from leaving out isotherms, a tenth of them at a time.
+
+    The delete-a-group jackknife: (k - 1)/k times the sum of squares about the mean. What all
+    values of an isotherm share (its temperature, how the sample sits in the clamps) moves the
+    constants more than the noise of single values, and only this sees it. Zero where there are
+    fewer than four isotherms.
+
+    References
+    ----------
+    Efron & Stein (1981), Ann. Statist. 9, 586-596.
+    """
+    count = min(master.temperatures.size, _FOLDS)
+    if count < _LEAST_FOLDS:
+        return np.zeros(x.size)
+    times, least = _times(master, 1.0), _least(master)
+    found = []
+    for k in range(count):
+        kept = np.flatnonzero(np.arange(master.temperatures.size) % count != k)
+        part = master.at(kept)
+        shape = _Wlf(part) if law == "wlf" else _Energy(part)
+        shape.least = least  # the same variables: the bound on C2 stays that of all isotherms
+
+        def residuals(y: Array, part: Master = part, shape: _Wlf | _Energy = shape) -> Array:
+            return non_negative(replace(part, horizontal=shape.shifts(y)).reduced, times)[1]
+
+        end = least_squares(
+            residuals, x, bounds=shape.bounds, diff_step=_STEP, ftol=1e-6, xtol=1e-6
+        )
+        found.append(shape.constants(end.x))
+    away = np.array(found) - np.mean(found, axis=0)
+    return np.asarray((count - 1.0) / count * np.sum(away**2, axis=0))
 
 
 def fit_free(start: Master) -> tuple[Master, Array]:
@@ -172,20 +153,6 @@ def _moved(master: Master) -> NDArray[np.bool_]:
     """(m,) all isotherms but that nearest to the reference."""
     held = int(np.argmin(np.abs(master.temperatures - master.reference)))
     return np.asarray(np.arange(master.temperatures.size) != held)
-
-
-def with_errors(master: Master) -> Master:
-    """The same with relative errors of storage and loss estimated from what a rich fit leaves."""
-    plain = replace(master, errors=(1.0, 1.0))
-    for _ in range(3):
-        data = plain.reduced
-        moduli, residuals = non_negative(data, _times(plain, 0.0))
-        count = data.omega.size
-        free = max(1.0 - 0.5 * np.count_nonzero(moduli) / count, 0.2)
-        parts = residuals[:count] * data.errors[0], residuals[count:] * data.errors[1]
-        first, second = (float(np.sqrt(np.mean(part**2) / free)) for part in parts)
-        plain = replace(plain, errors=(max(first, 1e-6), max(second, 1e-6)))
-    return plain
 
 
 def _times(master: Master, margin: float) -> Array:
@@ -258,6 +225,11 @@ def _covariance(found: OptimizeResult) -> Array:
     return np.asarray(scale * (right.T * inverse**2) @ right)
 
 
+def _least(master: Master) -> float:
+    """C2 [K] with which the pole of WLF lies right below the coldest measurement."""
+    return max(master.reference - float(np.min(master.temperatures)), 0.0) + _CLEAR
+
+
 class _Wlf:
     """WLF with x = (ln of the slope C1/C2, ln of C2 less its least value)."""
 
@@ -266,7 +238,7 @@ class _Wlf:
     def __init__(self, master: Master) -> None:
         self.reference = master.reference
         self.away = master.temperatures - master.reference
-        self.least = max(-float(np.min(self.away)), 0.0) + _CLEAR
+        self.least = _least(master)
         self.starts = [np.log([slope, room]) for slope, room in product(_SLOPES, _ROOMS)]
         low, high = np.log([1e-4, 1e-2]), np.log([10.0, _MOST_ROOM])
         self.bounds = (low, high)
@@ -296,7 +268,7 @@ class _Energy:
     names = ("activation_energy",)
 
     def __init__(self, master: Master) -> None:
-        self.reference = master.reference
+        self.reference, self.least = master.reference, 0.0
         kelvin = master.temperatures + _ZERO
         gas = 8.31446261815324e-3  # kJ/(mol K)
         self.per_energy = (1.0 / kelvin - 1.0 / (master.reference + _ZERO)) / (gas * _LN10)

@@ -1,0 +1,156 @@
+"""Master curves: isotherms side by side or shifted, and how much neighbouring values scatter."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.dma.data import DmaData
+from rollnip.dma.spectrum import Reduced, most_terms, non_negative, relaxation_times
+
+Array = NDArray[np.float64]
+Vertical = Literal["none", "entropic", "free"]
+
+_ZERO = 273.15  # degC in K
+_FLOOR = 0.01  # relative error of a modulus that clamps and dimensions leave to any instrument
+_LEAST_WINDOWS = 8  # of four neighbours, to tell the scatter
+_MEAN = 1.2533  # standard deviation over the mean of the sizes, for a normal distribution
+_MAD = 1.4826  # standard deviation over the median of the sizes, for a normal distribution
+_OUTLYING = 3.0  # standard deviations: residuals this large count a quarter
+_ROUNDS = 5
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Master:
+    """Data, and how each isotherm is shifted to the reference temperature.
+
+    Attributes
+    ----------
+    data : as measured.
+    groups : indices of the measurements of each isotherm, coldest first.
+    temperatures : (m,) mean of each isotherm [degC].
+    reference : temperature shifted to [degC].
+    horizontal : (m,) log10 a_T: reduced frequency = frequency a_T.
+    vertical : (m,) ln b_T: modulus at the reference = modulus / b_T.
+    errors : relative standard errors of storage and loss, by which residuals are weighed.
+    weights : (n,) by which the residuals of each measurement are multiplied; None: all 1.
+    """
+
+    data: DmaData
+    groups: tuple[NDArray[np.int64], ...]
+    temperatures: Array
+    reference: float
+    horizontal: Array
+    vertical: Array
+    errors: tuple[float, float] = (0.02, 0.02)
+    weights: Array | None = None
+
+    @property
+    def order(self) -> NDArray[np.int64]:
+        """(n,) index in the data of each reduced measurement."""
+        return np.concatenate(self.groups)
+
+    @property
+    def reduced(self) -> Reduced:
+        """All data at the reference temperature, coldest isotherm first."""
+        sizes = [group.size for group in self.groups]
+        factor = np.repeat(10.0**self.horizontal, sizes)
+        level = np.repeat(np.exp(-self.vertical), sizes)
+        return Reduced(
+            2.0 * np.pi * self.data.frequency[self.order] * factor,
+            self.data.storage[self.order] * level,
+            self.data.loss[self.order] * level,
+            self.errors,
+            None if self.weights is None else self.weights[self.order],
+        )
+
+    @property
+    def frequency_range(self) -> tuple[float, float]:
+        """Lowest and highest reduced frequency [Hz]."""
+        omega = self.reduced.omega / (2.0 * np.pi)
+        return float(np.min(omega)), float(np.max(omega))
+
+    def at(self, chosen: NDArray[np.int64]) -> Master:
+        """Only the isotherms of these indices."""
+        return replace(
+            self,
+            groups=tuple(self.groups[i] for i in chosen),
+            temperatures=self.temperatures[chosen],
+            horizontal=self.horizontal[chosen],
+            vertical=self.vertical[chosen],
+        )
+
+
+def unshifted(data: DmaData, reference: float | None, vertical: Vertical, width: float) -> Master:
+    """The isotherms side by side; the reference is the middle one by default.
+
+    Storage and loss are weighed by the scatter of neighbouring values, with 1 % more that no
+    instrument is better than: a shift or a spectrum has no part in it, so data that contradict
+    the model keep their weight.
+    """
+    groups = tuple(data.isotherms(width))
+    temperatures = np.array([float(np.mean(data.temperature[g])) for g in groups])
+    if reference is None:
+        reference = round(float(temperatures[len(groups) // 2]), 1)
+    levels = np.zeros(temperatures.size)
+    if vertical == "entropic":
+        levels = np.log((temperatures + _ZERO) / (reference + _ZERO))
+    still = np.zeros(temperatures.size)
+    plain = Master(data, groups, temperatures, reference, still, levels)
+    noise = scatter(plain)
+    if noise is None:
+        return plain
+    return replace(
+        plain, errors=(float(np.hypot(noise[0], _FLOOR)), float(np.hypot(noise[1], _FLOOR)))
+    )
+
+
+def scatter(master: Master) -> tuple[float, float] | None:
+    """Relative scatter of storage and loss between neighbours; None where too few tell it.
+
+    Over any four neighbouring frequencies of an isotherm the third divided difference of ln
+    modulus over ln frequency vanishes for a smooth curve (it removes a parabola); over the root
+    of the sum of squares of its coefficients it has the standard deviation of the noise.
+    """
+    found = [list(_thirds(master, values)) for values in (master.data.storage, master.data.loss)]
+    if len(found[0]) < _LEAST_WINDOWS:
+        return None
+    first, second = (_MEAN * float(np.mean(np.abs(parts))) for parts in found)
+    return first, second
+
+
+def _thirds(master: Master, values: Array) -> Iterator[float]:
+    for group in master.groups:
+        x, first = np.unique(np.log(master.data.frequency[group]), return_index=True)
+        y = np.log(values[group][first])
+        for k in range(x.size - 3):
+            away = x[k : k + 4, None] - x[None, k : k + 4]
+            np.fill_diagonal(away, 1.0)
+            coefficients = 1.0 / np.prod(away, axis=1)
+            yield float(coefficients @ y[k : k + 4] / np.linalg.norm(coefficients))
+
+
+def robust_weights(master: Master) -> Master:
+    """The same with measurements that lie far off counted less (Geman & McClure 1987).
+
+    The weight of a residual r of the standard deviation s is 1/(1 + (r/(3 s))^2), with s from the
+    median of all sizes, so that rows far off do not set it; five rounds of a rich spectrum.
+    """
+    plain = replace(master, weights=None)
+    data = plain.reduced
+    times = relaxation_times(data.omega, most_terms(data.omega))
+    weights = np.ones(data.omega.size)
+    for _ in range(_ROUNDS):
+        weighed = replace(data, weights=weights)
+        moduli, _ = non_negative(weighed, times)
+        parts = (data.design(times) @ moduli - data.target).reshape(2, -1)
+        size = np.max(np.abs(parts), axis=0)
+        typical = max(_MAD * float(np.median(np.abs(parts))), 1e-9)
+        weights = 1.0 / (1.0 + (size / (_OUTLYING * typical)) ** 2)
+    spread = np.ones(data.omega.size)
+    spread[plain.order] = weights
+    return replace(master, weights=spread)

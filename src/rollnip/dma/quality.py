@@ -1,0 +1,144 @@
+"""How far a material lies from its data, and what the data do not tell of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.dma.master import Master
+from rollnip.dma.spectrum import Reduced
+from rollnip.materials import FractionalZener, Prony
+
+Array = NDArray[np.float64]
+
+RMS_LIMIT = 0.05  # relative deviation of a modulus over all rows that passes without a warning
+ROW_LIMIT = 0.20  # and of a single row
+_OUTLYING = 5.0  # standard deviations (from the median) that make a row an outlying one
+_MAD = 1.4826  # standard deviation over the median of the sizes, for a normal distribution
+_CLOSE = 1.5  # deviation over the scatter of neighbours that is no departure
+_SHOWN = 3  # outlying rows named
+_PLATEAU = 0.3  # tan delta at the lowest frequencies; the storage modulus falls by 1.5 a decade
+_STILL = 0.5  # relaxed modulus over the least storage modulus
+_LOW = 10.0**0.5  # half a decade: the lowest frequencies
+NAMES = ("storage", "loss")
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Quality:
+    """Relative deviations of a material from its data: computed over measured, less 1.
+
+    Attributes
+    ----------
+    rms : of storage and loss modulus, over all rows.
+    largest : of storage and loss modulus, with its sign.
+    rows : in which row of the data each of the largest stands.
+    outlying : rows that depart by more than 20 % and five standard deviations, largest first.
+    """
+
+    rms: tuple[float, float]
+    largest: tuple[float, float]
+    rows: tuple[str, str]
+    outlying: tuple[str, ...]
+
+
+def relative_deviations(material: Prony | FractionalZener, data: Reduced) -> tuple[Array, Array]:
+    """Computed over measured less 1, of storage and loss modulus, each (n,)."""
+    unheated = replace(material, temperature=None, shift=None)
+    found = unheated.modulus_at(1j * data.omega)
+    return found.real / data.storage - 1.0, found.imag / data.loss - 1.0
+
+
+def judged(material: Prony | FractionalZener, master: Master) -> Quality:
+    """How far the material lies from every row, whatever weight the row had in the fit."""
+    both = relative_deviations(material, master.reduced)
+    where = [int(np.argmax(np.abs(one))) for one in both]
+    far = np.zeros(both[0].size)
+    for one in both:
+        typical = max(_OUTLYING * _MAD * float(np.median(np.abs(one))), ROW_LIMIT)
+        far = np.maximum(far, np.where(np.abs(one) > typical, np.abs(one), 0.0))
+    outlying = np.argsort(-far, kind="stable")[: int(np.count_nonzero(far))]
+    return Quality(
+        rms=(float(np.sqrt(np.mean(both[0] ** 2))), float(np.sqrt(np.mean(both[1] ** 2)))),
+        largest=(float(both[0][where[0]]), float(both[1][where[1]])),
+        rows=(_row(master, where[0]), _row(master, where[1])),
+        outlying=tuple(_row(master, int(i)) for i in outlying),
+    )
+
+
+def quality_warnings(
+    quality: Quality, noise: tuple[float, float] | None, *, best: bool, other: str
+) -> list[str]:
+    """Sentences where the material lies beyond the limits of 5 % rms or 20 % in a row.
+
+    Parameters
+    ----------
+    quality :
+        of the material.
+    noise :
+        relative scatter of neighbouring values of storage and loss; None where it is not told.
+    best :
+        whether no other spectrum would follow the data closer.
+    other :
+        what would follow them closer, otherwise.
+    """
+    said = [
+        f"The material departs from the data by {_percent(rms)} rms in the {name} modulus "
+        f"(limit 5 %), by {_percent(largest)} at most ({row})."
+        for name, rms, largest, row in zip(
+            NAMES, quality.rms, quality.largest, quality.rows, strict=True
+        )
+        if rms > RMS_LIMIT or abs(largest) > ROW_LIMIT
+    ]
+    if quality.outlying:
+        shown = "; ".join(quality.outlying[:_SHOWN])
+        more = len(quality.outlying) - _SHOWN
+        said.append(
+            f"Outlying: {shown}{f' and {more} more' if more > 0 else ''}. Look at the "
+            "measurement, leave it out, or count it less (robust)."
+        )
+    worse = noise is not None and any(
+        rms > max(_CLOSE * one, 0.01) for rms, one in zip(quality.rms, noise, strict=True)
+    )
+    if worse and not best:
+        said.append(f"The material departs from the data more than neighbouring values do.{other}")
+    if worse and best and max(quality.rms) > RMS_LIMIT and not quality.outlying:
+        said.append(
+            "Neighbouring values scatter less than that: no linear solid, shifted by this law, has "
+            "these storage and loss moduli together. Look for a mistaken unit or column, or for "
+            "isotherms that the shift law does not bring together."
+        )
+    return said
+
+
+def plateau_warnings(material: Prony | FractionalZener, master: Master) -> list[str]:
+    """A sentence where the data end before the modulus has relaxed.
+
+    Where E* goes as a power of the frequency, its phase is 90 degrees times the exponent (Booij &
+    Thoone 1982, Rheol. Acta 21, 15-24): at tan delta = 0.3 the storage modulus still falls by a
+    factor of 1.5 a decade, so what lies below the data is a guess.
+    """
+    data = master.reduced
+    low = data.omega <= _LOW * float(np.min(data.omega))
+    phase = float(np.degrees(np.median(np.arctan2(data.loss[low], data.storage[low]))))
+    share = material.relaxed_modulus / float(np.median(data.storage[low]))
+    if np.tan(np.radians(phase)) <= _PLATEAU and share >= _STILL:
+        return []
+    fall = 10.0 ** (phase / 90.0)
+    kind = "they flow like a melt" if phase > 45.0 else f"it falls by {fall:.2g} a decade"
+    return [
+        "The data do not reach the rubbery plateau: at the lowest frequencies the phase is "
+        f"{phase:.0f} degrees ({kind}) and the storage modulus {1.0 / share:.2g} times the relaxed "
+        f"modulus fitted, {material.relaxed_modulus:.3g} MPa. The data do not tell the relaxed "
+        "modulus; below the valid frequencies the material is a guess."
+    ]
+
+
+def _row(master: Master, index: int) -> str:
+    data, at = master.data, int(master.order[index])
+    return f"{data.row(at)}: {data.temperature[at]:.4g} degC, {data.frequency[at]:.3g} Hz"
+
+
+def _percent(value: float) -> str:
+    return f"{100.0 * value:.2g} %" if abs(value) < 1.0 else f"{100.0 * value:.0f} %"

@@ -13,6 +13,7 @@ import rollnip as rn
 from rollnip.closed_forms import hertz_line, plate_on_foundation, plate_stiffness
 from rollnip.paper import (
     configuration,
+    contour_figure,
     edge_load,
     edge_peak,
     figure_4,
@@ -20,6 +21,7 @@ from rollnip.paper import (
     pressure_offset,
     strain_change,
     strain_in_stick,
+    stress_centre,
 )
 
 NUMBERS = (1, 2, 3)
@@ -28,15 +30,6 @@ GEOMETRIES = ("linear", "corrected", "curved")
 
 def solved(nip, geometry="curved"):
     return rn.solve(nip, rn.Model(geometry=geometry), on_failure="raise")
-
-
-def centre_of_stress(solution, z):
-    """Centre of s_zz at depths z, from the middle of the contact, over the half-width."""
-    x = np.linspace(-35.0, 35.0, 2801)
-    stress = solution.interior("upper", z, x).s_zz
-    centre = np.trapezoid(x * stress, x) / np.trapezoid(stress, x)
-    first, last = solution.contact[0][0], solution.contact[-1][1]
-    return (centre - 0.5 * (first + last)) / (0.5 * (last - first))
 
 
 # Figure 4 -----------------------------------------------------------------------------------
@@ -124,7 +117,7 @@ def test_a_plate_on_springs_has_forces_at_its_edges_too():
 def test_elastic_with_traction_resembles_viscoelastic_without(elastic, viscous):
     """Both lean to the inlet; over the depth of the layer by as much, to a third."""
     z = np.linspace(0.0, 4.0, 9)
-    driven, free = centre_of_stress(elastic, z), centre_of_stress(viscous, z)
+    driven, free = stress_centre(elastic, z), stress_centre(viscous, z)
     assert np.all(driven > 0.0)
     assert np.all(free > 0.0)
     assert np.mean(driven) == pytest.approx(np.mean(free), rel=0.35)
@@ -134,10 +127,23 @@ def test_but_the_one_leans_with_depth_and_the_other_at_the_surface(elastic, visc
     """Equilibrium: d/dz of the centre of s_zz is T/F. So A begins almost upright, B stays put."""
     z = np.array([0.5, 3.5])
     half = 0.5 * elastic.nip_width
-    slope = np.diff(centre_of_stress(elastic, z))[0] * half / 3.0
+    slope = np.diff(stress_centre(elastic, z))[0] * half / 3.0
     assert slope == pytest.approx(elastic.traction / elastic.load, rel=0.04)
-    assert np.diff(centre_of_stress(viscous, z))[0] == pytest.approx(0.0, abs=2e-3)
+    assert np.diff(stress_centre(viscous, z))[0] == pytest.approx(0.0, abs=2e-3)
     assert pressure_offset(elastic) < 0.1 * pressure_offset(viscous)
+
+
+def test_the_drawn_centre_is_that_of_the_whole_stress():
+    """Figure 5 shows a part of the length; by equilibrium its dashed line moves by T/F a depth.
+
+    Exactly so in flat layers; the figure is of rings, and its covering is 0.08 of the radius thick.
+    The cut integral gave half of it.
+    """
+    figure = contour_figure()
+    elastic, z = figure.solutions[0], figure.fields[0].z
+    shift = (figure.centres[0][-1] - figure.centres[0][0]) / z[-1]
+    assert shift == pytest.approx(elastic.traction / elastic.load, rel=0.08)
+    assert np.ptp(figure.centres[1]) < 0.01 * figure.solutions[1].nip_width
 
 
 def test_viscoelastic_pressure_is_asymmetric_towards_the_inlet(viscous):

@@ -23,6 +23,7 @@ from rollnip.paper.measures import (
     pressure_offset,
     strain_change,
     strain_in_stick,
+    stress_centre,
 )
 
 __all__ = [
@@ -46,4 +47,5 @@ __all__ = [
     "strain_change",
     "strain_figure",
     "strain_in_stick",
+    "stress_centre",
 ]

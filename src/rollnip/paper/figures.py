@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rollnip.interior import InteriorField
 from rollnip.lda import (
@@ -25,9 +26,11 @@ from rollnip.paper.cases import (
     figure_5_elastic,
     figure_5_viscoelastic,
 )
+from rollnip.paper.measures import stress_centre
 from rollnip.solution import Solution
 from rollnip.solve import solve
 
+Array = NDArray[np.float64]
 GEOMETRIES: tuple[Geometry, ...] = ("linear", "corrected", "curved")
 _SEEDING = Seeding(bursts=40, snr=30.0, spread=0.01)
 _DEPTHS, _PLACES = 81, 301
@@ -43,10 +46,18 @@ class PressureFigure:
 
 @dataclass(frozen=True, slots=True)
 class ContourFigure:
-    """Figure 5: two nips and the field inside the coating of their upper roller."""
+    """Figure 5: two nips and the field inside the coating of their upper roller.
+
+    Attributes
+    ----------
+    solutions : elastic and driven, viscoelastic and free.
+    fields : inside the coating of each.
+    centres : of the normal stress at the depths of each field [mm].
+    """
 
     solutions: tuple[Solution, Solution]
     fields: tuple[InteriorField, InteriorField]
+    centres: tuple[Array, Array]
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +98,15 @@ def contour_figure(model: Model | None = None) -> ContourFigure:
     "curved" by default.
     """
     elastic, viscous = (_solved(n, model) for n in (figure_5_elastic(), figure_5_viscoelastic()))
-    return ContourFigure((elastic, viscous), (_field(elastic), _field(viscous)))
+    fields = _field(elastic), _field(viscous)
+    centres = _centre(elastic, fields[0]), _centre(viscous, fields[1])
+    return ContourFigure((elastic, viscous), fields, centres)
+
+
+def _centre(solution: Solution, field: InteriorField) -> Array:
+    """Return where the centre of s_zz lies at the depths of a field [mm]."""
+    first, last = solution.contact[0][0], solution.contact[-1][1]
+    return 0.5 * (first + last) + 0.5 * (last - first) * stress_centre(solution, field.z)
 
 
 def strain_figure(number: Number, *, seed: int = 1993, positions: int = 41) -> StrainFigure:

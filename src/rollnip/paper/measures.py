@@ -12,6 +12,7 @@ from rollnip.solution import Solution
 Array = NDArray[np.float64]
 
 _BESIDE = 0.02  # of the stick zone left out at either end, where slip begins
+_REACH, _PLACES = 7.0, 2801  # half-widths on either side of the middle, places
 
 
 def edge_peak(solution: Solution) -> float:
@@ -37,6 +38,28 @@ def pressure_offset(solution: Solution) -> float:
     centre = float(np.trapezoid(pressure * x, x) / np.trapezoid(pressure, x))
     first, last = solution.contact[0][0], solution.contact[-1][1]
     return (centre - 0.5 * (first + last)) / (0.5 * (last - first))
+
+
+def stress_centre(solution: Solution, z: Array) -> Array:
+    """Return the centre of s_zz over the whole length, at depths ``z`` of the upper roller.
+
+    It is measured from the middle of the contact, over the half-width; > 0: towards the inlet.
+    Seven half-widths on either side hold all of the stress of a bonded covering.
+
+    Parameters
+    ----------
+    z : (n,) depths [mm].
+
+    Returns
+    -------
+    (n,) places over the half-width.
+    """
+    first, last = solution.contact[0][0], solution.contact[-1][1]
+    middle, half = 0.5 * (first + last), 0.5 * (last - first)
+    x = middle + half * np.linspace(-_REACH, _REACH, _PLACES)
+    stress = solution.interior("upper", z, x).s_zz
+    centre = np.trapezoid(x * stress, x) / np.trapezoid(stress, x)
+    return np.asarray((centre - middle) / half)
 
 
 def strain_in_stick(solution: Solution, side: Side = "upper") -> Array:

@@ -92,8 +92,10 @@ def draw_contours(data: ContourFigure) -> Figure:
     figure = Figure(figsize=_WIDE, layout="constrained")
     axes = figure.subplots(1, 2, sharey=True, sharex=True)
     titles = ("A  elastic, T = 1.0 N/mm", "B  viscoelastic, T = 0")
-    for ax, solution, field, title in zip(axes, data.solutions, data.fields, titles, strict=True):
+    parts = zip(axes, data.solutions, data.fields, data.centres, titles, strict=True)
+    for ax, solution, field, centre, title in parts:
         _contours(ax, solution, field)
+        ax.plot(centre, field.z, color=_COLORS[3], linestyle="--", linewidth=1.6)
         ax.set_title(title, loc="left", size=11)
     axes[0].set_ylabel("depth z [mm]")
     axes[0].invert_yaxis()
@@ -131,8 +133,6 @@ def _contours(ax: Axes, solution: Solution, field: InteriorField) -> None:
         field.x, field.z, field.s_zz, levels=levels, colors=_COLORS[1], linestyles="-"
     )
     ax.clabel(drawn, levels[::2], fontsize=7, fmt="%.1f")
-    centre = np.trapezoid(field.x * field.s_zz, field.x) / np.trapezoid(field.s_zz, field.x)
-    ax.plot(centre, field.z, color=_COLORS[3], linestyle="--", linewidth=1.6)
     for edge in (solution.contact[0][0], solution.contact[-1][1]):
         ax.plot([edge], [0.0], marker="v", color=_GREY, markersize=7, clip_on=False)
     middle = 0.5 * (solution.contact[0][0] + solution.contact[-1][1])

@@ -13,12 +13,20 @@ import {
   saveChart,
 } from "./files.js";
 import { MOST_KEPT } from "./compare.js";
-import { textDialog } from "./menus.js";
+import { askDialog, textDialog } from "./menus.js";
 import { paletteOf } from "./palette.js";
 import { fillReport } from "./report.js";
-import { saveDesign } from "./saved.js";
+import { same } from "./paths.js";
+import { saveDesign, savedDesigns } from "./saved.js";
+import { say } from "./texts.js";
 
 const LIGHT = "light"; // of every export
+const REFUSALS = {
+  none: "refuse.none",
+  unread: "refuse.unread",
+  computing: "refuse.computing",
+  preview: "refuse.computing",
+};
 
 /** Actions on `this.store`, `this.snapshot`, `this.tabs`. */
 export class Actions {
@@ -45,10 +53,27 @@ export class Actions {
 
   /** Save the design in this browser. */
   async save() {
-    await this.attempt("The browser keeps no designs", () => {
-      saveDesign(this.name, this.store.state.case);
-      this.say(`“${this.name}” is saved in this browser.`);
+    await this.attempt(say("save.failed"), async () => {
+      const tree = this.store.state.case;
+      const name = await this.freeName(this.name, tree);
+      if (name === null) return;
+      saveDesign(name, { ...tree, title: tree.title && name });
+      this.say(say("save.done", { name }));
     });
+  }
+
+  /** The name to save under, once nothing else is lost by it; null where it is not to be saved. */
+  async freeName(name, tree) {
+    const taken = new Map(savedDesigns().map((one) => [one.name, one.case]));
+    if (!taken.has(name) || same(taken.get(name), tree)) return name;
+    let other = name;
+    for (let count = 2; taken.has(other); count += 1) other = `${name} (${count})`;
+    const answer = await askDialog(say("save.exists", { name }), say("save.ask"), [
+      ["replace", say("save.replace")],
+      ["both", say("save.both", { name: other })],
+      ["", say("save.cancel")],
+    ]);
+    return { replace: name, both: other }[answer] ?? null;
   }
 
   keep() {
@@ -96,10 +121,17 @@ export class Actions {
     });
   }
 
-  /** {tree, result, ...} of the design at hand. Throws where there is no answer to it. */
+  /** {tree, result, ...} of the design at hand. Throws where what is shown is not its answer. */
   get answer() {
-    if (!this.snapshot || this.failure) throw new Error("there is no answer for this design.");
-    return this.snapshot;
+    const standing = this.standing();
+    if (standing === "settled") return this.snapshot;
+    throw new Error(say(REFUSALS[standing]));
+  }
+
+  /** The same with the surfaces as computed. */
+  get drawnAnswer() {
+    if (!this.answer.isPlaced) throw new Error(say("refuse.computing"));
+    return this.answer;
   }
 
   async saveCsv(what) {
@@ -112,8 +144,8 @@ export class Actions {
 
   async saveDrawing(format) {
     await this.attempt("The drawing could not be saved", async () => {
-      const { tree } = this.answer;
-      const text = drawingSvg(this.answer, { palette: paletteOf(LIGHT), units: this.units() });
+      const { tree } = this.drawnAnswer;
+      const text = drawingSvg(this.drawnAnswer, { palette: paletteOf(LIGHT), units: this.units() });
       const content = format === "svg" ? new Blob([text], { type: "image/svg+xml" }) : await rasterOf(text);
       download(fileName(tree, `drawing.${format}`), content);
     });
@@ -123,9 +155,9 @@ export class Actions {
   async exportChart(format) {
     await this.attempt("The chart could not be saved", async () => {
       const view = this.tabs.open;
-      const figure = view.figure(this.answer, paletteOf(LIGHT));
+      const figure = view.isOld?.() ? null : view.figure(this.answer, paletteOf(LIGHT));
       const name = fileName(this.answer.tree, `${view.id}.${format.toLowerCase()}`);
-      if (!figure) throw new Error("there is nothing to save yet.");
+      if (!figure) throw new Error(say("refuse.empty"));
       if (format === "CSV") download(name, chartCsv(figure), "text/csv");
       else await saveChart(figure, format, name);
     });
@@ -133,7 +165,7 @@ export class Actions {
 
   async report() {
     await this.attempt("The report could not be made", async () => {
-      const { answer } = this;
+      const answer = this.drawnAnswer;
       const { hash } = await post("/api/case", answer.tree);
       const date = new Date().toISOString().slice(0, 10);
       await fillReport(answer, this.units(), paletteOf(LIGHT), { hash, date });

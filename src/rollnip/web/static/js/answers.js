@@ -2,32 +2,46 @@
 
 import { byId, el, withUnit } from "./dom.js";
 import { ANSWERS, errorOf, flat, totalsOf } from "./quantities.js";
+import { say } from "./texts.js";
 import { number } from "./units.js";
 
 const SECONDS = ["peak_pressure", "approach", "dwell_time", "speed_ratio"];
 const ROOT = document.documentElement;
 
-/** Show a result. `state` is "preview" while a slider moves, else "settled". */
-export function showAnswers(result, units, state) {
+/** Show a result. */
+export function showAnswers(result, units) {
   const all = flat(result);
-  ROOT.classList.toggle("preview", state === "preview");
-  ROOT.classList.remove("stale");
   ROOT.classList.toggle("unsound", !result.converged);
   const nip = units.format(all.nip_width, "length");
   byId("big").replaceChildren(
     ...withUnit(nip),
-    el("span", { class: "error", text: errorText(result, units, state) }),
+    el("span", { class: "error", id: "big-error" }),
   );
   byId("big-hint").textContent = ANSWERS[0].hint(all);
   byId("seconds").replaceChildren(...SECONDS.map((key) => second(key, all, units)));
-  showMini(result, units);
   showFigures(all, units);
-  showWarnings(result, state);
+  showWarnings(result);
   showSolver(result);
 }
 
-function errorText(result, units, state) {
-  if (state === "preview") return "preview while you move the slider";
+/**
+ * Show how what is shown stands to the inputs: "settled" or "preview" where it is their answer,
+ * "computing", "unread" or "none" where it is not.
+ */
+export function showStanding(standing, snapshot, units) {
+  ROOT.dataset.standing = standing;
+  const isOld = standing !== "settled" && standing !== "preview";
+  ROOT.classList.toggle("old", isOld);
+  ROOT.classList.toggle("stale", standing === "none");
+  ROOT.classList.toggle("preview", standing === "preview");
+  const said = standing === "settled" ? numericalError(snapshot.result, units) : say(`state.${standing}`);
+  const line = document.getElementById("big-error");
+  if (line) line.textContent = said;
+  if (isOld) byId("mini").replaceChildren(el("span", { class: "alarm", text: said }));
+  else if (snapshot) showMini(snapshot.result, units);
+}
+
+function numericalError(result, units) {
   const error = result.error?.nip_width;
   return error ? `± ${units.error(error, "length")} (estimated numerical error)` : "";
 }
@@ -82,12 +96,10 @@ function figure(label, key, shown, error, hint) {
   );
 }
 
-/** Reservations of the model, and above all an unconverged answer. */
-function showWarnings(result, state) {
+/** Reservations of the model. */
+function showWarnings(result) {
   byId("warnings").replaceChildren(...result.warnings.map((text) => el("li", { text })));
   byId("warnings-card").hidden = result.warnings.length === 0;
-  if (result.converged) byId("alarm").replaceChildren();
-  else if (state !== "preview") alarm("NOT CONVERGED: do not use these numbers", [result.solver.status]);
 }
 
 function showSolver({ solver, geometry }) {
@@ -96,18 +108,30 @@ function showSolver({ solver, geometry }) {
     `Computed with rollnip ${solver.version}, geometry “${geometry}”: ${change}. Errors shown are numerical; the modulus of a real rubber is usually known far worse.`;
 }
 
-/** An alarm above everything: a title and sentences. */
-export function alarm(title, sentences) {
-  byId("alarm").replaceChildren(
-    el("div", { class: "alarm" }, el("b", { text: title }), ...sentences.map((text) => el("p", { text }))),
+/** An alarm above everything: a title, sentences, and elements below them. */
+export function alarm(title, sentences, ...more) {
+  const key = JSON.stringify([title, sentences]);
+  const box = byId("alarm");
+  if (box.dataset.said === key && box.firstChild) return; // said already: it is not read out again
+  box.dataset.said = key;
+  box.replaceChildren(
+    el(
+      "div",
+      { class: "alarm" },
+      el("b", { text: title }),
+      ...sentences.map((text) => el("p", { text })),
+      ...more,
+    ),
   );
 }
 
-/** There is no answer to the design as it stands: what is shown belongs to an older one. */
-export function showFailure(sentences) {
-  ROOT.classList.add("stale");
-  alarm("No answer for this design", sentences);
-  byId("mini").replaceChildren(el("span", { class: "alarm", text: "No answer for this design" }));
+export function clearAlarm() {
+  byId("alarm").replaceChildren();
+}
+
+/** That an answer is none. */
+export function unsoundAlarm({ solver }) {
+  alarm(say("alarm.unsound"), [solver.status]);
 }
 
 /** What a screen reader hears when an answer settles. */

@@ -28,6 +28,7 @@ export const SOLVE = "/api/solve?interfaces=false";
 
 const RETRIES = 4;
 const WAIT = 400; // ms before asking a busy server again
+const AGAIN = 1500; // ms before asking one that does not answer
 
 /** GET a path. */
 export async function get(path) {
@@ -45,19 +46,48 @@ export async function post(path, tree, signal) {
   for (let turn = 0; ; turn += 1) {
     const response = await reach(path, request);
     if (response.status !== 429 || turn === RETRIES) return answer(response);
-    await new Promise((resume) => {
-      setTimeout(resume, WAIT * (turn + 1));
-    });
+    await pause(WAIT * (turn + 1), signal);
   }
 }
 
+/** What is told when the server stops answering (true) and when it answers again (false). */
+const outage = { tell: () => {}, lasts: false };
+
+/** Call `tell(yes)` when the server stops answering, and when it answers again. */
+export function onOutage(tell) {
+  outage.tell = tell;
+}
+
+/** Ask until the server answers or nobody waits any more. */
 async function reach(path, request) {
-  try {
-    return await fetch(path, request);
-  } catch (error) {
-    if (error.name === "AbortError") throw error;
-    throw new ApiError("The server does not answer. Is “rollnip serve” still running?", 0);
+  for (;;) {
+    try {
+      const response = await fetch(path, request);
+      setOutage(false);
+      return response;
+    } catch (error) {
+      if (error.name === "AbortError") throw error;
+      setOutage(true);
+    }
+    await pause(AGAIN, request.signal);
   }
+}
+
+function setOutage(yes) {
+  if (outage.lasts === yes) return;
+  outage.lasts = yes;
+  outage.tell(yes);
+}
+
+/** Wait; who gives up throws as a request given up does. */
+function pause(time, signal) {
+  return new Promise((resolve, reject) => {
+    const timer = setTimeout(resolve, time);
+    signal?.addEventListener("abort", () => {
+      clearTimeout(timer);
+      reject(new DOMException("given up", "AbortError"));
+    });
+  });
 }
 
 async function answer(response) {

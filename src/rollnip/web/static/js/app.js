@@ -1,12 +1,12 @@
 // What the page knows and does; views and menus call it.
 
 import { Actions } from "./actions.js";
-import { announce, showAnswers, showFailure } from "./answers.js";
-import { post, sentencesOf } from "./api.js";
+import { announce, clearAlarm, alarm, showAnswers, showStanding, unsoundAlarm } from "./answers.js";
+import { onOutage, post, sentencesOf } from "./api.js";
 import { CompareView, MOST_KEPT } from "./compare.js";
 import { CurveView } from "./curves.js";
 import { defaultCase, designOf, nameOf } from "./design.js";
-import { byId, toast } from "./dom.js";
+import { button, byId, toast } from "./dom.js";
 import { Drawings } from "./drawings.js";
 import { FindView } from "./find.js";
 import { icon } from "./icons.js";
@@ -20,6 +20,7 @@ import { inputAt } from "./quantities.js";
 import { Runner } from "./runner.js";
 import { Store } from "./store.js";
 import { Tabs } from "./tabs.js";
+import { say } from "./texts.js";
 import { Theme } from "./theme.js";
 import { Units } from "./units.js";
 import { WhatIfView } from "./whatif.js";
@@ -41,8 +42,11 @@ export class App extends Actions {
     super();
     this.table = units;
     this.library = materials;
-    this.snapshot = null; // {tree, result, state, surfaces} last shown
+    this.snapshot = null; // {tree, result, state, surfaces, isPlaced} last shown
     this.failure = null; // {tree, error} where the design at hand has no answer
+    this.broken = null; // why a link could not be opened, until something else is asked for
+    this.isOut = false; // whether the server has stopped answering
+    this.reading = 0; // texts that the server is reading
     this.store = new Store({ case: defaultCase(), kept: [], view: VIEW });
     this.theme = new Theme(() => this.recolour());
     this.runner = new Runner({
@@ -57,6 +61,10 @@ export class App extends Actions {
     this.tabs = new Tabs(this.views(), this);
     this.examples = examplesDialog(examples, (example) => this.open(example.case, example.title));
     this.wire();
+    onOutage((yes) => {
+      this.isOut = yes;
+      this.stand();
+    });
     this.store.listen((state, why) => this.changed(state, why));
   }
 
@@ -112,18 +120,33 @@ export class App extends Actions {
       const state = await stateIn(hash);
       if (state !== undefined) return await this.restore(state);
     } catch (error) {
-      this.complain(`This link could not be opened: ${sentencesOf(error).slice(0, 3).join(" ")}`);
+      return this.refuseLink(sentencesOf(error).slice(0, 3).join(" "));
     }
     return this.changed(this.store.state, "design");
+  }
+
+  /** No answer is shown that one might take for that of the link. */
+  refuseLink(why) {
+    this.broken = why;
+    this.failure = null;
+    this.complain(`${say("link.title")}: ${why}`);
+    this.changed(this.store.state, "view");
+    if (!this.snapshot) byId("big").textContent = "–";
+    document.documentElement.dataset.state = "rest";
   }
 
   /** A state from outside: every case goes through the server's check first. */
   async restore(state) {
     const { case: tree, kept: others = [] } = state ?? {};
     if (!tree || !Array.isArray(others)) throw new Error("it holds no design.");
-    const cases = [tree, ...others.slice(0, MOST_KEPT)];
-    const [first, ...kept] = await Promise.all(cases.map((one) => this.checked(one)));
+    const first = await this.checked(tree);
+    const read = await Promise.allSettled(others.slice(0, MOST_KEPT).map((one) => this.checked(one)));
+    const kept = read.filter(({ status }) => status === "fulfilled").map(({ value }) => value);
+    const lost = read.filter(({ status }) => status === "rejected");
     this.store.replace({ case: first, kept, view: viewOf(state) });
+    if (lost.length === 0) return;
+    const why = sentencesOf(lost[0].reason)[0];
+    this.complain(say("link.kept", { count: lost.length, why }));
   }
 
   async checked(tree) {
@@ -161,13 +184,49 @@ export class App extends Actions {
     this.tabs.refresh();
     if (why === "view") this.showAll();
     else this.ask(state.case, why);
+    this.stand();
   }
 
   ask(tree, why) {
     clearTimeout(this.idle);
     document.documentElement.dataset.state = "waiting";
+    document.documentElement.classList.toggle("moving", why === "live");
+    this.broken = null;
+    if (why === "design") this.failure = null;
     if (why === "live") this.move(tree);
-    else this.runner.settle(tree);
+    else this.runner.settle(tree, why === "rest");
+  }
+
+  /** How what is shown stands to the inputs: only "settled" is their answer. */
+  standing() {
+    if (this.failure || this.broken) return "none";
+    if (this.inputs.isUnread()) return "unread";
+    if (this.reading > 0 || this.snapshot?.tree !== this.store.state.case) return "computing";
+    return this.snapshot.state;
+  }
+
+  /** Show how what is shown stands to the inputs, and what must be said above everything. */
+  stand() {
+    if (!this.inputs) return; // the boxes write for the first time
+    const standing = this.standing();
+    showStanding(standing, this.snapshot, this.units());
+    if (this.isOut) alarm(say("outage.title"), [say("outage.text")]);
+    else if (this.broken) this.alarmLink();
+    else if (this.failure) this.alarmFailure();
+    else if (standing === "settled" && !this.snapshot.result.converged) unsoundAlarm(this.snapshot.result);
+    else clearAlarm();
+  }
+
+  alarmLink() {
+    const goOn = () => this.ask(this.store.state.case, "design");
+    const go = button(say("link.go-on"), () => [goOn(), this.stand()], { id: "link-go-on" });
+    alarm(say("link.title"), [this.broken, say("link.text")], go);
+  }
+
+  /** A text is being read by the server (1), or no longer (-1). */
+  reads(change) {
+    this.reading += change;
+    this.stand();
   }
 
   busy(yes) {
@@ -183,10 +242,13 @@ export class App extends Actions {
 
   answered(tree, result, state) {
     const moved = this.snapshot && state === "preview";
-    this.snapshot = { tree, result, state, surfaces: this.snapshot?.surfaces ?? null };
+    const surfaces = this.snapshot?.surfaces ?? null;
+    this.snapshot = { tree, result, state, surfaces, isPlaced: false };
     this.failure = null;
     this.inputs.complain([]);
-    showAnswers(result, this.units(), state);
+    byId("drawings").classList.add("old");
+    showAnswers(result, this.units());
+    this.stand();
     this.tabs.open.show(this.snapshot);
     if (!moved) {
       announce(result, this.units());
@@ -196,35 +258,36 @@ export class App extends Actions {
 
   placed(tree, surfaces, result) {
     if (this.snapshot?.result !== result) return;
-    this.snapshot = { ...this.snapshot, surfaces };
+    this.snapshot = { ...this.snapshot, surfaces, isPlaced: true };
+    byId("drawings").classList.remove("old");
     this.drawings.show(this.snapshot);
   }
 
   failed(tree, error) {
     this.failure = { tree, error };
-    this.showFailed();
+    this.inputs.complain(error.details ?? []);
+    this.stand();
   }
 
   /** Each complaint at its input and, in words, above everything. */
-  showFailed() {
+  alarmFailure() {
     const { tree, error } = this.failure;
     const details = (error.details ?? []).map(({ path, message }) => ({
       path,
       message: this.units().said(message, getAt(tree, path ?? ""), inputAt(path ?? "", tree).dimension),
     }));
-    this.inputs.complain(error.details ?? []);
-    showFailure(sentencesOf({ message: error.message, details }));
+    alarm(say("alarm.none"), sentencesOf({ message: error.message, details }));
   }
 
   /** The same answer, or that there is none, in other units, colours or tabs. */
   showAll() {
     if (this.snapshot) {
       this.remember();
-      showAnswers(this.snapshot.result, this.units(), this.snapshot.state);
+      showAnswers(this.snapshot.result, this.units());
       this.drawings.show(this.snapshot);
       this.tabs.open.show(this.snapshot);
     }
-    if (this.failure) this.showFailed();
+    if (this.failure) this.inputs.complain(this.failure.error.details ?? []);
   }
 
   recolour() {

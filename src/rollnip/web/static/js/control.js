@@ -16,6 +16,7 @@ export class Control {
     this.path = path;
     this.app = app;
     this.sent = null;
+    this.tried = null; // the text that was last sent to be read
     this.asked = 0; // how many texts were sent to be read
     this.isUnread = false; // the box holds what nobody can read
     this.node = this.build();
@@ -51,6 +52,8 @@ export class Control {
     this.slider.addEventListener("input", () => this.slid());
     this.slider.addEventListener("pointerup", () => this.app.store.rest());
     this.box.addEventListener("change", () => this.typed());
+    this.box.addEventListener("blur", () => this.left());
+    this.box.addEventListener("keydown", (event) => this.key(event));
     return el(
       "div",
       { class: "control", "data-path": this.path },
@@ -60,6 +63,24 @@ export class Control {
       this.wrong,
       hint ? el("p", { class: "hint", id: `${id}-hint`, text: hint }) : null,
     );
+  }
+
+  /** Undo takes back what was typed; where nothing was, the last change of the design. */
+  key(event) {
+    const name = event.key.toLowerCase();
+    if (!(event.ctrlKey || event.metaKey) || event.altKey || (name !== "z" && name !== "y")) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const { store } = this.app;
+    if (this.box.value.trim() !== this.text) this.write();
+    else if (name === "y" || event.shiftKey) store.redo();
+    else store.undo();
+  }
+
+  /** What a browser put into the box without saying so is read, too. */
+  left() {
+    const text = this.box.value.trim();
+    if (text !== this.text && text !== this.tried) this.typed();
   }
 
   /** Show the value of a design, in the unit now chosen. */
@@ -86,8 +107,10 @@ export class Control {
   /** The value of the design in the box, whatever was typed there. */
   write() {
     this.box.value = this.text;
+    this.tried = null;
     this.isUnread = false;
     this.complain("");
+    this.app.stand();
   }
 
   /** What the server says of the value; a text that cannot be read is worse, and stays said. */
@@ -131,6 +154,8 @@ export class Control {
     const { dimension, factor } = this.input;
     const before = this.value;
     const isLate = () => turn !== this.asked || this.value !== before;
+    this.tried = text;
+    this.app.reads(1);
     try {
       const { value } = await post("/api/quantity", this.question(text, dimension));
       if (isLate()) return undefined;
@@ -140,6 +165,8 @@ export class Control {
       if (isLate()) return undefined;
       this.isUnread = true;
       return this.complain(complaintOf(error));
+    } finally {
+      this.app.reads(-1);
     }
   }
 

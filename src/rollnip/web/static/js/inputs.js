@@ -84,6 +84,11 @@ export class Inputs {
     }
   }
 
+  /** Whether a box holds what nobody can read. */
+  isUnread() {
+    return this.controls.some((control) => control.isUnread && control.node.isConnected);
+  }
+
   pressingGroup(tree) {
     const kind = pressing(tree);
     const choose = (value) => this.change(pressBy(this.app.store.state.case, value, this.app.result()));

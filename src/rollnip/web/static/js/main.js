@@ -1,13 +1,15 @@
 // The page put together: state, inputs, answers, tabs, menus.
 
-import { get } from "./api.js";
+import { get, onOutage } from "./api.js";
 import { App } from "./app.js";
 import { byId, el } from "./dom.js";
-import { alarm } from "./answers.js";
+import { alarm, clearAlarm } from "./answers.js";
+import { say } from "./texts.js";
 
 const PICKED = ".toml,.json,application/toml,application/json,text/plain";
 
 async function start() {
+  onOutage((yes) => (yes ? alarm(say("outage.title"), [say("outage.text")]) : clearAlarm()));
   const [units, materials, examples] = await Promise.all([
     get("/api/units"),
     get("/api/materials"),

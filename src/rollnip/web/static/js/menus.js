@@ -145,3 +145,24 @@ export function textDialog(title, text) {
   dialog.showModal();
   area.select();
 }
+
+/** A question with some answers, [key, text] each; the key chosen, "" where it was only closed. */
+export function askDialog(title, text, answers) {
+  const dialog = el("dialog", { class: "ask-dialog", "aria-label": title });
+  const choose = (key) => () => dialog.close(key);
+  const buttons = answers.map(([key, words], i) =>
+    button(words, choose(key), { kind: i === 0 ? "main" : "", id: `answer-${key || "none"}` }),
+  );
+  dialog.append(
+    el("header", {}, el("h2", { text: title })),
+    el("div", { class: "body" }, el("p", { text }), el("div", { class: "row" }, ...buttons)),
+  );
+  document.body.append(dialog);
+  dialog.showModal();
+  return new Promise((resolve) => {
+    dialog.addEventListener("close", () => {
+      dialog.remove();
+      resolve(dialog.returnValue);
+    });
+  });
+}

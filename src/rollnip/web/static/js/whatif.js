@@ -55,7 +55,23 @@ export class WhatIfView {
     const now = { value: getAt(tree, input.path), result: flat(result) };
     this.asking = { key, input, asked, now };
     if (this.sweep?.key === key) this.draw();
-    else await this.fetch(key, tree, input.path, values);
+    else {
+      if (!this.shown) this.begin(values);
+      await this.fetch(key, tree, input.path, values);
+    }
+  }
+
+  /** Axes and the dot of the design, while there is no curve yet. */
+  begin(values) {
+    const ends = [values[0], values[values.length - 1]];
+    const sweep = { key: null, values: ends, results: ends.map(() => ({ converged: false })) };
+    this.shown = { ...this.asking, sweep };
+    this.chart.show(curve(this.shown, this.app.units(), this.app.palette()));
+  }
+
+  /** Whether what is drawn is still of an older question. */
+  isOld() {
+    return this.sweep?.key !== this.asking?.key || this.sweep.values.length < POINTS;
   }
 
   choose(inputs, answers, input, asked) {
@@ -95,6 +111,7 @@ export class WhatIfView {
     const abort = new AbortController();
     this.abort = abort;
     this.said.textContent = "Computing …";
+    this.chart.node.classList.add("old");
     const found = new Map();
     const isFirst = (i) => i % COARSE === 0;
     try {
@@ -120,6 +137,7 @@ export class WhatIfView {
       this.said.textContent = lost
         ? `${lost} of ${results.length} values have no sound answer and are left out.`
         : "The dot is your design; each point of the curve is a full solution.";
+    this.chart.node.classList.remove("old");
     this.shown = { ...this.asking, sweep: this.sweep };
     this.chart.show(curve(this.shown, this.app.units(), this.app.palette()));
   }

@@ -1,0 +1,27 @@
+// The messages of the page in German.
+
+export const DE = {
+  "state.computing": "wird berechnet …",
+  "state.preview": "Vorschau, solange der Regler bewegt wird",
+  "state.unread": "gilt nicht für diese Eingaben: ein Feld ist nicht lesbar",
+  "state.none": "keine Antwort für diese Eingaben",
+  "refuse.none": "für diesen Entwurf gibt es keine Antwort.",
+  "refuse.computing": "die Antwort auf diese Eingaben wird noch berechnet.",
+  "refuse.unread": "ein Feld ist nicht lesbar.",
+  "refuse.empty": "noch gibt es nichts zu speichern.",
+  "outage.title": "Der Server antwortet nicht",
+  "outage.text": "Läuft „rollnip serve“ noch? Die Seite fragt von selbst wieder.",
+  "link.title": "Dieser Link ließ sich nicht öffnen",
+  "link.text": "Was unten steht, ist nicht der Entwurf des Links.",
+  "link.go-on": "Mit dem Entwurf unten weitermachen",
+  "link.kept": "{count} der gemerkten Entwürfe ließen sich nicht lesen: {why}",
+  "alarm.none": "Keine Antwort für diesen Entwurf",
+  "alarm.unsound": "NICHT KONVERGIERT: Diese Zahlen nicht verwenden",
+  "save.exists": "„{name}“ ist schon gespeichert",
+  "save.ask": "Unter diesem Namen ist in diesem Browser ein anderer Entwurf gespeichert.",
+  "save.replace": "Ersetzen",
+  "save.both": "Beide behalten, als „{name}“",
+  "save.cancel": "Abbrechen",
+  "save.done": "„{name}“ ist in diesem Browser gespeichert.",
+  "save.failed": "Der Browser speichert keine Entwürfe",
+};

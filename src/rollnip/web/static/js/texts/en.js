@@ -1,0 +1,27 @@
+// The messages of the page in English.
+
+export const EN = {
+  "state.computing": "computing …",
+  "state.preview": "preview while you move the slider",
+  "state.unread": "not for these inputs: a box holds what cannot be read",
+  "state.none": "no answer for these inputs",
+  "refuse.none": "there is no answer for this design.",
+  "refuse.computing": "the answer to these inputs is still being computed.",
+  "refuse.unread": "a box holds what cannot be read.",
+  "refuse.empty": "there is nothing to save yet.",
+  "outage.title": "The server does not answer",
+  "outage.text": "Is “rollnip serve” still running? The page asks again by itself.",
+  "link.title": "This link could not be opened",
+  "link.text": "What stands below is not the design of the link.",
+  "link.go-on": "Go on with what stands below",
+  "link.kept": "{count} of the kept designs could not be read: {why}",
+  "alarm.none": "No answer for this design",
+  "alarm.unsound": "NOT CONVERGED: do not use these numbers",
+  "save.exists": "“{name}” is saved already",
+  "save.ask": "Another design of this name is saved in this browser.",
+  "save.replace": "Replace it",
+  "save.both": "Keep both, as “{name}”",
+  "save.cancel": "Cancel",
+  "save.done": "“{name}” is saved in this browser.",
+  "save.failed": "The browser keeps no designs",
+};

@@ -3,7 +3,7 @@
 import json
 
 import pytest
-from tests.browser.conftest import DEFAULT, fragment, new_context
+from tests.browser.conftest import DEFAULT, Designer, fragment, new_context
 
 pytestmark = pytest.mark.slow
 
@@ -15,7 +15,7 @@ STANDING = "document.documentElement.dataset.standing"
 @pytest.fixture(autouse=True)
 def ungated(opened):
     yield
-    opened[0].page.unroute_all(behavior="wait")
+    opened[0].page.unroute_all(behavior="ignoreErrors")
 
 
 def is_old(designer):
@@ -90,8 +90,6 @@ def test_figures_beside_a_text_nobody_can_read_look_old(designer):
 
 
 def test_after_an_outage_the_page_asks_again_by_itself(browser, base):
-    from tests.browser.conftest import Designer
-
     context = new_context(browser)
     designer = Designer(context.new_page(), base).open()
     page = designer.page
@@ -126,7 +124,8 @@ def test_undo_in_a_box_keeps_box_and_answer_together(designer):
 
 def test_saving_under_a_name_that_is_taken_asks_first(designer):
     page = designer.page
-    saved = "JSON.parse(localStorage.getItem('rollnip.designs') ?? '[]').map(d => [d.name, d.case.nip.load])"
+    stored = "JSON.parse(localStorage.getItem('rollnip.designs') ?? '[]')"
+    saved = f"{stored}.map(d => [d.name, d.case.nip.load])"
 
     def save():
         page.click("#open-designs")
@@ -237,8 +236,6 @@ def quick(route):
 
 @pytest.mark.parametrize("width", [1000, 1050, 1100])
 def test_nothing_is_too_wide_in_a_small_window(browser, base, width):
-    from tests.browser.conftest import Designer
-
     context = new_context(browser, viewport={"width": width, "height": 800})
     designer = Designer(context.new_page(), base).open()
     designer.trace("chart-pressure", "pressure")
@@ -254,10 +251,13 @@ def test_nothing_is_too_wide_after_the_window_was_narrowed(fresh):
         page.set_viewport_size({"width": width, "height": 900})
         fresh.until(
             "document.documentElement.scrollWidth <= document.documentElement.clientWidth",
-            timeout=5_000,
+            timeout=15_000,
         )
-        inside = "[...document.querySelectorAll('main .card')].every(c => c.getBoundingClientRect().right <= innerWidth)"
-        fresh.until(inside, timeout=5_000)
+        cards = "[...document.querySelectorAll('main .card')]"
+        fresh.until(
+            f"{cards}.every(card => card.getBoundingClientRect().right <= innerWidth)",
+            timeout=15_000,
+        )
 
 
 def overhang(page):

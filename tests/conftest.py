@@ -2,9 +2,13 @@
 
 import os
 from dataclasses import dataclass
+from tempfile import TemporaryDirectory
 
 for _name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):
     os.environ.setdefault(_name, "1")
+# what rollnip remembers of the files it wrote stays in the test run
+_STATE = TemporaryDirectory(prefix="rollnip-state-")
+os.environ["XDG_STATE_HOME"] = _STATE.name
 
 import numpy as np  # noqa: E402
 import pytest  # noqa: E402

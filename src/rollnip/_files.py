@@ -1,13 +1,126 @@
-"""Writing a file all or nothing."""
+"""Files of one command: what it reads is never written over, what it writes comes all or nothing.
+
+A command opens a run (`one_run`). Readers tell the run what they read (`reading`); the command
+reserves what it will write (`Run.reserve`) before it computes. A file that is there already may
+be written over where a run of rollnip wrote it and nobody changed it since, or with ``force``.
+That is told by a checksum of what was written, kept under the name of the file in the folder for
+the state of programs of the user; the files themselves carry no mark.
+"""
 
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
-from contextlib import suppress
+import sys
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager, suppress
+from contextvars import ContextVar
+from dataclasses import dataclass, field
+from hashlib import file_digest, sha256
 from pathlib import Path
 
 from rollnip._errors import RollnipError
+
+_DIGITS = 24  # of each checksum
+_Identity = tuple[int, int]
+
+
+@dataclass(slots=True)
+class Run:
+    """The files of one command.
+
+    Attributes
+    ----------
+    force : whether files that rollnip did not make may be written over.
+    """
+
+    force: bool
+    _read: dict[str | _Identity, str] = field(default_factory=dict)
+    _targets: dict[str, str] = field(default_factory=dict)
+
+    def reserve(self, targets: Mapping[str, Path | None]) -> None:
+        """Claim files to be written, by the option that names them; None: not asked for.
+
+        Raises
+        ------
+        RollnipError
+            where two options name one file, the run reads the file, or it is there, is not as
+            rollnip wrote it and ``force`` is not given.
+        """
+        for option, path in targets.items():
+            if path is None:
+                continue
+            place = os.path.realpath(path)
+            if place in self._targets:
+                raise RollnipError(
+                    f"{path}: must not be written by {self._targets[place]} and {option} both; "
+                    "choose two names."
+                )
+            self._targets[place] = option
+            self.require_free(path)
+
+    def require_free(self, path: Path) -> None:
+        """Raise RollnipError where a file must not be written over."""
+        if any(key in self._read for key in _keys(path)):
+            raise RollnipError(
+                f"{path}: must not be written over, this command reads it; choose another name."
+            )
+        if not self.force and path.is_file() and not _is_own(path):
+            raise RollnipError(
+                f"{path}: is there already, and is not as rollnip wrote it; choose another name, "
+                "or write over it with --force."
+            )
+
+    def note(self, path: Path) -> None:
+        """Take down a file that is read; RollnipError where it was to be written."""
+        for key in _keys(path):
+            self._read[key] = str(path)
+        for place, option in self._targets.items():
+            if any(key in self._read for key in _keys(Path(place))):
+                raise RollnipError(
+                    f"{path}: must not be written over, this command reads it; choose another "
+                    f"name for {option}."
+                )
+
+    def note_input(self) -> None:
+        """Take down the file that the standard input comes from, where it is one."""
+        with suppress(OSError, ValueError):
+            found = os.fstat(sys.stdin.fileno())
+            self._read[(found.st_dev, found.st_ino)] = "the standard input"
+
+
+# The run of this thread of control. Readers stand floors below the commands and are called by
+# Python programs too, which open no run: a context variable reaches them without an argument.
+_RUN: ContextVar[Run | None] = ContextVar("run", default=None)
+
+
+@contextmanager
+def one_run(*, force: bool = False) -> Iterator[Run]:
+    """Protect what is read meanwhile; within another run its rules go on."""
+    outer = _RUN.get()
+    if outer is not None:
+        yield outer
+        return
+    token = _RUN.set(Run(force))
+    try:
+        run = _RUN.get()
+        assert run is not None
+        yield run
+    finally:
+        _RUN.reset(token)
+
+
+def reading(path: str | Path) -> None:
+    """Tell the run, where there is one, that a file is read; ``-`` is the standard input.
+
+    Raises RollnipError where the run is to write that file.
+    """
+    run = _RUN.get()
+    if run is None:
+        return
+    if str(path) == "-":
+        run.note_input()
+    else:
+        run.note(Path(path))
 
 
 def check_target(path: Path, suffixes: tuple[str, ...]) -> None:
@@ -44,15 +157,75 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     """Let ``write`` fill a temporary file beside ``path``, then rename it onto ``path``.
 
     Whatever goes wrong, ``path`` stays as it was and the temporary file is removed; an OSError
-    becomes a RollnipError of one line.
+    becomes a RollnipError of one line. In a run, what it must not write over raises RollnipError.
     """
+    run = _RUN.get()
     target = Path(os.path.realpath(path))
     temporary = target.with_name(f".{os.getpid()}-{target.name}")
+    if run is not None:
+        run.require_free(path)
     try:
         write(temporary)
+        old = None if run is None else _mark(target)
         temporary.replace(target)
+        if run is not None:
+            _remember(target, old)
     except OSError as error:
         raise RollnipError(f"{path}: cannot write: {error.strerror or error}.") from error
     finally:
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
+
+
+def _keys(path: Path) -> list[str | _Identity]:
+    """What tells a file from others: its true name, and where it is there what a hard link has."""
+    keys: list[str | _Identity] = []
+    with suppress(OSError, ValueError):
+        keys.append(os.path.realpath(path))
+        found = path.stat()
+        keys.append((found.st_dev, found.st_ino))
+    return keys
+
+
+def _is_own(path: Path) -> bool:
+    """Whether a file is as a run of rollnip wrote it last."""
+    try:
+        mark = _mark(Path(os.path.realpath(path)))
+        return mark is not None and mark.exists()
+    except OSError:
+        return False
+
+
+def _remember(target: Path, old: Path | None) -> None:
+    """Keep the mark of what stands at ``target`` now in place of an old one.
+
+    Where it cannot be kept, the file counts as another's from then on.
+    """
+    with suppress(OSError):
+        mark = _mark(target)
+        if mark is None:
+            return
+        mark.parent.mkdir(parents=True, exist_ok=True)
+        mark.touch()
+        if old is not None and old != mark:
+            old.unlink(missing_ok=True)
+
+
+def _mark(target: Path) -> Path | None:
+    """The empty file whose name says: rollnip wrote ``target`` as it stands; None: no file."""
+    if not target.is_file():
+        return None
+    name = sha256(str(target).encode("utf-8", "surrogateescape")).hexdigest()[:_DIGITS]
+    with target.open("rb") as stream:
+        found = file_digest(stream, "sha256").hexdigest()[:_DIGITS]
+    return _memory() / f"{name}-{found}"
+
+
+def _memory() -> Path:
+    """The folder of the marks, for this user."""
+    state = os.environ.get("XDG_STATE_HOME") or os.environ.get("LOCALAPPDATA")
+    try:
+        folder = Path(state) if state else Path.home() / ".local" / "state"
+    except RuntimeError as error:  # a user without a home
+        raise OSError(str(error)) from None
+    return folder / "rollnip" / "written"

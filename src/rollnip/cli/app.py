@@ -12,10 +12,12 @@ from typing import TYPE_CHECKING, Annotated, TextIO, cast
 import typer
 
 from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
+from rollnip._files import one_run
 from rollnip.cli.design import find, optimise, pareto, tolerance
 from rollnip.cli.dma import dma
 from rollnip.cli.fit import fit
 from rollnip.cli.lda import lda
+from rollnip.cli.options import Force
 from rollnip.cli.paper import paper
 from rollnip.cli.serve import serve
 from rollnip.cli.sweep import sweep
@@ -79,15 +81,17 @@ def solve(
         str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides too.")
     ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary.")] = False,
+    force: Force = False,
 ) -> None:
     """Solve one nip and print a summary.
 
     Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
     """
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip.io import check_result_target, read_case, result_text, write_result
 
         problem = read_case(case)
+        run.reserve({"--out": out, "--fields": fields, "--plot": plot})
         model = _overridden(problem.model, geometry, tolerance)
         if out is not None:
             check_result_target(out)

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from rollnip._errors import InvalidInputError
+from rollnip._files import one_run
+from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip.design import Found
@@ -47,6 +49,7 @@ def find(
     json: Annotated[bool, _JSON] = False,
     out: Annotated[Path | None, _CASE_OUT] = None,
     database: Annotated[Path | None, _DATABASE] = None,
+    force: Force = False,
 ) -> None:
     """Find the value of a parameter that gives a wanted result.
 
@@ -55,7 +58,7 @@ def find(
     """
     from rollnip.cli.app import _clear_failures, _named
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip._units import parse_quantity
         from rollnip.design import find as search
         from rollnip.io.document import read_document
@@ -63,9 +66,10 @@ def find(
         quantity, value = _parted(wanted)
         with _named("--tolerance"):
             share = parse_quantity(tolerance, "ratio")
+        tree = _with_geometry(read_document(case), geometry)
+        run.reserve({"--out": out})
         if out is not None:
             _check_case_target(out)
-        tree = _with_geometry(read_document(case), geometry)
         with _option_named(case), _evaluating(database, tree, [path]) as evaluate:
             found = search(
                 tree,
@@ -91,6 +95,7 @@ def optimise(
     json: Annotated[bool, _JSON] = False,
     out: Annotated[Path | None, _CASE_OUT] = None,
     database: Annotated[Path | None, _DATABASE] = None,
+    force: Force = False,
 ) -> None:
     """Find the values of a few parameters that make one result small or large, within limits.
 
@@ -99,13 +104,14 @@ def optimise(
     """
     from rollnip.cli.app import _clear_failures, _named
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip.cli.progress import progress
         from rollnip.design import optimise as search
         from rollnip.design.files import read_optimise
         from rollnip.design.report import optimum_report
 
         question = read_optimise(study)
+        run.reserve({"--out": out})
         if out is not None:
             _check_case_target(out)
         tree = _with_geometry(question.case, geometry)
@@ -147,11 +153,12 @@ def tolerance(
         int | None, typer.Option(help="Processes; by default one for each core.", min=1)
     ] = None,
     database: Annotated[Path | None, _DATABASE] = None,
+    force: Force = False,
 ) -> None:
     """Compute how results scatter where parameters do, and how often specifications are met."""
     from rollnip.cli.app import _clear_failures, _named
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from functools import partial
 
         from rollnip.design import tolerance as scatter
@@ -160,6 +167,7 @@ def tolerance(
         from rollnip.plots import check_figure_target, save_figure
 
         question = read_tolerance(study)
+        run.reserve({"--plot": plot})
         if plot is not None:
             check_figure_target(plot)
         tree = _with_geometry(question.case, geometry)
@@ -195,6 +203,7 @@ def pareto(
     plot: Annotated[
         Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf; for two columns.")
     ] = None,
+    force: Force = False,
 ) -> None:
     """Pick the rows of a table that no other row beats in all wanted columns at once.
 
@@ -202,7 +211,7 @@ def pareto(
     """
     from rollnip.cli.app import _clear_failures, _named
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip._files import check_target, write_whole
         from rollnip.design import pareto_front
         from rollnip.design.pareto import Sense, column_values, rows_text
@@ -223,6 +232,7 @@ def pareto(
         if plot is not None:
             check_figure_target(plot)
         read = read_columns(table)
+        run.reserve({"--out": out, "--plot": plot})
         values = column_values(read, names)
         with _named(str(table)):
             front = pareto_front(values, [sense for _, sense in wanted])

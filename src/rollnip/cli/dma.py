@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from rollnip._errors import InvalidInputError
+from rollnip._files import one_run
+from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip._units import Dimension
@@ -70,6 +72,7 @@ def fit(
         Path | None,
         typer.Option(help="Case that names the material: is its nip within the data?"),
     ] = None,
+    force: Force = False,
 ) -> None:
     """Shift isotherms to a master curve and fit a Prony series or a fractional Zener solid.
 
@@ -78,7 +81,7 @@ def fit(
     """
     from rollnip.cli.app import _clear_failures, _named
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip.dma import DmaMethod, fit_dma, material_toml, read_dma
 
         _check_targets(out, plot)
@@ -92,6 +95,7 @@ def fit(
             frequency=_read("--frequency", frequency, "frequency"),
             sheet=sheet,
         )
+        run.reserve({"--out": out, "--plot": plot})
         law = _law(shift, c1, _read("--c2", c2, "temperature difference"), energy, degrees)
         with _named(str(file)):
             method = DmaMethod(

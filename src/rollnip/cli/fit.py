@@ -10,11 +10,14 @@ from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
-from rollnip._files import make_folder
+from rollnip._files import make_folder, one_run
+from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip.identify import Fit
     from rollnip.model import Geometry
+
+_FILES = ("report.txt", "fit.json", "case.toml", "fit.png")
 
 
 def fit(
@@ -28,6 +31,7 @@ def fit(
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print the fit as JSON.")] = False,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report.")] = False,
+    force: Force = False,
 ) -> None:
     """Find unknown values of a case from measurements, with intervals and warnings.
 
@@ -36,7 +40,7 @@ def fit(
     """
     from rollnip.cli.app import _clear_failures, _named
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from dataclasses import replace
         from json import dumps
 
@@ -49,6 +53,7 @@ def fit(
                 method = replace(method, geometry=_geometry(geometry))
         if out is not None:
             make_folder(out)
+            run.reserve({f"--out ({name})": out / name for name in _FILES})
         with _progress() as on_solve, _named(file):
             found = identify(study.case, study.unknowns, study.cost, method, on_solve=on_solve)
         if out is not None:

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
 import typer
 
 from rollnip._errors import InvalidInputError
+from rollnip._files import one_run
+from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip._units import Dimension
@@ -52,6 +54,7 @@ def simulate(
     shift: Annotated[str, _SHIFT] = "0 Hz",
     roller: Annotated[str, _ROLLER] = "upper",
     geometry: Annotated[str | None, _GEOMETRY] = None,
+    force: Force = False,
 ) -> None:
     """Simulate a measurement of a computed nip: bursts, noise, detection, frequencies.
 
@@ -59,7 +62,7 @@ def simulate(
     """
     from rollnip.cli.app import _clear_failures, _named
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip._units import parse_quantity
         from rollnip.lda import Instrument, Seeding, simulate_scan
 
@@ -72,6 +75,7 @@ def simulate(
             raise InvalidInputError(f"`--seed` must be zero or positive, got {seed}.")
         solution, source = _solved(case, geometry)
         _make_ready(out)
+        run.reserve({f"--out ({one.name})": one for one in _scan_files(out)})
         with _named(source):
             scan = simulate_scan(
                 solution, instrument, seeding, side=_side(known), positions=positions, seed=seed
@@ -93,17 +97,19 @@ def estimate(
     beam_angle: Annotated[str | None, _ANGLE] = None,
     shift: Annotated[str | None, _SHIFT] = None,
     sample_rate: Annotated[str | None, _RATE] = None,
+    force: Force = False,
 ) -> None:
     """Velocity and strain at each position, with confidence bands, as CSV."""
     from rollnip.cli.app import _clear_failures
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip.io.velocities import profile_csv, read_velocities
 
         known = _settings(wavelength, beam_angle, None, sample_rate, shift, speed, None)
         level = _confidence(confidence)
         _check_targets(out, plot)
         readings = read_velocities(file)
+        run.reserve({"--out": out, "--plot": plot})
         profile = readings.profile(known.over(readings.settings), confidence=level)
         text = profile_csv(profile)
         if readings.simulated:
@@ -133,6 +139,7 @@ def compare(
     shift: Annotated[str | None, _SHIFT] = None,
     sample_rate: Annotated[str | None, _RATE] = None,
     geometry: Annotated[str | None, _GEOMETRY] = None,
+    force: Force = False,
 ) -> None:
     """Align measured velocities with the computed ones in x and V, and compare them.
 
@@ -140,7 +147,7 @@ def compare(
     """
     from rollnip.cli.app import _clear_failures, _named
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip.io.velocities import read_velocities
         from rollnip.lda import compare as align
 
@@ -148,6 +155,7 @@ def compare(
         level = _confidence(confidence)
         _check_targets(None, plot)
         readings = read_velocities(file)
+        run.reserve({"--plot": plot})
         known = known.over(readings.settings)
         profile = readings.profile(known, confidence=level)
         solution, _ = _solved(case, geometry)
@@ -259,6 +267,13 @@ def _make_ready(out: Path) -> None:
         make_folder(out)
 
 
+def _scan_files(out: Path) -> list[Path]:
+    """The files of a simulated scan: one table, or data, truth and picture in a folder."""
+    if out.suffix.lower() == ".csv":
+        return [out]
+    return [out / name for name in ("bursts.csv", "truth.csv", "bursts.png")]
+
+
 def _write_text(path: Path, text: str) -> None:
     from rollnip._files import write_whole
 
@@ -273,9 +288,10 @@ def _write_scan(scan: Scan, solution: Solution, out: Path) -> None:
         return
     from rollnip.plots.lda import save_record
 
-    _write_text(out / "bursts.csv", scan_csv(scan))
-    _write_text(out / "truth.csv", truth_csv(scan, solution))
-    save_record(scan, out / "bursts.png")
+    data, truth, picture = _scan_files(out)
+    _write_text(data, scan_csv(scan))
+    _write_text(truth, truth_csv(scan, solution))
+    save_record(scan, picture)
 
 
 def _text(result: Comparison, *, simulated: bool, as_json: bool) -> str:

@@ -8,7 +8,8 @@ from typing import Annotated
 
 import typer
 
-from rollnip._files import make_folder
+from rollnip._files import make_folder, one_run
+from rollnip.cli.options import Force
 
 
 def paper(
@@ -17,6 +18,7 @@ def paper(
         bool,
         typer.Option("--table", help="Also assumptions.md: what is not said, and how it matters."),
     ] = False,
+    force: Force = False,
 ) -> None:
     """Compute and draw figures 4 to 8 of Braat & Kalker (1993).
 
@@ -24,9 +26,12 @@ def paper(
     """
     from rollnip.cli.app import _clear_failures
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         make_folder(out)
-        from rollnip.plots.paper import save_paper
+        from rollnip.plots.paper import PICTURES, save_paper
+
+        names = [*PICTURES, "assumptions.md"] if table else PICTURES
+        run.reserve({f"--out ({name})": out / name for name in names})
 
         written = save_paper(out)
         if table:

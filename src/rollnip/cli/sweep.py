@@ -14,7 +14,9 @@ import typer
 from typer.core import TyperGroup
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._files import one_run
 from rollnip.cli.kept import interrupts_told, kept
+from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip.sweep.crew import Crew
@@ -73,6 +75,7 @@ def run(
     yes: Annotated[
         bool, typer.Option("--yes", help=f"Go on with more than {_MANY:,} cases.")
     ] = False,
+    force: Force = False,
 ) -> None:
     """Solve every case of a study and write the table of results.
 
@@ -81,7 +84,7 @@ def run(
     """
     from rollnip.cli.app import _clear_failures
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip.sweep.merge import take_known
         from rollnip.sweep.profiles import check_profiles_target
         from rollnip.sweep.run import OpenCases
@@ -99,6 +102,7 @@ def run(
             profiles = table.with_suffix(".nc")
         if profiles is not None:
             check_profiles_target(profiles)
+        run.reserve({"--out": table, "--profiles": profiles})
         file = database or _database(table, part)
         with Store(file, About.of(plan, own_version(), part)) as store:
             taken = take_known(plan, store, known or [])
@@ -122,11 +126,12 @@ def merge(
     databases: Annotated[list[Path], typer.Argument(help="Databases of all shards of a study.")],
     out: Annotated[Path, _OUT],
     profiles: Annotated[Path | None, _PROFILES] = None,
+    force: Force = False,
 ) -> None:
     """Join the databases of the shards of one study into one table."""
     from rollnip.cli.app import _clear_failures
 
-    with _clear_failures():
+    with _clear_failures(), one_run(force=force) as run:
         from rollnip.sweep.merge import merged
         from rollnip.sweep.profiles import check_profiles_target
         from rollnip.sweep.table import check_table_target
@@ -134,6 +139,7 @@ def merge(
         check_table_target(out)
         if profiles is not None:
             check_profiles_target(profiles)
+        run.reserve({"--out": out, "--profiles": profiles})
         with merged(databases) as store:
             _finish(store, out, profiles)
 

@@ -20,6 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._files import reading
 from rollnip._units import Dimension, base_unit, parse_quantity
 
 Array = NDArray[np.float64]
@@ -160,6 +161,7 @@ def read_columns(path: str | Path, *, sheet: str | None = None) -> Columns:
         there twice, a row has too few or too many cells.
     """
     file = Path(path)
+    reading(file)
     _check_size(file)
     decimal_comma = False
     if file.suffix.lower() in EXCEL:

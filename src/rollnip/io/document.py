@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from rollnip._errors import CaseFileError
+from rollnip._files import reading
 
 LARGEST = 1_000_000  # bytes; a case file has some thousand
 
@@ -22,6 +23,7 @@ def read_document(path: str | Path) -> dict[str, Any]:
         where it cannot be read, is too large, is no text, or its syntax is broken.
     """
     name = str(path)
+    reading(name)
     return parse_document(_text(_bytes(name), name), name)
 
 

@@ -19,7 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import RollnipError
-from rollnip._files import check_place
+from rollnip._files import check_place, reading
 from rollnip.sweep.row import SCALARS, Row
 from rollnip.sweep.study import Study, case_digest
 from rollnip.sweep.task import Outcome
@@ -123,6 +123,8 @@ class Store:
     def __init__(self, path: Path | None, about: About | None = None) -> None:
         self.name = "the database" if path is None else str(path)
         self.is_in_memory = path is None
+        if path is not None:
+            reading(path)  # it holds what was solved: no table may take its place
         if path is not None and about is not None:
             check_place(path)
         elif path is not None and not path.is_file():

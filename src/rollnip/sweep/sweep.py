@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from rollnip._errors import InvalidInputError
+from rollnip._files import one_run
 from rollnip.sweep.crew import available_cores, crew_of
 from rollnip.sweep.merge import take_known
 from rollnip.sweep.run import OpenCases, Report, run
@@ -64,19 +65,22 @@ def sweep(
         where a file cannot be written or is of another study, or the workers are lost; what was
         finished is in the database.
     """
-    plan = study if isinstance(study, Study) else read_study(study)
     count = _workers(workers)
-    if out is not None:
-        check_table_target(Path(out))
-    about = About.of(plan, own_version())
-    with Store(None if database is None else Path(database), about) as store:
-        take_known(plan, store, [Path(one) for one in known])
-        cases = OpenCases(plan, store, with_profiles=bool(plan.profiles))
-        with crew_of(min(count, cases.count), executor) as crew:
-            run(cases, store, crew, report)
-        if out is not None:
-            write_table(store, Path(out))
-        return read_table(store)
+    target = None if out is None else Path(out)
+    with one_run(force=True) as files:
+        files.reserve({"out": target})
+        plan = study if isinstance(study, Study) else read_study(study)
+        if target is not None:
+            check_table_target(target)
+        about = About.of(plan, own_version())
+        with Store(None if database is None else Path(database), about) as store:
+            take_known(plan, store, [Path(one) for one in known])
+            cases = OpenCases(plan, store, with_profiles=bool(plan.profiles))
+            with crew_of(min(count, cases.count), executor) as crew:
+                run(cases, store, crew, report)
+            if target is not None:
+                write_table(store, target)
+            return read_table(store)
 
 
 def _workers(workers: int | None) -> int:

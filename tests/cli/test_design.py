@@ -250,7 +250,7 @@ def test_pareto_refuses(tmp_path):
     assert 'line 4: "peak_pressure" must be a number, got "high"' in refused(
         *one, "--maximise", "nip_width"
     )
-    assert "cannot be read" in refused("pareto", str(tmp_path / "n.csv"), *one[2:], *one[2:])
+    assert "there is no such file" in refused("pareto", str(tmp_path / "n.csv"), *one[2:], *one[2:])
 
 
 @pytest.mark.parametrize("command", ["optimise", "tolerance"])

@@ -89,7 +89,7 @@ def test_compare_finds_itself(folder, tmp_path):
         (("simulate", "none.toml", "--out", "a.csv"), "none.toml"),
         (("simulate", "none.toml", "--out", "folder"), "none.toml"),
         (("simulate", CASE, "--out", "wrong.txt"), "wrong.txt: must be a folder, it is a file."),
-        (("estimate", "none.csv"), "cannot be read"),
+        (("estimate", "none.csv"), "there is no such file"),
         (("estimate", "wrong.csv"), "no known column"),
         (("estimate", "few.csv"), "at least 5 valid bursts"),
         (("estimate", "few.csv", "--plot", "a.exe"), "must end in"),

@@ -109,7 +109,7 @@ def test_the_method_is_read(study):
         ("data = []\n" + UNKNOWN, {}, "data: must hold at least one"),
         (UNKNOWN + DATA.replace("file", "fle"), {}, 'did you mean "file"'),
         (UNKNOWN + DATA.replace("nip-width", "width"), {}, "data[0].kind"),
-        (UNKNOWN + DATA.replace("widths.csv", "none.csv"), {}, "none.csv: cannot be read"),
+        (UNKNOWN + DATA.replace("widths.csv", "none.csv"), {}, "none.csv: there is no such file"),
         (UNKNOWN.replace("modulus", "modlus") + DATA, {}, 'did you mean "modulus"'),
         (UNKNOWN.replace("0.5 MPa", "0.5 mm") + DATA, {}, "unknowns[0].low"),
         (UNKNOWN.replace("0.5 MPa", "5 MPa") + DATA, {}, "lower bound below the upper one"),

@@ -118,7 +118,7 @@ def test_what_is_wrong_is_said_with_file_line_and_column(table, text, said):
 def test_files_that_are_no_tables(table, tmp_path):
     for path, said in [
         (tmp_path, "is a directory"),
-        (tmp_path / "none.csv", "cannot be read"),
+        (tmp_path / "none.csv", "there is no such file"),
         (table("no workbook", "book.xlsx"), "cannot be read as a workbook"),
     ]:
         with pytest.raises(InvalidInputError, match=said):

@@ -151,5 +151,5 @@ def test_refuses_what_cannot_be_a_profile(file):
 
 
 def test_refuses_a_file_that_is_not_there(tmp_path):
-    with pytest.raises(rn.RollnipError, match="cannot be read"):
+    with pytest.raises(rn.RollnipError, match="there is no such file"):
         read_velocities(tmp_path / "none.csv")

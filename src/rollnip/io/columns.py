@@ -14,6 +14,7 @@ import csv
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from io import BytesIO
 from pathlib import Path
 
 import numpy as np
@@ -21,13 +22,18 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip._files import reading
+from rollnip._reading import UnreadableError, read_regular
 from rollnip._units import Dimension, base_unit, parse_quantity
+from rollnip.io.extents import BrokenWorkbookError, extents
 
 Array = NDArray[np.float64]
 Cell = str | float
 _Line = tuple[int, list[Cell]]
 
 LARGEST = 64 * 2**20  # bytes
+MOST_CELLS = 2**22
+_SPARSEST = 64  # cells of the rectangle for each that is filled
+_SMALL = 2**16  # cells of a rectangle that may be as empty as it likes
 EXCEL = (".xlsx", ".xls", ".xlsb", ".ods")
 
 
@@ -162,40 +168,31 @@ def read_columns(path: str | Path, *, sheet: str | None = None) -> Columns:
     """
     file = Path(path)
     reading(file)
-    _check_size(file)
+    try:
+        data = read_regular(file, LARGEST)
+    except UnreadableError as error:
+        raise InvalidInputError(f"{file}: {error}") from None
     decimal_comma = False
     if file.suffix.lower() in EXCEL:
-        numbered = list(_sheet_rows(file, sheet))
+        numbered = list(_sheet_rows(file, data, sheet))
     else:
         if sheet is not None:
             raise InvalidInputError(f"{path}: is a text file and has no sheets; leave out `sheet`.")
-        numbered, decimal_comma = _text_rows(file)
+        numbered, decimal_comma = _text_rows(file, data)
     return _columns(str(path), numbered, decimal_comma)
 
 
-def _check_size(file: Path) -> None:
-    try:
-        size = file.stat().st_size
-    except (OSError, ValueError) as problem:
-        why = getattr(problem, "strerror", None) or problem
-        raise InvalidInputError(f"{file}: cannot be read: {why}.") from None
-    if file.is_dir():
-        raise InvalidInputError(f"{file}: is a directory, not a table.")
-    if size > LARGEST:
-        raise InvalidInputError(f"{file}: must be at most {LARGEST >> 20} MiB large.")
-
-
-def _text_rows(file: Path) -> tuple[list[_Line], bool]:
+def _text_rows(file: Path, data: bytes) -> tuple[list[_Line], bool]:
     """Lines parted into cells (a comment is one cell), and whether a comma is a decimal one."""
     try:
-        text = file.read_text("utf-8-sig")
-    except OSError as problem:
-        raise InvalidInputError(f"{file}: cannot be read: {problem.strerror}.") from None
+        text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise InvalidInputError(f"{file}: must be a text file in UTF-8.") from None
     lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
     head = next((line for _, line in lines if not _is_comment(line)), "")
     mark = next((mark for mark in (";", "\t") if mark in head), ",")
+    if len(lines) + text.count(mark) > MOST_CELLS:
+        raise InvalidInputError(f"{file}: must hold at most {MOST_CELLS:,} cells, it holds more.")
     parted: list[_Line] = [
         (number, [line] if _is_comment(line) else _split(line, mark)) for number, line in lines
     ]
@@ -206,7 +203,7 @@ def _split(line: str, mark: str) -> list[Cell]:
     return [cell.strip() for cell in next(csv.reader([line], delimiter=mark))]
 
 
-def _sheet_rows(file: Path, sheet: str | None) -> Iterator[_Line]:
+def _sheet_rows(file: Path, data: bytes, sheet: str | None) -> Iterator[_Line]:
     try:
         from python_calamine import CalamineError, CalamineWorkbook
     except ImportError:
@@ -214,8 +211,9 @@ def _sheet_rows(file: Path, sheet: str | None) -> Iterator[_Line]:
             f'{file}: reading workbooks needs an extra; pip install "rollnip[tables]", or save '
             "the sheet as CSV."
         ) from None
+    _check_extents(file, data)
     try:
-        with CalamineWorkbook.from_path(str(file)) as book:
+        with CalamineWorkbook.from_filelike(BytesIO(data)) as book:
             name = _sheet_name(file, book.sheet_names, sheet)
             rows = book.get_sheet_by_name(name).to_python(skip_empty_area=False)
     except (CalamineError, OSError) as problem:
@@ -224,6 +222,22 @@ def _sheet_rows(file: Path, sheet: str | None) -> Iterator[_Line]:
         cells = [_cell(value) for value in row]
         if any(cell != "" for cell in cells):
             yield number, cells
+
+
+def _check_extents(file: Path, data: bytes) -> None:
+    """Raise InvalidInputError for a workbook whose rectangles of cells would be too large."""
+    try:
+        found = list(extents(data, file.suffix.lower()))
+    except BrokenWorkbookError as error:
+        raise InvalidInputError(f"{file}: cannot be read as a workbook: {error}.") from None
+    for one in found:
+        cells = one.rows * one.columns
+        if cells > min(MOST_CELLS, _SMALL + _SPARSEST * one.filled):
+            raise InvalidInputError(
+                f"{file}: a sheet must hold at most {MOST_CELLS:,} cells, and not be nearly empty; "
+                f"it has {one.filled:,} cells over {one.rows:,} rows and {one.columns:,} columns. "
+                "Keep the table at the top left of a sheet of its own."
+            )
 
 
 def _sheet_name(file: Path, names: Sequence[str], wanted: str | None) -> str:

@@ -10,6 +10,7 @@ from typing import Any
 
 from rollnip._errors import CaseFileError
 from rollnip._files import reading
+from rollnip._reading import UnreadableError, read_regular
 
 LARGEST = 1_000_000  # bytes; a case file has some thousand
 
@@ -43,22 +44,18 @@ def parse_document(text: str, name: str) -> dict[str, Any]:
 
 
 def _bytes(name: str) -> bytes:
+    if name != "-":
+        try:
+            return read_regular(name, LARGEST)
+        except UnreadableError as error:
+            shown = name if name.isprintable() else repr(name)
+            raise CaseFileError(f"{shown}: {error}") from None
     try:
-        if name == "-":
-            data = sys.stdin.buffer.read(LARGEST + 1)
-        else:
-            if Path(name).is_dir():
-                raise CaseFileError(f"{name}: is a directory, not a case file.")
-            with Path(name).open("rb") as stream:
-                data = stream.read(LARGEST + 1)
-    except FileNotFoundError:
-        raise CaseFileError(f"{name}: there is no such file.") from None
+        data = sys.stdin.buffer.read(LARGEST + 1)
     except OSError as error:
         raise CaseFileError(f"{name}: cannot be read: {error.strerror or error}.") from None
-    except ValueError:
-        raise CaseFileError(f"{name!r}: cannot be the name of a file.") from None
     if len(data) > LARGEST:
-        raise CaseFileError(f"{name}: is larger than 1 MB, as no case file is.")
+        raise CaseFileError(f"{name}: must be at most {LARGEST:,} bytes large, it is larger.")
     return data
 
 

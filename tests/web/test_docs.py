@@ -41,6 +41,9 @@ def test_the_limits_of_the_page_are_those_of_the_server():
         "sweeps and inverse solves at once": limits.long_waiting,
         "time of one solve": f"{limits.solve_seconds:g} s",
         "time of a sweep or an inverse solve": f"{limits.long_seconds:g} s",
+        "time for the head of a request to arrive": f"{limits.head_seconds:g} s",
+        "time of a request with its answer": f"{limits.exchange_seconds:g} s",
+        "address space of a solving process": f"{limits.memory} MB",
         "points of an interior field, along x and along z": f"{limits.points} each",
         "requests that wait for one of them": (
             f"{limits.waiting}, for {limits.waiting_seconds:g} s"
@@ -48,5 +51,6 @@ def test_the_limits_of_the_page_are_those_of_the_server():
     }
     for what, most in wanted.items():
         assert f"| {what} | {most} |" in PAGE
+    assert f"| connections | {limits.connections}, fewer" in PAGE
     assert f"larger than {limits.body // 1024} kB" in PAGE
     assert f"nested more than {limits.depth} deep" in PAGE

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import sys
 import tomllib
 from pathlib import Path
@@ -13,6 +14,8 @@ from rollnip._files import reading
 from rollnip._reading import UnreadableError, read_regular
 
 LARGEST = 1_000_000  # bytes; a case file has some thousand
+_DEEPEST = 32  # dots in a key; a case file has three
+_SIGNS = re.compile(r"""(?<=[\w"'-])[ \t]*\.|[^.\w"' \t-]""")  # a dot in a key, or what ends keys
 
 
 def read_document(path: str | Path) -> dict[str, Any]:
@@ -31,6 +34,8 @@ def read_document(path: str | Path) -> dict[str, Any]:
 def parse_document(text: str, name: str) -> dict[str, Any]:
     """Read TOML or JSON (a text that opens with a brace, or a name that ends in .json)."""
     is_json = name.lower().endswith(".json") or text.lstrip().startswith("{")
+    if not is_json and _has_deep_key(text):
+        raise CaseFileError(f"{name}: is nested too deeply for a case file.")
     try:
         tree = _json(text) if is_json else tomllib.loads(text)
     except RecursionError:
@@ -41,6 +46,16 @@ def parse_document(text: str, name: str) -> dict[str, Any]:
     if not isinstance(tree, dict):
         raise CaseFileError(f"{name}: must hold a table (an object), got {type(tree).__name__}.")
     return tree
+
+
+def _has_deep_key(text: str) -> bool:
+    """Whether a dotted key has too many parts; the reader takes time with their square."""
+    dots = 0
+    for sign in _SIGNS.findall(text):
+        dots = dots + 1 if sign.endswith(".") else 0
+        if dots > _DEEPEST:
+            return True
+    return False
 
 
 def _bytes(name: str) -> bytes:

@@ -21,6 +21,15 @@ class Limits:
         bytes of a request's body.
     body_seconds :
         time for the body to arrive [s].
+    connections :
+        connections at once, fewer where the system has fewer file descriptors; beyond it the
+        oldest one that waits for a request gives way.
+    head_seconds :
+        time for the head of a request to arrive [s].
+    exchange_seconds :
+        time for a request and its answer [s].
+    memory :
+        address space of a worker [MB]; a solve that needs more is refused.
     workers :
         processes that solve; so many requests are solved at once.
     waiting :
@@ -49,6 +58,10 @@ class Limits:
 
     body: int = 256 * 1024
     body_seconds: float = 10.0
+    connections: int = 512
+    head_seconds: float = 10.0
+    exchange_seconds: float = 180.0
+    memory: int = 3072
     workers: int = field(default_factory=_workers)
     waiting: int = 16
     waiting_seconds: float = 5.0

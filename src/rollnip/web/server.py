@@ -14,6 +14,8 @@ from rollnip.web.app import application
 from rollnip.web.desk import Desk
 from rollnip.web.guard import is_loopback
 from rollnip.web.limits import Limits
+from rollnip.web.quiet import keep_quiet
+from rollnip.web.wire import BACKLOG, connections_at_once, protocol
 
 _EVERY = {"0.0.0.0": "127.0.0.1", "::": "::1"}  # not to be asked by that name
 
@@ -33,7 +35,8 @@ class _Server(uvicorn.Server):
 
 def run(host: str, port: int, *, open_page: bool) -> None:
     """Serve until Ctrl-C; see `rollnip.web.serve`."""
-    app, desk = application(Limits(), host)
+    limits = Limits()
+    app, desk = application(limits, host)
     with _bound(host, port) as listener:
         name = _EVERY.get(host, host).strip("[]")
         shown = f"[{name}]" if ":" in name else name
@@ -52,8 +55,12 @@ def run(host: str, port: int, *, open_page: bool) -> None:
             server_header=False,
             proxy_headers=False,
             ws="none",
+            loop="asyncio",
+            http=protocol(limits, connections_at_once(limits)),
+            backlog=BACKLOG,
             timeout_graceful_shutdown=2,
         )
+        keep_quiet("uvicorn.error", "asyncio", "rollnip.web.pool")
         _Server(config, desk).run(sockets=[listener])
 
 
@@ -62,7 +69,7 @@ def _bound(host: str, port: int) -> socket.socket:
         raise RollnipError("`--host` must be an address, got an empty text (0.0.0.0 is every one).")
     family = socket.AF_INET6 if ":" in host else socket.AF_INET
     try:
-        return socket.create_server((host.strip("[]"), port), family=family, backlog=256)
+        return socket.create_server((host.strip("[]"), port), family=family, backlog=BACKLOG)
     except (OSError, OverflowError) as error:
         # create_server puts the address into the text of an error of the system.
         number = getattr(error, "errno", None) or 0

@@ -54,6 +54,12 @@ _FIELDS = {
 }
 _DIGITS = 6  # of the largest value of an interior field
 _CORE_DEPTH = 2.0  # nip widths below the layers that are shown of a half-space core
+_TOO_LARGE = (
+    "One solve may take {} MB of memory here, and this case needs more; try fewer layers or a "
+    "larger tolerance."
+)
+_TOO_FAR = "The numbers of this case lie too far apart to be computed with; check their units."
+_SMALLEST, _LARGEST = 1e-6, 1e9  # of a radius and a thickness that are solved here [mm]
 _BELOW = 1e-9  # of a layer: how far below its upper face its first row lies
 
 
@@ -86,6 +92,11 @@ class Tasks:
             return self._tasks[name](body)
         except RollnipError as error:
             return Reply(422, json_bytes(refusal(error)))
+        except MemoryError:
+            return Reply(422, json_bytes(error_tree(_TOO_LARGE.format(self._limits.memory))))
+        except (ArithmeticError, np.linalg.LinAlgError) as error:
+            _log.warning("Task %r ended in %r.", name, error)
+            return Reply(422, json_bytes(error_tree(_TOO_FAR)))
         except Exception:  # noqa: BLE001 - the next task must find the worker as it was
             _log.exception("Task %r failed.", name)
             text = "The solver failed on this case in a way it should not; please report it."
@@ -173,7 +184,10 @@ class Tasks:
         return Reply(200, json_bytes(answer), case_hash(case))
 
     def _toml(self, body: Body) -> Reply:
-        return Reply(200, json_bytes({"case": _as_json(parse_document(body["text"], SOURCE))}))
+        tree = _as_json(parse_document(body["text"], SOURCE))
+        if _depth(tree) > self._limits.depth:
+            raise CaseFileError(f"{SOURCE}: is nested too deeply for a case file.")
+        return Reply(200, json_bytes({"case": tree}))
 
     def _row(self, tree: Body) -> dict[str, Any]:
         """The scalars of a case's solution, and its warnings."""
@@ -229,6 +243,7 @@ def _beyond(case: Case, limits: Limits) -> list[str]:
     """Lines about what is more than the server solves."""
     lines = []
     for name, roller in (("upper", case.nip.upper), ("lower", case.nip.lower)):
+        lines += _absurd(name, roller)
         if len(roller.layers) > limits.layers:
             lines.append(
                 f"{name}.layers: must be at most {limits.layers} here, got {len(roller.layers)}."
@@ -245,6 +260,19 @@ def _beyond(case: Case, limits: Limits) -> list[str]:
             f"got {case.model.tolerance:g}."
         )
     return lines
+
+
+def _absurd(name: str, roller: Roller) -> list[str]:
+    """Lines about sizes that no roller has; numbers beyond them leave the range of floats."""
+    sizes = [(f"{name}.radius", roller.radius)] if isfinite(roller.radius) else []
+    sizes += [
+        (f"{name}.layers[{i}].thickness", layer.thickness) for i, layer in enumerate(roller.layers)
+    ]
+    return [
+        f"{path}: must lie between {_SMALLEST:g} and {_LARGEST:g} mm here, got {size:g}."
+        for path, size in sizes
+        if not _SMALLEST <= size <= _LARGEST
+    ]
 
 
 def _rows(roller: Roller, width: float, count: int) -> Array:
@@ -277,6 +305,12 @@ def _numbers(values: Array) -> Any:
     out = values.astype(object)
     out[~np.isfinite(values)] = None
     return out.tolist()
+
+
+def _depth(value: Any) -> int:
+    """How deep tables and lists are nested in a value."""
+    parts = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return 1 + max(map(_depth, parts), default=-1) if isinstance(value, dict | list) else 0
 
 
 def _as_json(value: Any) -> Any:

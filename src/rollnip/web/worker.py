@@ -15,9 +15,12 @@ import signal
 import struct
 import sys
 import threading
+import warnings
+from contextlib import suppress
 from typing import BinaryIO
 
 from rollnip.web.limits import Limits
+from rollnip.web.quiet import keep_quiet
 
 HEAD = struct.Struct(">I")
 
@@ -32,13 +35,29 @@ def main() -> None:
     threading.Thread(target=_listen, args=(sys.stdin.buffer, tasks), daemon=True).start()
     from rollnip.web.tasks import Tasks
 
-    done = Tasks(Limits(**json.loads(sys.argv[1])))
+    limits = Limits(**json.loads(sys.argv[1]))
+    _hold(limits.memory)
+    keep_quiet("rollnip.web.tasks")
+    # Whether an answer is sound is verified and said in it; numpy's remarks on the way say nothing.
+    warnings.simplefilter("ignore", RuntimeWarning)
+    done = Tasks(limits)
     _send(replies, b"")
     while True:
         task = json.loads(tasks.get())
         reply = done.run(task["name"], task["body"])
         head = json.dumps({"status": reply.status, "case": reply.case}).encode()
         _send(replies, head + b"\n" + reply.body)
+
+
+def _hold(megabytes: int) -> None:
+    """Bound the address space, so that one solve cannot take the memory of the machine."""
+    try:
+        import resource
+    except ImportError:  # no such limit on this system
+        return
+    _, hard = resource.getrlimit(resource.RLIMIT_AS)
+    with suppress(ValueError, OSError):
+        resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, hard))
 
 
 def _listen(stream: BinaryIO, tasks: queue.SimpleQueue[bytes]) -> None:

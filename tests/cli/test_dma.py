@@ -53,7 +53,7 @@ def test_a_nip_beyond_the_data_is_warned_of(tmp_path):
         (("--shift", "vft"), "`shift`"),
         (("--model", "maxwell"), "`model`"),
         (("--modulus", "K"), "--modulus"),
-        (("--modulus", "G"), "says E"),
+        (("--modulus", "G"), "heads say E"),
         (("--reference", "23"), "--reference"),
         (("--c1", "8.9"), "--c2"),
         (("--c1", "8.9", "--c2", "101 K"), "--reference"),
@@ -72,3 +72,26 @@ def test_wrong_input_is_one_line_and_exit_2(options, said):
     assert result.stdout == ""
     assert said in result.stderr
     assert result.stderr.count("\n") == 1
+
+
+def test_show_says_what_is_understood():
+    result = CliRunner().invoke(app, ["dma", "show", DATA])
+    assert result.exit_code == 0
+    for said in (
+        "UTF-8, comma-separated",
+        "heads in line 2",
+        "117 rows",
+        "storage modulus E (in MPa): 1.991 MPa to 750.5 MPa",
+        "9 temperatures to the degree",
+    ):
+        assert said in result.stdout
+
+
+def test_show_of_what_is_no_table_says_so(tmp_path):
+    path = tmp_path / "notes.txt"
+    path.write_text("nothing\n")
+    result = CliRunner().invoke(app, ["dma", "show", str(path)])
+    assert result.exit_code == 0
+    assert "no table whose heads are known" in result.stdout
+    missing = CliRunner().invoke(app, ["dma", "show", str(tmp_path / "none.csv")])
+    assert missing.exit_code == 2

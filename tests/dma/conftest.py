@@ -1,5 +1,8 @@
 """What the tests of dynamic-mechanical data share: simulated isotherms of known solids."""
 
+from xml.sax.saxutils import escape
+from zipfile import ZipFile
+
 import numpy as np
 import pytest
 
@@ -39,3 +42,40 @@ def isotherms(solid, law, *, seed=0, noise=0.02, temperatures=TEMPERATURES, leve
 def fitted():
     """A Prony series from isotherms of a fractional Zener solid."""
     return fit_dma(isotherms(ZENER, LAW), DmaMethod(reference=23.0))
+
+
+def write_workbook(path, sheets):
+    """Write an OpenDocument workbook: rows of numbers and texts by the name of the sheet."""
+    names = " ".join(
+        f'xmlns:{short}="urn:oasis:names:tc:opendocument:xmlns:{name}:1.0"'
+        for short, name in (("office", "office"), ("table", "table"), ("text", "text"))
+    )
+
+    def cell(value):
+        if isinstance(value, str):
+            text = f"<text:p>{escape(value)}</text:p>" if value else ""
+            return f'<table:table-cell office:value-type="string">{text}</table:table-cell>'
+        return f'<table:table-cell office:value-type="float" office:value="{value!r}"/>'
+
+    def row(cells):
+        return "<table:table-row>" + "".join(map(cell, cells)) + "</table:table-row>"
+
+    tables = "".join(
+        f'<table:table table:name="{escape(name)}">' + "".join(map(row, rows)) + "</table:table>"
+        for name, rows in sheets.items()
+    )
+    with ZipFile(path, "w") as archive:
+        archive.writestr("mimetype", "application/vnd.oasis.opendocument.spreadsheet")
+        manifest = "urn:oasis:names:tc:opendocument:xmlns:manifest:1.0"
+        archive.writestr(
+            "META-INF/manifest.xml",
+            f'<?xml version="1.0"?><manifest:manifest xmlns:manifest="{manifest}">'
+            '<manifest:file-entry manifest:full-path="/" manifest:media-type='
+            '"application/vnd.oasis.opendocument.spreadsheet"/></manifest:manifest>',
+        )
+        archive.writestr(
+            "content.xml",
+            f'<?xml version="1.0"?><office:document-content {names}><office:body>'
+            f"<office:spreadsheet>{tables}</office:spreadsheet></office:body>"
+            "</office:document-content>",
+        )

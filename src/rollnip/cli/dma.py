@@ -10,6 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip.cli.dma_files import show
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
@@ -25,14 +26,12 @@ dma = typer.Typer(
 )
 
 
-@dma.callback()
-def group() -> None:
-    """Keep ``fit`` a command of its own, though it is the only one."""
+dma.command()(show)
 
 
 @dma.command()
 def fit(
-    file: Annotated[Path, typer.Argument(help="CSV or workbook of a sweep, units in the heads.")],
+    file: Annotated[Path, typer.Argument(help="Text file or workbook of an instrument.")],
     out: Annotated[
         Path | None, typer.Option(help="Write the material: name.toml, for [materials] of a case.")
     ] = None,
@@ -67,7 +66,13 @@ def fit(
     frequency: Annotated[
         str | None, typer.Option(help="Of all data, where there is no such column.")
     ] = None,
-    sheet: Annotated[str | None, typer.Option(help="Of the workbook; none: the first.")] = None,
+    sheet: Annotated[
+        str | None, typer.Option(help="The only one of a workbook to read; none: all.")
+    ] = None,
+    table: Annotated[
+        list[int] | None,
+        typer.Option(help="Number of a table to use, as `dma show` counts them; may be repeated."),
+    ] = None,
     case: Annotated[
         Path | None,
         typer.Option(help="Case that names the material: is its nip within the data?"),
@@ -94,6 +99,7 @@ def fit(
             temperature=_read("--temperature", temperature, "temperature"),
             frequency=_read("--frequency", frequency, "frequency"),
             sheet=sheet,
+            tables=table or (),
         )
         run.reserve({"--out": out, "--plot": plot})
         law = _law(shift, c1, _read("--c2", c2, "temperature difference"), energy, degrees)

@@ -12,6 +12,7 @@ from rollnip.dma.pictures import (
     plot_shifts,
 )
 from rollnip.dma.quality import Quality
+from rollnip.dma.reading import Reading, read_tables
 from rollnip.dma.shifts import ShiftFit
 from rollnip.dma.spectrum import Reduced
 
@@ -21,6 +22,7 @@ __all__ = [
     "DmaMethod",
     "Master",
     "Quality",
+    "Reading",
     "Reduced",
     "ShiftFit",
     "fit_dma",
@@ -33,5 +35,6 @@ __all__ = [
     "plot_phase",
     "plot_shifts",
     "read_dma",
+    "read_tables",
     "valid_range",
 ]

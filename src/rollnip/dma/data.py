@@ -2,28 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, require_finite
-from rollnip._units import Dimension
-from rollnip.io import Columns, read_columns
+from rollnip.dma.heads import Modulus
+from rollnip.dma.reading import ReadTable, read_tables
 from rollnip.materials.shift import checked_temperature
 
 Array = NDArray[np.float64]
-Modulus = Literal["E", "G"]
 
-_FREQUENCY = ("frequency", "freq", "f")
-_ANGULAR = ("angular frequency", "ang. frequency", "omega")
-_TEMPERATURE = ("temperature", "temp", "t")
-_STORAGE = {"storage modulus": None, "e'": "E", "g'": "G"}
-_LOSS = {"loss modulus": None, "e''": "E", "g''": "G"}
-_TAN = ("tan delta", "tan(delta)", "tan d", "loss factor", "tan δ")
 _LEAST = 4  # measurements
 
 
@@ -69,7 +61,7 @@ class DmaData:
             if not np.all(good):
                 raise InvalidInputError(
                     f"`{name}` must be positive and finite, got {values[~good][0]:g} in "
-                    f"{self.source}, measurement {int(np.flatnonzero(~good)[0]) + 1}."
+                    f"{self.source}, {self.row(int(np.flatnonzero(~good)[0]))}."
                 )
         checked_temperature("temperature", float(np.min(self.temperature)))
         require_finite("poisson", self.poisson)
@@ -102,17 +94,19 @@ def read_dma(
     temperature: float | None = None,
     frequency: float | None = None,
     sheet: str | None = None,
+    tables: Sequence[int] = (),
 ) -> DmaData:
-    """Read a table of a frequency or temperature sweep, CSV or Excel.
+    """Read a frequency or temperature sweep from what an instrument wrote, text or workbook.
 
-    Columns are found by their heads, in any order; others are passed over: ``frequency`` or
-    ``angular frequency``, ``temperature``, ``storage modulus`` (or ``E'``, ``G'``), and
-    ``loss modulus`` (``E''``, ``G''``) or ``tan delta``. All but tan delta must say their unit.
+    Columns are found by their heads, in English or German, in any order: frequency or angular
+    frequency, temperature, and two of storage modulus, loss modulus, size of the complex modulus,
+    tan delta and phase. Units stand in the heads or in a row below them. All tables of a file and
+    all sheets of a workbook are taken together. `read_tables` says what was understood.
 
     Parameters
     ----------
     path :
-        of the table.
+        of the file.
     modulus :
         "E" or "G", where the heads do not say which was measured.
     poisson :
@@ -120,129 +114,61 @@ def read_dma(
     temperature, frequency :
         of all measurements [degC, Hz], where there is no such column.
     sheet :
-        of a workbook; the first by default.
+        the only one of a workbook that is read.
+    tables :
+        numbers of the tables that are used, from 1; all by default.
 
     Raises
     ------
     InvalidInputError
         where a column or a unit is missing, or a value is none.
     """
-    columns = read_columns(path, sheet=sheet)
-    heads = {_plain(name): name for name in columns.names}
-    storage_name, kind = _modulus_column(columns, heads, _STORAGE, modulus, "storage modulus")
-    storage = _numbers(columns, storage_name, "pressure")
-    loss = _loss(columns, heads, storage, modulus, kind)
+    reading = read_tables(path, temperature=temperature, frequency=frequency, sheet=sheet)
+    chosen = reading.chosen("dynamic", tables)
+    kind = modulus_of(reading.source, chosen, modulus)
     factor = 2.0 * (1.0 + poisson) if kind == "G" else 1.0
+    storage, loss = (np.concatenate(part) for part in zip(*map(_complex, chosen), strict=True))
     return DmaData(
-        frequency=_frequencies(columns, heads, frequency),
-        temperature=_temperatures(columns, heads, temperature),
+        frequency=np.concatenate([table.values["frequency"] for table in chosen]),
+        temperature=np.concatenate([table.values["temperature"] for table in chosen]),
         storage=factor * storage,
         loss=factor * loss,
         poisson=poisson,
         source=str(path),
+        rows=tuple(row for table in chosen for row in table.rows),
     )
 
 
-def _loss(
-    columns: Columns, heads: dict[str, str], storage: Array, modulus: Modulus | None, kind: Modulus
-) -> Array:
-    tangent = next((heads[name] for name in _TAN if name in heads), None)
-    if any(name in heads for name in _LOSS):
-        names = {name: said or kind for name, said in _LOSS.items()}
-        name, other = _modulus_column(columns, heads, names, modulus, "loss modulus")
-        if other != kind:
-            raise InvalidInputError(
-                f"{columns.source}: storage and loss modulus must be of one kind, got {kind} and "
-                f"{other}."
-            )
-        return _numbers(columns, name, "pressure")
-    if tangent is None:
-        raise InvalidInputError(
-            f'{columns.source}: must have a column "loss modulus" or "tan delta", has '
-            f"{', '.join(columns.names)}."
-        )
-    return storage * columns.numbers(tangent, "ratio")
+def modulus_of(source: str, tables: Sequence[ReadTable], given: Modulus | None) -> Modulus:
+    """Whether E or G was measured, from the heads or as given.
 
-
-def _modulus_column(
-    columns: Columns,
-    heads: dict[str, str],
-    names: Mapping[str, str | None],
-    modulus: Modulus | None,
-    called: str,
-) -> tuple[str, Modulus]:
-    """Name of the column in the table, and whether it holds E or G."""
-    there = [name for name in names if name in heads]
-    if len(there) != 1:
-        has = "several" if there else f"has {', '.join(columns.names)}"
-        raise InvalidInputError(
-            f"{columns.source}: must have one column \"{called}\" (or E', G'), {has}."
-        )
-    said = names[there[0]]
-    if said is not None and modulus is not None and said != modulus:
-        raise InvalidInputError(
-            f'{columns.source}: column "{heads[there[0]]}" says {said}, `modulus` says {modulus}.'
-        )
-    kind = said or modulus
+    Raises
+    ------
+    InvalidInputError
+        where neither says it, or they contradict each other.
+    """
+    said = {table.modulus for table in tables} - {None}
+    if len(said) > 1:
+        raise InvalidInputError(f"{source}: moduli must be of one kind, got E and G.")
+    kind = said.pop() if said else None
+    if kind is not None and given is not None and kind != given:
+        raise InvalidInputError(f"{source}: the heads say {kind}, `modulus` says {given}.")
+    kind = kind or given
     if kind is None:
         raise InvalidInputError(
-            f'{columns.source}: `modulus` must say whether column "{heads[there[0]]}" is Young\'s '
-            'modulus ("E") or the shear modulus ("G"): they differ by a factor of 3 in rubber.'
+            f'{source}: `modulus` must say whether it was Young\'s modulus ("E") or the shear '
+            'modulus ("G"): they differ by a factor of 3 in rubber, and the heads do not tell.'
         )
-    return heads[there[0]], "G" if kind == "G" else "E"
+    return kind
 
 
-def _frequencies(columns: Columns, heads: dict[str, str], given: float | None) -> Array:
-    plain = _found(heads, _FREQUENCY)
-    angular = _found(heads, _ANGULAR)
-    _require_one(columns, "frequency", plain or angular, given)
-    if angular is not None and plain is None:
-        if columns.unit(angular) != "rad/s":
-            raise InvalidInputError(
-                f'{columns.source}: column "{angular}" must be in [rad/s], got '
-                f'[{columns.unit(angular)}]; in Hz it is called "frequency".'
-            )
-        return _numbers(columns, angular, "frequency")
-    if plain is not None:
-        return _numbers(columns, plain, "frequency")
-    return _constant(columns, "frequency", given)
-
-
-def _temperatures(columns: Columns, heads: dict[str, str], given: float | None) -> Array:
-    name = _found(heads, _TEMPERATURE)
-    _require_one(columns, "temperature", name, given)
-    if name is not None:
-        return _numbers(columns, name, "temperature")
-    return _constant(columns, "temperature", given)
-
-
-def _require_one(columns: Columns, name: str, column: str | None, given: float | None) -> None:
-    if column is not None and given is not None:
-        raise InvalidInputError(
-            f'{columns.source}: `{name}` must not be given where there is a column "{column}"; '
-            "leave it out, or give the column another head."
-        )
-
-
-def _constant(columns: Columns, name: str, given: float | None) -> Array:
-    if given is None:
-        raise InvalidInputError(
-            f'{columns.source}: must have a column "{name}", or `{name}` must be given for all.'
-        )
-    return np.full(len(columns.rows), float(given))
-
-
-def _numbers(columns: Columns, name: str, dimension: Dimension) -> Array:
-    """A column whose unit must be said: moduli come in Pa and MPa, temperatures in degC and K."""
-    columns.require_unit(name, dimension)
-    return columns.numbers(name, dimension)
-
-
-def _found(heads: dict[str, str], names: Sequence[str]) -> str | None:
-    return next((heads[name] for name in names if name in heads), None)
-
-
-def _plain(head: str) -> str:
-    """A head in small letters, with primes as apostrophes."""
-    text = head.strip().lower().replace("″", "''").replace("′", "'").replace('"', "''")
-    return " ".join(text.replace("’", "'").replace("_", " ").split())
+def _complex(table: ReadTable) -> tuple[Array, Array]:
+    """Storage and loss modulus from the two columns that there are."""
+    values = table.values
+    if "storage" in values and "loss" in values:
+        return values["storage"], values["loss"]
+    tangent = values["tan delta"] if "tan delta" in values else np.tan(values["phase"])
+    if "storage" in values:
+        return values["storage"], values["storage"] * tangent
+    storage = values["absolute"] / np.hypot(1.0, tangent)
+    return storage, storage * tangent

@@ -211,7 +211,7 @@ def _sheet_rows(file: Path, data: bytes, sheet: str | None) -> Iterator[_Line]:
             f'{file}: reading workbooks needs an extra; pip install "rollnip[tables]", or save '
             "the sheet as CSV."
         ) from None
-    _check_extents(file, data)
+    check_extents(file, data)
     try:
         with CalamineWorkbook.from_filelike(BytesIO(data)) as book:
             name = _sheet_name(file, book.sheet_names, sheet)
@@ -219,12 +219,12 @@ def _sheet_rows(file: Path, data: bytes, sheet: str | None) -> Iterator[_Line]:
     except (CalamineError, OSError) as problem:
         raise InvalidInputError(f"{file}: cannot be read as a workbook: {problem}.") from None
     for number, row in enumerate(rows, start=1):
-        cells = [_cell(value) for value in row]
+        cells = [cell_of(value) for value in row]
         if any(cell != "" for cell in cells):
             yield number, cells
 
 
-def _check_extents(file: Path, data: bytes) -> None:
+def check_extents(file: Path, data: bytes) -> None:
     """Raise InvalidInputError for a workbook whose rectangles of cells would be too large."""
     try:
         found = list(extents(data, file.suffix.lower()))
@@ -248,7 +248,8 @@ def _sheet_name(file: Path, names: Sequence[str], wanted: str | None) -> str:
     return wanted or names[0]
 
 
-def _cell(value: object) -> Cell:
+def cell_of(value: object) -> Cell:
+    """A value of a workbook as a number or a text without blanks around it."""
     if isinstance(value, bool):
         return str(value)
     if isinstance(value, int | float):

@@ -1,0 +1,381 @@
+"""What was understood of a file of measurements: each table, its columns, what was left out."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import format_quantity
+from rollnip.dma.heads import SHOWN, Head, Modulus, Quantity, scale_of
+from rollnip.dma.tables import RawTable, column, find_tables, has_decimal_commas
+from rollnip.io.cells import Cells, read_cells
+
+Array = NDArray[np.float64]
+Kind = Literal["dynamic", "relaxation", "creep"]
+
+_WAYS: tuple[tuple[Quantity, Quantity], ...] = (
+    ("storage", "loss"),
+    ("storage", "tan delta"),
+    ("storage", "phase"),
+    ("absolute", "phase"),
+    ("absolute", "tan delta"),
+)
+_OVER_TIME: tuple[tuple[Quantity, Kind], ...] = (
+    ("relaxation", "relaxation"),
+    ("compliance", "creep"),
+)
+_UNITS = {"frequency": "Hz", "temperature": "degC", "time": "s", "phase": "rad", "tan delta": ""}
+_LINES = 6  # named of those left out
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ReadTable:
+    """One table as understood.
+
+    Attributes
+    ----------
+    name : of the sheet or step, with its number.
+    line : of its heads.
+    heads : of all columns.
+    used : index of the column of each quantity that is used.
+    values : (n,) of each quantity in base units: Hz, degC, MPa, rad, s, 1/MPa.
+    rows : where each of the n rows stands.
+    kind : of measurement; None where the table cannot be used.
+    modulus : E or G, where the heads say it.
+    notes : what was taken from elsewhere, or left out.
+    problem : why the table is none of measurements that are known; empty where it is.
+    fault : what is wrong in a table that otherwise is one.
+    """
+
+    name: str
+    line: int
+    heads: tuple[Head, ...]
+    used: dict[Quantity, int]
+    values: dict[Quantity, Array]
+    rows: tuple[str, ...]
+    kind: Kind | None
+    modulus: Modulus | None
+    notes: tuple[str, ...]
+    problem: str
+    fault: str
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Reading:
+    """A file of measurements as understood.
+
+    Attributes
+    ----------
+    source : name of the file.
+    encoding, separator : of a text file, in words; empty for a workbook.
+    decimal_comma : whether a comma was read as a decimal one.
+    tables : in the order of the file.
+    passed : lines that belong to no table.
+    """
+
+    source: str
+    encoding: str
+    separator: str
+    decimal_comma: bool
+    tables: tuple[ReadTable, ...]
+    passed: tuple[int, ...]
+
+    def chosen(self, kind: Kind, numbers: Sequence[int] = ()) -> tuple[ReadTable, ...]:
+        """The tables of a kind; or those of the given numbers, from 1.
+
+        Raises
+        ------
+        InvalidInputError
+            where there is none, saying what each table lacks.
+        """
+        for number in numbers:
+            if not 1 <= number <= len(self.tables):
+                raise InvalidInputError(
+                    f"{self.source}: has no table {number}, it has {len(self.tables)}."
+                )
+        tables = [self.tables[n - 1] for n in numbers] if numbers else list(self.tables)
+        fault = next((table.fault for table in tables if table.fault), "")
+        if fault:
+            raise InvalidInputError(fault)
+        good = tuple(table for table in tables if table.kind == kind)
+        if good and not (numbers and len(good) < len(tables)):
+            return good
+        if not self.tables:
+            raise InvalidInputError(
+                f"{self.source}: holds no table whose heads are known; write one line of heads "
+                "over the numbers, such as \"temperature [degC]; frequency [Hz]; E' [MPa]; "
+                "E'' [MPa]\"."
+            )
+        why = [f"{table.name}: {table.problem or _other(table)}" for table in tables]
+        raise InvalidInputError(f"{self.source}: {' '.join(dict.fromkeys(why))}")
+
+    def text(self) -> str:
+        """What was understood, for people."""
+        return "\n".join(_shown(self)) + "\n"
+
+
+def read_tables(
+    path: str | Path,
+    *,
+    temperature: float | None = None,
+    frequency: float | None = None,
+    sheet: str | None = None,
+) -> Reading:
+    """Find and understand the tables of measurements in a text file or workbook.
+
+    Parameters
+    ----------
+    path :
+        of the file.
+    temperature, frequency :
+        of all measurements [degC, Hz], where there is no such column.
+    sheet :
+        the only one of a workbook that is read; all by default.
+
+    Raises
+    ------
+    InvalidInputError
+        where the file cannot be read, a unit is missing or a cell is no number.
+    """
+    cells = _sheets(read_cells(path), sheet)
+    raw, passed = find_tables(cells, Path(path).suffix.lower())
+    comma = cells.separator != "comma" and has_decimal_commas(raw)
+    given: dict[Quantity, float] = {}
+    if temperature is not None:
+        given["temperature"] = temperature
+    if frequency is not None:
+        given["frequency"] = frequency
+    tables = tuple(
+        _understood(table, number, comma, cells, given) for number, table in enumerate(raw, 1)
+    )
+    return Reading(str(path), cells.encoding, cells.separator, comma, tables, tuple(passed))
+
+
+def _sheets(cells: Cells, wanted: str | None) -> Cells:
+    if wanted is None:
+        return cells
+    names = [sheet.name for sheet in cells.sheets]
+    if names == [""]:
+        raise InvalidInputError(
+            f"{cells.source}: is a text file and has no sheets; leave out `sheet`."
+        )
+    if wanted not in names:
+        raise InvalidInputError(
+            f'{cells.source}: has no sheet "{wanted}" (there: {", ".join(names)}).'
+        )
+    kept = tuple(sheet for sheet in cells.sheets if sheet.name == wanted)
+    return Cells(cells.source, kept, cells.encoding, cells.separator)
+
+
+def _understood(
+    table: RawTable, number: int, comma: bool, cells: Cells, given: dict[Quantity, float]
+) -> ReadTable:
+    name = f"table {number}" + (f", {table.name}" if table.name else "")
+    empty = ReadTable(name, table.line, table.heads, {}, {}, (), None, None, (), "", "")
+    source = cells.source
+    try:
+        columns = _columns(table, source)
+        kind, used, problem = _kind(columns, given, table)
+        if kind is None:
+            return replace(empty, problem=problem)
+        values = _values(table, used, comma, source)
+        notes = _add_known(values, table, given, source)
+    except InvalidInputError as error:
+        return replace(empty, fault=str(error))
+    good = np.all([np.isfinite(column) for column in values.values()], axis=0)
+    lost = [line for line, kept in zip(table.lines, good, strict=True) if not kept]
+    if lost:
+        notes.append(f"left out: {_count(len(lost), 'row')} with an empty cell ({_lines(lost)})")
+    where = "line" if cells.encoding else f'sheet "{table.name}", row'
+    rows = tuple(f"{where} {line}" for line, k in zip(table.lines, good, strict=True) if k)
+    if not rows:
+        return replace(empty, problem=f"it has no row without an empty cell {_seen(table)}.")
+    kinds = {table.heads[i].kind for i in used.values()} - {None}
+    if len(kinds) > 1:
+        fault = f"{source}, line {table.line}: moduli must be of one kind, got E and G."
+        return replace(empty, fault=fault)
+    return replace(
+        empty,
+        used=used,
+        values={key: column[good] for key, column in values.items()},
+        rows=rows,
+        kind=kind,
+        modulus=kinds.pop() if kinds else None,
+        notes=tuple(notes),
+    )
+
+
+def _columns(table: RawTable, source: str) -> dict[Quantity, int]:
+    """Column of each quantity; of several, the first, where a name is not there twice."""
+    found: dict[Quantity, int] = {}
+    for index, head in enumerate(table.heads):
+        quantity = head.quantity
+        if quantity is None:
+            continue
+        if quantity in found:
+            first = table.heads[found[quantity]]
+            if quantity == "time" or head.angular != first.angular:
+                continue  # step time before time; Hz and rad/s say the same
+            raise InvalidInputError(
+                f'{source}, line {table.line}: columns "{first.text}" and "{head.text}" both say '
+                f"{SHOWN[quantity]}; rename the one that is not to be used."
+            )
+        found[quantity] = index
+    return found
+
+
+def _kind(
+    columns: dict[Quantity, int], given: dict[Quantity, float], table: RawTable
+) -> tuple[Kind | None, dict[Quantity, int], str]:
+    """Kind of measurement, the columns that it uses, or what is lacking."""
+    temperature = {k: i for k, i in columns.items() if k == "temperature"}
+    way = next((way for way in _WAYS if all(one in columns for one in way)), None)
+    if way is not None:
+        used = {key: columns[key] for key in way} | temperature
+        if "frequency" in columns:
+            used["frequency"] = columns["frequency"]
+        elif "frequency" not in given and table.frequency is None:
+            return None, {}, f"it has no column of frequencies {_seen(table)}."
+        return "dynamic", used, ""
+    if "time" in columns:
+        for quantity, kind in _OVER_TIME:
+            if quantity in columns:
+                used = {"time": columns["time"], quantity: columns[quantity]} | temperature
+                return kind, used, ""
+    lacks = (
+        "the loss modulus, tan delta or the phase"
+        if columns.keys() & {"storage", "absolute"}
+        else "a column of the storage modulus or the complex modulus (or of time and E(t) or J(t))"
+    )
+    return None, {}, f"it lacks {lacks} {_seen(table)}."
+
+
+def _seen(table: RawTable) -> str:
+    texts = [head.text for head in table.heads if head.text]
+    names = [
+        "storage modulus",
+        "loss modulus",
+        "frequency",
+        "temperature",
+        "tan delta",
+        "phase angle",
+    ]
+    unknown = [head.text.lower() for head in table.heads if head.quantity is None and head.text]
+    near = [(text, get_close_matches(text, names, n=1, cutoff=0.75)) for text in unknown]
+    hint = next((f'; "{text}" may mean "{found[0]}"' for text, found in near if found), "")
+    return f"(its heads, line {table.line}: {', '.join(texts[:12])}{hint})"
+
+
+def _values(
+    table: RawTable, used: dict[Quantity, int], comma: bool, source: str
+) -> dict[Quantity, Array]:
+    values = {}
+    for quantity, index in used.items():
+        head = table.heads[index]
+        where = f"{source}, line {table.line}"
+        scale, offset = scale_of(head, head.unit, where)
+        values[quantity] = scale * column(table, index, comma=comma, source=source) + offset
+    return values
+
+
+def _add_known(
+    values: dict[Quantity, Array],
+    table: RawTable,
+    given: dict[Quantity, float],
+    source: str,
+) -> list[str]:
+    """Add temperature and frequency of the whole table, where they have no column; say it."""
+    notes: list[str] = []
+    count = len(table.rows)
+    needed: tuple[Quantity, ...] = ("temperature", "frequency")
+    for key in needed[: 1 if "time" in values else 2]:
+        if key in values and key in given:
+            raise InvalidInputError(f"`{key}` must not be given: {source} has such a column.")
+        if key in values:
+            continue
+        said = table.temperature if key == "temperature" else table.frequency
+        if key in given:
+            values[key] = np.full(count, given[key])
+        elif said is not None:
+            values[key] = np.full(count, said[0])
+            at = f"line {said[1]}" if said[1] else "the name of the sheet"
+            notes.append(f"{key} {said[0]:g} {_UNITS[key]} from {at}")
+        else:
+            raise InvalidInputError(
+                f'{source}, line {table.line}: the table must have a column "{key}", or '
+                f"`{key}` must be given {_seen(table)}."
+            )
+    return notes
+
+
+def _other(table: ReadTable) -> str:
+    return f"it holds {_KINDS[table.kind]}." if table.kind else table.problem
+
+
+_KINDS: dict[Kind, str] = {
+    "dynamic": "a sweep of frequency or temperature",
+    "relaxation": "a relaxation modulus over time",
+    "creep": "a creep compliance over time",
+}
+
+
+def _shown(reading: Reading) -> Iterator[str]:
+    how = [
+        one
+        for one in (reading.encoding, reading.separator and f"{reading.separator}-separated")
+        if one
+    ]
+    if reading.decimal_comma:
+        how.append("decimal commas")
+    yield f"{reading.source}" + (f": {', '.join(how)}" if how else "")
+    if reading.passed:
+        left = _count(len(reading.passed), "line")
+        yield f"  {left} outside of tables ({_lines(reading.passed)})"
+    for table in reading.tables:
+        yield f"{table.name}, heads in line {table.line}"
+        if table.kind is None:
+            yield f"  not used: {table.problem or table.fault}"
+            continue
+        yield f"  {_KINDS[table.kind]}, {_count(len(table.rows), 'row')}"
+        yield from _shown_columns(table)
+        yield from (f"  {note}" for note in table.notes)
+    if not reading.tables:
+        yield "  no table whose heads are known"
+
+
+def _shown_columns(table: ReadTable) -> Iterator[str]:
+    by_index = {index: quantity for quantity, index in table.used.items()}
+    for index, head in enumerate(table.heads):
+        if not head.text:
+            continue
+        quantity = by_index.get(index)
+        if quantity is None:
+            yield f"  {head.text:<28} passed over"
+            continue
+        values = table.values[quantity]
+        unit = "1/MPa" if quantity == "compliance" else _UNITS.get(quantity, "MPa")
+        low, high = (
+            format_quantity(float(v), unit, digits=4) for v in (values.min(), values.max())
+        )
+        name = SHOWN[quantity] + (f" {head.kind}" if head.kind else "")
+        told = f" (in {head.unit})" if head.unit else ""
+        several = np.unique(np.round(values)).size if quantity == "temperature" else 0
+        more = f", {_count(several, 'temperature')} to the degree" if several else ""
+        yield f"  {head.text:<28} {name}{told}: {low} to {high}{more}"
+
+
+def _count(number: int, name: str) -> str:
+    return f"{number} {name}{'' if number == 1 else 's'}"
+
+
+def _lines(lines: Sequence[int]) -> str:
+    shown = ", ".join(str(line) for line in lines[:_LINES])
+    word = "line" if len(lines) == 1 else "lines"
+    return f"{word} {shown}{', ...' if len(lines) > _LINES else ''}"

@@ -1,0 +1,180 @@
+"""The bare cells of a text file or of all sheets of a workbook, before anything is understood.
+
+Instruments write in many encodings and with any separator: UTF-8 or UTF-16 with a mark, or the
+code page of western Windows; tabs, semicolons, commas or blanks; decimal points or commas.
+"""
+
+from __future__ import annotations
+
+import codecs
+import csv
+import re
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from io import BytesIO
+from pathlib import Path
+
+from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._files import reading
+from rollnip._reading import UnreadableError, read_regular
+from rollnip.io.columns import EXCEL, LARGEST, MOST_CELLS, Cell, cell_of, check_extents
+
+_ZEROS = 0.2  # part of zero bytes that says UTF-16 without a mark
+_MARKS = (
+    (codecs.BOM_UTF8, "utf-8-sig", "UTF-8"),
+    (codecs.BOM_UTF16_LE, "utf-16", "UTF-16"),
+    (codecs.BOM_UTF16_BE, "utf-16", "UTF-16"),
+)
+_NUMBER = r"[+\-\u2212]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?"
+_NUMERIC = re.compile(_NUMBER)
+_BLANKS = re.compile(r"\s+")
+_WIDE = re.compile(r"\s{2,}")
+_SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blank"}
+
+
+@dataclass(frozen=True, slots=True)
+class Sheet:
+    """The cells of a text file or of one sheet.
+
+    Attributes
+    ----------
+    name : of the sheet; empty for a text file.
+    rows : cells of each row that is not empty; texts without blanks around them, or numbers.
+    lines : line of the file, or row of the sheet, of each.
+    """
+
+    name: str
+    rows: tuple[tuple[Cell, ...], ...]
+    lines: tuple[int, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Cells:
+    """A file as rows of cells.
+
+    Attributes
+    ----------
+    source : name of the file.
+    sheets : of a workbook; one for a text file.
+    encoding, separator : in words; empty for a workbook.
+    """
+
+    source: str
+    sheets: tuple[Sheet, ...]
+    encoding: str = ""
+    separator: str = ""
+
+
+def read_cells(path: str | Path) -> Cells:
+    """Read the cells of a text file or workbook.
+
+    Raises
+    ------
+    InvalidInputError
+        where it cannot be read, is no regular file or too large, or is no text.
+    """
+    file = Path(path)
+    reading(file)
+    try:
+        data = read_regular(file, LARGEST)
+    except UnreadableError as error:
+        raise InvalidInputError(f"{path}: {error}") from None
+    if file.suffix.lower() in EXCEL:
+        return Cells(str(path), tuple(_sheets(file, data)))
+    text, encoding = _decoded(data, str(path))
+    numbered = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip()]
+    mark = _separator([line for _, line in numbered])
+    if len(numbered) + text.count(mark) > MOST_CELLS:
+        raise InvalidInputError(f"{path}: must hold at most {MOST_CELLS:,} cells, it holds more.")
+    rows = _split([line for _, line in numbered], mark)
+    sheet = Sheet("", tuple(rows), tuple(n for n, _ in numbered))
+    return Cells(str(path), (sheet,), encoding, _SEPARATORS[mark])
+
+
+def _sheets(file: Path, data: bytes) -> Iterator[Sheet]:
+    try:
+        from python_calamine import CalamineError, CalamineWorkbook
+    except ImportError:
+        raise RollnipError(
+            f'{file}: reading workbooks needs an extra; pip install "rollnip[tables]", or save '
+            "the sheet as CSV."
+        ) from None
+    check_extents(file, data)
+    try:
+        with CalamineWorkbook.from_filelike(BytesIO(data)) as book:
+            for name in book.sheet_names:
+                rows = book.get_sheet_by_name(name).to_python(skip_empty_area=False)
+                filled = [
+                    (number, tuple(cell_of(value) for value in row))
+                    for number, row in enumerate(rows, start=1)
+                    if any(value != "" for value in row)
+                ]
+                yield Sheet(name, tuple(row for _, row in filled), tuple(n for n, _ in filled))
+    except (CalamineError, OSError) as problem:
+        raise InvalidInputError(f"{file}: cannot be read as a workbook: {problem}.") from None
+
+
+def _decoded(data: bytes, source: str) -> tuple[str, str]:
+    """Text and the name of its encoding."""
+    for mark, codec, name in _MARKS:
+        if data.startswith(mark):
+            return _decode(data, codec, name, source), name
+    if data.count(0) > _ZEROS * len(data):
+        codec = "utf-16-le" if data[1:2] == b"\0" else "utf-16-be"
+        return _decode(data, codec, "UTF-16", source), "UTF-16"
+    if 0 in data:
+        raise InvalidInputError(f"{source}: is not a text file (it holds zero bytes).")
+    try:
+        return data.decode("utf-8"), "UTF-8"
+    except UnicodeDecodeError:
+        return _decode(data, "cp1252", "Windows-1252", source), "Windows-1252"
+
+
+def _decode(data: bytes, codec: str, name: str, source: str) -> str:
+    try:
+        return data.decode(codec)
+    except UnicodeDecodeError as problem:
+        raise InvalidInputError(
+            f"{source}: must be text in UTF-8, UTF-16 or Windows-1252; as {name} the byte at "
+            f"{problem.start} cannot be read. Save it as UTF-8."
+        ) from None
+
+
+def _separator(lines: Sequence[str]) -> str:
+    """What parts the cells of most lines that hold numbers."""
+    found: Counter[str] = Counter()
+    for line in lines:
+        if len(_NUMERIC.findall(line)) < 2:
+            continue
+        if "\t" in line.strip():
+            found["\t"] += 1
+        elif ";" in line and "=" not in line:
+            found[";"] += 1
+        elif "," in line and not _is_blank_separated(line):
+            found[","] += 1
+        elif _is_blank_separated(line):
+            found[" "] += 1
+    return found.most_common(1)[0][0] if found else ","
+
+
+def _is_blank_separated(line: str) -> bool:
+    """Two numbers or more parted by blanks alone; with decimal commas no point stands in them."""
+    parts = _BLANKS.split(line.strip())
+    numbers = [part for part in parts if _NUMERIC.fullmatch(part) and not part.endswith(",")]
+    return len(numbers) >= 2 and 2 * len(numbers) > len(parts) and not ("," in line and "." in line)
+
+
+def _split(lines: Sequence[str], mark: str) -> list[tuple[Cell, ...]]:
+    if mark != " ":
+        rows = (next(csv.reader([line], delimiter=mark)) for line in lines)
+        return [tuple(cell.strip() for cell in row) for row in rows]
+    narrow = [tuple(_BLANKS.split(line.strip())) for line in lines]
+    counts = Counter(len(row) for row in narrow if len(_NUMERIC.findall(" ".join(row))) >= 2)
+    width = counts.most_common(1)[0][0]
+    # heads may hold blanks of their own; then more of them part the columns
+    wide = [tuple(_WIDE.split(line.strip())) for line in lines]
+    return [
+        one if len(one) == width or len(other) != width else other
+        for one, other in zip(narrow, wide, strict=True)
+    ]

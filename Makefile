@@ -34,9 +34,9 @@ $(STAMP): pyproject.toml
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
 	@touch $@
 
-demo: venv ## solve the paper's configuration II, print the summary, write a picture to out/
+demo: venv ## solve a driven press nip, print the summary, write a picture to out/
 	@mkdir -p out
-	$(BIN)/rollnip solve examples/configuration-2-driven.toml --plot out/configuration-2-driven.png
+	$(BIN)/rollnip solve examples/press-driven.toml --plot out/press-driven.png
 
 serve: venv ## the nip designer at http://127.0.0.1:8000
 	$(BIN)/rollnip serve

@@ -68,6 +68,7 @@ myst_enable_extensions = ["colon_fence", "deflist", "dollarmath", "amsmath", "su
 myst_substitutions = {
     "default_geometry": f'`"{Model().geometry}"`',
     "default_tolerance": Model().tolerance,
+    "release": release,
 }
 myst_heading_anchors = 3
 myst_dmath_double_inline = True
@@ -137,7 +138,7 @@ html_theme_options = {
     "navbar_end": ["theme-switcher"],
     "footer_start": ["copyright"],
     "footer_end": [],
-    "header_links_before_dropdown": 6,
+    "header_links_before_dropdown": 8,
     "secondary_sidebar_items": {
         "**": ["page-toc"],
         "verification": [],

@@ -1,10 +1,13 @@
+import io
 import time
 from dataclasses import replace
 
 import pytest
 from matplotlib.text import Text
+from rich.console import Console
 
 import rollnip as rn
+from rollnip.cli.summary import print_summary
 from rollnip.plots import plot_overview, save_figure
 
 
@@ -29,6 +32,21 @@ def test_pictures_and_key_figures(driven):
         "verified; geometry curved",
     ):
         assert wanted in text
+
+
+def test_the_bond_is_that_of_the_summary(driven):
+    """One figure has one name and one value, in the picture and in the summary."""
+    stream = io.StringIO()
+    print_summary(driven, Console(file=stream, width=100, highlight=False))
+    lines = stream.getvalue().splitlines()
+    texts = [text.get_text() for text in plot_overview(driven).findobj(Text)]
+    bonds = [one for one in driven.interfaces if one.is_bond]
+    assert len(bonds) == 2
+    for bond in bonds:
+        shown = texts[texts.index(f"largest pull, {bond.roller}") + 1]
+        (line,) = [line for line in lines if line.strip().startswith(f"{bond.roller} bond")]
+        assert f"largest pull {shown} MPa" in line
+        assert bond.pull == max(0.0, bond.peel.max())
 
 
 def test_what_is_not_defined_is_a_dash(skin):

@@ -43,7 +43,7 @@ def _parts(solution: Solution) -> Iterator[RenderableType]:
         yield Text("\nStick and slip", style="bold")
         yield _table(zones(solution), label=6, value=18)
     if solution.interfaces:
-        yield Text("\nInterfaces, range per revolution", style="bold")
+        yield Text("\nInterfaces, each revolution", style="bold")
         yield _interfaces(solution)
     yield Text()
     for warning in solution.warnings:
@@ -72,7 +72,7 @@ def _interfaces(solution: Solution) -> RenderableType:
         kind = "bond" if one.is_bond else "interface"
         table.add_row(
             f"{one.roller} {kind} at {format_quantity(one.depth, digits=_DIGITS)} mm",
-            f"shear {format_quantity(one.shear_range, digits=_DIGITS)} MPa",
-            f"peel {format_quantity(one.peel_range, digits=_DIGITS)} MPa",
+            f"shear range {format_quantity(one.shear_range, digits=_DIGITS)} MPa",
+            f"largest pull {format_quantity(one.pull, digits=_DIGITS)} MPa",
         )
     return Padding(table, (0, 0, 0, 2))

@@ -65,6 +65,11 @@ class InterfaceStress:
     peel_range: float
     von_mises_max: float
 
+    @property
+    def pull(self) -> float:
+        """Largest tension across the interface, 0 where it is only pressed [MPa]."""
+        return max(0.0, self.peel_max)
+
 
 def interface_stresses(
     name: str,

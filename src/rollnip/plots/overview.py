@@ -6,7 +6,6 @@ from collections.abc import Iterator
 from textwrap import wrap
 from typing import Any, NamedTuple
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -15,7 +14,7 @@ from rollnip._units import format_quantity
 from rollnip.figures import FIGURES
 from rollnip.plots.field import plot_field
 from rollnip.plots.pressure import plot_pressure
-from rollnip.plots.section import Name, layer_texts, roller_of
+from rollnip.plots.section import layer_texts
 from rollnip.plots.style import (
     LETTER,
     MM,
@@ -152,17 +151,14 @@ def _rows(solution: Solution) -> Iterator[_Row]:
 
 
 def _bond_rows(solution: Solution) -> Iterator[_Row]:
-    """Largest shear and tension on the bond of each coating."""
-    both: tuple[Name, ...] = ("upper", "lower")
-    names = [name for name in both if roller_of(solution, name).layers]
-    if names:
+    """Yield the shear range and the largest pull on the bond of each covering."""
+    bonds = [one for one in solution.interfaces if one.is_bond]
+    if bonds:
         yield _Row("Bond to the core")
-    for name in names:
-        field = solution.interior(name, roller_of(solution, name).coating_thickness)
-        shear, peel = float(np.max(np.abs(field.s_xz))), float(np.max(field.s_zz))
-        size = float(np.ptp(field.s_zz))
-        yield _number(f"shear, {name}", shear, "MPa", size=size)
-        yield _number(f"peel, {name}", max(peel, 0.0), "MPa", size=size)
+    for bond in bonds:
+        name, size = bond.roller, bond.peel_range
+        yield _number(f"shear range, {name}", bond.shear_range, "MPa", size=size)
+        yield _number(f"largest pull, {name}", bond.pull, "MPa", size=size)
 
 
 def _roller_rows(name: str, roller: Roller) -> Iterator[_Row]:

@@ -33,18 +33,15 @@ def power_lost(solution):
 
 @pytest.mark.parametrize("traction", [0.0, 0.53, -0.53])
 @pytest.mark.parametrize("material", [CLEAR, LOSSY], ids=["elastic", "viscoelastic"])
-def test_power_in_is_power_lost(traction, material):
+def test_slip_and_moment_of_the_pressure_are_power_lost(traction, material):
+    """T (V_u - V_l) + V (1/R_u + 1/R_l) int p x dx, the work balance of flat layers."""
     solution = solve(configuration_two(traction, material), Model(geometry="linear"))
+    x, p = solution.final.nodes, np.pad(solution.pressure, 1)
+    a, b = x[:-1], x[1:]
+    moment = np.sum((b - a) * (p[:-1] * (2.0 * a + b) + p[1:] * (a + 2.0 * b)) / 6.0)
+    power = 100.0 * (traction * solution.creepage + solution.nip.curvature * moment)
     # Exact for the continuous problem; the slip of the last elements is what is left.
-    assert solution.power_in == pytest.approx(power_lost(solution), rel=3e-3, abs=1e-3)
-
-
-@pytest.mark.parametrize("geometry", ["corrected", "curved"])
-@pytest.mark.parametrize("traction", [0.53, -0.53])
-def test_power_closes_to_second_order_in_real_geometry(geometry, traction):
-    # theory section 7: first-order terms balance; strains here are 7 %.
-    solution = solve(configuration_two(traction), Model(geometry=geometry))
-    assert solution.power_in == pytest.approx(power_lost(solution), rel=0.07)
+    assert power == pytest.approx(power_lost(solution), rel=3e-3, abs=1e-3)
 
 
 def test_torques_of_configuration_two():
@@ -56,15 +53,14 @@ def test_torques_of_configuration_two():
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)
-def test_identical_coverings_have_opposite_torques_but_for_the_moment(geometry):
-    # +-R T + int p x dx with equal rollers: the sum is twice the moment, 0 for elastic ones
-    # but for the arm R - u_z, which is the same on both sides.
+def test_identical_elastic_rollers_have_opposite_torques(geometry):
+    # M_u + M_l = R int q (stretch_u - stretch_l) ds: both are stretched by the same shear, but
+    # turned differently, whose square is 2e-3 here.
     roller = rn.Roller(radius=30.0, layers=[rn.Layer(2.0, CLEAR)])
     nip = configuration_two(0.3, upper=CLEAR)
     solution = solve(replace(nip, upper=roller, lower=roller), Model(geometry=geometry))
-    moment = np.trapezoid(solution.profiles.pressure * solution.profiles.x, solution.profiles.x)
-    total = solution.torque_upper + solution.torque_lower
-    assert total == pytest.approx(2.0 * moment, abs=2e-3 * 30.0 * 0.3)
+    assert solution.torque_upper > 0.0
+    assert solution.torque_upper == pytest.approx(-solution.torque_lower, rel=3e-3)
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)

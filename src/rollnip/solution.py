@@ -23,17 +23,16 @@ from rollnip.model import Model
 from rollnip.nip import Approach, LineLoad, Nip
 from rollnip.rolling import (
     DeformedSurfaces,
-    Fields,
     PairKernels,
+    Powers,
     Profiles,
     Round,
     SolverInfo,
     Zone,
     fields_at,
-    fields_on_mesh,
     fine_points,
     peak_pressure,
-    pressure_work,
+    powers,
     slip_velocity,
     surface_depths,
     surface_strain,
@@ -154,45 +153,47 @@ class Solution:
     @property
     def torque_upper(self) -> float | None:
         """Driving torque on the upper axle per length [N]; None for a plane."""
-        return self._torque(upper=True)
+        radius = self.nip.upper.radius
+        return None if isinf(radius) else radius * self._powers.driving_upper
 
     @property
     def torque_lower(self) -> float | None:
         """Driving torque on the lower axle per length [N]; None for a plane."""
-        return self._torque(upper=False)
+        radius = self.nip.lower.radius
+        return None if isinf(radius) else radius * self._powers.driving_lower
 
     @property
     def dissipation_friction(self) -> float | None:
-        """-Int q s dx [N/s = mW/mm], never negative; None without speed."""
-        if self.nip.speed is None:
-            return None
-        creepage = self.creepage
-        if creepage is None:
-            return 0.0
-        fields = self._fields_on_mesh
-        means = 0.5 * (fields.shear[1:] + fields.shear[:-1])
-        return max(0.0, float(self.nip.speed * np.sum(means * fields.creep)))
+        """-Int q s ds over the zones that slip [N/s = mW/mm]; None without speed."""
+        return None if self.nip.speed is None else self.nip.speed * self._powers.friction
 
     @property
     def dissipation_viscous(self) -> float | None:
-        """Power lost inside the layers [N/s]; 0 for elastic ones, None without speed."""
-        if self.nip.speed is None:
-            return None
-        return self.nip.speed * self._loss_per_distance if self.nip.is_viscoelastic else 0.0
+        """Power lost inside the layers [N/s]; 0 for elastic ones, None without speed.
+
+        From the loss part of their compliance: never negative.
+        """
+        return None if self.nip.speed is None else self.nip.speed * self._lost_inside
 
     @property
     def rolling_resistance(self) -> float:
         """Viscous dissipation/(F V)."""
-        return self._loss_per_distance / self.load if self.nip.is_viscoelastic else 0.0
+        return self._lost_inside / self.load
 
     @property
     def power_in(self) -> float | None:
-        """T (V_u - V_l) + V (1/R_u + 1/R_l) int p x dx [N/s]; None without speed."""
+        """Power of both axles, M_u V_u/R_u + M_l V_l/R_l [N/s]; None without speed.
+
+        "linear" and "corrected" leave out products of creepage and strain: there torques but for
+        their T R turn with V.
+        """
         if self.nip.speed is None:
             return None
-        moment = _moment(self.final.nodes, self.final.pressure)
-        slip = self.traction * (self.creepage or 0.0)
-        return self.nip.speed * (slip + self.nip.curvature * moment)
+        driving, traction = self._powers, self.traction
+        rates = self._rates
+        upper = rates[0] * (driving.driving_upper - traction)
+        lower = rates[1] * (driving.driving_lower + traction)
+        return self.nip.speed * (traction * (self.creepage or 0.0) + upper + lower)
 
     @property
     def error(self) -> dict[str, float]:
@@ -342,34 +343,19 @@ class Solution:
         return self.nip.speed * (1.0 + half), self.nip.speed * (1.0 - half)
 
     @cached_property
-    def _fields_on_mesh(self) -> Fields:
-        return fields_on_mesh(self.nip, self.model.geometry, self.final)
+    def _powers(self) -> Powers:
+        final = self.final
+        return powers(self.nip, self.model.geometry, final.mesh, final.state, final.zones)
 
     @property
-    def _loss_per_distance(self) -> float:
-        """-int (q du_t + p d(u_z,upper + u_z,lower)): viscous loss per rolled distance [N/mm]."""
-        u = self._fields_on_mesh.displacements
-        tangential = pressure_work(self.shear, u.x_upper - u.x_lower)
-        return -tangential - pressure_work(self.pressure, u.z_upper + u.z_lower)
+    def _rates(self) -> tuple[float, float]:
+        """Speeds of both rollers over V, to the order of the model."""
+        half = 0.5 * (self.creepage or 0.0)
+        is_small = self.model.geometry in ("linear", "corrected")
+        return (1.0, 1.0) if is_small else (1.0 + half, 1.0 - half)
 
-    def _torque(self, *, upper: bool) -> float | None:
-        """+-R T - R int p du_z: the pressure acts along the normal of the deformed interface."""
-        roller = self.nip.upper if upper else self.nip.lower
-        if isinf(roller.radius):
-            return None
-        u = self._fields_on_mesh.displacements
-        u_z = u.z_upper if upper else u.z_lower
-        shear = self.shear * (1.0 if upper else -1.0)
-        traction = float(self.final.weights @ shear)
-        if self.model.geometry != "linear":
-            # The arm of the shear is R - u_z.
-            depth = roller.curvature * u_z[:-1]
-            traction -= float(self.final.weights @ (shear * depth))
-        return roller.radius * (traction - pressure_work(self.pressure, u_z))
-
-
-def _moment(nodes: Array, pressure: Array) -> float:
-    """Int p x dx of a pressure linear between nodes [N]."""
-    p = np.concatenate([[0.0], pressure, [0.0]])
-    a, b = nodes[:-1], nodes[1:]
-    return float(np.sum((b - a) * (p[:-1] * (2.0 * a + b) + p[1:] * (a + 2.0 * b)) / 6.0))
+    @property
+    def _lost_inside(self) -> float:
+        """Viscous loss over V [N/mm]."""
+        rates, lost = self._rates, self._powers
+        return rates[0] * lost.lost_upper + rates[1] * lost.lost_lower

@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from rollnip.contact import State
-from rollnip.rolling import fields_at, fine_points, pressure_work, slip_velocity, surface_strain
+from rollnip.rolling import fields_at, fine_points, slip_velocity, surface_strain
 from rollnip.rolling.check import residual
+from rollnip.rolling.surfaces import pressure_work
 
 NAMES = ["II driven, curved", "II corrected", "Carter", "idler", "viscoelastic half-space"]
 

@@ -4,12 +4,12 @@ from rollnip.rolling.assemble import stretch_excess, surface_depths
 from rollnip.rolling.check import (
     Fields,
     fields_at,
-    fields_on_mesh,
     fine_points,
     slip_velocity,
     surface_strain,
     surface_strain_in_nip,
 )
+from rollnip.rolling.powers import Powers, powers
 from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_grip, peak_pressure
@@ -19,7 +19,6 @@ from rollnip.rolling.surfaces import (
     PairKernels,
     hoop_curvature,
     pair_kernels,
-    pressure_work,
     with_second_order,
 )
 
@@ -29,6 +28,7 @@ __all__ = [
     "Fields",
     "Figures",
     "PairKernels",
+    "Powers",
     "Profiles",
     "Round",
     "SolverInfo",
@@ -36,14 +36,13 @@ __all__ = [
     "creepage_scale",
     "excess",
     "fields_at",
-    "fields_on_mesh",
     "fine_points",
     "half_width_guess",
     "has_grip",
     "hoop_curvature",
     "pair_kernels",
     "peak_pressure",
-    "pressure_work",
+    "powers",
     "refine",
     "slip_velocity",
     "stretch_excess",

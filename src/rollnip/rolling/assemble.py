@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import isnan, sqrt
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ from rollnip.geometry import (
     sagitta,
     second_stretch,
 )
+from rollnip.interior import SurfaceTractions, loss_per_distance
 from rollnip.model import Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.largest import largest
@@ -204,6 +206,66 @@ def _stretch_terms(
     return mesh.sums(0.5 * (excess[0] + excess[1])), mesh.sums(beyond[0] - beyond[1])
 
 
+def creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
+    """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval, (n - 1,) [mm]."""
+    dx = x[1:] - x[:-1]
+    upper, lower = stretch_excess(x, nip, geometry, u)
+    if geometry in ("linear", "corrected"):
+        # Small strains: the product of creepage and strain is left out.
+        return np.asarray(creepage * dx + upper - lower)
+    half = 0.5 * creepage
+    return np.asarray(creepage * dx + (1.0 + half) * upper - (1.0 - half) * lower)
+
+
+def arc_ratio(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array | float:
+    """Length of the deformed interface over dx in each interval, (n - 1,).
+
+    Only in "finite" is x a place, and the shear a force per length of the interface; elsewhere it
+    is a force per x.
+    """
+    if geometry != "finite":
+        return 1.0
+    middle, dx = 0.5 * (x[1:] + x[:-1]), x[1:] - x[:-1]
+    tilt = u.z_lower - u.z_upper
+    slope = (nip.lower.curvature - nip.upper.curvature) * middle + (tilt[1:] - tilt[:-1]) / dx
+    return np.asarray(np.sqrt(1.0 + 0.25 * slope**2))
+
+
+def mean_shear(mesh: Mesh, state: ContactState) -> Array:
+    """Mean shear as it acts over the intervals of the finer nodes but the first [MPa]."""
+    shear = mesh.acting(state.shear)
+    return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
+
+
+def pulls(
+    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
+) -> tuple[float, float]:
+    """Int q lambda ds of the upper and the lower surface [N/mm].
+
+    What the shear hands over per distance of that surface; ``u`` at the finer nodes but the first.
+    """
+    x = mesh.fine.nodes[1:]
+    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, u)
+    upper, lower = (x[1:] - x[:-1] + stretch_excess(x, nip, geometry, u)) @ shear
+    return float(upper), float(lower)
+
+
+def loss_inside(
+    side: Literal["upper", "lower"], nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState
+) -> float:
+    """Heat inside one of the rollers per distance of its surface [N/mm].
+
+    Of the linear fields under the tractions of the solution, in "finite" too: a share as large
+    as the strains is left out there.
+    """
+    roller, sign = (nip.upper, 1.0) if side == "upper" else (nip.lower, -1.0)
+    if not roller.is_viscoelastic:
+        return 0.0
+    shear, pressure = sign * mesh.acting(state.shear), mesh.acting(state.pressure)
+    tractions = SurfaceTractions.on_inner(mesh.fine.nodes, shear, pressure)
+    return loss_per_distance(roller, tractions, geometry, nip.speed)
+
+
 def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
     """Int q slope dx, the slope of the interface that of both surfaces on average."""
     levers = mesh.weights @ (state.shear * mesh.inner)
@@ -214,11 +276,9 @@ def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
 def _traction_for_torque(
     nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
 ) -> float:
-    """T at which the lower torque R_l (-int q (1 - u_z/R_l) dx - int p du_z) is the wanted one."""
+    """T at which the lower torque R_l (w_l - int q lambda_l ds) is the wanted one (`powers`)."""
     assert isinstance(nip.tangential, Torque)
-    lower = nip.lower
-    leaning = mesh.work(state.pressure, u.z_lower)
-    traction = -nip.tangential.torque_lower * lower.curvature - leaning
-    if geometry != "linear":
-        traction += lower.curvature * float(mesh.weights @ (state.shear * u.z_lower[:-1]))
-    return traction
+    _, pull = pulls(nip, geometry, mesh, state, mesh.finer(u))
+    lost = loss_inside("lower", nip, geometry, mesh, state)
+    wanted = nip.tangential.torque_lower * nip.lower.curvature
+    return lost - wanted - (pull - float(mesh.weights @ state.shear))

@@ -10,7 +10,7 @@ from rollnip.contact import State, Zone
 from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import Geometry
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import stretch_excess, surface_depths
+from rollnip.rolling.assemble import creep, stretch_excess, surface_depths
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Round, creepage_scale
 from rollnip.rolling.surfaces import (
@@ -51,12 +51,6 @@ def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, fina
     return _fields(x, nip, geometry, final, _displacements(x, kernels, final))
 
 
-def fields_on_mesh(nip: Nip, geometry: Geometry, final: Round) -> Fields:
-    """Evaluate a solution at its nodes but the first."""
-    u = final.mesh.finer(final.mesh.displacements(final.state))
-    return _fields(final.nodes[1:], nip, geometry, final, u)
-
-
 def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
     """Evaluate a solution at the nodes, halfway between them, and some way outside."""
     nodes = final.mesh.nodes
@@ -89,7 +83,7 @@ def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacemen
         shear=np.interp(x, final.x, final.shear, left=0.0, right=0.0),
         displacements=u,
         gap=_gap(x, nip, geometry, u) - state.approach,
-        creep=_creep(x, nip, geometry, u, state.creepage),
+        creep=creep(x, nip, geometry, u, state.creepage),
     )
 
 
@@ -97,17 +91,6 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
     """Distance of the deformed surfaces, before the approach is taken off."""
     upper, lower = surface_depths(x, nip, geometry, u)
     return upper + lower
-
-
-def _creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
-    """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval."""
-    dx = x[1:] - x[:-1]
-    upper, lower = stretch_excess(x, nip, geometry, u)
-    if geometry in ("linear", "corrected"):
-        # Small strains: the product of creepage and strain is left out.
-        return np.asarray(creepage * dx + upper - lower)
-    half = 0.5 * creepage
-    return np.asarray(creepage * dx + (1.0 + half) * upper - (1.0 - half) * lower)
 
 
 def fine_points(final: Round) -> Array:

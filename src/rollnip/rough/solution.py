@@ -12,7 +12,15 @@ from numpy.typing import NDArray
 from rollnip.interior import InterfaceStress, SurfaceTractions, interface_stresses
 from rollnip.nip import Approach
 from rollnip.rollers import Roller
-from rollnip.rolling import DeformedSurfaces, PairKernels, Profiles, Round, Zone, hoop_curvature
+from rollnip.rolling import (
+    DeformedSurfaces,
+    PairKernels,
+    Powers,
+    Profiles,
+    Round,
+    Zone,
+    hoop_curvature,
+)
 from rollnip.rough.contact import RoughContact
 from rollnip.rough.fields import SurfaceFields, outside, surface_fields, thinned
 from rollnip.solution import Solution
@@ -93,6 +101,16 @@ class RoughSolution(Solution):
     def zones(self) -> tuple[Zone, ...]:
         """Without friction none."""
         return ()
+
+    @property
+    def torque_upper(self) -> float | None:
+        """Not defined for a snapshot: None."""
+        return None
+
+    @property
+    def torque_lower(self) -> float | None:
+        """Not defined for a snapshot: None."""
+        return None
 
     @property
     def power_in(self) -> float | None:
@@ -210,8 +228,10 @@ class RoughSolution(Solution):
         rotation = fields.slope + hoop * fields.u_x
         return np.asarray(fields.strain - hoop * fields.u_z + 0.5 * rotation**2)
 
-    def _torque(self, *, upper: bool) -> float | None:  # noqa: ARG002
-        return None
+    @cached_property
+    def _powers(self) -> Powers:
+        """Elastic, without friction: nothing is lost, and nothing is said of torques."""
+        return Powers(0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 def _depth(x: Array, roller: Roller, u_z: Array) -> Array:

@@ -104,7 +104,9 @@ def _energy() -> tuple[VerificationCase, ...]:
         ("Energy, viscoelastic covering driven", partial(_solve_viscous, 1.0)),
     )
     return tuple(
-        Experiment(name, ENERGY, problem).figure("dissipation/power in", "", 1.0, _spent, balance)
+        Experiment(name, ENERGY, problem).figure(
+            "dissipation/work of slip and pressure", "", 1.0, _spent, balance
+        )
         for name, problem in problems
     )
 
@@ -129,7 +131,12 @@ def _losses(solution: Solution) -> float:
 
 
 def _spent(solution: Solution) -> float:
-    return _losses(solution) / (solution.power_in or float("nan"))
+    """Losses over T (V_u - V_l) + V (1/R_u + 1/R_l) int p x dx, the work balance of flat layers."""
+    nip, nodes, p = solution.nip, solution.final.nodes, np.pad(solution.pressure, 1)
+    a, b = nodes[:-1], nodes[1:]
+    moment = float(np.sum((b - a) * (p[:-1] * (2.0 * a + b) + p[1:] * (a + 2.0 * b)) / 6.0))
+    slip = solution.traction * (solution.creepage or 0.0)
+    return _losses(solution) / (100.0 * (slip + nip.curvature * moment))
 
 
 def _idler() -> tuple[VerificationCase, ...]:

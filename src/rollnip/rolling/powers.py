@@ -1,0 +1,93 @@
+"""Where the power of the axles goes: torques, what slip loses, what viscoelastic layers lose.
+
+A surface that rolls steadily moves along the interface at V_r lambda, V_r the circumferential
+speed of its roller and lambda its stretch; a pressure does no work on it. The power that an axle
+puts in is what its roller hands on and what it loses inside:
+
+    M_u V_u/R_u = V_u (int q lambda_u ds + w_u),   M_l V_l/R_l = V_l (w_l - int q lambda_l ds),
+
+w the loss inside a roller per rolled distance, ds along the deformed interface. This is exact at
+any strain. The sum of both is the friction loss int q (V_u lambda_u - V_l lambda_l) ds and the
+viscous loss V_u w_u + V_l w_l: the balance closes in every geometry, with the stretch that its
+creep has, and nothing large cancels in a torque. The other way, moments of pressure and shear
+about both axles, must agree to the order of the geometry; tests say that it does.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isnan
+
+import numpy as np
+
+from rollnip.contact import ContactState, State, Zone
+from rollnip.model import Geometry
+from rollnip.nip import Nip
+from rollnip.rolling.assemble import arc_ratio, creep, loss_inside, mean_shear, pulls
+from rollnip.rolling.surfaces import Array, Displacements, Mesh
+
+
+@dataclass(frozen=True, slots=True)
+class Powers:
+    """What a rolled distance of 1 mm costs, per axial length; times V [mm/s] it is a power.
+
+    Attributes
+    ----------
+    friction : lost where the surfaces slip, -int q s ds/V [N/mm].
+    lost_upper, lost_lower : inside each roller, per distance of its own surface [N/mm].
+    pull_upper, pull_lower : int q lambda ds, what the shear hands over at the surface of each
+        roller per distance of that surface [N/mm].
+    """
+
+    friction: float
+    lost_upper: float
+    lost_lower: float
+    pull_upper: float
+    pull_lower: float
+
+    @property
+    def driving_upper(self) -> float:
+        """Torque on the upper axle over the radius, M_u/R_u [N/mm]."""
+        return self.pull_upper + self.lost_upper
+
+    @property
+    def driving_lower(self) -> float:
+        """Torque on the lower axle over the radius, M_l/R_l [N/mm]."""
+        return self.lost_lower - self.pull_lower
+
+
+def powers(
+    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[Zone, ...]
+) -> Powers:
+    """Return torques over radii and losses of a solution on a mesh."""
+    x = mesh.fine.nodes[1:]
+    u = mesh.finer(mesh.displacements(state))
+    pull_upper, pull_lower = pulls(nip, geometry, mesh, state, u)
+    return Powers(
+        friction=_friction(nip, geometry, (x, u), (mesh, state), zones),
+        lost_upper=loss_inside("upper", nip, geometry, mesh, state),
+        lost_lower=loss_inside("lower", nip, geometry, mesh, state),
+        pull_upper=pull_upper,
+        pull_lower=pull_lower,
+    )
+
+
+def _friction(
+    nip: Nip,
+    geometry: Geometry,
+    surfaces: tuple[Array, Displacements],
+    found: tuple[Mesh, ContactState],
+    zones: tuple[Zone, ...],
+) -> float:
+    """Int q (creep) ds over the zones that slip; surfaces that stick lose nothing."""
+    (x, u), (mesh, state) = surfaces, found
+    if nip.friction == 0.0 or isnan(state.creepage):
+        return 0.0
+    middle = 0.5 * (x[1:] + x[:-1])
+    slips = np.zeros(middle.size, dtype=bool)
+    for zone in zones:
+        if zone.state != State.STICK:
+            slips |= (middle > zone.start) & (middle < zone.stop)
+    lost = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, u)
+    lost *= creep(x, nip, geometry, u, state.creepage)
+    return float(lost[slips].sum())

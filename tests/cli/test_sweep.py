@@ -262,6 +262,27 @@ def test_an_interrupt_ends_it_cleanly_and_says_how_to_go_on(
 
 
 @pytest.mark.slow
+def test_three_interrupts_at_once_end_it_as_one_does(study: Path, tmp_path: Path) -> None:
+    """Three within a tenth of a second left the pool of processes waiting for ever."""
+    enlarged(study, 2000)
+    for attempt, pause in enumerate((0.0, 0.02, 0.05)):
+        out = tmp_path / f"out{attempt}.csv"
+        process = start(study, out, start_new_session=True)
+        wait_for_rows(out.with_suffix(".db"), process)
+        for _ in range(3):
+            os.killpg(process.pid, signal.SIGINT)
+            time.sleep(pause)
+        try:
+            said = process.communicate(timeout=60)[1]
+        finally:
+            os.killpg(process.pid, signal.SIGKILL) if process.poll() is None else None
+        assert process.returncode == 130, said
+        assert said.startswith("rollnip: interrupted; ")
+        assert "Traceback" not in said
+        assert len(rows(out.with_suffix(".db"))) >= 1
+
+
+@pytest.mark.slow
 def test_a_full_disk_loses_nothing_that_was_finished(study: Path, tmp_path: Path) -> None:
     enlarged(study, 60)
     whole = tmp_path / "whole.csv"

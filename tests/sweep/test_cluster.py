@@ -112,7 +112,7 @@ def test_a_lost_scheduler_is_said_and_what_was_finished_is_kept(
 
     with Store(None, About.of(study, "1")) as store:
         with (
-            pytest.raises(RollnipError, match="the workers were lost; what was finished is kept"),
+            pytest.raises(RollnipError, match="what was finished is kept: run the same again"),
             cluster.dask_crew(machines.address, 0) as crew,
         ):
             run(OpenCases(study, store), store, crew, kill)
@@ -129,6 +129,63 @@ def test_a_cluster_without_workers_is_said(machines: Cluster) -> None:
         cluster.dask_crew(machines.address, 0),
     ):
         pass
+
+
+def test_a_cluster_that_loses_all_workers_is_not_waited_for(
+    machines: Cluster, wide: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was, for ever and silently."""
+    monkeypatch.setattr(cluster, "LONELY", 3.0)
+    workers = two_workers(machines)
+    study = read_study(wide)
+
+    def kill(_: Outcome) -> None:
+        for worker in workers:
+            worker.kill()
+
+    with Store(None, About.of(study, "1")) as store:
+        with (
+            pytest.raises(RollnipError, match=r"tcp://.*: has had no worker for \d+ s"),
+            cluster.dask_crew(machines.address, 0) as crew,
+        ):
+            run(OpenCases(study, store), store, crew, kill)
+        assert 1 <= sum(store.tally().values()) < study.count
+
+
+class Asked:
+    """A client as `dask_crew` sees it while it asks the workers for their version."""
+
+    def __init__(self, answers: dict[str, Any], left: dict[str, int]) -> None:
+        self.answers, self.left = answers, left
+
+    def run(self, *_: Any, **__: Any) -> dict[str, Any]:
+        return self.answers
+
+    def nthreads(self) -> dict[str, int]:
+        return self.left
+
+    def get_executor(self) -> None:
+        return None
+
+
+def test_a_worker_lost_while_it_is_asked_is_left_out() -> None:
+    ours = cluster.own_version()
+    answers = {"tcp://a": OSError("Timed out trying to connect"), "tcp://b": ours}
+    assert cluster._checked(Asked(answers, {"tcp://b": 3}), "here").in_flight == 8
+    with pytest.raises(RollnipError, match="has no workers; 2 were lost while they were asked"):
+        cluster._checked(Asked(answers, {}), "here")
+    missing = {"tcp://a": ModuleNotFoundError("No module named 'rollnip'")}
+    with pytest.raises(RollnipError, match="worker tcp://a has no rollnip"):
+        cluster._checked(Asked(missing, {"tcp://a": 1}), "here")
+
+
+def test_a_scheduler_that_dies_while_it_is_asked_is_no_full_disk() -> None:
+    class Dead(Asked):
+        def run(self, *_: Any, **__: Any) -> dict[str, Any]:
+            raise OSError("Stream is closed")
+
+    with pytest.raises(RollnipError, match="here: the Dask scheduler does not answer any more"):
+        cluster._checked(Dead({}, {}), "here")
 
 
 def pretended() -> str:

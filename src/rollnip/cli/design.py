@@ -270,7 +270,11 @@ def _evaluating(
     if database is None:
         yield evaluate
         return
-    with recalling(database, tree, paths) as recall, interrupts_told(recall.store):
+    with (
+        recalling(database, tree, paths) as recall,
+        interrupts_told(recall.store) as interrupts,
+    ):
+        interrupts.strike_at(1)
         yield recall
 
 

@@ -11,23 +11,24 @@ from typing import TYPE_CHECKING
 import typer
 
 if TYPE_CHECKING:
+    from rollnip.sweep.interrupt import Interrupts
     from rollnip.sweep.store import Store
 
 
 @contextmanager
-def interrupts_told(store: Store, total: int | None = None) -> Iterator[None]:
+def interrupts_told(store: Store, total: int | None = None) -> Iterator[Interrupts]:
     """Leave with one line and 130 after Ctrl-C, and after what a batch queue sends before it kills.
 
     ``total`` is the number of all cases, where it is known.
     """
-    handler = signal.signal(signal.SIGTERM, signal.default_int_handler)
-    try:
-        yield
-    except KeyboardInterrupt:
-        sys.stderr.write(f"rollnip: interrupted{kept(store, total, '; ')}.\n")
-        raise typer.Exit(130) from None
-    finally:
-        signal.signal(signal.SIGTERM, handler)
+    from rollnip.sweep.interrupt import Interrupts
+
+    with Interrupts((signal.SIGINT, signal.SIGTERM)) as interrupts:
+        try:
+            yield interrupts
+        except KeyboardInterrupt:
+            sys.stderr.write(f"rollnip: interrupted{kept(store, total, '; ')}.\n")
+            raise typer.Exit(130) from None
 
 
 def kept(store: Store, total: int | None = None, before: str = "", after: str = "") -> str:

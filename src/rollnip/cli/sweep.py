@@ -20,6 +20,7 @@ from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip.sweep.crew import Crew
+    from rollnip.sweep.interrupt import Interrupts
     from rollnip.sweep.run import OpenCases
     from rollnip.sweep.store import Store
 
@@ -156,11 +157,11 @@ def solve_open(
     label = f"{known:,} known" if known else ""
     try:
         with (
-            interrupts_told(store, total),
-            _crew(workers, dask, cases.count) as crew,
+            interrupts_told(store, total) as interrupts,
+            _crew(workers, dask, cases.count, interrupts) as crew,
             progress(cases.count, label) as step,
         ):
-            run_cases(cases, store, crew, lambda _: step())
+            run_cases(cases, store, crew, lambda _: step(), interrupts)
     except RollnipError as error:
         raise RollnipError(f"{error}{kept(store, total, ' (', ')')}") from None
 
@@ -183,13 +184,16 @@ def _finish(store: Store, table: Path, profiles: Path | None) -> None:
 
 
 @contextmanager
-def _crew(workers: int | None, dask: str | None, cases: int) -> Iterator[Crew | None]:
+def _crew(
+    workers: int | None, dask: str | None, cases: int, interrupts: Interrupts
+) -> Iterator[Crew | None]:
     from rollnip.sweep.crew import available_cores, crew_of
 
     count = available_cores() if workers is None else workers
     if dask is not None and cases:
         from rollnip.sweep.cluster import dask_crew
 
+        interrupts.strike_at(2)  # a scheduler may take long to answer; the second ends that
         with dask_crew(dask, count) as crew:
             yield crew
     else:

@@ -4,18 +4,24 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
+from concurrent.futures import CancelledError, Future
+from contextlib import contextmanager, suppress
+from time import monotonic
 from typing import Any
 
 from rollnip._errors import RollnipError
 from rollnip.sweep import version
 from rollnip.sweep.crew import Given, one_thread_each
+from rollnip.sweep.task import Outcome, Task
 from rollnip.sweep.version import own_version
 
 _ADDRESS = re.compile(r"([a-z]+://)?\S+:\d+")
 _CHUNK_SECONDS = 0.25  # a task costs Dask some milliseconds
 PATIENCE = "30s"
 """How long a scheduler may take to answer."""
+LONELY = 30.0
+"""Seconds without any worker after which a sweep gives up."""
+_LOOK = 2.0  # s, between two looks at who is there
 
 
 @contextmanager
@@ -57,6 +63,58 @@ def dask_crew(address: str, workers: int) -> Iterator[Given]:
         yield _checked(client, "the local cluster")
 
 
+class DaskCrew(Given):
+    """Workers of a Dask cluster.
+
+    Parameters
+    ----------
+    client :
+        of the scheduler.
+    workers :
+        threads of all workers.
+    name :
+        of the cluster, for messages.
+    """
+
+    def __init__(self, client: Any, workers: int, name: str) -> None:
+        super().__init__(client.get_executor(), workers, _CHUNK_SECONDS)
+        self._client, self._name = client, name
+        self._looked = self._seen = monotonic()
+
+    def submit(self, task: Task) -> Future[list[Outcome]]:
+        """Start a task. Raises RollnipError where the scheduler is gone."""
+        with _scheduler_told(self._name):
+            return super().submit(task)
+
+    def require_alive(self) -> None:
+        """Raise RollnipError where the scheduler is gone, or no worker came back for a while."""
+        now = monotonic()
+        if now - self._looked < _LOOK:
+            return
+        self._looked = now
+        with _scheduler_told(self._name):
+            if self._client.nthreads():
+                self._seen = now
+        if now - self._seen > LONELY:
+            raise RollnipError(
+                f"{self._name}: has had no worker for {now - self._seen:.0f} s; what was finished "
+                "is kept: start workers and run the same again."
+            )
+
+
+@contextmanager
+def _scheduler_told(name: str) -> Iterator[None]:
+    """Say of a lost connection that it is one."""
+    try:
+        yield
+    except (OSError, TimeoutError, CancelledError) as error:
+        said = " ".join(str(error).split()) or type(error).__name__
+        raise RollnipError(
+            f"{name}: the Dask scheduler does not answer any more ({said}); what was finished is "
+            "kept: run the same again."
+        ) from None
+
+
 @contextmanager
 def _connected(connect: Any, address: Any) -> Iterator[Any]:
     try:
@@ -66,16 +124,26 @@ def _connected(connect: Any, address: Any) -> Iterator[Any]:
     try:
         yield client
     finally:
-        client.close()
+        with suppress(OSError, TimeoutError, CancelledError):
+            client.close()
 
 
 def _checked(client: Any, name: str) -> Given:
-    threads = sum(client.nthreads().values())
-    if not threads:
-        raise RollnipError(f"{name}: the Dask scheduler has no workers.")
+    """The workers, all of this version of rollnip; one that is lost meanwhile is left out."""
+    with _scheduler_told(name):
+        answers = client.run(version.own_version, on_error="return")
     ours = own_version()
-    for worker, theirs in client.run(version.own_version, on_error="return").items():
-        if theirs != ours:
-            has = f"rollnip {theirs}" if isinstance(theirs, str) else f"no rollnip ({theirs})"
-            raise RollnipError(f"{name}: worker {worker} has {has}, this is {ours}.")
-    return Given(client.get_executor(), threads, _CHUNK_SECONDS)
+    for worker, theirs in answers.items():
+        if isinstance(theirs, ImportError):
+            raise RollnipError(f"{name}: worker {worker} has no rollnip ({theirs}).")
+        if isinstance(theirs, Exception) and not isinstance(theirs, OSError):
+            said = f"{type(theirs).__name__}: {theirs}"
+            raise RollnipError(f"{name}: worker {worker} cannot say its version ({said}).")
+        if isinstance(theirs, str) and theirs != ours:
+            raise RollnipError(f"{name}: worker {worker} has rollnip {theirs}, this is {ours}.")
+    with _scheduler_told(name):
+        threads = sum(client.nthreads().values())
+    if not threads:
+        lost = f"; {len(answers)} were lost while they were asked" if answers else ""
+        raise RollnipError(f"{name}: the Dask scheduler has no workers{lost}.")
+    return DaskCrew(client, threads, name)

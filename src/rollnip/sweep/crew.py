@@ -39,6 +39,14 @@ class Crew(Protocol):
         """Make the crew whole again after it broke. Raises RollnipError where it cannot."""
         ...
 
+    def require_alive(self) -> None:
+        """Raise RollnipError where nobody is left who could work."""
+        ...
+
+    def abandon(self) -> None:
+        """Give up what is running: its results are not waited for."""
+        ...
+
 
 class Processes:
     """Worker processes of this machine; see `processes`. A task is one case.
@@ -63,6 +71,14 @@ class Processes:
         """New processes in place of those that broke."""
         self.close()
         self._pool = self._started()
+
+    def require_alive(self) -> None:
+        """Processes that die break the pool, which tells so itself."""
+
+    def abandon(self) -> None:
+        """End the processes in the middle of what they do."""
+        for process in list((self._pool._processes or {}).values()):
+            process.kill()
 
     def close(self) -> None:
         """Let the processes end after the case each is at."""
@@ -115,6 +131,12 @@ class Given:
     def restart(self) -> None:
         """Not ours to do."""
         raise RollnipError("the executor broke; what was finished is kept: run the same again.")
+
+    def require_alive(self) -> None:
+        """An executor cannot say it."""
+
+    def abandon(self) -> None:
+        """What runs belongs to the executor; what waits was cancelled."""
 
 
 @contextmanager

@@ -114,5 +114,6 @@ def _require_all(store: Store) -> None:
         shown = ", ".join(map(str, missing[:_SHOWN])) + (", ..." if missing.size > _SHOWN else "")
         raise RollnipError(
             f"{missing.size:,} of {store.about.count:,} cases are missing (case {shown}): run "
-            "their shards to the end, and name all databases."
+            "their shards to the end, and name all databases. One that was copied while its sweep "
+            "ran, or after it was killed, also needs the file -wal beside it."
         )

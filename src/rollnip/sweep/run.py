@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, CancelledError, Future, wait
+from collections.abc import Callable, Iterable
+from concurrent.futures import (
+    ALL_COMPLETED,
+    FIRST_COMPLETED,
+    BrokenExecutor,
+    CancelledError,
+    Future,
+    wait,
+)
 from dataclasses import dataclass
 from itertools import islice
+from time import monotonic
 
 import numpy as np
 
 from rollnip._errors import RollnipError
 from rollnip.sweep.crew import Crew
+from rollnip.sweep.interrupt import Interrupts
 from rollnip.sweep.store import Store
 from rollnip.sweep.study import Study
 from rollnip.sweep.task import Outcome, Task, given_up, performed
@@ -21,6 +30,7 @@ _ALL_LOST = "the workers were lost; what was finished is kept: run the same agai
 _MOST_CASES = 256  # of one task
 _AT_ONCE = 0.25  # s, of cases that are read at once where no other process works
 _PATIENCE = 30.0  # s, for the cases that run when the sweep is interrupted
+_LOOK = 0.2  # s, between two looks at whether an interrupt came
 
 
 class OpenCases:
@@ -63,7 +73,11 @@ class OpenCases:
 
 
 def run(
-    cases: OpenCases, store: Store, crew: Crew | None = None, report: Report | None = None
+    cases: OpenCases,
+    store: Store,
+    crew: Crew | None = None,
+    report: Report | None = None,
+    interrupts: Interrupts | None = None,
 ) -> None:
     """Solve all open cases; each is committed as it ends.
 
@@ -77,14 +91,21 @@ def run(
         who solves; None: this process, one case after the other.
     report :
         is told every outcome once it is committed.
+    interrupts :
+        of the caller; None: this call counts its own.
 
     Raises
     ------
     RollnipError
         where the store cannot be written, or the crew is lost; what was finished is kept.
     KeyboardInterrupt
-        after the cases that were running have ended and are committed.
+        after Ctrl-C: with a crew once the cases that were running have ended and are committed,
+        or at the second Ctrl-C, or after half a minute; else on the spot.
     """
+    if interrupts is None:
+        with Interrupts() as interrupts:
+            run(cases, store, crew, report, interrupts)
+        return
 
     def keep(outcomes: list[Outcome]) -> None:
         for outcome in outcomes:
@@ -92,13 +113,18 @@ def run(
             if report is not None:
                 report(outcome)
 
-    if crew is not None:
-        _Flow(cases, crew, keep).run()
-        return
-    while (task := cases.task(_AT_ONCE)) is not None:
-        for outcome in performed(task):
-            cases.learn([outcome])
-            keep([outcome])
+    try:
+        if crew is not None:
+            interrupts.strike_at(0)
+            _Flow(cases, crew, keep, interrupts).run()
+            return
+        interrupts.strike_at(1)
+        while (task := cases.task(_AT_ONCE)) is not None:
+            for outcome in performed(task):
+                cases.learn([outcome])
+                keep([outcome])
+    finally:
+        interrupts.strike_at(0)  # nothing strikes while files are closed
 
 
 @dataclass(slots=True)
@@ -108,6 +134,7 @@ class _Flow:
     cases: OpenCases
     crew: Crew
     keep: Callable[[list[Outcome]], None]
+    interrupts: Interrupts
 
     def run(self) -> None:
         running: dict[Future[list[Outcome]], Task] = {}
@@ -116,13 +143,24 @@ class _Flow:
                 suspects = self._filled(running)
                 if not running and not suspects:
                     return
-                done, _ = wait(running, timeout=1.0, return_when=FIRST_COMPLETED)
-                suspects += self._collected(running, done)
+                suspects += self._collected(running, self._awaited(running, FIRST_COMPLETED))
                 if suspects:
                     self._tried_singly(suspects, running)
         except KeyboardInterrupt:
             self._finish(running)
             raise
+
+    def _awaited(
+        self, futures: Iterable[Future[list[Outcome]]], until: str
+    ) -> set[Future[list[Outcome]]]:
+        """Those that are done once one is, or all are; KeyboardInterrupt where one came."""
+        left = set(futures)
+        while True:
+            self.interrupts.check()
+            self.crew.require_alive()
+            done, open_ones = wait(left, timeout=_LOOK, return_when=until)
+            if not open_ones or (done and until == FIRST_COMPLETED):
+                return done
 
     def _filled(self, running: dict[Future[list[Outcome]], Task]) -> list[Task]:
         """Start tasks; returns the one that a broken crew did not take."""
@@ -158,8 +196,7 @@ class _Flow:
         self, suspects: list[Task], running: dict[Future[list[Outcome]], Task]
     ) -> None:
         """After a crash: one case at a time, so that the one that kills its worker is known."""
-        done, _ = wait(running)
-        suspects += self._collected(running, done)
+        suspects += self._collected(running, self._awaited(running, ALL_COMPLETED))
         for task in (single for suspect in suspects for single in suspect.split()):
             self.keep(self._alone(task))
 
@@ -169,6 +206,7 @@ class _Flow:
         except BrokenExecutor:
             self.crew.restart()
             future = self.crew.submit(task)
+        self._awaited([future], ALL_COMPLETED)
         try:
             return future.result()
         except CancelledError:
@@ -179,7 +217,12 @@ class _Flow:
             return given_up(task, f"The worker returned nothing: {type(error).__name__}: {error}")
 
     def _finish(self, running: dict[Future[list[Outcome]], Task]) -> None:
-        """Interrupted: start nothing new, keep what is about to end."""
+        """Interrupted: start nothing new, keep what ends soon, give up the rest."""
         left = {future for future in running if not future.cancel()}
-        done, _ = wait(left, timeout=_PATIENCE)
-        self._collected(running, done)
+        end = monotonic() + _PATIENCE
+        done, late = wait(left, timeout=0.0)
+        while late and self.interrupts.count < 2 and monotonic() < end:
+            done, late = wait(left, timeout=_LOOK)
+        self._collected(running, {one for one in done if not one.cancelled()})
+        if late:
+            self.crew.abandon()

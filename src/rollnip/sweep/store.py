@@ -1,7 +1,9 @@
 """The database of a sweep: SQLite, one writer, each case committed as it ends.
 
 A process that is killed at any moment leaves a database that holds every case committed before;
-write-ahead logging sees to that. Nothing but this module knows the tables in it.
+write-ahead logging sees to that. The log, ``results.db-wal``, is part of the database until it is
+closed; every ten seconds, and at the end, its cases are moved into ``results.db`` itself. Nothing
+but this module knows the tables in it.
 """
 
 from __future__ import annotations
@@ -9,9 +11,10 @@ from __future__ import annotations
 import json
 import sqlite3
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from time import monotonic
 from types import TracebackType
 from typing import Any
 
@@ -19,12 +22,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import RollnipError
-from rollnip._files import check_place, reading
+from rollnip._files import reading
+from rollnip.sweep.connect import Writer, open_to_read, open_to_write, plain
 from rollnip.sweep.row import SCALARS, Row
 from rollnip.sweep.study import Study, case_digest
 from rollnip.sweep.task import Outcome
 
 FORMAT = 1
+_LOG_SECONDS = 10.0  # that cases may stand in the log alone
 _APPLICATION = 0x726E6970  # marks the file as one of ours
 _TEXTS = ("hash", "parameters", "status", "message", "geometry", "warnings")
 _NAMES = ("position", *_TEXTS, *SCALARS, "seconds")
@@ -104,43 +109,43 @@ class About:
 
 
 class Store:
-    """A database of a sweep, open for this process alone.
+    """A database of a sweep: this process alone writes it, others may read it meanwhile.
 
     Parameters
     ----------
     path :
         of the file, which is made where it is not there; None: in memory.
     about :
-        whose cases it is to hold; None: whatever study it holds, it must be there.
+        whose cases it is to hold; None: it is only read, whatever study it holds.
 
     Raises
     ------
     RollnipError
-        where it cannot be opened, is in use, is no database of a sweep, or is of another version
-        or another study.
+        where it cannot be opened, is written by another process, is no database of a sweep, or is
+        of another version or another study.
     """
 
     def __init__(self, path: Path | None, about: About | None = None) -> None:
         self.name = "the database" if path is None else str(path)
         self.is_in_memory = path is None
+        self._writer: Writer | None = None
+        self._moved = monotonic()
         if path is not None:
             reading(path)  # it holds what was solved: no table may take its place
-        if path is not None and about is not None:
-            check_place(path)
-        elif path is not None and not path.is_file():
-            raise RollnipError(f"{path}: there is no such file.")
-        try:
-            self._base = sqlite3.connect(
-                ":memory:" if path is None else path, isolation_level=None, timeout=0.5
-            )
-        except sqlite3.Error as error:
-            raise RollnipError(f"{self.name}: cannot be opened: {error}.") from None
+        if about is None and path is not None:
+            self._base = open_to_read(path)
+        else:
+            self._base = open_to_write(path)
         try:
             with self._spoken():
-                self._prepare(must_be_there=about is None)
+                self._require_ours(must_be_there=about is None)
+                if about is not None:
+                    if path is not None:
+                        self._writer = Writer(path)
+                    self._prepare()
             self.about = self._claimed(about)
         except BaseException:
-            self._base.close()
+            self.close()
             raise
 
     def __enter__(self) -> Store:
@@ -152,18 +157,24 @@ class Store:
         self.close()
 
     def close(self) -> None:
-        """Close the file; what was written stays."""
+        """Close the file; what was written stays, and stands in the database itself."""
+        with suppress(sqlite3.Error):
+            self._move("TRUNCATE")
         self._base.close()
+        if self._writer is not None:
+            self._writer.close()
 
     def write(self, outcome: Outcome) -> None:
         """Commit one case. Raises RollnipError where the disk does not take it."""
         with self._spoken():
             if outcome.profiles is None:
                 self._write(outcome)  # one statement is a transaction of its own
-                return
-            with self._transaction():
-                self._write(outcome)
-                self._base.execute(_INSERT_PROFILES, (outcome.position, outcome.profiles))
+            else:
+                with self._transaction():
+                    self._write(outcome)
+                    self._base.execute(_INSERT_PROFILES, (outcome.position, outcome.profiles))
+            if monotonic() - self._moved > _LOG_SECONDS:
+                self._move("PASSIVE")
 
     def held(self, *, with_profiles: bool) -> NDArray[np.bool_]:
         """Which cases need not be solved again, (count,): one byte a case."""
@@ -246,22 +257,30 @@ class Store:
             self._base.executemany(_INSERT, other.rows(_NAMES))
             self._base.executemany(_INSERT_PROFILES, other.profiles())
 
-    def _prepare(self, *, must_be_there: bool) -> None:
-        """Lock the file, and make the tables where it is empty."""
-        self._base.execute("PRAGMA locking_mode = EXCLUSIVE")
+    def _require_ours(self, *, must_be_there: bool) -> None:
+        """Raise RollnipError unless the file is a database of a sweep, or may become one."""
         mark = self._base.execute("PRAGMA application_id").fetchone()[0]
         is_new = not self._base.execute("PRAGMA schema_version").fetchone()[0]
         if mark != _APPLICATION and not (is_new and not must_be_there):
             raise RollnipError(f"{self.name}: is no database of a sweep.")
+
+    def _prepare(self) -> None:
+        """Make the tables where the file is empty."""
         self._base.execute("PRAGMA journal_mode = WAL")
         # a commit then waits for no disk; only loss of power can undo the last ones
         self._base.execute("PRAGMA synchronous = NORMAL")
         self._base.execute("BEGIN IMMEDIATE")
-        if is_new:
+        if not self._base.execute("PRAGMA schema_version").fetchone()[0]:
             self._base.execute(f"PRAGMA application_id = {_APPLICATION}")
             for statement in _TABLES.split(";"):
                 self._base.execute(statement)
         self._base.execute("COMMIT")
+
+    def _move(self, how: str) -> None:
+        """Move what is in the log into the database: a copy of the database alone then has it."""
+        if self._writer is not None:
+            self._base.execute(f"PRAGMA wal_checkpoint({how})")
+        self._moved = monotonic()
 
     def _claimed(self, about: About | None) -> About:
         """What the database holds; it must be of ``about``."""
@@ -321,21 +340,7 @@ class Store:
         try:
             yield
         except sqlite3.Error as error:
-            raise RollnipError(f"{self.name}: {_plain(error)}") from error
-
-
-def _plain(error: sqlite3.Error) -> str:
-    text = str(error)
-    if "locked" in text:
-        return "is in use by another process; wait for it to end."
-    if "not a database" in text or "malformed" in text:
-        return f"is no database of a sweep, or is damaged ({text})."
-    if "full" in text or "disk I/O" in text:
-        return (
-            f"cannot write ({text}): the disk is full, or fails. What was finished before is kept; "
-            "make room and run the same again."
-        )
-    return f"cannot be used: {text}."
+            raise RollnipError(f"{self.name}: {plain(error)}") from error
 
 
 def _require_same(name: str, found: About, wanted: About) -> None:

@@ -10,6 +10,7 @@ from typing import Any
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.sweep.crew import available_cores, crew_of
+from rollnip.sweep.interrupt import Interrupts
 from rollnip.sweep.merge import take_known
 from rollnip.sweep.run import OpenCases, Report, run
 from rollnip.sweep.store import About, Store
@@ -76,8 +77,8 @@ def sweep(
         with Store(None if database is None else Path(database), about) as store:
             take_known(plan, store, [Path(one) for one in known])
             cases = OpenCases(plan, store, with_profiles=bool(plan.profiles))
-            with crew_of(min(count, cases.count), executor) as crew:
-                run(cases, store, crew, report)
+            with Interrupts() as interrupts, crew_of(min(count, cases.count), executor) as crew:
+                run(cases, store, crew, report, interrupts)
             if target is not None:
                 write_table(store, target)
             return read_table(store)

@@ -1,0 +1,60 @@
+"""Ctrl-C while many cases are solved: counted, and acted upon where nothing is half done."""
+
+from __future__ import annotations
+
+import signal
+import threading
+from collections.abc import Sequence
+from types import FrameType, TracebackType
+from typing import Any
+
+
+class Interrupts:
+    """Counts what asks the process to end, within ``with``; outside, all is as before.
+
+    A KeyboardInterrupt strikes anywhere: in a lock of the process pool it leaves the pool waiting
+    for ever. So none is raised while others work: who waits for them looks at ``count``.
+
+    Parameters
+    ----------
+    signals :
+        that count; in a thread other than the main one none can be caught.
+
+    Attributes
+    ----------
+    count : how many came.
+    strikes_at : the one that raises KeyboardInterrupt on the spot; 0: none does.
+    """
+
+    def __init__(self, signals: Sequence[signal.Signals] = (signal.SIGINT,)) -> None:
+        self.count = 0
+        self.strikes_at = 0
+        self._signals = tuple(signals)
+        self._before: dict[signal.Signals, Any] = {}
+
+    def __enter__(self) -> Interrupts:
+        if threading.current_thread() is threading.main_thread():
+            self._before = {one: signal.signal(one, self._strike) for one in self._signals}
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, _: TracebackType | None
+    ) -> None:
+        for one, handler in self._before.items():
+            signal.signal(one, handler)
+
+    def strike_at(self, number: int) -> None:
+        """Raise KeyboardInterrupt on the spot at this one; 0: at none. What came before counts."""
+        self.strikes_at = number
+        if number and self.count >= number:
+            raise KeyboardInterrupt
+
+    def check(self) -> None:
+        """Raise KeyboardInterrupt where any came."""
+        if self.count:
+            raise KeyboardInterrupt
+
+    def _strike(self, _number: int, _frame: FrameType | None) -> None:
+        self.count += 1
+        if self.count == self.strikes_at:
+            raise KeyboardInterrupt

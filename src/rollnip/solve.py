@@ -34,6 +34,7 @@ from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import Strains, validity_warnings
 
 _CLEARLY = 1.5  # times a limit that is known roughly
+_DIVERGED = 0.1  # last change of second-order terms that approach no solution, relative
 
 
 def solve(
@@ -107,20 +108,19 @@ def _solved(
 ) -> Solution:
     """The flow of one solution; ``start``: the clock when it was asked for [s]."""
     kernels, final = _refined(nip, model, method, cache)
-    strains = _believed(nip, model, final) if model.geometry == "finite" else None
     left: tuple[str, ...] = ()
-    if model.geometry == "finite" and strains is None:
+    if model.geometry == "finite" and (cause := _without_solution(final)):
         model = replace(model, geometry="curved")
         kernels, final = _refined(nip, model, method, cache)
         left = (
-            "Strains are too large for the second order of finite strain, or it did not converge; "
-            'solved with `geometry = "curved"` instead, which may then be 10 % off and more.',
+            f'No solution of geometry "finite" was found: {cause}. '
+            'All figures are those of geometry "curved".',
         )
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
     converged, status = _verdict(nip, model, final)
-    strains = Strains.of(nip, model, final) if strains is None else strains
+    strains = Strains.of(nip, model, final)
     return Solution(
         nip=nip,
         model=model,
@@ -141,12 +141,19 @@ def _solved(
     )
 
 
-def _believed(nip: Nip, model: Model, final: Round) -> Strains | None:
-    """Strains of "finite" where its second order converged and they are small enough for it."""
-    if not final.zones or not has_grip(final) or not _verdict(nip, model, final)[0]:
-        return None
-    strains = Strains.of(nip, model, final)
-    return strains if strains.are_small else None
+def _without_solution(final: Round) -> str:
+    """Why the iteration for the second order of "finite" has no solution; "" where it has one.
+
+    A solution that misses the tolerance is one: the model never depends on an error estimate.
+    """
+    if not final.zones or not final.figures.peak_pressure > 0.0:
+        return "its surfaces do not touch"
+    if not final.geometry_change < _DIVERGED:
+        return (
+            "its second-order terms did not come to rest (they last changed by "
+            f"{final.geometry_change:.2g} of the first-order ones)"
+        )
+    return "" if final.settled else "contact, stick and slip did not settle"
 
 
 def _refined(
@@ -204,6 +211,14 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
         simpler = "" if model.geometry == "linear" else '`geometry = "linear"`, '
         return False, f"{what}; try {simpler}a smaller load or another tolerance."
     left = final.residual
+    moves = model.geometry == "finite" and final.geometry_change > 0.5 * left
+    if not left <= model.tolerance and moves:
+        return False, (
+            "The second-order terms of finite strain still change by "
+            f"{final.geometry_change:.1e} (relative), which leaves the contact conditions violated "
+            f"by {left:.1e}, more than the tolerance {model.tolerance:g}; try a smaller load, a "
+            'larger tolerance or `geometry = "curved"`.'
+        )
     if not left <= model.tolerance:
         return False, (
             f"The contact conditions are violated by {left:.1e} (relative), more than the "

@@ -1,8 +1,7 @@
 """Where the model is used outside the range it was judged in: a fixed list of warnings.
 
 The thresholds come from the comparison with finite-strain finite elements (docs/geometry.md); the
-list with its reasons is in docs/validity.md. A warning never changes a result; whether strains are
-small enough for geometry "finite" is a question of its own, which `solve` asks of `Strains`.
+list with its reasons is in docs/validity.md. A warning never changes a result.
 """
 
 from __future__ import annotations
@@ -31,8 +30,6 @@ CONTACT_ANGLE = 0.25
 """Half the nip width over the smaller radius [rad]."""
 SECOND_SHARE = 0.15
 """Second-order part of the indentation over the approach, geometry "finite"."""
-SECOND_MOST = 0.5
-"""The same beyond which the second order is not believed at all."""
 TEMPERATURE_SPAN = 60.0
 """Distance of a temperature from the reference of its shift [K]."""
 TIME_SPAN = 10.0
@@ -58,11 +55,6 @@ class Strains:
         """Those of a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
         return cls(surface, _second_share(nip, final))
-
-    @property
-    def are_small(self) -> bool:
-        """Whether an expansion in strain holds: its second order, and the strains themselves."""
-        return self.second <= SECOND_MOST and self.surface <= SURFACE_STRAIN
 
 
 def validity_warnings(nip: Nip, model: Model, final: Round, strains: Strains) -> tuple[str, ...]:

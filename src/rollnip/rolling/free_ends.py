@@ -43,8 +43,7 @@ class Attempt:
 
     Attributes
     ----------
-    found : a round that was verified, or one that is not settled where strains are far too large
-        for the second order of "finite"; None where there is none of this kind: pieces of contact
+    found : a round that was verified; None where there is none of this kind: pieces of contact
         that do not touch, zones that come and go, tractions that are not smooth in their zones.
     knew_zones : whether there was a solution that agrees with its zones.
     too_few : elements that were not enough.
@@ -82,8 +81,8 @@ def _refined(placing: Placing, stand: Standing, count: int) -> Attempt:
     while count <= most:
         known = bool(history)
         placed = placing.placed(stand, count, known=known)
-        if placed is None or not placed.before.settled:
-            return Attempt(None if placed is None else placed.before, known, too_few)
+        if placed is None:
+            return Attempt(None, known, too_few)
         stand, latest = placed, placed.before
         count = latest.problem.x.size - 1
         history.append(Size(count, latest.figures, stand.layout.breaks))

@@ -34,7 +34,6 @@ from rollnip.rolling.assemble import (
     has_no_second_order,
     second_order,
 )
-from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from, turned
@@ -42,9 +41,6 @@ from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from
 _LOOKING = HeldContact()
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
 _MORE_FOR_SECOND = 3  # for the second order of "finite", which is held while a mesh is solved on
-_MOST_STRAIN = 0.6  # of a surface; a result may have 0.3
-_MOST_STRAINED = 2  # meshes in succession, not counting
-_NOT_STRAINED = 2  # the first ones, whose zones are not much more than a guess
 _MOST_CHANGES = 2  # of the zones, on meshes of one size
 _MORE_FOR_CHANGE = 3  # meshes, to place the new ends
 _SLOPES = 0.5, 3.0  # of what a break is asked to move, over how far it is off
@@ -129,8 +125,7 @@ class Placing:
 
         Returns
         -------
-        None where there is no such solution; one that is not settled where strains are far too
-        large for the second order.
+        None where there is no such solution.
         """
         # However still the second order is, it is that of a coarser mesh: a new one on each size.
         stand, off = self._renewed(replace(start, expected=inf)), inf
@@ -138,7 +133,7 @@ class Placing:
         placed = _PLACED * self.model.tolerance * (_LOOSELY if loosely else 1.0)
         elements: Indices | None = None
         earlier: tuple[Layout, Layout] | None = None
-        meshes = changes = strained = 0
+        meshes = changes = 0
         while meshes < self._most_meshes + _MORE_FOR_CHANGE * changes:
             meshes += 1
             layout = stand.layout
@@ -154,10 +149,6 @@ class Placing:
             is_placed = off <= placed and (self.kernels.is_linear or stand.expected <= _QUIET)
             doubted = is_placed or (not known and off < _FAIRLY_PLACED)
             known = known or (doubted and not hasty)
-            is_strained = meshes > _NOT_STRAINED and not is_placed and self._strains(latest)
-            strained = strained + 1 if is_strained else 0
-            if strained == _MOST_STRAINED:
-                return replace(stand, before=replace(latest, settled=False))
             wanted = self._wanted(latest, layout, whole=is_placed) if doubted else None
             if asked.is_proper and wanted is None:
                 if is_placed and latest.settled:
@@ -252,12 +243,6 @@ class Placing:
         second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return Standing(layout, replace(latest, state=found, second=second, steps=steps))
-
-    def _strains(self, latest: Round) -> bool:
-        """Whether a surface is strained far too much for the second order of "finite"."""
-        if self.kernels.is_linear:
-            return False
-        return surface_strain_in_nip(self.nip, self.model.geometry, latest) > _MOST_STRAIN
 
 
 def _mesh(layout: Layout, elements: Indices, kernels: PairKernels) -> Mesh:

@@ -34,8 +34,8 @@ _ENOUGH_FOR_ZONES = 130  # elements; transitions that still move have no square 
 _MOST_FAILURES = 3  # fine meshes that do not settle
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
-_MOST_STEPS = 4000  # linear systems, after which what has not settled is given up
-_MOST_STEPS_IN_ALL = 700  # with a second order, settled or not: where it holds, it takes some tens
+_ALIKE = 1.15  # elements of a mesh over those of one too much like it to tell an error from
+_MOST_WORK = 4000.0  # linear systems of a hundred elements, or what takes as long
 _DIVERGED = 10.0  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
@@ -71,7 +71,7 @@ def refine(
         attempt = with_free_ends(nip, model, kernels, layout, located)
         if attempt.found is not None:
             return attempt.found
-    if _is_hopeless(located, kernels):
+    if _is_hopeless(located):
         return _finished(nip, model, kernels, located, method)
     too_few = _LINEAR_FOR_CUBIC * attempt.too_few
     return _refined(nip, model, kernels, located, method, too_few)
@@ -102,7 +102,7 @@ def _located(
     for _ in range(_MOST_TRIES):
         mesh = mesh_on(graded_nodes(breaks, _FIRST_COUNT), holding(kernels, latest))
         latest = _solve_on(nip, model, mesh, (zones, latest), method, ROUGHLY_STILL)
-        if _is_hopeless(latest, kernels) or Layout.of(latest.zones) is not None:
+        if _is_hopeless(latest) or Layout.of(latest.zones) is not None:
             break
         breaks, zones = _next_breaks(latest), latest.zones
     assert latest is not None
@@ -122,15 +122,19 @@ def _refined(
     Their error is of second order in 1/elements, so two meshes give an estimate of it:
     |difference|/(ratio^2 - 1).
     """
-    count, tries, failures = _FIRST_COUNT, 0, 0
-    latest, best = located, None
+    count, tries, failures, work = _FIRST_COUNT, 0, 0, 0.0
+    latest, stood, best = located, located, None
     zones, breaks, demand = located.zones, _next_breaks(located), _demand(located)
     history: list[Size] = []
-    for _ in range(_MOST_ROUNDS):
-        mesh = mesh_on(graded_nodes(breaks, count, demand), holding(kernels, latest))
-        start = zones, latest if best is None else best
-        latest = _solve_on(nip, model, mesh, start, method, STILL)
-        if failures > _MOST_FAILURES or _is_hopeless(latest, kernels):
+    rounds = 0
+    while rounds < _MOST_ROUNDS and work <= _MOST_WORK:
+        rounds += 1
+        mesh = mesh_on(graded_nodes(breaks, count, demand), holding(kernels, stood))
+        latest = _solve_on(nip, model, mesh, (zones, stood), method, STILL)
+        work += _work(latest.steps - stood.steps, mesh.inner.size)
+        # What does not settle says nothing of the second order: that of the last one that did.
+        stood = latest if latest.settled else replace(stood, steps=latest.steps)
+        if failures > _MOST_FAILURES or _is_hopeless(latest):
             break
         if not latest.settled and count > _COARSE:
             # Another mesh of about this size may settle: what cycles hangs on single nodes.
@@ -143,23 +147,37 @@ def _refined(
         tries += 1
         if not placed and tries < (1 if history else 2) * _MOST_TRIES:
             continue
-        history.append(Size(count, latest.figures, found))
+        history = _with_size(history, Size(count, latest.figures, found))
         latest = replace(latest, error=estimated_error(nip, latest, history, LINEAR))
         best = latest if latest.settled or best is None else best
-        ratio = excess(nip, latest, model.tolerance)
-        if count < _ENOUGH_FOR_ZONES:
-            ratio = max(ratio, zone_excess(history, model.tolerance))
-        if count <= too_few:
-            ratio = max(ratio, 1.01)
+        ratio = _ratio(nip, latest, history, model.tolerance, too_few)
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
             latest = checked(nip, model, kernels, settled(nip, model, latest, method))
-            if latest.residual <= model.tolerance or count >= _MOST_ELEMENTS:
+            if latest.residual <= model.tolerance:
+                return latest
+            best, tries = latest, 0
+            if latest.geometry_change > 0.5 * latest.residual:
+                continue  # no finer mesh helps: the second order of this one is not at rest
+            if count >= _MOST_ELEMENTS:
                 return latest
             ratio = latest.residual / model.tolerance
-        if not kernels.is_linear and _is_out_of_reach(count, ratio):
-            break  # another geometry will have to do
         count, tries = _next_count(count, ratio), 0
     return _finished(nip, model, kernels, best or latest, method)
+
+
+def _with_size(history: list[Size], size: Size) -> list[Size]:
+    """The sizes of mesh with a further one; one that is much like it gives way."""
+    if history and size.count < _ALIKE * history[-1].count:
+        history = history[:-1]
+    return [*history, size]
+
+
+def _ratio(nip: Nip, latest: Round, history: list[Size], tolerance: float, too_few: int) -> float:
+    """Largest estimated error over what is allowed; above 1 on ``too_few`` elements."""
+    count, ratio = history[-1].count, excess(nip, latest, tolerance)
+    if count < _ENOUGH_FOR_ZONES:
+        ratio = max(ratio, zone_excess(history, tolerance))
+    return max(ratio, 1.01) if count <= too_few else ratio
 
 
 def _finished(
@@ -175,21 +193,18 @@ def _demand(latest: Round) -> Demand:
     return Demand.of(latest.problem.x, latest.state.pressure, latest.state.shear)
 
 
-def _is_hopeless(latest: Round, kernels: PairKernels) -> bool:
-    """Whether to give up: unsettled after much work, in pieces, or for want of friction."""
-    if not kernels.is_linear and latest.steps > _MOST_STEPS_IN_ALL:
-        return True
+def _is_hopeless(latest: Round) -> bool:
+    """Whether to give up: unsettled, in pieces, diverging, or for want of friction."""
     if latest.settled:
         return False
-    spent = latest.steps > _MOST_STEPS or len(latest.zones) > _MOST_ZONES
-    spent = spent or not latest.figures.peak_pressure > 0.0
+    spent = len(latest.zones) > _MOST_ZONES or not latest.figures.peak_pressure > 0.0
     spent = spent or not latest.geometry_change < _DIVERGED
     return spent or not latest.zones or not has_grip(latest)
 
 
-def _is_out_of_reach(count: int, ratio: float) -> bool:
-    """Whether an error, ``ratio`` times too large, would still be on the finest mesh."""
-    return count > _COARSE and ratio * (count / _MOST_ELEMENTS) ** 2 > 2.0
+def _work(systems: int, elements: int) -> float:
+    """What linear systems take, in those of a hundred elements: half of it grows as the cube."""
+    return 0.5 * systems * (1.0 + (elements / 100.0) ** 3)
 
 
 def _next_count(count: int, ratio: float) -> int:

@@ -11,6 +11,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, has_no_second_order, second_order
 from rollnip.rolling.check import fields_between, residual
+from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import NO_SECOND_ORDER, Mesh, PairKernels
 
@@ -128,11 +129,15 @@ def settled(
 def checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
     """The round with its residual, from the contact conditions on more points.
 
-    Its mesh holds the second order of its own tractions from here on.
+    Its mesh holds the second order of its own tractions from here on, and what that changes in the
+    second-order terms is the last change.
     """
     if not kernels.is_linear:
-        own = latest.mesh.second_fields(latest.state)
-        kernels = replace(kernels, held=own)
-    latest = replace(latest, mesh=latest.mesh.holding(kernels))
+        kernels = replace(kernels, held=latest.mesh.second_fields(latest.state))
+        mesh, state = latest.mesh.holding(kernels), latest.state
+        own = second_order(nip, model.geometry, mesh, state)
+        change = change_of(own, latest.second, mesh, nip, state)
+        change = largest(change, latest.geometry_change)
+        latest = replace(latest, mesh=mesh, geometry_change=change)
     fields = fields_between(nip, model.geometry, kernels, latest)
     return replace(latest, residual=residual(nip, fields, latest))

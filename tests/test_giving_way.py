@@ -1,0 +1,94 @@
+"""When "finite" gives way to "curved": only where it has no solution, never for an error."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+
+
+def fuser(load):
+    """A skin of 0.05 mm on soft silicone rubber, nearly a thousand times as stiff."""
+    skin = rn.Layer(0.05, rn.Elastic(modulus=450.0, poisson=0.4))
+    silicone = rn.Layer(3.0, rn.Elastic(modulus=0.5, poisson=0.5))
+    return rn.Nip(
+        upper=rn.Roller(radius=15.0, layers=(skin, silicone)),
+        lower=rn.Roller(radius=15.0),
+        normal=rn.LineLoad(load),
+        friction=0.3,
+    )
+
+
+BLACK = rn.Roller(radius=25.0, layers=(rn.Layer(2.7, rn.Elastic(modulus=2.04, poisson=0.5)),))
+DRIVEN = rn.Nip(upper=rn.Roller(radius=50.0), lower=BLACK, normal=rn.LineLoad(1.78), friction=2.8)
+
+
+def gave_way(solution):
+    return any("No solution of geometry" in line for line in solution.warnings)
+
+
+@pytest.mark.slow
+def test_figures_of_a_stiff_skin_have_no_step():
+    """Over these loads the model changed four times, and the creepage threefold at each."""
+    loads = np.array([0.05, 0.08, 0.0864, 0.0869, 0.1, 0.15, 0.25, 0.4])
+    found = [rn.solve(fuser(load)) for load in loads]
+    assert {solution.model.geometry for solution in found} == {"finite"}
+    assert not any(gave_way(solution) for solution in found)
+    assert sum(solution.converged for solution in found) >= len(found) - 2
+    for name in ("nip_width", "approach"):
+        figures = [getattr(solution, name) for solution in found]
+        powers = np.diff(np.log(figures)) / np.diff(np.log(loads))
+        assert np.all((powers > 0.35) & (powers < 0.75)), (name, powers)
+    creepages = [solution.creepage for solution in found]
+    assert max(abs(np.diff(creepages))) < 5e-4
+
+
+def test_a_stiff_skin_against_finite_elements():
+    """Plane strain at finite strain, computed by another program."""
+    solution = rn.solve(fuser(0.25))
+    assert solution.model.geometry == "finite"
+    assert solution.approach == pytest.approx(0.1897, rel=3e-3)
+    # a small difference of stretches, of which a skin makes more than the second order says
+    assert solution.creepage == pytest.approx(0.0009, abs=2.5e-3)
+
+
+def test_an_error_beyond_the_tolerance_does_not_change_the_model():
+    solution = rn.solve(fuser(0.1), rn.Model(tolerance=2e-5))
+    assert not solution.converged
+    assert solution.model.geometry == "finite"
+    assert not gave_way(solution)
+    assert "estimated error" in solution.status
+    coarse = rn.solve(fuser(0.1), rn.Model(tolerance=1e-2))
+    assert coarse.converged
+    assert solution.nip_width == pytest.approx(coarse.nip_width, rel=1e-2)
+
+
+@pytest.mark.parametrize("sign", [-1.0, 1.0])
+def test_no_step_where_strains_pass_the_limit(sign):
+    """Beside the slipping edge strains pass 30 %: the figures go on, with a warning."""
+    tractions = sign * np.linspace(0.1, 0.6, 11)
+    found = [rn.solve(replace(DRIVEN, tangential=rn.Traction(t))) for t in tractions]
+    assert all(s.converged and s.model.geometry == "finite" for s in found)
+    for name in ("nip_width", "approach", "creepage"):
+        values = np.array([getattr(s, name) for s in found])
+        bends = np.abs(np.diff(values, 2))
+        assert np.all(bends < 0.4 * np.max(np.abs(np.diff(values)))), name
+    strained = [s.max_surface_strain for s in found]
+    assert [any("is strained" in line for line in s.warnings) for s in found] == [
+        strain > 0.3 for strain in strained
+    ]
+    assert sign > 0.0 or max(strained) > 0.4
+
+
+def test_where_there_is_no_solution_the_reason_is_given():
+    covered = rn.Roller(radius=50.0, layers=(rn.Layer(4.0, rn.Elastic(modulus=2.0, poisson=0.5)),))
+    nip = rn.Nip(
+        upper=covered, lower=rn.Roller(radius=30.0), normal=rn.LineLoad(100.0), friction=5.0
+    )
+    solution = rn.solve(nip)
+    assert solution.model.geometry == "curved"
+    assert solution.warnings[0].startswith(
+        'No solution of geometry "finite" was found: its second-order terms did not come to rest'
+    )
+    assert "strain" not in solution.warnings[0]

@@ -8,7 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from rollnip.contact import Demand, carry, cosine_nodes, cubic_error, graded_nodes, subdivided
+from rollnip.contact import (
+    Demand,
+    Subdivision,
+    carry,
+    cosine_nodes,
+    crowding_of,
+    cubic_error,
+    elements_of_zones,
+    graded_nodes,
+    more_elements,
+    subdivided,
+)
 
 
 def demand(x, *values):
@@ -202,14 +213,89 @@ def test_values_are_carried_zone_by_zone_as_cubics(before, after, between):
             values.append(1.0 + (zone + 2.0) * t * (1.0 - t) * (0.3 - t))
         return np.append(np.concatenate(values), 1.0)
 
-    np.testing.assert_allclose(
-        carry(before, after)[between] @ cubic(before), cubic(after), atol=1e-13
-    )
+    old, new = of_unit_zones(before), of_unit_zones(after)
+    np.testing.assert_allclose(carry(old, new)[between] @ cubic(before), cubic(after), atol=1e-13)
+
+
+def of_unit_zones(elements, crowding=None):
+    counts, breaks = np.array(elements), np.arange(len(elements) + 1.0)
+    return subdivided(cosine_nodes(breaks, counts, crowding), counts, crowding)
 
 
 def test_nothing_is_carried_between_other_zones():
-    assert carry((8,), (8, 8)) is None
-    assert carry((), ()) is None
+    one = of_unit_zones((8,))
+    assert carry(one, of_unit_zones((8, 8))) is None
+    assert carry(one, of_unit_zones((8,), (0.25,))) is None
+    assert carry(Subdivision(np.arange(9.0)), Subdivision(np.arange(9.0))) is None
+
+
+@pytest.mark.parametrize("crowd", [2.0**-3, 2.0**-10, 2.0**-20])
+def test_crowded_nodes_share_a_boundary_layer(crowd):
+    """y goes as the square of the number up to y = r, in even steps of log(y) from there."""
+    n = 240
+    nodes = cosine_nodes(np.array([0.0, 1.0]), np.array([n]), (crowd,))[1:-1]
+    assert np.all(np.diff(nodes) > 0.0)
+    np.testing.assert_allclose(nodes + nodes[::-1], 1.0, atol=1e-12)
+    assert nodes[2] / nodes[1] == pytest.approx(4.0, rel=0.02)
+    # asinh(1) of K, the complete elliptic integral; K = log(4/r) for a small r
+    inside = np.searchsorted(nodes, crowd / (1.0 + crowd)) / n
+    assert inside == pytest.approx(np.arcsinh(1.0) / np.log(4.0 / crowd), abs=0.02)
+    steps = np.diff(np.log(nodes[(nodes > 10.0 * crowd) & (nodes < 0.05)]))
+    assert steps.size == 0 or np.ptp(steps) < 0.15 * np.mean(steps)
+
+
+def test_crowding_of_one_is_cosine_places():
+    breaks, elements = np.array([0.0, 1.0, 3.0]), np.array([9, 14])
+    np.testing.assert_array_equal(
+        cosine_nodes(breaks, elements), cosine_nodes(breaks, elements, (1.0, 1.0))
+    )
+    limit = cosine_nodes(breaks, elements, (1.0 - 1e-9, 1.0 - 1e-9))
+    np.testing.assert_allclose(limit, cosine_nodes(breaks, elements), atol=1e-8)
+
+
+def test_nodes_crowd_where_the_boundary_layer_is_short():
+    breaks = np.array([0.0, 1.0, 101.0])
+    assert crowding_of(breaks, np.inf) == (1.0, 1.0)
+    few, many = crowding_of(breaks, 0.01)
+    assert 0.02 < few < 0.09
+    assert 2e-4 < many < 9e-4
+    assert crowding_of(breaks, 0.0101) == (few, many)  # zones that move a little have the same
+    even = elements_of_zones(breaks, 40)
+    more = elements_of_zones(breaks, 40, (few, many))
+    np.testing.assert_allclose(more / even, [more_elements(few), more_elements(many)], rtol=0.1)
+    assert 1.0 < more_elements(few) < more_elements(many) < 4.0
+
+
+def test_a_boundary_layer_of_a_thousandth_is_followed_by_crowded_nodes():
+    """A root that turns into another one a thousandth from the edges, as under a thin top layer."""
+
+    def missed_by(crowd):
+        counts = np.array([48])
+        nodes = cosine_nodes(np.array([-1.0, 1.0]), counts, (crowd,))
+        fine = subdivided(nodes, counts, (crowd,))
+
+        def traction(x):
+            y = np.maximum(1.0 - x * x, 0.0)
+            return np.sqrt(y) * (1.0 - 0.7 / (1.0 + y / 2e-3))
+
+        return np.max(np.abs(fine.values @ traction(nodes) - traction(fine.nodes))[1:-1])
+
+    assert missed_by(2.0**-9) < 0.05 * missed_by(1.0)
+
+
+@pytest.mark.parametrize("crowd", [0.125, 2.0**-9])
+def test_tractions_on_crowded_nodes_act_with_the_means_of_their_cubics(crowd):
+    def lacking(n):
+        counts = np.array([n])
+        nodes = cosine_nodes(np.array([0.0, 1.0]), counts, (crowd,))
+        fine = subdivided(nodes, counts, (crowd,))
+        values = np.sin(np.pi * nodes)
+        values[[0, 1, -2, -1]] = 0.0
+        acting, dx = fine.acting @ values, np.diff(fine.nodes)
+        return abs(np.sum(dx * (acting[1:] + acting[:-1])) / 2.0 - 2.0 / np.pi)
+
+    assert lacking(80) < 0.08 * lacking(40)
+    assert lacking(40) < 2e-3
 
 
 @pytest.mark.parametrize("elements", [(8,), (8, 10)])

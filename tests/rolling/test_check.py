@@ -112,7 +112,7 @@ def test_points_reach_a_nip_width_outside(case, solved):
     assert np.all(np.diff(x) > 0.0)
     assert x[0] <= solution.contact[0][0] - solution.nip_width
     assert x[-1] >= solution.contact[-1][1] + solution.nip_width
-    assert x.size > 1.5 * solution.nodes.size
+    assert x.size > solution.nodes.size + 100
 
 
 def test_strain_is_the_slope_of_the_displacement(case, solved):

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, pairwise
-from math import sqrt
+from math import ceil, log2, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import ellipj, ellipkm1
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -30,6 +31,8 @@ CREEP_TO_EDGE = 0.02655
 _BESIDE = 1e-3  # elements: nodes beyond both ends of cosine places, where tractions end
 _PARTS = 2  # of an element
 _POINTS = 4  # of Gauss in each of these
+_LAYERS = 4.0  # lengths of a boundary layer up to which nodes at the end of a zone crowd
+_MOST_CROWDED = 2.0**-20
 _MARGIN = np.array([1.0, 2.0, 4.0, 8.0])  # nodes outside the contact, in edge elements
 
 
@@ -83,6 +86,7 @@ class Subdivision:
     ----------
     nodes : (M+1,) the finer nodes; those subdivided are among them [mm].
     elements : in each zone, of the nodes subdivided; none where they are the same nodes.
+    crowding : of each zone, see `cosine_nodes`.
     values : (M+1, N+1) values at them per value at the N+1 nodes subdivided; None: the same nodes.
     acting : (M+1, N+1) the same of tractions that act.
     means : (M-1, N) mean values between nodes[1:] per value at the nodes subdivided but the first.
@@ -90,24 +94,30 @@ class Subdivision:
 
     nodes: Array
     elements: tuple[int, ...] = ()
+    crowding: tuple[float, ...] = ()
     values: Array | None = None
     acting: Array | None = None
     means: Array | None = None
 
 
-def subdivided(nodes: Array, elements: Indices) -> Subdivision:
+def subdivided(
+    nodes: Array, elements: Indices, crowding: tuple[float, ...] | None = None
+) -> Subdivision:
     """Cut every element in equal steps of the node's number, but the one beyond either end.
 
     Parameters
     ----------
     nodes : (N+1,) of `cosine_nodes` [mm].
     elements : in each zone, three or more; no cubic reaches from one into another.
+    crowding : of each zone, as it was given to `cosine_nodes`.
     """
     counts = tuple(elements.tolist())
-    values, acting, means = _cubics(counts)
-    finer = _cosine_values(tuple(_PARTS * n for n in counts)) @ nodes[[1, *_ends(counts)]]
+    crowding = (1.0,) * len(counts) if crowding is None else crowding
+    values, acting, means = _cubics(counts, crowding)
+    finer = _cosine_values(tuple(_PARTS * n for n in counts), crowding)
+    finer = finer @ nodes[[1, *_ends(counts)]]
     finer[0], finer[-1] = nodes[0], nodes[-1]
-    return Subdivision(finer, counts, values, acting, means)
+    return Subdivision(finer, counts, crowding, values, acting, means)
 
 
 def _ends(elements: tuple[int, ...]) -> list[int]:
@@ -115,24 +125,25 @@ def _ends(elements: tuple[int, ...]) -> list[int]:
     return [1 + end for end in accumulate(elements)]
 
 
-def carry(before: tuple[int, ...], after: tuple[int, ...]) -> tuple[Array, Array] | None:
+def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None:
     """Matrices from values on cosine places to those on others of the same zones, zone by zone.
 
     Cubic in the number of the node, so as good as tractions are between nodes.
 
     Parameters
     ----------
-    before, after : elements in each zone.
+    before, after : zones and their elements.
 
     Returns
     -------
-    Two of (sum of after + 1, sum of before + 1): of values at nodes, and of values of the intervals
-    that begin at them, of which the one beyond the leading edge keeps its own. None where the
-    zones are not as many, or there are none.
+    Two of (sum of elements after + 1, sum of those before + 1): of values at nodes, and of values
+    of the intervals that begin at them, of which the one beyond the leading edge keeps its own.
+    None where the zones are not as many or crowd their nodes otherwise, or there are none.
     """
-    if len(before) != len(after) or not before:
+    if before.crowding != after.crowding or not before.elements:
         return None
-    return _carry(before, after, between=False), _carry(before, after, between=True)
+    counts = before.elements, after.elements
+    return _carry(*counts, between=False), _carry(*counts, between=True)
 
 
 @lru_cache(maxsize=128)
@@ -173,7 +184,7 @@ def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
 
 
 @lru_cache(maxsize=64)
-def _cubics(elements: tuple[int, ...]) -> tuple[Array, Array, Array]:
+def _cubics(elements: tuple[int, ...], crowding: tuple[float, ...]) -> tuple[Array, Array, Array]:
     """The matrices values, acting and means of a `Subdivision`."""
     ends = np.concatenate([[0], np.cumsum(elements)])
     interval = np.arange(ends[-1])
@@ -187,11 +198,13 @@ def _cubics(elements: tuple[int, ...]) -> tuple[Array, Array, Array]:
     values[0, 0] = values[-2, -2] = values[-1, -1] = 1.0
     values[1 + rows, columns] = _cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
 
-    # Means over x, which goes as the cosine of the number: by Gauss points in the number.
+    # Means over x, by Gauss points in the number of the node.
     points, weights = np.polynomial.legendre.leggauss(_POINTS)
     inside = parts[:, None] + 0.5 * (1.0 + points) / _PARTS
     number = (interval - ends[zone])[:, None, None] + inside
-    slope = weights * np.sin(np.pi * number / np.array(elements)[zone][:, None, None])
+    slope = np.empty(number.shape)
+    for i, (n, crowd) in enumerate(zip(elements, crowding, strict=True)):
+        slope[zone == i] = weights * _places(number[zone == i] / n, crowd)[1]
     cubics = _cubic_weights((interval - first)[:, None, None] + inside)
     mean = (slope[..., None] * cubics).sum(axis=2) / slope.sum(axis=2)[..., None]
     means = np.zeros((rows.size + 1, interval.size + 3))
@@ -214,31 +227,86 @@ def _cubic_weights(t: Array) -> Array:
     return np.stack([-a * b * c / 6.0, t * b * c / 2.0, -t * a * c / 2.0, t * a * b / 6.0], axis=-1)
 
 
-def elements_of_zones(breaks: Array, count: int) -> Indices:
-    """Elements in each zone between ``breaks`` (m,) [mm], some ``count`` in all; (m - 1,)."""
+def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
+    """How nodes crowd at the ends of each zone so that a boundary layer there gets its share.
+
+    A power of two, so that zones that move a little have the same.
+
+    Parameters
+    ----------
+    breaks : (m,) ends of zones [mm].
+    length : of the boundary layers [mm].
+    """
+    wanted = [_LAYERS * length / (stop - start) for start, stop in pairwise(breaks.tolist())]
+    shares = (min(max(share, _MOST_CROWDED), 1.0) for share in wanted)
+    return tuple(2.0 ** ceil(log2(share)) for share in shares)
+
+
+def elements_of_zones(
+    breaks: Array, count: int, crowding: tuple[float, ...] | None = None
+) -> Indices:
+    """Elements in each zone between ``breaks`` (m,) [mm]; (m - 1,).
+
+    Some ``count`` in all, and more where they crowd.
+    """
     shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
     total = sum(shares)
-    return np.array([max(round(count * share / total), _SMALLEST_ZONE) for share in shares])
+    more = [1.0] * len(shares) if crowding is None else [more_elements(crowd) for crowd in crowding]
+    return np.array(
+        [
+            max(round(count * share / total), _SMALLEST_ZONE) * longer
+            for share, longer in zip(shares, more, strict=True)
+        ]
+    ).astype(int)
 
 
-def cosine_nodes(breaks: Array, elements: Indices) -> Array:
+def more_elements(crowd: float) -> float:
+    """How many times the elements of a zone with cosine places one that crowds its nodes gets."""
+    return sqrt(float(ellipkm1(crowd * crowd)) / (0.5 * pi))
+
+
+def cosine_nodes(
+    breaks: Array, elements: Indices, crowding: tuple[float, ...] | None = None
+) -> Array:
     """Nodes at cosine places on each zone between ``breaks``, and one beyond either end.
+
+    Where a zone crowds its nodes by r < 1, cosines become elliptic functions: the share y of the
+    zone's length that lies before the share s of its elements is, with the modulus k' = r,
+
+        y/(1 - y) = r sc(K s)^2,
+
+    for r = 1 that of cosine places. At either end y still goes as the square of s, but only up to
+    y = r; from there to the other end its logarithm goes evenly. So a boundary layer of that
+    length has its share of the nodes, and the roots at the ends are straight lines in the number.
 
     Parameters
     ----------
     breaks : (m,) increasing: contact edges and the transitions between [mm].
     elements : (m - 1,) number of them in each zone.
+    crowding : (m - 1,) r of each zone; None: 1 everywhere.
     """
-    return np.asarray(_cosine_values(tuple(elements.tolist())) @ breaks)
+    crowding = (1.0,) * elements.size if crowding is None else crowding
+    return np.asarray(_cosine_values(tuple(elements.tolist()), crowding) @ breaks)
+
+
+def _places(share: Array, crowd: float) -> tuple[Array, Array]:
+    """Place in a zone of length 1 for a share of its elements, and its derivative."""
+    if crowd == 1.0:
+        return 0.5 * (1.0 - np.cos(pi * share)), 0.5 * pi * np.sin(pi * share)
+    quarter = float(ellipkm1(crowd * crowd))
+    sn, cn, dn, _ = ellipj(quarter * np.minimum(share, 1.0 - share), 1.0 - crowd * crowd)
+    below = crowd * sn * sn / (cn * cn + crowd * sn * sn)
+    slope = 2.0 * quarter * crowd * sn * cn * dn / (cn * cn + crowd * sn * sn) ** 2
+    return np.where(share > 0.5, 1.0 - below, below), slope
 
 
 @lru_cache(maxsize=128)
-def _cosine_values(elements: tuple[int, ...]) -> Array:
+def _cosine_values(elements: tuple[int, ...], crowding: tuple[float, ...]) -> Array:
     """`cosine_nodes` per place of a break."""
     values = np.zeros((sum(elements) + 3, len(elements) + 1))
     first = 1
-    for zone, n in enumerate(elements):
-        cosine = 0.5 * (1.0 - np.cos(np.pi * np.arange(n + 1) / n))
+    for zone, (n, crowd) in enumerate(zip(elements, crowding, strict=True)):
+        cosine = _places(np.arange(n + 1) / n, crowd)[0]
         cosine[-1] = 1.0
         values[first : first + n + 1, zone] = 1.0 - cosine
         values[first : first + n + 1, zone + 1] = cosine

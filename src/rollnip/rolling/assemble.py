@@ -46,7 +46,7 @@ class SecondOrder:
 
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
         """The same terms on another mesh; where both have the same zones, zone by zone."""
-        matrices = carry(old.fine.elements, new.fine.elements)
+        matrices = carry(old.fine, new.fine)
         rate, offset = self.creep_length / old.dx, self.creep_offset / old.dx
         if matrices is not None:
             nodes, intervals = matrices

@@ -12,7 +12,7 @@ from math import ceil, inf, log, sqrt
 
 import numpy as np
 
-from rollnip.contact import Layout, cubic_error
+from rollnip.contact import Layout, cubic_error, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import CUBIC, Size, estimated_error, zone_excess
@@ -28,7 +28,7 @@ _FEWEST_SIZES = 2  # of meshes before an error is believed
 # With memory the tractions have boundary layers as long as speed times relaxation time. Meshes all
 # too coarse for these agree on other edges.
 _FEWEST_WITH_MEMORY = 3
-_MOST_ELEMENTS = 80  # at a tolerance of 1e-3; what needs more has no smooth tractions
+_MOST_ELEMENTS = 200  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _FIRST_GROWTH = 1.6  # of the number of elements from size to size
 _LEAST_GROWTH, _LEAST_OF_MANY, _MANY = 1.35, 1.2, 100
 _MOST_GROWTH = 3.5
@@ -55,7 +55,12 @@ class Attempt:
 
 
 def with_free_ends(
-    nip: Nip, model: Model, kernels: PairKernels, layout: Layout, before: Round | None = None
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    layout: Layout,
+    before: Round | None = None,
+    off: float = 0.1,
 ) -> Attempt:
     """Solve with zones whose ends are free, on ever finer meshes until the error is small enough.
 
@@ -63,11 +68,16 @@ def with_free_ends(
     ----------
     layout : about where the zones are, and which.
     before : the solution that says so; None: a guess does.
+    off : how far its zones may be off, over the width of the contact.
     """
     placing = Placing(nip, model, kernels)
     count = _FIRST_COUNT + _FOR_ZONE * layout.states.size
     try:
-        stand = placing.guessed(layout, count) if before is None else Standing(layout, before)
+        if before is None:
+            stand = placing.guessed(layout, count)
+        else:
+            stand = Standing(layout, before, off=off)
+            count = max(count, before.problem.x.size // 2)
         return Attempt(None) if stand is None else _refined(placing, stand, count)
     except np.linalg.LinAlgError:
         return Attempt(None)
@@ -84,7 +94,7 @@ def _refined(placing: Placing, stand: Standing, count: int) -> Attempt:
         if placed is None:
             return Attempt(None, known, too_few)
         stand, latest = placed, placed.before
-        count = latest.problem.x.size - 1
+        count = _as_cosines(latest)
         history.append(Size(count, latest.figures, stand.layout.breaks))
         latest = replace(latest, error=estimated_error(nip, latest, history, CUBIC))
         ratio, roughness = excess(nip, latest, model.tolerance), _roughness(nip, model, latest)
@@ -114,6 +124,13 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
     if claimed > growth:
         growth = claimed ** (1.0 / ceil(log(claimed) / log(_MOST_GROWTH)))
     return int(count * growth) + 1
+
+
+def _as_cosines(latest: Round) -> int:
+    """Number of elements of a solution, each zone's as if its nodes lay at cosine places."""
+    fine = latest.mesh.fine
+    shares = map(more_elements, fine.crowding)
+    return round(sum(n / more for n, more in zip(fine.elements, shares, strict=True)))
 
 
 def _roughness(nip: Nip, model: Model, latest: Round) -> float:

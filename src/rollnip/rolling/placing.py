@@ -8,6 +8,7 @@ are right.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from math import inf, log10
 
 import numpy as np
@@ -20,6 +21,7 @@ from rollnip.contact import (
     States,
     Zone,
     cosine_nodes,
+    crowding_of,
     elements_of_zones,
     next_slip,
     next_states,
@@ -28,6 +30,7 @@ from rollnip.contact import (
 from rollnip.contact.problem import Indices
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
+from rollnip.rollers import Roller
 from rollnip.rolling.assemble import (
     SecondOrder,
     first_guess,
@@ -70,15 +73,17 @@ class Standing:
     change : of the second-order terms when the second order of "finite" was last evaluated, over
         the tolerance.
     expected : the same of all times to come.
+    off : how far the ends of zones may be off, over the width of the contact.
     """
 
     layout: Layout
     before: Round
     change: float = inf
     expected: float = inf
+    off: float = _FAIRLY_PLACED
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Placing:
     """Finds the ends of zones of a nip, for one model and its influence functions."""
 
@@ -99,7 +104,8 @@ class Placing:
         None where zones that the solution asks for are none that have a layout.
         """
         kernels = held_from(self.kernels, None)
-        mesh = _mesh(layout, elements_of_zones(layout.breaks, count), kernels)
+        even = (1.0,) * layout.states.size
+        mesh = _mesh(layout, elements_of_zones(layout.breaks, count), even, kernels)
         states, zones = layout.states_on(mesh.inner), layout.zones
         start = states, first_guess(self.nip, mesh), 0
         latest = self._turned(replace(self.model, geometry="linear"), mesh, start, zones, _TURNS)
@@ -112,7 +118,7 @@ class Placing:
             second = second_order(self.nip, self.model.geometry, mesh, latest.state)
             latest = self._turned(self.model, mesh, (states, second, latest.steps), zones, 1)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        return Standing(_proper(asked, layout), latest)
+        return Standing(_proper(asked, layout), latest, off=asked.distance(layout))
 
     def placed(self, start: Standing, count: int, *, known: bool) -> Standing | None:
         """The solution on a mesh of some size whose nodes lie at the ends of its zones.
@@ -128,31 +134,39 @@ class Placing:
         None where there is no such solution.
         """
         # However still the second order is, it is that of a coarser mesh: a new one on each size.
-        stand, off = self._renewed(replace(start, expected=inf)), inf
+        stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
         loosely = self.kernels.is_linear and not known
         placed = _PLACED * self.model.tolerance * (_LOOSELY if loosely else 1.0)
         elements: Indices | None = None
+        crowding: tuple[float, ...] = ()
         earlier: tuple[Layout, Layout] | None = None
         meshes = changes = 0
-        while meshes < self._most_meshes + _MORE_FOR_CHANGE * changes:
+        most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
+        while meshes < most_meshes + _MORE_FOR_CHANGE * changes:
             meshes += 1
             layout = stand.layout
-            if elements is None:  # they stay while edges are looked for: a change would move these
-                elements = elements_of_zones(layout.breaks, count)
+            crowd = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
+            if elements is None or crowd != crowding:
+                # They stay while edges are looked for: a change would move these.
+                crowding, elements = crowd, elements_of_zones(layout.breaks, count, crowd)
+                earlier, off = None, inf
             hasty = loosely and off > _NEARLY_PLACED
             # Transitions that a guess has found will move again, whatever the second order.
             most = 1 if hasty and layout.states.size > 1 else _TURNS
-            latest, asked = self._solved_on(stand, elements, placed, most)
+            latest, asked = self._solved_on(stand, (elements, crowding), placed, most)
             off, off_before = asked.distance(layout), off
+            known_to = min(known_to, off)
             if self.kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
                 return None
+            is_fine = crowd == crowding_of(layout.breaks, self.boundary)
             is_placed = off <= placed and (self.kernels.is_linear or stand.expected <= _QUIET)
+            is_placed = is_placed and is_fine
             doubted = is_placed or (not known and off < _FAIRLY_PLACED)
             known = known or (doubted and not hasty)
             wanted = self._wanted(latest, layout, whole=is_placed) if doubted else None
             if asked.is_proper and wanted is None:
                 if is_placed and latest.settled:
-                    return _standing_at(asked, latest, stand)
+                    return _standing_at(asked, latest, stand, off)
                 there = _hastened(layout, asked, earlier)
                 stand = self._renewed(Standing(there, latest, stand.change, stand.expected))
                 earlier = (layout, asked) if latest.settled else None
@@ -164,9 +178,18 @@ class Placing:
             stand, elements, earlier, off = self._renewed(other), None, None, inf
         return None
 
-    @property
-    def _most_meshes(self) -> int:
+    @cached_property
+    def boundary(self) -> float:
+        """Length of the shortest boundary layer at the ends of zones [mm].
+
+        Within the depth of the first interface the surface responds as a half-plane of its top
+        layer, beyond as what lies below lets it: the tractions cross over there.
+        """
+        return min(_first_interface(self.nip.upper), _first_interface(self.nip.lower))
+
+    def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
+        most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
         return most + (0 if self.kernels.is_linear else _MORE_FOR_SECOND)
 
     def _renewed(self, stand: Standing) -> Standing:
@@ -184,7 +207,11 @@ class Placing:
         return Standing(stand.layout, replace(before, mesh=mesh, second=second), change, expected)
 
     def _solved_on(
-        self, stand: Standing, elements: Indices, placed: float, most: int
+        self,
+        stand: Standing,
+        shape: tuple[Indices, tuple[float, ...]],
+        placed: float,
+        most: int,
     ) -> tuple[Round, Layout]:
         """Solve on one mesh: the solution, and where it asks the ends of zones to be.
 
@@ -192,7 +219,7 @@ class Placing:
         ``placed``, over the width; then as many as these need.
         """
         layout, before = stand.layout, stand.before
-        mesh = _mesh(layout, elements, before.mesh.kernels)
+        mesh = _mesh(layout, *shape, before.mesh.kernels)
         states, zones = layout.states_on(mesh.inner), layout.zones
         start = states, before.second.carried(before.mesh, mesh), before.steps
         latest = self._turned(self.model, mesh, start, zones, most)
@@ -245,10 +272,23 @@ class Placing:
         return Standing(layout, replace(latest, state=found, second=second, steps=steps))
 
 
-def _mesh(layout: Layout, elements: Indices, kernels: PairKernels) -> Mesh:
+def _first_interface(roller: Roller) -> float:
+    """Depth at which the material changes first [mm]; a rigid roller: infinite."""
+    depth = 0.0
+    materials = [*(layer.material for layer in roller.layers), roller.core]
+    for layer, below in zip(roller.layers, materials[1:], strict=True):
+        depth += layer.thickness
+        if layer.material != below:
+            return depth
+    return inf
+
+
+def _mesh(
+    layout: Layout, elements: Indices, crowding: tuple[float, ...], kernels: PairKernels
+) -> Mesh:
     """A mesh whose nodes lie at the ends of zones."""
-    nodes = cosine_nodes(layout.breaks, elements)
-    return mesh_on(nodes, kernels, subdivided(nodes, elements))
+    nodes = cosine_nodes(layout.breaks, elements, crowding)
+    return mesh_on(nodes, kernels, subdivided(nodes, elements, crowding))
 
 
 def _proper(asked: Layout, layout: Layout) -> Layout:
@@ -256,11 +296,11 @@ def _proper(asked: Layout, layout: Layout) -> Layout:
     return asked if asked.is_proper else layout
 
 
-def _standing_at(asked: Layout, latest: Round, stand: Standing) -> Standing:
+def _standing_at(asked: Layout, latest: Round, stand: Standing, off: float) -> Standing:
     """A solution whose zones are where it asks them to be."""
     figures = replace(latest.figures, nip_width=asked.width)
     latest = replace(latest, zones=asked.zones, figures=figures)
-    return Standing(asked, latest, stand.change, stand.expected)
+    return Standing(asked, latest, stand.change, stand.expected, off)
 
 
 def _hastened(here: Layout, asked: Layout, earlier: tuple[Layout, Layout] | None) -> Layout:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import sqrt
+from math import inf, sqrt
 
 import numpy as np
 
@@ -20,13 +20,12 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
 from rollnip.rolling.estimates import LINEAR, Size, estimated_error, zone_excess
-from rollnip.rolling.free_ends import Attempt, with_free_ends
+from rollnip.rolling.free_ends import with_free_ends
 from rollnip.rolling.round import Round, excess, has_grip
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import ROUGHLY_STILL, STILL, checked, holding, settled, turned
 
 _FIRST_COUNT = 16
-_SKIN, _STIFFER = 0.1, 10.0  # thickness over the half-width at most, modulus over the next at least
 _LINEAR_FOR_CUBIC = 2  # elements that do what a cubic one does, at least
 _FEWEST_SIZES = 3  # of meshes before an error is believed
 _COARSE = 96  # elements up to which an unsettled mesh may still place edges
@@ -38,6 +37,7 @@ _ALIKE = 1.15  # elements of a mesh over those of one too much like it to tell a
 _MOST_WORK = 4000.0  # linear systems of a hundred elements, or what takes as long
 _DIVERGED = 10.0  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
+_AGREED = 5e-3  # over the width of the contact: zones of two sizes with which free ends may begin
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
 
 
@@ -60,14 +60,12 @@ def refine(
     -------
     The last round that settled; its error may exceed the tolerance where the rounds ran out.
     """
-    attempt, has_skin = Attempt(None), _has_skin(nip, half_width)
-    if not has_skin:
-        attempt = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
-        if attempt.found is not None:
-            return attempt.found
+    attempt = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
+    if attempt.found is not None:
+        return attempt.found
     located = _located(nip, model, kernels, half_width, method)
     layout = Layout.of(located.zones)
-    if located.settled and layout is not None and not attempt.knew_zones and not has_skin:
+    if located.settled and layout is not None and not attempt.knew_zones:
         attempt = with_free_ends(nip, model, kernels, layout, located)
         if attempt.found is not None:
             return attempt.found
@@ -75,21 +73,6 @@ def refine(
         return _finished(nip, model, kernels, located, method)
     too_few = _LINEAR_FOR_CUBIC * attempt.too_few
     return _refined(nip, model, kernels, located, method, too_few)
-
-
-def _has_skin(nip: Nip, half_width: float) -> bool:
-    """Whether a top layer is much stiffer than the next and thin beside the contact.
-
-    It bends like a plate: surfaces respond as no half-plane does, which is how ends are found, and
-    the pressure peaks within a few thicknesses from an edge, which takes many cubic elements.
-    """
-    for roller in (nip.upper, nip.lower):
-        if len(roller.layers) < 2 or roller.layers[0].thickness > _SKIN * half_width:
-            continue
-        top, below = (layer.material.relaxed_modulus for layer in roller.layers[:2])
-        if top >= _STIFFER * below:
-            return True
-    return False
 
 
 def _located(
@@ -126,7 +109,7 @@ def _refined(
     latest, stood, best = located, located, None
     zones, breaks, demand = located.zones, _next_breaks(located), _demand(located)
     history: list[Size] = []
-    rounds = 0
+    rounds = offered = 0
     while rounds < _MOST_ROUNDS and work <= _MOST_WORK:
         rounds += 1
         mesh = mesh_on(graded_nodes(breaks, count, demand), holding(kernels, stood))
@@ -152,17 +135,31 @@ def _refined(
         best = latest if latest.settled or best is None else best
         ratio = _ratio(nip, latest, history, model.tolerance, too_few)
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
-            latest = checked(nip, model, kernels, settled(nip, model, latest, method))
-            if latest.residual <= model.tolerance:
+            best = latest = checked(nip, model, kernels, settled(nip, model, latest, method))
+            at_rest = latest.geometry_change <= 0.5 * latest.residual
+            if latest.residual <= model.tolerance or (at_rest and count >= _MOST_ELEMENTS):
                 return latest
-            best, tries = latest, 0
-            if latest.geometry_change > 0.5 * latest.residual:
-                continue  # no finer mesh helps: the second order of this one is not at rest
-            if count >= _MOST_ELEMENTS:
-                return latest
+            if not at_rest:
+                tries = 0  # no finer mesh helps: the second order of this one still moves
+                continue
             ratio = latest.residual / model.tolerance
+        off = _apart(history)
+        if off < _AGREED and offered < _MOST_TRIES:
+            offered += 1
+            if taken := _handed_over(nip, model, kernels, latest, off):
+                return taken
         count, tries = _next_count(count, ratio), 0
     return _finished(nip, model, kernels, best or latest, method)
+
+
+def _handed_over(
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, off: float
+) -> Round | None:
+    """What free ends make of zones that linear elements have found; None where they fail."""
+    layout = Layout.of(latest.zones)
+    if layout is None:
+        return None
+    return with_free_ends(nip, model, kernels, layout, latest, off).found
 
 
 def _with_size(history: list[Size], size: Size) -> list[Size]:
@@ -170,6 +167,14 @@ def _with_size(history: list[Size], size: Size) -> list[Size]:
     if history and size.count < _ALIKE * history[-1].count:
         history = history[:-1]
     return [*history, size]
+
+
+def _apart(history: list[Size]) -> float:
+    """How far the zones of the last two sizes are apart, over the width; inf for other zones."""
+    if len(history) < 2 or history[-1].breaks.size != history[-2].breaks.size:
+        return inf
+    moved = np.abs(history[-1].breaks - history[-2].breaks)
+    return float(np.max(moved)) / history[-1].figures.nip_width
 
 
 def _ratio(nip: Nip, latest: Round, history: list[Size], tolerance: float, too_few: int) -> float:

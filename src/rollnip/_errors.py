@@ -6,8 +6,14 @@ A message names what is wrong, the rule, and the value that came:
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping, Sequence
+from difflib import get_close_matches
+from functools import wraps
+from inspect import signature
 from math import inf, nan
-from typing import Any
+from typing import Any, TypeVar, get_args
+
+T = TypeVar("T")
 
 
 class RollnipError(Exception):
@@ -44,7 +50,7 @@ def require_positive(name: str, value: float) -> float:
     """Return ``value`` as a float, or raise InvalidInputError unless it is positive and finite."""
     number = _number(value)
     if not 0.0 < number < inf:
-        raise InvalidInputError(f"`{name}` must be positive and finite, got {value!r}.")
+        raise InvalidInputError(f"`{name}` must be positive and finite, got {shown(value)}.")
     return number
 
 
@@ -52,7 +58,9 @@ def require_not_negative(name: str, value: float) -> float:
     """Return ``value`` as a float, or raise InvalidInputError unless it is finite and >= 0."""
     number = _number(value)
     if not 0.0 <= number < inf:
-        raise InvalidInputError(f"`{name}` must be zero or positive and finite, got {value!r}.")
+        raise InvalidInputError(
+            f"`{name}` must be zero or positive and finite, got {shown(value)}."
+        )
     return number
 
 
@@ -60,8 +68,62 @@ def require_finite(name: str, value: float) -> float:
     """Return ``value`` as a float, or raise InvalidInputError unless it is a finite number."""
     number = _number(value)
     if not abs(number) < inf:
-        raise InvalidInputError(f"`{name}` must be a finite number, got {value!r}.")
+        raise InvalidInputError(f"`{name}` must be a finite number, got {shown(value)}.")
     return number
+
+
+def shown(value: object) -> str:
+    """Write a value for a message; a text that holds a quantity with the number to write."""
+    if not isinstance(value, str) or not any(
+        letter.isalpha() or letter in "%'\"" for letter in value
+    ):
+        return repr(value)
+    from rollnip._units import Dimension, base_unit, parse_quantity  # it needs this module
+
+    for dimension in get_args(Dimension):
+        try:
+            number = parse_quantity(value, dimension)
+        except InvalidInputError:
+            continue
+        unit = base_unit(dimension)
+        plain = f"a number in {unit}" if unit else "a plain number"
+        return f"the text {value!r}; in Python give {plain}: {number!r}"
+    return repr(value)
+
+
+def with_hints(**hints: str) -> Callable[[type[T]], type[T]]:
+    """Let a class answer an unknown keyword with a sentence instead of a TypeError.
+
+    Parameters
+    ----------
+    hints :
+        what to write instead, for keywords that are often tried; others are told the nearest
+        known one.
+    """
+
+    def decorate(cls: type[T]) -> type[T]:
+        build = cls.__init__
+        known = tuple(signature(build).parameters)[1:]
+
+        @wraps(build)
+        def checked(self: T, /, *values: Any, **named: Any) -> None:
+            for name in named:
+                if name not in known:
+                    raise InvalidInputError(_unknown(cls.__name__, name, known, hints))
+            build(self, *values, **named)
+
+        cls.__init__ = checked  # type: ignore[method-assign, assignment]
+        return cls
+
+    return decorate
+
+
+def _unknown(kind: str, name: str, known: Sequence[str], hints: Mapping[str, str]) -> str:
+    near = get_close_matches(name, known, n=1, cutoff=0.5)
+    hint = hints.get(name) or (
+        f"did you mean `{near[0]}`?" if near else f"it has {', '.join(known)}."
+    )
+    return f"`{name}` must be a parameter of {kind}, and is none; {hint}"
 
 
 def _number(value: object) -> float:

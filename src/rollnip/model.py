@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, get_args
 
-from rollnip._errors import InvalidInputError, require_positive
+from rollnip._errors import InvalidInputError, require_positive, with_hints
 
 Geometry = Literal["linear", "corrected", "curved", "finite"]
 
@@ -13,6 +13,7 @@ _FINEST = 1e-6
 _COARSEST = 0.1
 
 
+@with_hints(speed="it belongs to the nip: `rn.Nip(..., speed=100)`.")
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Model:
     """Geometry model and accuracy.

@@ -9,6 +9,7 @@ from rollnip._errors import (
     require_finite,
     require_not_negative,
     require_positive,
+    with_hints,
 )
 from rollnip.rollers import Roller
 
@@ -69,6 +70,18 @@ class Torque:
         object.__setattr__(self, "torque_lower", torque)
 
 
+@with_hints(
+    load="give `normal=rn.LineLoad(1.78)`.",
+    line_load="give `normal=rn.LineLoad(1.78)`.",
+    approach="give `normal=rn.Approach(0.3)`.",
+    traction="give `tangential=rn.Traction(0.5)`.",
+    creepage="give `tangential=rn.Creepage(0.01)`.",
+    torque="give `tangential=rn.Torque(0.0)`, the torque on the lower axle.",
+    torque_lower="give `tangential=rn.Torque(0.0)`.",
+    width="give `face_width`.",
+    geometry="it belongs to the model: `rn.solve(nip, rn.Model(geometry=...))`.",
+    tolerance="it belongs to the model: `rn.solve(nip, rn.Model(tolerance=...))`.",
+)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Nip:
     """Two rollers pressed together and rolling steadily.

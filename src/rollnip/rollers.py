@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from hashlib import sha256
 from itertools import pairwise
@@ -10,7 +11,7 @@ from math import inf
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rollnip._errors import InvalidInputError, require_positive
+from rollnip._errors import InvalidInputError, require_positive, with_hints
 from rollnip.materials import Material
 
 _MOST_SAMPLES = 2**18
@@ -18,6 +19,10 @@ _ROUNDING = 1e-9  # of the length of a profile
 _LARGEST_LENGTH = 1e7  # mm; ten kilometres: beyond it a unit was mistaken
 
 
+@with_hints(
+    shore_a="give `material=rn.Elastic.from_shore_a(60)`.",
+    modulus="give `material=rn.Elastic(modulus=..., poisson=0.5)`.",
+)
 @dataclass(frozen=True, slots=True)
 class Layer:
     """One layer of a coating.
@@ -46,7 +51,7 @@ class Layer:
         _require_material("material", self.material)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+@dataclass(frozen=True, slots=True, init=False, eq=False, repr=False)
 class Profile:
     """Measured height of a surface over the smooth roller, along the nip at one instant.
 
@@ -70,8 +75,8 @@ class Profile:
     x: NDArray[np.float64]
     height: NDArray[np.float64]
 
-    def __post_init__(self) -> None:
-        x, height = _samples("x", self.x), _samples("height", self.height)
+    def __init__(self, *, x: ArrayLike, height: ArrayLike) -> None:
+        x, height = _samples("x", x), _samples("height", height)
         if x.size != height.size:
             raise InvalidInputError(
                 f"`height` must have one value for each of the {x.size} places, got {height.size}."
@@ -110,7 +115,12 @@ class Profile:
         return np.where(inside, np.interp(x, self.x, self.height), 0.0)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@with_hints(
+    diameter="give `radius`, half of the diameter.",
+    layer="give `layers`, a list: [rn.Layer(2.0, rubber)].",
+    material="give `layers`, a list: [rn.Layer(2.0, rubber)].",
+)
+@dataclass(frozen=True, slots=True, init=False)
 class Roller:
     """A cylinder with its coating.
 
@@ -136,13 +146,24 @@ class Roller:
     core: Material | None = None
     profile: Profile | None = None
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "radius", _checked_radius(self.radius))
-        if not isinstance(self.layers, list | tuple):
-            raise InvalidInputError(
-                f"`layers` must be a list of Layer objects, got {self.layers!r}."
-            )
-        object.__setattr__(self, "layers", tuple(self.layers))
+    def __init__(
+        self,
+        *,
+        radius: float,
+        layers: Sequence[Layer] = (),
+        core: Material | None = None,
+        profile: Profile | None = None,
+    ) -> None:
+        object.__setattr__(self, "radius", _checked_radius(radius))
+        if not isinstance(layers, Sequence) or isinstance(layers, str | bytes):
+            raise InvalidInputError(f"`layers` must be a list of Layer objects, got {layers!r}.")
+        object.__setattr__(self, "layers", tuple(layers))
+        object.__setattr__(self, "core", core)
+        object.__setattr__(self, "profile", profile)
+        self._check()
+
+    def _check(self) -> None:
+        """Raise InvalidInputError unless the parts make a roller."""
         for layer in self.layers:
             if not isinstance(layer, Layer):
                 raise InvalidInputError(f"`layers` must hold Layer objects, got {layer!r}.")

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError
+from rollnip._results.presented import Presented
 from rollnip.contact import State, contact_intervals
 from rollnip.interior import (
     InterfaceStress,
@@ -52,8 +53,8 @@ _GRID_SHARES = {
 }
 
 
-@dataclass(frozen=True)
-class Solution:
+@dataclass(frozen=True, repr=False)
+class Solution(Presented):
     """A solved nip. Units mm, N, MPa, s; x points to the leading edge (the inlet).
 
     Attributes

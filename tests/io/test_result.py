@@ -13,7 +13,7 @@ from rollnip.io import netcdf as netcdf_module
 from rollnip.io import result_dict, result_text, write_result
 
 KEYS = [
-    "schema", "title", "converged", "geometry",
+    "schema", "title", "converged", "geometry", "tolerance", "version", "case_hash", "case",
     "load", "approach", "traction", "creepage", "speed_ratio",
     "nip_width", "dwell_time", "peak_pressure", "peak_pressure_x", "mean_pressure",
     "torque_upper", "torque_lower", "rolling_resistance", "dissipation", "max_surface_strain",

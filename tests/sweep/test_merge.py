@@ -15,6 +15,7 @@ from rollnip.sweep.merge import merged, take_known
 from rollnip.sweep.run import OpenCases, run
 from rollnip.sweep.store import About, Store
 from rollnip.sweep.table import write_table
+from rollnip.sweep.version import own_version
 
 
 def shard(tree: dict[str, Any], path: Path, part: tuple[int, int], version: str = "1") -> Path:
@@ -26,7 +27,7 @@ def shard(tree: dict[str, Any], path: Path, part: tuple[int, int], version: str 
 
 def test_shards_make_the_whole_in_any_order(tree: dict[str, Any], tmp_path: Path) -> None:
     rn.sweep(tree, workers=1, out=tmp_path / "whole.csv")
-    files = [shard(tree, tmp_path / f"{i}.db", (i, 4)) for i in (4, 1, 3, 2)]
+    files = [shard(tree, tmp_path / f"{i}.db", (i, 4), own_version()) for i in (4, 1, 3, 2)]
     with merged(files) as store:
         write_table(store, tmp_path / "merged.csv")
     assert (tmp_path / "merged.csv").read_bytes() == (tmp_path / "whole.csv").read_bytes()

@@ -83,7 +83,7 @@ def test_results_choose_the_columns(tree: dict[str, Any]) -> None:
     table = rn.sweep(tree | {"results": ["nip_width", "error.load"]}, workers=1)
     names = ["case", "upper.layers[0].thickness", "nip.load", "status", "message", "geometry"]
     assert [*table.columns] == [
-        *names, "converged", "nip_width", "error.load", "warnings", "hash"
+        *names, "converged", "nip_width", "error.load", "warnings", "hash", "tolerance", "version"
     ]  # fmt: skip
     assert table.units["nip_width"] == "mm"
     with pytest.raises(InvalidInputError, match=r'got "peak_pressure"'):

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import csv
+import json
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -14,6 +16,7 @@ from rollnip._errors import RollnipError
 from rollnip.io import read_columns
 from rollnip.sweep import SCALARS
 from rollnip.sweep import table as table_module
+from rollnip.sweep.version import own_version
 
 
 def test_csv_says_the_same_as_memory(tree: dict[str, Any], tmp_path: Path) -> None:
@@ -78,3 +81,52 @@ def test_parquet_without_its_extra_says_so(
     monkeypatch.setattr(table_module, "find_spec", lambda _: None)
     with pytest.raises(RollnipError, match=r'pip install "rollnip\[tables\]"'):
         rn.sweep(tree, workers=1, out=tmp_path / "a.parquet")
+
+
+def test_the_table_holds_case_tolerance_and_version(tree: dict[str, Any], tmp_path: Path) -> None:
+    tree["case"]["solver"] = {"tolerance": "0.2 %"}
+    table = rn.sweep(tree, workers=1, out=tmp_path / "a.csv")
+    assert table.case == tree["case"]
+    assert table["tolerance"] == pytest.approx(2e-3)
+    assert set(table["version"]) == {own_version()}
+    assert f"Table of {len(table)} cases" in repr(table)
+    tree["parameters"].append({"path": "solver.tolerance", "values": [1e-3, 5e-3]})
+    assert set(rn.sweep(tree, workers=1)["tolerance"]) == {1e-3, 5e-3}
+
+
+def test_parquet_carries_the_case(tree: dict[str, Any], tmp_path: Path) -> None:
+    polars = pytest.importorskip("polars")
+    table = rn.sweep(tree, workers=1, out=tmp_path / "a.parquet")
+    about = polars.read_parquet_metadata(tmp_path / "a.parquet")
+    assert json.loads(about["case"]) == table.case
+    assert about["rollnip"] == own_version()
+
+
+def test_the_table_as_a_frame_of_others(tree: dict[str, Any]) -> None:
+    table = rn.sweep(tree, workers=1)
+    for name, make in (("pandas", table.to_pandas), ("polars", table.to_polars)):
+        pytest.importorskip(name)
+        frame = make()
+        assert list(frame.columns) == list(table.columns)
+        assert np.array_equal(frame["nip_width"].to_numpy(), table["nip_width"], equal_nan=True)
+        assert list(frame["status"]) == list(table["status"])
+    pytest.importorskip("xarray")
+    dataset = table.to_xarray()
+    assert dataset["nip_width"].dims == ("case",)
+    assert dataset["nip_width"].attrs["units"] == "mm"
+    assert np.array_equal(dataset["nip_width"], table["nip_width"], equal_nan=True)
+    assert dataset["status"].to_numpy().tolist() == list(table["status"])
+
+
+def test_a_frame_that_is_not_installed_is_a_sentence(
+    tree: dict[str, Any], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    table = rn.sweep(tree, workers=1)
+    for name, make in (
+        ("pandas", table.to_pandas),
+        ("polars", table.to_polars),
+        ("xarray", table.to_xarray),
+    ):
+        monkeypatch.setitem(sys.modules, name, None)
+        with pytest.raises(RollnipError, match=f"{name} is needed for this, and is not installed"):
+            make()

@@ -9,7 +9,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from rollnip._summary import SIGNS, Line, sections, verdict, zones
+from rollnip._results.summary import SIGNS, Line, sections, verdict, zones
 from rollnip._units import format_quantity
 from rollnip.solution import Solution
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -260,7 +260,8 @@ def _mixed(question: _Question) -> Array:
 
 def _rows(table: Table, which: slice) -> Table:
     """Some rows of a table."""
-    return Table({name: column[which] for name, column in table.columns.items()}, table.units)
+    columns = {name: column[which] for name, column in table.columns.items()}
+    return replace(table, columns=columns)
 
 
 def _sobol(question: _Question, table: Table) -> tuple[dict[str, SobolIndices], list[str]]:

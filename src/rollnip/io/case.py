@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from hashlib import sha256
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
 
 from pydantic import ValidationError
 
 from rollnip._errors import CaseFileError
+from rollnip._results.case import problem_hash
 from rollnip.io.build import Builder
 from rollnip.io.document import parse_document, read_document
 from rollnip.io.messages import form_error, wrong_controls
@@ -82,8 +82,7 @@ def case_hash(case: Case) -> str:
     Of the values in base units, not of how they were written; neither the title nor the name of
     the file counts. The version of rollnip is not part of it.
     """
-    problem = replace(case.nip, title="") if case.nip.title else case.nip
-    return sha256(repr((problem, case.model)).encode()).hexdigest()[:16]
+    return problem_hash(case.nip, case.model)
 
 
 def case_schema(*, ref: str = "#/$defs/{model}") -> dict[str, Any]:

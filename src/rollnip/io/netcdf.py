@@ -7,10 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from rollnip._errors import RollnipError
-from rollnip.figures import CLAIMED, FIGURES, PROFILES, Figure
-
-_NAN = float("nan")
-_Variables = dict[str, tuple[Any, ...]]
+from rollnip._results.dataset import result_dataset
 
 
 def require_netcdf() -> None:
@@ -23,102 +20,4 @@ def require_netcdf() -> None:
 
 def write_netcdf(tree: dict[str, Any], path: Path) -> None:
     """Write a result tree; None becomes NaN, lists become variables, texts attributes."""
-    import xarray as xr
-
-    profiles = tree["profiles"]
-    size = len(profiles["x"])
-    variables: _Variables = {
-        name: ("x", _floats(profiles[name], size), _described(curve))
-        for name, curve in PROFILES.items()
-    }
-    place = variables.pop("x")
-    variables |= _scalars(tree) | _contact(tree["contact"]) | _zones(tree["zones"])
-    dataset = xr.Dataset(
-        variables,
-        coords={
-            "x": place,
-            "edge": ("edge", ["trailing", "leading"]),
-        },
-        attrs=_attributes(tree),
-    )
-    dataset.to_netcdf(path, engine="h5netcdf")
-
-
-def _floats(values: list[float | None] | None, size: int) -> list[float]:
-    if values is None:
-        return [_NAN] * size
-    return [_NAN if value is None else value for value in values]
-
-
-def _described(figure: Figure, unit: str = "") -> dict[str, str]:
-    """Attributes of a variable: its unit, its name, what it is and its sign."""
-    about = f"{figure.sentence} {figure.sign}".rstrip()
-    return {"units": unit or figure.unit, "long_name": figure.label, "comment": about}
-
-
-def _scalar(value: float | None, attributes: dict[str, str]) -> tuple[Any, ...]:
-    return ((), _NAN if value is None else value, attributes)
-
-
-def _value(tree: dict[str, Any], figure: Figure) -> float | None:
-    table, _, key = figure.key.rpartition(".")
-    value: float | None = (tree[table] if table else tree)[key]
-    return value
-
-
-def _scalars(tree: dict[str, Any]) -> _Variables:
-    variables = {one.name: _scalar(_value(tree, one), _described(one)) for one in FIGURES.values()}
-    for one in CLAIMED.values():
-        about = {"units": one.unit, "long_name": f"estimated error of the {one.label}"}
-        variables[f"error_{one.name}"] = _scalar(tree["error"][one.name], about)
-    if "totals" in tree:
-        variables |= _totals(tree["totals"])
-    return variables
-
-
-def _totals(totals: dict[str, float | None]) -> _Variables:
-    width = {"units": "mm", "long_name": "face width"}
-    variables = {"total_face_width": _scalar(totals["face_width"], width)}
-    for one in FIGURES.values():
-        if one.total is not None:
-            about = {"units": one.total.unit, "long_name": f"{one.label}, whole face"}
-            variables[f"total_{one.name}"] = _scalar(totals[one.name], about)
-    return variables
-
-
-def _contact(intervals: list[list[float]]) -> _Variables:
-    import numpy as np
-
-    return {
-        "contact": (
-            ("interval", "edge"),
-            np.asarray(intervals, dtype=float).reshape(-1, 2),
-            {"units": "mm"},
-        )
-    }
-
-
-def _zones(zones: list[dict[str, Any]]) -> _Variables:
-    import numpy as np
-
-    return {
-        "zone_from": ("zone", np.asarray([z["from"] for z in zones], float), {"units": "mm"}),
-        "zone_to": ("zone", np.asarray([z["to"] for z in zones], float), {"units": "mm"}),
-        "zone_state": ("zone", np.asarray([z["state"] for z in zones], dtype=object)),
-        "zone_direction": (
-            "zone",
-            np.asarray([z.get("direction", 0) for z in zones], dtype="int8"),
-            {"comment": "sign of the slip velocity; 0 in stick"},
-        ),
-    }
-
-
-def _attributes(tree: dict[str, Any]) -> dict[str, Any]:
-    solver = {f"solver_{name}": value for name, value in tree["solver"].items()}
-    return {
-        "schema": tree["schema"],
-        "title": tree["title"],
-        "converged": int(tree["converged"]),
-        "geometry": tree["geometry"],
-        "warnings": "\n".join(tree["warnings"]),
-    } | {name: _NAN if value is None else value for name, value in solver.items()}
+    result_dataset(tree).to_netcdf(path, engine="h5netcdf")

@@ -7,10 +7,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rollnip._errors import with_hints
 from rollnip.materials.base import Material, checked_modulus, checked_poisson
 from rollnip.materials.shore import shore_a_modulus
 
 
+@with_hints(
+    shore_a="write `rn.Elastic.from_shore_a(60)`.",
+    hardness="write `rn.Elastic.from_shore_a(60)`.",
+    shear_modulus="write `rn.Elastic.from_shear_modulus(0.3, 0.5)`.",
+    nu="give `poisson`.",
+)
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Elastic(Material):
     """An elastic material.

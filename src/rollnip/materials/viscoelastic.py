@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rollnip._errors import InvalidInputError, require_not_negative, require_positive
+from rollnip._errors import InvalidInputError, require_not_negative, require_positive, with_hints
 from rollnip.materials.base import (
     Material,
     checked_modulus,
@@ -21,6 +21,11 @@ from rollnip.materials.shift import WLF, Arrhenius, checked_temperature
 
 _FAR = 1e150  # |tau s| beyond which a Maxwell element is glassy to the last bit
 _FAR_EXPONENT = 700.0  # exp of it is still finite
+_HINTS = with_hints(
+    shore_a="a hardness gives an elastic modulus alone: `rn.Elastic.from_shore_a(60)`.",
+    tau="give `relaxation_time`.",
+    nu="give `poisson`.",
+)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -57,6 +62,7 @@ class Viscoelastic(Material):
         return self.shift.factor(self.temperature)
 
 
+@_HINTS
 @dataclass(frozen=True, slots=True, kw_only=True)
 class StandardLinearSolid(Viscoelastic):
     """The standard linear solid: sigma + tau dsigma/dt = E0 eps + (E0 + k) tau deps/dt.
@@ -117,6 +123,7 @@ class StandardLinearSolid(Viscoelastic):
         return (self.shift_factor * self.relaxation_time,)
 
 
+@_HINTS
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Prony(Viscoelastic):
     """A generalised Maxwell solid: E*(s) = E_inf + sum_i E_i tau_i s/(1 + tau_i s).
@@ -142,7 +149,7 @@ class Prony(Viscoelastic):
     """
 
     modulus: float
-    terms: tuple[tuple[float, float], ...]
+    terms: Sequence[Sequence[float]]
 
     def __post_init__(self) -> None:
         _check_shared(self)
@@ -173,6 +180,7 @@ class Prony(Viscoelastic):
         return tuple(factor * time for _, time in self.terms)
 
 
+@_HINTS
 @dataclass(frozen=True, slots=True, kw_only=True)
 class FractionalZener(Viscoelastic):
     """The fractional Zener solid: E*(s) = E0 + k (tau s)^m/(1 + (tau s)^m), m the order.
@@ -240,6 +248,7 @@ class FractionalZener(Viscoelastic):
         return (self.shift_factor * self.relaxation_time,)
 
 
+@_HINTS
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LossFactor(Viscoelastic):
     """A constant loss factor: E* = E (1 + i eta sign(w)) at the frequency w, E at w = 0.

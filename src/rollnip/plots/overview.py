@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rollnip._summary import line
+from rollnip._results.summary import line
 from rollnip._units import format_quantity
 from rollnip.figures import FIGURES
 from rollnip.plots.field import plot_field

@@ -30,7 +30,7 @@ Array = NDArray[np.float64]
 _MOST_INSIDE = 2000  # nodes whose pressures the stresses inside are computed from
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class RoughSolution(Solution):
     """A snapshot of rough rollers, elastic and without friction.
 

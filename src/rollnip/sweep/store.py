@@ -28,7 +28,7 @@ from rollnip.sweep.row import SCALARS, Row
 from rollnip.sweep.study import Study, case_digest
 from rollnip.sweep.task import Outcome
 
-FORMAT = 1
+FORMAT = 2
 _LOG_SECONDS = 10.0  # that cases may stand in the log alone
 _APPLICATION = 0x726E6970  # marks the file as one of ours
 _TEXTS = ("hash", "parameters", "status", "message", "geometry", "warnings")
@@ -60,6 +60,7 @@ class About:
     paths, units : of the parameters.
     results, profiles : that are wanted.
     shard : (which, of how many), counted from 1.
+    case : of the study, as JSON; empty: of a search.
     """
 
     version: str
@@ -71,6 +72,7 @@ class About:
     results: tuple[str, ...]
     profiles: tuple[str, ...]
     shard: tuple[int, int] = (1, 1)
+    case: str = ""
 
     @classmethod
     def of(cls, study: Study, version: str, shard: tuple[int, int] = (1, 1)) -> About:
@@ -85,6 +87,7 @@ class About:
             results=study.results,
             profiles=study.profiles,
             shard=shard,
+            case=json.dumps(study.tree, sort_keys=True),
         )
 
     @classmethod

@@ -8,7 +8,8 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,8 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip._files import check_target, write_whole
+from rollnip._units import parse_quantity
+from rollnip.model import Model
 from rollnip.sweep.row import SCALARS
 from rollnip.sweep.store import About, Store
 
@@ -25,11 +28,12 @@ SUFFIXES = (".csv", ".parquet")
 _TEXTS = ("status", "message", "geometry")
 _AFTER = ("warnings", "hash")
 _TEXT = ""
+_TOLERANCE = "solver.tolerance"
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Table:
     """Results of a sweep, a row for each case, in the order of the study.
 
@@ -39,12 +43,16 @@ class Table:
         by name: ``case`` (position in the study, from 0), the paths of the parameters, ``status``,
         ``message``, ``geometry``, ``converged`` (1 or 0), the results, ``warnings`` and ``hash``.
         Numbers are float arrays in which nan is what is not there, texts are tuples.
+        The last are ``tolerance`` and ``version``.
     units :
         of the columns of numbers, "1" where there is none.
+    case :
+        of the study, as the tree of a case file; the parameters change it from row to row.
     """
 
     columns: Mapping[str, Array | tuple[str, ...]]
     units: Mapping[str, str]
+    case: Mapping[str, Any] = field(default_factory=dict)
 
     def __getitem__(self, name: str) -> Any:
         """One column. Raises InvalidInputError where there is none of that name."""
@@ -57,6 +65,52 @@ class Table:
     def __len__(self) -> int:
         """Number of cases."""
         return len(self.columns["case"])
+
+    def __repr__(self) -> str:
+        done = sum(status == "solved" for status in self.columns.get("status", ()))
+        return f"<Table of {len(self)} cases, {done} solved: {', '.join(self.columns)}>"
+
+    def to_pandas(self) -> Any:
+        """Return a pandas DataFrame; units and case are in its ``attrs``.
+
+        Raises RollnipError where pandas is not installed.
+        """
+        frame = _module("pandas").DataFrame(dict(self.columns))
+        frame.attrs = {"units": dict(self.units), "case": dict(self.case)}
+        return frame
+
+    def to_polars(self) -> Any:
+        """Return a polars DataFrame. Raises RollnipError where polars is not installed."""
+        return _module("polars").DataFrame(
+            {name: _plain_column(column) for name, column in self.columns.items()}
+        )
+
+    def to_xarray(self) -> Any:
+        """Return an xarray Dataset over ``case``, units as attributes.
+
+        Raises RollnipError where xarray is not installed.
+        """
+        others = {name: column for name, column in self.columns.items() if name != "case"}
+        variables = {
+            name: ("case", _plain_column(column), {"units": self.units[name]})
+            if name in self.units
+            else ("case", _plain_column(column))
+            for name, column in others.items()
+        }
+        place = {"case": np.asarray(self.columns["case"]).astype(int)}
+        attributes = {"case": json.dumps(self.case)}
+        return _module("xarray").Dataset(variables, coords=place, attrs=attributes)
+
+
+def _plain_column(column: Array | tuple[str, ...]) -> Any:
+    return list(column) if isinstance(column, tuple) else column
+
+
+def _module(name: str) -> Any:
+    try:
+        return import_module(name)
+    except ModuleNotFoundError:
+        raise RollnipError(f"{name} is needed for this, and is not installed.") from None
 
 
 def check_table_target(path: Path) -> None:
@@ -82,7 +136,8 @@ def read_table(store: Store) -> Table:
             columns[name] = np.array(
                 [np.nan if value is None else value for value in values], dtype=np.float64
             )
-    return Table(columns, {name: unit for name, unit in heads.items() if unit != _TEXT})
+    units = {name: unit for name, unit in heads.items() if unit != _TEXT}
+    return Table(columns, units, json.loads(store.about.case or "{}"))
 
 
 def write_table(store: Store, path: Path) -> None:
@@ -113,7 +168,7 @@ def _columns(about: About) -> dict[str, str]:
     columns = {"case": "1"} | dict(zip(about.paths, about.units, strict=True))
     columns |= dict.fromkeys(_TEXTS, _TEXT) | {"converged": "1"}
     columns |= {name: SCALARS[name] for name in about.results}
-    return columns | dict.fromkeys(_AFTER, _TEXT)
+    return columns | dict.fromkeys(_AFTER, _TEXT) | {"tolerance": "1", "version": _TEXT}
 
 
 def _heads(about: About) -> list[str]:
@@ -126,11 +181,26 @@ def _heads(about: About) -> list[str]:
 def _rows(store: Store) -> Iterator[list[Any]]:
     about = store.about
     names = ("position", "parameters", *_TEXTS, *about.results, *_AFTER)
+    tolerance = _tolerance(about)
+    changed = about.paths.index(_TOLERANCE) if _TOLERANCE in about.paths else None
     for position, parameters, *rest in store.rows(names):
         values = zip(json.loads(parameters), about.units, strict=True)
         shown = [_shown(value, unit) for value, unit in values]
         texts, others = rest[: len(_TEXTS)], rest[len(_TEXTS) :]
-        yield [position, *shown, *texts, int(texts[0] == "solved"), *others]
+        here = tolerance if changed is None else shown[changed]
+        yield [position, *shown, *texts, int(texts[0] == "solved"), *others, here, about.version]
+
+
+def _tolerance(about: About) -> float | None:
+    """The tolerance of the case of a study; None where the case is wrong there."""
+    solver = json.loads(about.case or "{}").get("solver")
+    given = solver.get("tolerance") if isinstance(solver, dict) else None
+    if given is None:
+        return Model().tolerance
+    try:
+        return parse_quantity(given, "ratio")
+    except InvalidInputError:
+        return None
 
 
 def _shown(value: Any, unit: str) -> Any:
@@ -161,7 +231,8 @@ def _write_parquet(store: Store, file: Path) -> None:
     try:
         _write_csv(store, between)
         frame = pl.scan_csv(between, schema=schema).with_columns(pl.col(pl.String).fill_null(""))
-        frame.sink_parquet(file)
+        about = store.about
+        frame.sink_parquet(file, metadata={"rollnip": about.version, "case": about.case})
     except pl.exceptions.PolarsError as error:
         raise OSError(str(error)) from None  # as any other failure to write
     finally:

@@ -1,0 +1,97 @@
+"""The case of a solution: its problem and model as the tree of a case file, in base units."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
+from hashlib import sha256
+from math import isinf
+from typing import Any
+
+from rollnip.materials import (
+    WLF,
+    Arrhenius,
+    Elastic,
+    FractionalZener,
+    LossFactor,
+    Prony,
+    StandardLinearSolid,
+)
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rollers import Roller
+
+# What `model` is called in a case file.
+_NAMES: Mapping[type, str] = {
+    Elastic: "elastic",
+    StandardLinearSolid: "standard-linear-solid",
+    Prony: "prony",
+    FractionalZener: "fractional-zener",
+    LossFactor: "loss-factor",
+    WLF: "wlf",
+    Arrhenius: "arrhenius",
+}
+
+
+def case_tree(nip: Nip, model: Model) -> dict[str, Any]:
+    """Return a problem and its model as the tree of a case file.
+
+    Every quantity is a number in its base unit; an infinite radius is the text "inf"; defaults are
+    written out; what is not given is left out. A hardness is there as the modulus it stands for. A
+    measured profile is described by a text (number of samples, range, digest), for a result does
+    not know the name of its file.
+    """
+    tree: dict[str, Any] = {"title": nip.title} if nip.title else {}
+    tree["nip"] = _without_none(
+        _plain(nip.normal)
+        | _plain(nip.tangential)
+        | {"friction": nip.friction, "speed": nip.speed, "face_width": nip.face_width}
+    )
+    tree["model"] = {"geometry": model.geometry}
+    tree["solver"] = {"tolerance": model.tolerance}
+    tree["upper"], tree["lower"] = _roller(nip.upper), _roller(nip.lower)
+    return tree
+
+
+def problem_hash(nip: Nip, model: Model) -> str:
+    """Return 16 hexadecimal digits that tell problems apart; the title does not count."""
+    problem = replace(nip, title="") if nip.title else nip
+    return sha256(repr((problem, model)).encode()).hexdigest()[:16]
+
+
+def _roller(roller: Roller) -> dict[str, Any]:
+    tree: dict[str, Any] = {"radius": "inf" if isinf(roller.radius) else roller.radius}
+    tree["core"] = "rigid" if roller.core is None else _named(roller.core)
+    if roller.layers:
+        tree["layers"] = [
+            {"thickness": layer.thickness, "material": _named(layer.material)}
+            for layer in roller.layers
+        ]
+    if roller.profile is not None:
+        tree["profile"] = repr(roller.profile)
+    return tree
+
+
+def _named(part: Any) -> dict[str, Any]:
+    """A material or a shift, with the name of its kind first."""
+    kind = type(part)
+    return {"model": _NAMES.get(kind, kind.__name__)} | _without_none(_plain(part))
+
+
+def _plain(part: Any) -> dict[str, Any]:
+    if not is_dataclass(part):
+        return {"description": repr(part)}
+    tree: dict[str, Any] = {one.name: _value(getattr(part, one.name)) for one in fields(part)}
+    if isinstance(part, Prony):
+        tree["terms"] = [{"modulus": e, "relaxation_time": tau} for e, tau in part.terms]
+    return tree
+
+
+def _value(value: Any) -> Any:
+    if is_dataclass(value):
+        return _named(value)
+    return list(value) if isinstance(value, tuple) else value
+
+
+def _without_none(tree: dict[str, Any]) -> dict[str, Any]:
+    return {name: value for name, value in tree.items() if value is not None}

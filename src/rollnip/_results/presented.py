@@ -1,0 +1,62 @@
+"""How a solution presents itself: in one line, as a summary, in a notebook, as a dataset."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from rollnip._errors import RollnipError
+from rollnip._results import summary
+from rollnip._results.case import case_tree, problem_hash
+from rollnip._results.dataset import result_dataset
+from rollnip._results.tree import result_dict
+from rollnip.model import Model
+from rollnip.nip import Nip
+
+
+class Presented:
+    """What every solution says of its case and of itself."""
+
+    nip: Nip
+    model: Model
+
+    @property
+    def case(self) -> dict[str, Any]:
+        """What was solved, as the tree of a case file: base units, defaults written out."""
+        return case_tree(self.nip, self.model)
+
+    @property
+    def case_hash(self) -> str:
+        """16 hexadecimal digits that tell problems and models apart; the title does not count."""
+        return problem_hash(self.nip, self.model)
+
+    def summary(self) -> str:
+        """Return the figures with units and errors, the zones and the warnings, as lines of text.
+
+        Stresses on interfaces, which may take longer than the solution, are in ``interfaces``.
+        """
+        return summary.text(self)
+
+    def to_xarray(self, *, interfaces: bool = False) -> Any:
+        """Return the result as an xarray Dataset: what the netCDF file holds.
+
+        Parameters
+        ----------
+        interfaces : with the stresses on interfaces, which may take longer than the solution.
+
+        Raises
+        ------
+        RollnipError
+            where xarray is not installed.
+        """
+        try:
+            return result_dataset(result_dict(self, interfaces=interfaces))
+        except ModuleNotFoundError as error:
+            raise RollnipError(
+                f"to_xarray needs {error.name}; it comes with the extra netcdf (docs: Install)."
+            ) from None
+
+    def __repr__(self) -> str:
+        return summary.brief(self)
+
+    def _repr_html_(self) -> str:
+        return summary.html(self)

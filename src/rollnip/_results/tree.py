@@ -1,0 +1,90 @@
+"""The result of a solution as a tree of finite numbers, texts and None."""
+
+from __future__ import annotations
+
+from math import isfinite
+from typing import Any
+
+from rollnip._results.case import case_tree, problem_hash
+from rollnip.figures import CLAIMED, FIGURES, PROFILES
+from rollnip.interior import INTERFACE_FIGURES
+from rollnip.rolling import Zone
+
+SCHEMA = 1
+
+
+def result_dict(solution: Any, *, interfaces: bool = True) -> dict[str, Any]:
+    """The result as a tree of finite numbers, texts and None: what the JSON holds.
+
+    Units mm, N, MPa, s; per axial length, save ``totals`` (N, N m, W), which is there where the
+    nip has a face width. ``case`` is what was solved, as the tree of a case file. What is not
+    finite or not defined is None. The stresses on interfaces
+    may take longer than the solution itself; without ``interfaces`` their key is not there.
+    """
+    tree: dict[str, Any] = {
+        "schema": SCHEMA,
+        "title": solution.nip.title,
+        "converged": bool(solution.converged),
+        "geometry": solution.model.geometry,
+        "tolerance": solution.model.tolerance,
+        "version": solution.solver.version,
+        "case_hash": problem_hash(solution.nip, solution.model),
+        "case": case_tree(solution.nip, solution.model),
+    }
+    for figure in FIGURES.values():
+        table, _, key = figure.key.rpartition(".")
+        (tree.setdefault(table, {}) if table else tree)[key] = figure.value(solution)
+    tree["contact"] = [[_number(edge) for edge in interval] for interval in solution.contact]
+    tree["zones"] = [_zone(zone) for zone in solution.zones]
+    if solution.nip.face_width is not None:
+        tree["totals"] = _totals(solution, solution.nip.face_width)
+    tree["error"] = {name: figure.error(solution) for name, figure in CLAIMED.items()}
+    profiles = solution.profiles
+    tree["profiles"] = {name: _numbers(getattr(profiles, name)) for name in PROFILES}
+    tree["solver"] = {
+        "elements": int(solution.solver.elements),
+        "iterations": int(solution.solver.iterations),
+        "residual": _number(solution.solver.residual),
+        "seconds": _number(solution.solver.seconds),
+        "version": solution.solver.version,
+        "geometry_change": _number(solution.solver.geometry_change),
+        "status": solution.status,
+    }
+    tree["warnings"] = list(solution.warnings)
+    if interfaces:
+        tree["interfaces"] = [
+            {"roller": interface.roller, "bond": interface.is_bond}
+            | {name: _number(getattr(interface, name)) for name in INTERFACE_FIGURES}
+            for interface in solution.interfaces
+        ]
+    return tree
+
+
+def _number(value: float | None) -> float | None:
+    if value is None or not isfinite(value):
+        return None
+    return float(value)
+
+
+def _numbers(values: Any) -> list[float | None] | None:
+    if values is None:
+        return None
+    return [_number(value) for value in values.tolist()]
+
+
+def _zone(zone: Zone) -> dict[str, Any]:
+    tree = {"from": _number(zone.start), "to": _number(zone.stop), "state": zone.state}
+    if zone.direction is not None:
+        tree["direction"] = int(zone.direction)
+    return tree
+
+
+def _totals(solution: Any, width: float) -> dict[str, float | None]:
+    """The figures of the whole face: N, N m, W."""
+    totals: dict[str, float | None] = {"face_width": width}
+    for figure in FIGURES.values():
+        if figure.total is not None:
+            value = figure.value(solution)
+            scale = width * figure.total.factor
+            totals[figure.name] = None if value is None else _number(value * scale)
+    return totals

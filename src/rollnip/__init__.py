@@ -32,6 +32,7 @@ if TYPE_CHECKING:
         LossFactor,
         Prony,
         StandardLinearSolid,
+        TabulatedShift,
     )
     from rollnip.model import Model
     from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
@@ -53,6 +54,7 @@ _HOMES = {
         "LossFactor",
         "Prony",
         "StandardLinearSolid",
+        "TabulatedShift",
     ),
     "rollnip.model": ("Model",),
     "rollnip.nip": ("Approach", "Creepage", "LineLoad", "Nip", "Torque", "Traction"),
@@ -85,6 +87,7 @@ __all__ = [
     "RollnipWarning",
     "Solution",
     "StandardLinearSolid",
+    "TabulatedShift",
     "Torque",
     "Traction",
     "__version__",

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import rollnip as rn
@@ -39,10 +40,13 @@ radius = 80
 """
 
 
+@pytest.mark.parametrize("vertical", ["none", "entropic", "free"])
 @pytest.mark.parametrize("shift", ["wlf", "arrhenius"])
 @pytest.mark.parametrize("model", ["prony", "fractional-zener"])
-def test_the_table_is_the_material_to_the_last_digit(model, shift):
-    fit = fit_dma(isotherms(ZENER, LAW), DmaMethod(model=model, shift=shift, reference=23.0))
+def test_the_table_is_the_material_to_the_last_digit(model, shift, vertical):
+    method = DmaMethod(model=model, shift=shift, reference=23.0, vertical=vertical)
+    fit = fit_dma(isotherms(ZENER, LAW), method)
+    assert fit.material.shift is not None
     case = parse_case(CASE.format(speed=100) + material_toml(fit, "cover"))
     assert case.nip.upper.layers[0].material == fit.material
 
@@ -88,7 +92,7 @@ def test_the_valid_range_moves_with_temperature(fitted):
     factor = fitted.material.shift.factor(60.0)
     assert warm_low == pytest.approx(low / factor)
     assert warm_high == pytest.approx(high / factor)
-    alone = fit_dma(isotherms(ZENER, LAW), DmaMethod(reference=23.0, vertical="entropic"))
+    alone = fit_dma(isotherms(ZENER, LAW, temperatures=np.array([23.0])))
     with pytest.raises(InvalidInputError, match="no shift law"):
         valid_range(alone, 60.0)
 

@@ -11,7 +11,7 @@ from rollnip.dma import DmaData, DmaMethod, fit_dma
 from rollnip.dma.master import unshifted
 from rollnip.dma.shifts import fit_free, fit_law
 
-from .conftest import LAW, PRONY, TEMPERATURES, ZENER, isotherms
+from .conftest import FREQUENCIES, LAW, PRONY, TEMPERATURES, ZENER, isotherms
 
 CONSTANTS = (8.9, 101.0)
 CONSTANTS_AT_20 = (8.9 * 101.0 / 98.0, 98.0)
@@ -71,12 +71,32 @@ def test_vertical_shifts_are_found():
     level = 1.0 + 0.004 * (TEMPERATURES - 20.0)
     data = isotherms(ZENER, LAW, noise=0.005, level=level)
     fit = fit_dma(data, DmaMethod(reference=20.0, vertical="free"))
-    # one isotherm stays: levels are relative to it
     np.testing.assert_allclose(np.exp(fit.master.vertical), level, rtol=0.03)
     away = np.abs(np.subtract(fit.shift.values, CONSTANTS_AT_20))
     assert np.all(away < 4.0 * np.array(fit.shift.standard_errors))
+    assert fit.warnings == ()
+    # the material follows at a temperature other than that of the master curve
+    factor = LAW.factor(50.0)
+    grid = 2j * np.pi * FREQUENCIES
+    warm = replace(fit.material, temperature=50.0).modulus_at(grid)
+    true = 1.12 * ZENER.modulus_at(grid * factor)
+    assert np.max(np.abs(warm / true - 1.0)) < 0.03
+
+
+def test_entropic_levels_go_with_the_kelvin():
+    level = (TEMPERATURES + 273.15) / 296.15
+    data = isotherms(ZENER, LAW, noise=0.005, level=level)
+    fit = fit_dma(data, DmaMethod(reference=23.0, vertical="entropic"))
+    assert fit.material.shift.vertical == "entropic"
+    warm = replace(fit.material, temperature=60.0)
+    assert warm.relaxed_modulus / fit.material.relaxed_modulus == pytest.approx(333.15 / 296.15)
+
+
+def test_levels_about_a_reference_outside_of_the_isotherms_are_said():
+    data = isotherms(ZENER, LAW, noise=0.005, level=1.0 + 0.004 * (TEMPERATURES - 20.0))
+    fit = fit_dma(data, DmaMethod(reference=70.0, vertical="free"))
     assert fit.material.shift is None
-    assert any("holds at 20 degC only" in said for said in fit.warnings)
+    assert any("holds at 70 degC only" in said for said in fit.warnings)
 
 
 def test_a_law_may_be_given_at_another_reference():

@@ -5,6 +5,7 @@ from math import exp
 import numpy as np
 import pytest
 
+import rollnip as rn
 from rollnip._errors import InvalidInputError
 from rollnip.materials import WLF, Arrhenius, Prony, StandardLinearSolid
 
@@ -50,7 +51,7 @@ def test_heat_is_frequency(shift):
         (-300.0, Arrhenius(60.0, 23.0), "absolute zero"),
         (-270.0, Arrhenius(60.0, 23.0), "shift factor between"),
         (float("nan"), UNIVERSAL, "finite number"),
-        (40.0, "wlf", "`shift` must be WLF or Arrhenius"),
+        (40.0, "wlf", "`shift` must be WLF, Arrhenius or"),
     ],
 )
 def test_half_or_impossible_shifts_are_refused(temperature, shift, message):
@@ -85,3 +86,77 @@ def test_constants_are_held_as_floats():
     law = WLF(c1=np.uint8(8), c2=np.uint8(100), reference=np.uint8(23))
     assert law.factor(40) == WLF(c1=8.0, c2=100.0, reference=23.0).factor(40.0)
     assert type(Arrhenius(activation_energy=60, reference=23).activation_energy) is float
+
+
+POINTS = ((0.0, 1000.0), (20.0, 2.0), (40.0, 0.01))
+
+
+def test_a_table_is_linear_in_the_logarithm_between_its_points():
+    law = rn.TabulatedShift(POINTS, 20.0)
+    assert law.factor(20.0) == 1.0
+    assert law.factor(0.0) == pytest.approx(500.0)
+    assert law.factor(40.0) == pytest.approx(0.005)
+    assert law.factor(10.0) == pytest.approx(np.sqrt(500.0))
+    assert law.level(35.0) == 1.0
+
+
+def test_a_table_may_be_about_any_temperature():
+    about_zero = rn.TabulatedShift(tuple((t, a / 1000.0) for t, a in POINTS), 20.0)
+    for t in (0.0, 7.0, 33.0):
+        assert about_zero.factor(t) == pytest.approx(rn.TabulatedShift(POINTS, 20.0).factor(t))
+
+
+def test_a_table_of_a_law_is_the_law_at_its_points():
+    grid = np.arange(-20.0, 61.0, 10.0)
+    law = rn.WLF(8.9, 101.0, 23.0)
+    table = rn.TabulatedShift(tuple((float(t), law.factor(float(t))) for t in grid), 20.0)
+    for t in grid:
+        assert table.factor(float(t)) == pytest.approx(law.factor(float(t)) / law.factor(20.0))
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        lambda v: rn.WLF(8.9, 101.0, 23.0, vertical=v),
+        lambda v: rn.Arrhenius(60.0, 23.0, vertical=v),
+        lambda v: rn.TabulatedShift(((0.0, 9.0), (50.0, 1.0)), 23.0, vertical=v),
+    ],
+)
+def test_moduli_shift_too(make):
+    assert make("none").level(40.0) == 1.0
+    assert make("entropic").level(40.0) == pytest.approx(313.15 / 296.15)
+    table = make(((3.0, 1.0), (43.0, 4.0)))
+    assert table.level(43.0) / table.level(3.0) == pytest.approx(4.0)
+    assert table.level(23.0) == 1.0
+    solid = rn.Prony(modulus=2.0, terms=((3.0, 1.0),), poisson=0.5, temperature=43.0, shift=table)
+    plain = rn.Prony(
+        modulus=2.0, terms=((3.0, 1.0),), poisson=0.5, temperature=43.0, shift=make("none")
+    )
+    s = 1j * np.geomspace(1e-3, 1e3, 7)
+    np.testing.assert_allclose(solid.modulus_at(s), 2.0 * plain.modulus_at(s))
+    assert solid.relaxed_modulus == pytest.approx(4.0)
+    assert solid.glassy_modulus == pytest.approx(10.0)
+    assert solid.relaxation_times == plain.relaxation_times
+
+
+@pytest.mark.parametrize(
+    ("make", "said"),
+    [
+        (lambda: rn.TabulatedShift(((0.0, 1.0),), 0.0), "two or more pairs"),
+        (lambda: rn.TabulatedShift(5.0, 0.0), "must hold pairs"),
+        (lambda: rn.TabulatedShift(((0.0, 1.0), (0.0, 0.5)), 0.0), "each temperature once"),
+        (lambda: rn.TabulatedShift(((0.0, 1.0), (9.0, 2.0)), 0.0), "fall with temperature"),
+        (lambda: rn.TabulatedShift(((0.0, 1.0), (9.0, 0.0)), 0.0), "positive"),
+        (lambda: rn.TabulatedShift(POINTS, 50.0), "`reference` must lie within the table"),
+        (
+            lambda: rn.TabulatedShift(POINTS, 20.0).factor(41.0),
+            "within the table of shifts, 0 to 40",
+        ),
+        (lambda: rn.WLF(8.9, 101.0, 23.0, vertical="up"), "`vertical` must be"),
+        (lambda: rn.WLF(8.9, 101.0, 23.0, vertical=POINTS).level(-9.0), "within the table"),
+        (lambda: rn.WLF(8.9, 101.0, 99.0, vertical=POINTS), "`reference` must lie within"),
+    ],
+)
+def test_impossible_tables_are_refused(make, said):
+    with pytest.raises(InvalidInputError, match=said):
+        make()

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from rollnip._errors import InvalidInputError
 from rollnip._units import format_quantity
 from rollnip.dma.fit import DmaFit
-from rollnip.materials import WLF, FractionalZener, Prony
+from rollnip.materials import WLF, Arrhenius, FractionalZener, Prony, Shift
 from rollnip.solution import Solution
 
 _NAME = re.compile(r"[A-Za-z0-9_-]+")
@@ -111,14 +111,33 @@ def _keys(fit: DmaFit) -> Iterator[str]:
     law = material.shift
     if law is not None:
         yield f'temperature = "{material.temperature!r} degC"'
-        reference = f'reference = "{law.reference!r} degC"'
-        if isinstance(law, WLF):
-            yield f'shift = {{ model = "wlf", c1 = {law.c1!r}, c2 = "{law.c2!r} K", {reference} }}'
-        else:
-            energy = f'activation_energy = "{law.activation_energy!r} kJ/mol"'
-            yield f'shift = {{ model = "arrhenius", {energy}, {reference} }}'
+        yield f"shift = {{ {', '.join(shift_keys(law))} }}"
     if isinstance(material, Prony):
         yield "terms = ["
         for modulus, time in material.terms:
             yield f'  {{ modulus = "{modulus!r} MPa", relaxation_time = "{time!r} s" }},'
         yield "]"
+
+
+def shift_keys(law: Shift) -> Iterator[str]:
+    """The keys of a shift law as a case file takes them, each with its value."""
+    if isinstance(law, WLF):
+        yield 'model = "wlf"'
+        yield f"c1 = {law.c1!r}"
+        yield f'c2 = "{law.c2!r} K"'
+    elif isinstance(law, Arrhenius):
+        yield 'model = "arrhenius"'
+        yield f'activation_energy = "{law.activation_energy!r} kJ/mol"'
+    else:
+        yield 'model = "table"'
+        yield f"points = {_points(law.points)}"
+    yield f'reference = "{law.reference!r} degC"'
+    if isinstance(law.vertical, tuple):
+        yield f"levels = {_points(law.vertical)}"
+    elif law.vertical != "none":
+        yield f'vertical = "{law.vertical}"'
+
+
+def _points(points: tuple[tuple[float, float], ...]) -> str:
+    shown = (f'{{ temperature = "{t!r} degC", factor = {v!r} }}' for t, v in points)
+    return f"[{', '.join(shown)}]"

@@ -98,7 +98,7 @@ class DmaFit:
     Attributes
     ----------
     material : Prony or FractionalZener at the reference temperature, with the shift law where it
-        has one and moduli were not shifted.
+        has one, and with the vertical shifts.
     master : the data at the reference temperature, shifted by the law.
     shift : the law with its constants and their standard errors.
     free : the isotherms shifted each by itself; None where that was not done.
@@ -173,7 +173,7 @@ def fit_dma(data: DmaData, method: DmaMethod | None = None) -> DmaFit:
         warnings=(
             *plateau_warnings(material, master),
             *_shift_warnings(master, shift, free, errors),
-            *_model_warnings(quality, noise, master, method),
+            *_model_warnings(quality, noise, master, shift.law, method),
         ),
     )
 
@@ -207,7 +207,7 @@ def _free(master: Master) -> tuple[Master | None, Array]:
 def _material(
     master: Master, shift: ShiftFit, method: DmaMethod
 ) -> tuple[Prony | FractionalZener, Array]:
-    law = None if np.any(master.vertical) else shift.law
+    law = _with_levels(shift.law, master, method.vertical)
     temperature = None if law is None else master.reference
     data, poisson = master.reduced, master.data.poisson
     if method.model == "fractional-zener":
@@ -241,6 +241,21 @@ def _material(
         shift=_rounded_law(law),
     )
     return prony, squares
+
+
+def _with_levels(
+    law: WLF | Arrhenius | None, master: Master, vertical: Vertical
+) -> WLF | Arrhenius | None:
+    """The law with the vertical shifts; None where the reference lies outside of their table."""
+    if law is None or vertical == "none":
+        return law
+    if vertical == "entropic":
+        return replace(law, vertical="entropic")
+    temperatures = master.temperatures
+    if not float(temperatures[0]) <= master.reference <= float(temperatures[-1]):
+        return None
+    levels = zip(temperatures, np.exp(master.vertical), strict=True)
+    return replace(law, vertical=tuple((_rounded(float(t)), _rounded(float(b))) for t, b in levels))
 
 
 def fractional_zener(data: Reduced) -> tuple[float, float, float, float]:
@@ -335,26 +350,30 @@ def _gaps(master: Master) -> list[str]:
 
 
 def _model_warnings(
-    quality: Quality, noise: tuple[float, float] | None, master: Master, method: DmaMethod
+    quality: Quality,
+    noise: tuple[float, float] | None,
+    master: Master,
+    law: WLF | Arrhenius | None,
+    method: DmaMethod,
 ) -> list[str]:
     prony = method.model == "prony"
     other = (
         " More terms follow them closer." if prony else ' `model = "prony"` follows them closer.'
     )
     said = quality_warnings(quality, noise, best=prony and not method.terms, other=other)
-    if np.any(master.vertical):
+    if np.any(master.vertical) and _with_levels(law, master, method.vertical) is None:
         said.append(
-            f"Moduli were shifted too, which a material cannot follow: it holds at "
-            f"{master.reference:g} degC only."
+            "Moduli were shifted too, and the reference lies outside of the isotherms: the "
+            f"material holds at {master.reference:g} degC only."
         )
     return said
 
 
 def _rounded_law(law: WLF | Arrhenius | None) -> WLF | Arrhenius | None:
     if isinstance(law, WLF):
-        return WLF(_rounded(law.c1), _rounded(law.c2), law.reference)
+        return replace(law, c1=_rounded(law.c1), c2=_rounded(law.c2))
     if isinstance(law, Arrhenius):
-        return Arrhenius(_rounded(law.activation_energy), law.reference)
+        return replace(law, activation_energy=_rounded(law.activation_energy))
     return None
 
 

@@ -83,6 +83,8 @@ def fit_law(master: Master, law: Law, *, levels: bool = False) -> ShiftFit:
     x, vertical = found.x[:size], master.vertical.copy()
     if levels:
         vertical[_moved(master)] = found.x[size:]
+        # 1 at the reference itself, which may lie between two isotherms
+        vertical -= np.interp(master.reference, master.temperatures, vertical)
     fitted = replace(master, horizontal=shape.shifts(x), vertical=vertical)
     values, slopes = shape.constants(x), shape.slopes(x)
     within = np.diag(slopes @ _covariance(found)[:size, :size] @ slopes.T)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.io.messages import placed, unknown_name
@@ -20,7 +20,9 @@ from rollnip.io.tables import (
     NipTable,
     PronyTable,
     RollerTable,
+    ShiftTable,
     StandardLinearSolidTable,
+    TabulatedTable,
     ViscoelasticTable,
     WlfTable,
 )
@@ -32,9 +34,15 @@ from rollnip.materials import (
     LossFactor,
     Material,
     Prony,
+    Shift,
     StandardLinearSolid,
+    TabulatedShift,
     Viscoelastic,
+    with_shore_a,
 )
+from rollnip.materials.relaxation import READING_TIME
+from rollnip.materials.shift import Vertical
+from rollnip.materials.shore import shore_a_modulus
 from rollnip.model import Model
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Profile, Roller
@@ -182,15 +190,9 @@ class Builder:
             return None
         return self._made(path, lambda: _viscoelastic(table, shift))
 
-    def _shift(self, path: str, table: ViscoelasticTable) -> WLF | Arrhenius | None:
+    def _shift(self, path: str, table: ViscoelasticTable) -> Shift | None:
         shift = table.shift
-        if isinstance(shift, WlfTable):
-            return self._made(f"{path}.shift", lambda: WLF(shift.c1, shift.c2, shift.reference))
-        if isinstance(shift, ArrheniusTable):
-            return self._made(
-                f"{path}.shift", lambda: Arrhenius(shift.activation_energy, shift.reference)
-            )
-        return None
+        return None if shift is None else self._made(f"{path}.shift", lambda: _shift(shift))
 
 
 def _normal(table: NipTable) -> LineLoad | Approach:
@@ -224,8 +226,39 @@ def _elastic(table: ElasticTable) -> Elastic:
     return Elastic(modulus=table.modulus, poisson=table.poisson)
 
 
-def _viscoelastic(table: ViscoelasticTable, shift: WLF | Arrhenius | None) -> Material:
-    values = table.model_dump(exclude={"model", "terms", "shift"})
+def _shift(table: WlfTable | ArrheniusTable | TabulatedTable) -> Shift:
+    vertical = _vertical(table)
+    if isinstance(table, WlfTable):
+        return WLF(table.c1, table.c2, table.reference, vertical)
+    if isinstance(table, ArrheniusTable):
+        return Arrhenius(table.activation_energy, table.reference, vertical)
+    points = tuple((point.temperature, point.factor) for point in table.points)
+    return TabulatedShift(points, table.reference, vertical)
+
+
+def _vertical(table: ShiftTable) -> Vertical:
+    if table.levels is None:
+        return table.vertical or "none"
+    if table.vertical is not None:
+        raise InvalidInputError("must hold only one of vertical, levels, got both.")
+    return tuple((point.temperature, point.factor) for point in table.levels)
+
+
+def _viscoelastic(table: ViscoelasticTable, shift: Shift | None) -> Material:
+    values = table.model_dump(exclude={"model", "terms", "shift", "shore_a", "reading_time"})
     if isinstance(table, PronyTable):
         values["terms"] = tuple((term.modulus, term.relaxation_time) for term in table.terms)
-    return _KINDS[type(table)](**values, shift=shift)
+    given = [name for name in ("modulus", "shore_a") if getattr(table, name) is not None]
+    if len(given) != 1:
+        raise InvalidInputError(
+            f"must hold exactly one of modulus, shore_a, got {' and '.join(given) or 'none'}."
+        )
+    if table.shore_a is None:
+        if table.reading_time is not None:
+            raise InvalidInputError("must hold reading_time only together with shore_a.")
+        return _KINDS[type(table)](**values, shift=shift)
+    values["modulus"] = shore_a_modulus(table.shore_a)  # until the relaxed one is known
+    made: Any = _KINDS[type(table)](**values, shift=shift)
+    after = READING_TIME if table.reading_time is None else table.reading_time
+    hard: Material = with_shore_a(made, table.shore_a, reading_time=after)
+    return hard

@@ -144,7 +144,7 @@ def _step(here: Any, part: str | int, path: str, walked: str) -> Any:
 
 def _drop_others(table: dict[str, Any], name: str, walked: str, changes: Mapping[str, Any]) -> None:
     groups: tuple[tuple[str, ...], ...] = _EITHER if walked == "nip" else ()
-    if table.get("model") == "elastic":
+    if "model" in table:
         groups = (_MODULI,)
     for group in groups:
         if name in group:

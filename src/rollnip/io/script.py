@@ -22,6 +22,7 @@ from rollnip.materials import (
     LossFactor,
     Prony,
     StandardLinearSolid,
+    TabulatedShift,
 )
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Roller
@@ -30,7 +31,8 @@ _WIDTH = 88
 # What stands in `rollnip` itself under the same name.
 _TYPES = (
     *(Nip, Roller, Layer, LineLoad, Approach, Traction, Creepage, Torque),
-    *(Elastic, StandardLinearSolid, Prony, FractionalZener, LossFactor, WLF, Arrhenius),
+    *(Elastic, StandardLinearSolid, Prony, FractionalZener, LossFactor),
+    *(WLF, Arrhenius, TabulatedShift),
 )
 
 

@@ -87,26 +87,52 @@ def _choice(models: tuple[str, ...], *, names: bool = False) -> Discriminator:
     )
 
 
-class WlfTable(Table):
+class PointTable(Table):
+    """A factor at a temperature: of relaxation times (a_T) or of moduli (b_T)."""
+
+    temperature: Temperature
+    factor: Ratio
+
+
+class ShiftTable(Table):
+    """What the shift laws share: the reference, and how moduli go with temperature."""
+
+    reference: Temperature
+    vertical: Literal["none", "entropic"] | None = Field(
+        None, description="Moduli: 'none', or 'entropic', in proportion to the kelvin."
+    )
+    levels: list[PointTable] | None = Field(
+        None, description="Measured factors of the moduli instead; only ratios count."
+    )
+
+
+class WlfTable(ShiftTable):
     """Williams-Landel-Ferry shift of the relaxation times with temperature."""
 
     model: Literal["wlf"]
     c1: Ratio
     c2: TemperatureDifference
-    reference: Temperature
 
 
-class ArrheniusTable(Table):
+class ArrheniusTable(ShiftTable):
     """Arrhenius shift of the relaxation times with temperature."""
 
     model: Literal["arrhenius"]
     activation_energy: MolarEnergy
-    reference: Temperature
+
+
+class TabulatedTable(ShiftTable):
+    """Measured factors of the relaxation times; their logarithm is linear between."""
+
+    model: Literal["table"]
+    points: list[PointTable]
 
 
 Shift = Annotated[
-    Annotated[WlfTable, Tag("<wlf>")] | Annotated[ArrheniusTable, Tag("<arrhenius>")],
-    _choice(("wlf", "arrhenius")),
+    Annotated[WlfTable, Tag("<wlf>")]
+    | Annotated[ArrheniusTable, Tag("<arrhenius>")]
+    | Annotated[TabulatedTable, Tag("<table>")],
+    _choice(("wlf", "arrhenius", "table")),
 ]
 
 
@@ -123,7 +149,13 @@ class ElasticTable(Table):
 class ViscoelasticTable(Table):
     """What the viscoelastic materials share."""
 
-    modulus: Pressure
+    modulus: Pressure | None = Field(None, description="Relaxed modulus; or shore_a.")
+    shore_a: Ratio | None = Field(
+        None, description="Shore A hardness at 23 degC, which fixes the relaxed modulus."
+    )
+    reading_time: Time | None = Field(
+        None, description="When the hardness was read after contact; 3 s by default (ISO 48-4)."
+    )
     poisson: Ratio
     temperature: Temperature | None = None
     shift: Shift | None = None
@@ -259,4 +291,7 @@ TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIAL
     "terms": TermTable,
     "<wlf>": WlfTable,
     "<arrhenius>": ArrheniusTable,
+    "<table>": TabulatedTable,
+    "points": PointTable,
+    "levels": PointTable,
 }

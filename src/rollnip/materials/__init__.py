@@ -3,7 +3,8 @@
 from rollnip.materials.base import Material
 from rollnip.materials.elastic import Elastic
 from rollnip.materials.passivity import is_passive
-from rollnip.materials.shift import WLF, Arrhenius
+from rollnip.materials.relaxation import relaxation_modulus, with_shore_a
+from rollnip.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 from rollnip.materials.shore import (
     ShoreBand,
     shore_a_band,
@@ -26,11 +27,15 @@ __all__ = [
     "LossFactor",
     "Material",
     "Prony",
+    "Shift",
     "ShoreBand",
     "StandardLinearSolid",
+    "TabulatedShift",
     "Viscoelastic",
     "is_passive",
+    "relaxation_modulus",
     "shore_a_band",
     "shore_a_modulus",
     "shore_a_modulus_log_linear",
+    "with_shore_a",
 ]

@@ -1,11 +1,20 @@
-"""Time-temperature superposition: every relaxation time scales with one factor a_T."""
+"""Time-temperature superposition: relaxation times scale with a_T, moduli with b_T.
+
+E*(s, T) = b_T E*(a_T s, T_ref). The vertical shift b_T is 1 unless a law says otherwise.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
-from math import log
+from itertools import pairwise
+from math import exp, log
+from typing import Literal, cast
 
 from rollnip._errors import InvalidInputError, require_finite, require_positive
+
+Points = tuple[tuple[float, float], ...]
+Vertical = Literal["none", "entropic"] | Points
 
 _ABSOLUTE_ZERO = -273.15  # degC
 _GAS_CONSTANT = 8.31446261815324e-3  # kJ/(mol K), exact since 2019
@@ -26,6 +35,9 @@ class WLF:
         second constant [K], positive (51.6 with T_ref at the glass transition).
     reference :
         T_ref [degC], the temperature the relaxation times were measured at.
+    vertical :
+        the shift b_T of the moduli: "none"; "entropic", b_T = T/T_ref in kelvin; or a table of
+        pairs (temperature [degC], b_T).
 
     Raises
     ------
@@ -40,11 +52,13 @@ class WLF:
     c1: float
     c2: float
     reference: float
+    vertical: Vertical = "none"
 
     def __post_init__(self) -> None:
         for name in ("c1", "c2"):
             object.__setattr__(self, name, require_positive(name, getattr(self, name)))
         object.__setattr__(self, "reference", checked_temperature("reference", self.reference))
+        object.__setattr__(self, "vertical", _checked_vertical(self.vertical, self.reference))
 
     def factor(self, temperature: float) -> float:
         """Shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
@@ -62,6 +76,10 @@ class WLF:
         difference = checked - self.reference
         return _power_of_ten(-self.c1 * difference / (checked - pole), temperature)
 
+    def level(self, temperature: float) -> float:
+        """Vertical shift b_T at ``temperature`` [degC]: E(T) = b_T E(T_ref) at the same a_T s."""
+        return _level(self.vertical, self.reference, temperature)
+
 
 @dataclass(frozen=True, slots=True)
 class Arrhenius:
@@ -73,6 +91,8 @@ class Arrhenius:
         E_a [kJ/mol], positive.
     reference :
         T_ref [degC], the temperature the relaxation times were measured at.
+    vertical :
+        the shift b_T of the moduli, see `WLF`.
 
     Raises
     ------
@@ -86,11 +106,13 @@ class Arrhenius:
 
     activation_energy: float
     reference: float
+    vertical: Vertical = "none"
 
     def __post_init__(self) -> None:
         energy = require_positive("activation_energy", self.activation_energy)
         object.__setattr__(self, "activation_energy", energy)
         object.__setattr__(self, "reference", checked_temperature("reference", self.reference))
+        object.__setattr__(self, "vertical", _checked_vertical(self.vertical, self.reference))
 
     def factor(self, temperature: float) -> float:
         """Shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
@@ -102,6 +124,128 @@ class Arrhenius:
         difference = (reference - kelvin) / (reference * kelvin)
         exponent = self.activation_energy / _GAS_CONSTANT * difference
         return _power_of_ten(exponent / log(10.0), temperature)
+
+    def level(self, temperature: float) -> float:
+        """Vertical shift b_T at ``temperature`` [degC]: E(T) = b_T E(T_ref) at the same a_T s."""
+        return _level(self.vertical, self.reference, temperature)
+
+
+@dataclass(frozen=True, slots=True)
+class TabulatedShift:
+    """Shift factors measured at some temperatures; ln a_T is linear in T between them.
+
+    Only ratios count: a_T is divided by its value at the reference, so the table may be about any
+    temperature.
+
+    Parameters
+    ----------
+    points :
+        pairs (temperature [degC], a_T), two or more; a_T positive and falling with temperature.
+    reference :
+        T_ref [degC], the temperature the relaxation times were measured at; within the table.
+    vertical :
+        the shift b_T of the moduli, see `WLF`.
+
+    Raises
+    ------
+    InvalidInputError
+        where a parameter lies outside its range.
+    """
+
+    points: Points
+    reference: float
+    vertical: Vertical = "none"
+
+    def __post_init__(self) -> None:
+        points = _checked_points("points", self.points)
+        for (cold, slow), (warm, fast) in pairwise(points):
+            if fast > slow:
+                raise InvalidInputError(
+                    "`points` must hold factors that fall with temperature, got "
+                    f"{slow:g} at {cold:g} degC and {fast:g} at {warm:g} degC."
+                )
+        object.__setattr__(self, "points", points)
+        object.__setattr__(self, "reference", checked_temperature("reference", self.reference))
+        object.__setattr__(self, "vertical", _checked_vertical(self.vertical, self.reference))
+        _interpolated("reference", points, self.reference)
+
+    def factor(self, temperature: float) -> float:
+        """Shift factor a_T at ``temperature`` [degC]: tau(T) = a_T tau(T_ref).
+
+        Raises InvalidInputError outside of the table, and where a_T leaves 1e-100 to 1e100.
+        """
+        checked = checked_temperature("temperature", temperature)
+        here = _interpolated("temperature", self.points, checked)
+        there = _interpolated("reference", self.points, self.reference)
+        return _power_of_ten((here - there) / log(10.0), temperature)
+
+    def level(self, temperature: float) -> float:
+        """Vertical shift b_T at ``temperature`` [degC]: E(T) = b_T E(T_ref) at the same a_T s."""
+        return _level(self.vertical, self.reference, temperature)
+
+
+Shift = WLF | Arrhenius | TabulatedShift
+
+
+def _level(vertical: Vertical, reference: float, temperature: float) -> float:
+    if vertical == "none":
+        return 1.0
+    checked = checked_temperature("temperature", temperature)
+    if vertical == "entropic":
+        return (checked - _ABSOLUTE_ZERO) / (reference - _ABSOLUTE_ZERO)
+    here = _interpolated("temperature", vertical, checked)
+    return exp(here - _interpolated("reference", vertical, reference))
+
+
+def _interpolated(name: str, points: Points, temperature: float) -> float:
+    """Logarithm of the value at a temperature, linear between the points."""
+    if not points[0][0] <= temperature <= points[-1][0]:
+        raise InvalidInputError(
+            f"`{name}` must lie within the table of shifts, {points[0][0]:g} to "
+            f"{points[-1][0]:g} degC, got {temperature!r}."
+        )
+    for (cold, low), (warm, high) in pairwise(points):
+        if temperature <= warm:
+            part = (temperature - cold) / (warm - cold)
+            return (1.0 - part) * log(low) + part * log(high)
+    return log(points[-1][1])
+
+
+def _checked_vertical(vertical: object, reference: float) -> Vertical:
+    if vertical in ("none", "entropic"):
+        return cast("Vertical", vertical)
+    if isinstance(vertical, str):
+        raise InvalidInputError(
+            f'`vertical` must be "none", "entropic" or a table of pairs, got "{vertical}".'
+        )
+    points = _checked_points("vertical", vertical)
+    _interpolated("reference", points, reference)
+    return points
+
+
+def _checked_points(name: str, points: object) -> Points:
+    """Pairs (temperature, positive value) in the order of rising temperature."""
+    try:
+        pairs = [tuple(pair) for pair in cast("Iterable[Iterable[float]]", points)]
+    except TypeError:
+        raise InvalidInputError(
+            f"`{name}` must hold pairs (temperature, factor), got {points!r}."
+        ) from None
+    if len(pairs) < 2 or any(len(pair) != 2 for pair in pairs):
+        raise InvalidInputError(
+            f"`{name}` must hold two or more pairs (temperature, factor), got {points!r}."
+        )
+    checked = sorted(
+        (
+            checked_temperature(f"{name}[{index}][0]", pair[0]),
+            require_positive(f"{name}[{index}][1]", pair[1]),
+        )
+        for index, pair in enumerate(pairs)
+    )
+    twice = next((a[0] for a, b in pairwise(checked) if a[0] == b[0]), None)
+    if twice is not None:
+        raise InvalidInputError(f"`{name}` must hold each temperature once, got {twice!r} twice.")
+    return tuple(checked)
 
 
 def checked_temperature(name: str, value: float) -> float:

@@ -17,7 +17,7 @@ from rollnip.materials.base import (
     checked_stiffening,
     checked_time,
 )
-from rollnip.materials.shift import WLF, Arrhenius, checked_temperature
+from rollnip.materials.shift import WLF, Arrhenius, Shift, TabulatedShift, checked_temperature
 
 _FAR = 1e150  # |tau s| beyond which a Maxwell element is glassy to the last bit
 _FAR_EXPONENT = 700.0  # exp of it is still finite
@@ -32,8 +32,9 @@ _HINTS = with_hints(
 class Viscoelastic(Material):
     """What the viscoelastic materials share: Poisson ratio and temperature.
 
-    Times are given at the reference temperature of ``shift``; at ``temperature`` they are a_T
-    times as long. Both or neither must be given. The Poisson ratio does not relax.
+    Times and moduli are given at the reference temperature of ``shift``; at ``temperature`` times
+    are a_T times as long and moduli b_T times as high. Both or neither must be given. The Poisson
+    ratio does not relax.
 
     Parameters
     ----------
@@ -47,7 +48,7 @@ class Viscoelastic(Material):
 
     poisson: float
     temperature: float | None = None
-    shift: WLF | Arrhenius | None = None
+    shift: Shift | None = None
 
     @property
     def is_elastic(self) -> bool:
@@ -60,6 +61,13 @@ class Viscoelastic(Material):
         if self.shift is None or self.temperature is None:
             return 1.0
         return self.shift.factor(self.temperature)
+
+    @property
+    def level(self) -> float:
+        """b_T, the moduli over those at the reference; 1 without shift."""
+        if self.shift is None or self.temperature is None:
+            return 1.0
+        return self.shift.level(self.temperature)
 
 
 @_HINTS
@@ -105,17 +113,19 @@ class StandardLinearSolid(Viscoelastic):
 
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
         """E*(s) [MPa], complex array of the shape of ``s`` [1/s]."""
-        return self.modulus + self.stiffening * _maxwell(s, self.relaxation_times[0])
+        return np.asarray(
+            self.level * (self.modulus + self.stiffening * _maxwell(s, self.relaxation_times[0]))
+        )
 
     @property
     def relaxed_modulus(self) -> float:
-        """E0 [MPa]."""
-        return self.modulus
+        """E0 at the material's temperature [MPa]."""
+        return self.level * self.modulus
 
     @property
     def glassy_modulus(self) -> float:
-        """E0 + k [MPa]."""
-        return self.modulus + self.stiffening
+        """E0 + k at the material's temperature [MPa]."""
+        return self.level * (self.modulus + self.stiffening)
 
     @property
     def relaxation_times(self) -> tuple[float, ...]:
@@ -161,17 +171,17 @@ class Prony(Viscoelastic):
         total = np.full(np.shape(s), self.modulus, dtype=np.complex128)
         for (modulus, _), time in zip(self.terms, self.relaxation_times, strict=True):
             total = total + modulus * _maxwell(s, time)
-        return np.asarray(total)
+        return np.asarray(self.level * total)
 
     @property
     def relaxed_modulus(self) -> float:
-        """E_inf [MPa]."""
-        return self.modulus
+        """E_inf at the material's temperature [MPa]."""
+        return self.level * self.modulus
 
     @property
     def glassy_modulus(self) -> float:
-        """E_inf and all E_i together [MPa]."""
-        return self.modulus + sum(modulus for modulus, _ in self.terms)
+        """E_inf and all E_i together, at the material's temperature [MPa]."""
+        return self.level * (self.modulus + sum(modulus for modulus, _ in self.terms))
 
     @property
     def relaxation_times(self) -> tuple[float, ...]:
@@ -230,17 +240,17 @@ class FractionalZener(Viscoelastic):
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
         """E*(s) [MPa], complex array of the shape of ``s`` [1/s]."""
         fraction = _fractional_maxwell(s, self.relaxation_times[0], self.order)
-        return self.modulus + self.stiffening * fraction
+        return np.asarray(self.level * (self.modulus + self.stiffening * fraction))
 
     @property
     def relaxed_modulus(self) -> float:
-        """E0 [MPa]."""
-        return self.modulus
+        """E0 at the material's temperature [MPa]."""
+        return self.level * self.modulus
 
     @property
     def glassy_modulus(self) -> float:
-        """E0 + k [MPa]."""
-        return self.modulus + self.stiffening
+        """E0 + k at the material's temperature [MPa]."""
+        return self.level * (self.modulus + self.stiffening)
 
     @property
     def relaxation_times(self) -> tuple[float, ...]:
@@ -286,17 +296,17 @@ class LossFactor(Viscoelastic):
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
         """E*(s) [MPa], complex array of the shape of ``s`` [1/s]; w = Im s."""
         sign = np.sign(np.asarray(s, dtype=np.complex128).imag)
-        return np.asarray(self.modulus * (1.0 + 1j * self.loss_factor * sign))
+        return np.asarray(self.level * self.modulus * (1.0 + 1j * self.loss_factor * sign))
 
     @property
     def relaxed_modulus(self) -> float:
-        """E [MPa], the value at zero frequency."""
-        return self.modulus
+        """E at the material's temperature [MPa], the value at zero frequency."""
+        return self.level * self.modulus
 
     @property
     def glassy_modulus(self) -> float:
-        """E [MPa]; the limit of E* itself is E (1 + i eta sign(w))."""
-        return self.modulus
+        """E at the material's temperature [MPa]; the limit of E* is E (1 + i eta sign(w))."""
+        return self.level * self.modulus
 
     @property
     def relaxation_times(self) -> tuple[float, ...]:
@@ -338,11 +348,14 @@ def _check_shared(material: Viscoelastic) -> None:
         raise InvalidInputError(f"`{missing}` must be given together with `{given}`, got None.")
     if material.shift is None or material.temperature is None:
         return
-    if not isinstance(material.shift, WLF | Arrhenius):
-        raise InvalidInputError(f"`shift` must be WLF or Arrhenius, got {material.shift!r}.")
+    if not isinstance(material.shift, WLF | Arrhenius | TabulatedShift):
+        raise InvalidInputError(
+            f"`shift` must be WLF, Arrhenius or TabulatedShift, got {material.shift!r}."
+        )
     temperature = checked_temperature("temperature", material.temperature)
     object.__setattr__(material, "temperature", temperature)
     material.shift.factor(temperature)
+    material.shift.level(temperature)
 
 
 def _checked_terms(terms: object) -> tuple[tuple[float, float], ...]:

@@ -170,7 +170,7 @@ def test_a_radius_that_no_roller_has_is_named(post, case):
     assert refusal["details"] == [
         {
             "path": "lower.radius",
-            "message": "must lie between 1e-06 and 1e+09 mm here, got 1e-300.",
+            "message": "must lie between 1e-06 mm and 1e+09 mm here, got 1e-300.",
         }
     ]
 

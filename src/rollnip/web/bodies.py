@@ -59,10 +59,12 @@ class TomlBody(Body):
 
 
 class QuantityBody(Body):
-    """A number with its unit as text."""
+    """A number with its unit as a person types it."""
 
-    text: str = Field(max_length=200, examples=["2 in"])
+    text: str = Field(max_length=200, examples=["2 in", '1/2"', "65A"])
     dimension: Dimension
+    unit: str = Field("", max_length=20, description="Of a number that stands alone.")
+    hardness: bool = Field(False, description="Whether it is a Shore A hardness.")
 
 
 class Quantity(BaseModel):

@@ -11,7 +11,7 @@ from fastapi import APIRouter, Body, Query, Request
 from fastapi.responses import Response
 
 from rollnip._errors import InvalidInputError
-from rollnip._units import base_unit, parse_quantity
+from rollnip._units import base_unit
 from rollnip.io import case_schema
 from rollnip.web.answers import RefusedError, Reply, json_bytes
 from rollnip.web.bodies import (
@@ -27,6 +27,7 @@ from rollnip.web.bodies import (
 )
 from rollnip.web.desk import Desk
 from rollnip.web.library import Library, units
+from rollnip.web.words import read
 
 _STATUSES = {
     400: "The body is no JSON object.",
@@ -98,9 +99,9 @@ async def toml(request: Request, body: TomlBody) -> Response:
 
 @posts.post("/quantity")
 async def quantity(body: QuantityBody) -> Quantity:
-    """A number in its base unit, from a text that carries its unit."""
+    """A number in its base unit, from a text as a person types it."""
     try:
-        value = parse_quantity(body.text, body.dimension)
+        value = read(body.text, body.dimension, body.unit, is_hardness=body.hardness)
     except InvalidInputError as error:
         raise RefusedError(422, f"text: {error}", [("text", str(error))]) from None
     return Quantity(value=value, unit=base_unit(body.dimension))

@@ -269,7 +269,7 @@ def _absurd(name: str, roller: Roller) -> list[str]:
         (f"{name}.layers[{i}].thickness", layer.thickness) for i, layer in enumerate(roller.layers)
     ]
     return [
-        f"{path}: must lie between {_SMALLEST:g} and {_LARGEST:g} mm here, got {size:g}."
+        f"{path}: must lie between {_SMALLEST:g} mm and {_LARGEST:g} mm here, got {size:g}."
         for path, size in sizes
         if not _SMALLEST <= size <= _LARGEST
     ]

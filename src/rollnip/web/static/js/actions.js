@@ -39,7 +39,7 @@ export class Actions {
   }
 
   startAnew() {
-    this.store.design({ case: defaultCase() });
+    this.store.design({ case: defaultCase(this.store.state.view.system) });
   }
 
   async loadFile(file) {

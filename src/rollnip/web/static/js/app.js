@@ -14,10 +14,12 @@ import { Inputs } from "./inputs.js";
 import { InsideView } from "./inside.js";
 import { designItems, examplesDialog, menu, shareItems } from "./menus.js";
 import { paletteOf } from "./palette.js";
-import { getAt, same, setAt } from "./paths.js";
+import { same, setAt } from "./paths.js";
 import { linkOf, stateIn } from "./permalink.js";
 import { inputAt } from "./quantities.js";
 import { Runner } from "./runner.js";
+import { inWords } from "./said.js";
+import { remember, remembered } from "./saved.js";
 import { Store } from "./store.js";
 import { Tabs } from "./tabs.js";
 import { say } from "./texts.js";
@@ -32,6 +34,7 @@ const VIEW = {
   whatif: { path: "nip.load", answer: "nip_width" },
   find: { path: "nip.load", answer: "nip_width" },
   compare: { profile: "pressure" },
+  keeps: { upper: "diameter", lower: "diameter" },
 };
 
 const IDLE = 300; // ms
@@ -47,7 +50,9 @@ export class App extends Actions {
     this.broken = null; // why a link could not be opened, until something else is asked for
     this.isOut = false; // whether the server has stopped answering
     this.reading = 0; // texts that the server is reading
-    this.store = new Store({ case: defaultCase(), kept: [], view: VIEW });
+    const system = remembered("system") === "us" ? "us" : "metric";
+    this.store = new Store({ case: defaultCase(system), kept: [], view: { ...VIEW, system } });
+    this.isPristine = true; // nothing was put in yet: round numbers in the units shown
     this.theme = new Theme(() => this.recolour());
     this.runner = new Runner({
       preview: (tree, result) => this.answered(tree, result, "preview"),
@@ -87,7 +92,7 @@ export class App extends Actions {
     byId("undo").addEventListener("click", () => this.store.undo());
     byId("redo").addEventListener("click", () => this.store.redo());
     for (const system of ["metric", "us"])
-      byId(system).addEventListener("click", () => this.store.view({ system }));
+      byId(system).addEventListener("click", () => this.measure(system));
     byId("theme").addEventListener("click", () => this.theme.toggle());
     byId("open-examples").addEventListener("click", () => this.examples.showModal());
     menu("open-share", "Save and share", shareItems(this));
@@ -105,13 +110,21 @@ export class App extends Actions {
   }
 
   shortcut(event) {
-    const writes = event.target.matches?.('input[type="text"], textarea');
-    if (writes || !(event.ctrlKey || event.metaKey) || event.altKey) return;
     const key = event.key.toLowerCase();
-    if (key !== "z" && key !== "y") return;
+    const writes = key !== "p" && event.target.matches?.('input[type="text"], textarea');
+    if (writes || !(event.ctrlKey || event.metaKey) || event.altKey) return undefined;
+    if (key !== "z" && key !== "y" && key !== "p") return undefined;
     event.preventDefault();
-    if (key === "y" || event.shiftKey) this.store.redo();
-    else this.store.undo();
+    if (key === "p") return this.report();
+    return key === "y" || event.shiftKey ? this.store.redo() : this.store.undo();
+  }
+
+  /** Show other units from now on; a start that nobody touched has round numbers in them. */
+  measure(system) {
+    remember("system", system);
+    const isStart = this.isPristine && this.store.past.length === 0;
+    this.store.view({ system });
+    if (isStart) this.store.replace({ ...this.store.state, case: defaultCase(system) });
   }
 
   /** Begin with the state of an address, or with the default nip. */
@@ -143,6 +156,7 @@ export class App extends Actions {
     const read = await Promise.allSettled(others.slice(0, MOST_KEPT).map((one) => this.checked(one)));
     const kept = read.filter(({ status }) => status === "fulfilled").map(({ value }) => value);
     const lost = read.filter(({ status }) => status === "rejected");
+    this.isPristine = false;
     this.store.replace({ case: first, kept, view: viewOf(state) });
     if (lost.length === 0) return;
     const why = sentencesOf(lost[0].reason)[0];
@@ -274,7 +288,7 @@ export class App extends Actions {
     const { tree, error } = this.failure;
     const details = (error.details ?? []).map(({ path, message }) => ({
       path,
-      message: this.units().said(message, getAt(tree, path ?? ""), inputAt(path ?? "", tree).dimension),
+      message: inWords(message, path, this.units(), inputAt(path ?? "", tree)),
     }));
     alarm(say("alarm.none"), sentencesOf({ message: error.message, details }));
   }

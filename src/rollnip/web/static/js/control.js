@@ -2,8 +2,10 @@
 
 import { complaintOf, post } from "./api.js";
 import { el } from "./dom.js";
-import { getAt, idOf, setAt } from "./paths.js";
+import { withSize } from "./design.js";
+import { getAt, idOf } from "./paths.js";
 import { inputAt } from "./quantities.js";
+import { inWords } from "./said.js";
 import { joined, typable } from "./units.js";
 
 const STEPS = 500; // of a slider
@@ -116,8 +118,7 @@ export class Control {
   /** What the server says of the value; a text that cannot be read is worse, and stays said. */
   refuse(message) {
     if (this.isUnread) return;
-    const { dimension, factor } = this.input;
-    this.complain(this.app.units().said(message, this.value, dimension, factor));
+    this.complain(message && inWords(message, this.path, this.app.units(), this.input));
   }
 
   /** Say what is wrong with the value; "" takes it back. */
@@ -164,7 +165,7 @@ export class Control {
     } catch (error) {
       if (isLate()) return undefined;
       this.isUnread = true;
-      return this.complain(complaintOf(error));
+      return this.complain(inWords(complaintOf(error), this.path, this.app.units()));
     } finally {
       this.app.reads(-1);
     }
@@ -176,19 +177,21 @@ export class Control {
   }
 
   question(text, dimension) {
-    const bare = /^[+\-\u2212]?[0-9.,]+(e[+-]?\d+)?$/i.test(text);
-    const unit = bare ? this.app.units().of(dimension).name : "";
-    return {
-      text: unit ? `${text} ${unit}` : text,
-      dimension: dimension === "share" ? "ratio" : dimension,
-    };
+    return questionOf(text, dimension, this.app.units(), this.path.endsWith("shore_a"));
   }
 
   set(value, gesture) {
     this.sent = gesture === null ? null : value;
-    const tree = this.app.store.state.case;
-    this.app.store.design({ case: setAt(tree, this.path, value) }, gesture);
+    const { case: tree, view } = this.app.store.state;
+    this.app.store.design({ case: withSize(tree, this.path, value, view.keeps) }, gesture);
   }
+}
+
+/** The question what a text means; a plain number is in the unit shown. */
+export function questionOf(text, dimension, units, hardness = false) {
+  const asked = dimension === "share" ? "ratio" : dimension;
+  const unit = units.of(dimension).name;
+  return { text, dimension: asked, unit, hardness };
 }
 
 /** A value to three digits; on a linear scale to a round part of the `span`, and to zero beside it. */

@@ -1,20 +1,56 @@
 // What a design is: the tree of a case file with plain numbers (mm, N, MPa, s). Pure functions.
 
-import { getAt, setAt } from "./paths.js";
+import { getAt, setAt, steps } from "./paths.js";
 
 export const RIGID = "rigid";
 export const PLANE = "inf";
 export const RUBBER = { model: "elastic", shore_a: 60, poisson: 0.5 };
 
-/** The nip on the first screen: a press roller of 60 Shore A on a steel roller. */
-export function defaultCase() {
+const STARTS = {
+  metric: { load: 4, speed: 1000, upper: 100, thickness: 12, lower: 75 },
+  us: { load: 3.5025366, speed: 1016, upper: 101.6, thickness: 12.7, lower: 76.2 }, // 20 pli, 200 fpm, 8 in
+};
+
+/** The nip on the first screen: a press roller of 60 Shore A on a steel roller, in round numbers. */
+export function defaultCase(system = "metric") {
+  const { load, speed, upper, thickness, lower } = STARTS[system];
   return {
     title: "",
-    nip: { load: 4, friction: 0.5, speed: 1000 },
+    nip: { load, friction: 0.5, speed },
     model: { geometry: "finite" },
-    upper: { radius: 100, layers: [{ thickness: 12, material: { ...RUBBER } }] },
-    lower: { radius: 75, layers: [] },
+    upper: { radius: upper, layers: [{ thickness, material: { ...RUBBER } }] },
+    lower: { radius: lower, layers: [] },
   };
+}
+
+/**
+ * The design with another size at a path. Where a roller keeps its core ("core" in `keeps`), its
+ * diameter follows the thickness of a layer, and its first layer the diameter: wear and regrind.
+ */
+export function withSize(tree, path, value, keeps = {}) {
+  const [side, key, i, last] = steps(path);
+  const changed = setAt(tree, path, value);
+  const { radius, layers } = tree[side] ?? {};
+  if (keeps[side] !== "core" || typeof radius !== "number" || layers.length === 0) return changed;
+  if (key === "radius")
+    return setAt(changed, `${side}.layers[0].thickness`, tidy(layers[0].thickness + value - radius));
+  if (key !== "layers" || last !== "thickness") return changed;
+  return setAt(changed, `${side}.radius`, tidy(radius + value - layers[i].thickness));
+}
+
+/** Without the last digits, which sums of decimals leave. */
+function tidy(value) {
+  return Number(value.toPrecision(12));
+}
+
+/** The coverings of both rollers in each other's place. */
+export function swapped(tree) {
+  const put = (to, from) => {
+    const { core: _core, ...rest } = tree[to];
+    const { core, layers } = tree[from];
+    return { ...rest, ...(core ? { core } : {}), layers };
+  };
+  return { ...tree, upper: put("upper", "lower"), lower: put("lower", "upper") };
 }
 
 /** A case as the server normalised it, with the materials where they are used. */

@@ -2,6 +2,7 @@
 
 import { complaintOf, isAbort, post } from "./api.js";
 import { button, el, select } from "./dom.js";
+import { questionOf } from "./control.js";
 import { getAt, same, setAt } from "./paths.js";
 import { flat, inputsOf } from "./quantities.js";
 import { typable } from "./units.js";
@@ -128,10 +129,8 @@ export class FindView {
     const { name } = units.of(dimension);
     const isRead = units.isRead(dimension);
     if (!isRead && !bare) throw new Error(`Must be a plain number, of ${name}.`);
-    const { value } = await post("/api/quantity", {
-      text: isRead && bare && name ? `${text} ${name}` : text,
-      dimension: isRead && dimension !== "share" ? dimension : "ratio",
-    });
+    const question = isRead ? questionOf(text, dimension, units) : { text, dimension: "ratio" };
+    const { value } = await post("/api/quantity", question);
     return isRead ? value : units.base(value, dimension);
   }
 

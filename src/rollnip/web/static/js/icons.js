@@ -8,6 +8,7 @@ const PATHS = {
   up: "M8 13V3.5M4 7.5l4-4 4 4",
   down: "M8 3v9.5M4 8.5l4 4 4-4",
   copy: "M6 6V3.5h7V10h-2.5M3 6h7.5v7.5H3z",
+  swap: "M5 13V3M2 6l3-3 3 3M11 3v10M8 10l3 3 3-3",
   remove: "M4 4l8 8M12 4l-8 8",
   theme: "M8 2.5a5.5 5.5 0 1 0 0 11zM8 2.5a5.5 5.5 0 0 1 0 11",
 };

@@ -4,7 +4,7 @@ import { driveBy, driving, pressBy, pressing } from "./design.js";
 import { el, select } from "./dom.js";
 import { Control } from "./control.js";
 import { idOf, setAt } from "./paths.js";
-import { coreEditor, rollerGroup } from "./rollers.js";
+import { coreEditor, rollerGroup, swapper } from "./rollers.js";
 
 const GEOMETRIES = [
   ["finite", "Finite strain (most exact)"],
@@ -47,6 +47,7 @@ export class Inputs {
     this.shape = shapeOf(tree);
     this.place.replaceChildren(
       rollerGroup("upper", tree, this),
+      swapper(this),
       rollerGroup("lower", tree, this),
       this.pressingGroup(tree),
       this.runningGroup(tree),

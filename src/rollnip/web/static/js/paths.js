@@ -39,6 +39,7 @@ export function placeInWords(path) {
   const words = parts.map((step, i) => {
     if (typeof step === "number") return null;
     if (step === "upper" || step === "lower") return `${step} roller`;
+    if (step === "radius") return "diameter";
     const next = parts[i + 1];
     return typeof next === "number" ? `${step.replace(/s$/, "")} ${next + 1}` : step.replace(/_/g, " ");
   });

@@ -1,11 +1,12 @@
 // One roller: its diameter, and its layers from the surface to the core.
 
-import { RIGID, RUBBER, withLayers } from "./design.js";
+import { RIGID, RUBBER, swapped, withLayers } from "./design.js";
 import { button, el, select } from "./dom.js";
 import { icon } from "./icons.js";
 import { materialEditor } from "./materials.js";
 import { setAt } from "./paths.js";
 import { toneOf } from "./palette.js";
+import { say } from "./texts.js";
 
 const MOST_LAYERS = 20;
 
@@ -20,8 +21,43 @@ export function rollerGroup(side, tree, panel) {
     el("legend", { text: isPlane ? title.replace("roller", "body (a plane)") : title }),
     isPlane ? null : panel.control(`${side}.radius`),
     ...layers.map((layer, i) => layerCard(side, i, tree, panel)),
+    layers.length && !isPlane ? keeper(side, panel) : null,
     adder(side, layers, panel),
   );
+}
+
+/** The button that puts the covering of each roller on the other one. */
+export function swapper(panel) {
+  const swap = () => panel.change(swapped(panel.app.store.state.case));
+  const content = el("span", {}, icon("swap"), ` ${say("roller.swap")}`);
+  return el("div", { class: "row swap" }, button(content, swap, { kind: "small", id: "swap" }));
+}
+
+/** What stays when a thickness changes: the diameter over the covering, or the core. */
+function keeper(side, panel) {
+  const { store } = panel.app;
+  const act = (what) => store.view({ keeps: { ...store.state.view.keeps, [side]: what } });
+  const chosen = select({
+    id: `in-${side}-keeps`,
+    label: say("roller.keeps"),
+    options: [
+      ["diameter", say("roller.keeps-diameter")],
+      ["core", say("roller.keeps-core")],
+    ],
+    value: store.state.view.keeps[side],
+    act,
+  });
+  const note = el("p", { class: "note", id: `${side}-core` });
+  const refresh = (tree) => {
+    const { radius, layers } = tree[side];
+    const core = 2 * layers.reduce((rest, { thickness }) => rest - thickness, radius);
+    chosen.querySelector("select").value = store.state.view.keeps[side];
+    note.textContent = core > 0 ? say("roller.core", { size: panel.app.units().text(core, "length") }) : "";
+  };
+  panel.parts.push({ refresh });
+  refresh(store.state.case);
+  chosen.append(note);
+  return chosen;
 }
 
 function adder(side, layers, panel) {

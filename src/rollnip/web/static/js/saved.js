@@ -22,3 +22,20 @@ export function saveDesign(name, tree) {
 export function removeDesign(name) {
   localStorage.setItem(KEY, JSON.stringify(savedDesigns().filter((one) => one.name !== name)));
 }
+
+/** How this browser wants the page to be ("system", "language", ...); null where it never said. */
+export function remembered(what) {
+  try {
+    return localStorage.getItem(`rollnip.${what}`);
+  } catch {
+    return null;
+  }
+}
+
+export function remember(what, value) {
+  try {
+    localStorage.setItem(`rollnip.${what}`, value);
+  } catch {
+    // Without storage it holds for this page only.
+  }
+}

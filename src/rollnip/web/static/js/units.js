@@ -3,7 +3,6 @@
 import { RESULT_UNITS } from "./figures.js";
 
 const DIGITS = 4;
-const GOT = /\bgot (-?\d+(?:\.\d+)?(?:e[+-]?\d+)?)(?=\.?$| with )/;
 const WRITTEN = { degC: "°C", degF: "°F", "N m/m": "N·m/m", "lbf in/in": "lbf·in/in" };
 
 /** Shows values of the base system in metric or US units. */
@@ -62,13 +61,6 @@ export class Units {
   error(value, dimension) {
     const { scale } = this.of(dimension);
     return joined(number(value / scale, 2), this.name(dimension));
-  }
-
-  /** What the server says of a value, "..., got 5.08.", with that value as it is shown, `factor` times. */
-  said(message, value, dimension, factor = 1) {
-    return message.replace(GOT, (said, text) =>
-      Number(text) === value ? `got ${this.text(value * factor, dimension)}` : said,
-    );
   }
 
   /** Values of a curve. */

@@ -1,0 +1,31 @@
+// What the server says, in the words and units of the page.
+
+import { say } from "./texts.js";
+
+const MODEL = /`?[Gg]eometry (?:= )?"(finite|curved|corrected|linear)"`?/g;
+const NUMBER = String.raw`([-\u2212]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)`;
+const UNITS = { mm: "length", "N/mm": "line load", MPa: "pressure", "mm/s": "speed" };
+const MEASURED = new RegExp(`${NUMBER} (N/mm|mm/s|mm|MPa)(?![\\w/])`, "g");
+
+/** A sentence of the server about the value at `path`, `{dimension, factor}` its input. */
+export function inWords(message, path, units, input = null) {
+  if (message.includes("both be bare rigid cores")) return say("said.bare");
+  const thick = message.match(new RegExp(`thinner in all than the radius ${NUMBER} mm, got ${NUMBER} mm`));
+  if (thick) {
+    const [most, is] = [thick[1], thick[2]].map((text) => units.text(Number(text), "length"));
+    return say("said.thick", { most, is, diameter: units.text(2 * Number(thick[1]), "length") });
+  }
+  const isRadius = /(^|\.)radius$/.test(path ?? "");
+  const doubled = (number) => (isRadius ? 2 : 1) * number;
+  return message
+    .replace(MODEL, (_text, model) => say("said.model", { model: say(`geometry.${model}`) }))
+    .replace(/`?approach`? must be smaller than the radius/, say("said.approach"))
+    .replace(/of its radius\b/g, say("said.of-radius"))
+    .replace(/friction \* load\b/g, say("said.friction-load"))
+    .replace(MEASURED, (_text, number, unit) => units.text(doubled(Number(number)), UNITS[unit]))
+    .replace(new RegExp(`got ${NUMBER}(?=\\.?$| with )`), (text, number) =>
+      input && Number.isFinite(Number(number))
+        ? `got ${units.text(Number(number) * input.factor, input.dimension)}`
+        : text,
+    );
+}

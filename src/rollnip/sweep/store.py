@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from rollnip._errors import RollnipError
 from rollnip._files import reading
 from rollnip.sweep.connect import Writer, open_to_read, open_to_write, plain
+from rollnip.sweep.foreign import checked_about, require_schema, require_sound_rows
 from rollnip.sweep.row import SCALARS, Row
 from rollnip.sweep.study import Study, case_digest
 from rollnip.sweep.task import Outcome
@@ -46,6 +47,9 @@ CREATE TABLE IF NOT EXISTS cases (
 );
 CREATE TABLE IF NOT EXISTS profiles (position INTEGER PRIMARY KEY, data BLOB);
 """
+
+
+_COLUMNS = {"about": ("value",), "cases": _NAMES, "profiles": ("position", "data")}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -111,6 +115,13 @@ class About:
         return range(which - 1, self.count, shards)
 
 
+_ABOUT = {
+    **dict.fromkeys(("version", "study", "title", "case"), str),
+    "count": int,
+    **dict.fromkeys(("paths", "units", "results", "profiles"), tuple),
+}
+
+
 class Store:
     """A database of a sweep: this process alone writes it, others may read it meanwhile.
 
@@ -146,7 +157,10 @@ class Store:
                     if path is not None:
                         self._writer = Writer(path)
                     self._prepare()
+                require_schema(self._base, self.name, _COLUMNS)
             self.about = self._claimed(about)
+            with self._spoken():
+                require_sound_rows(self._base, self.name, self.about.count, len(self.about.paths))
         except BaseException:
             self.close()
             raise
@@ -307,14 +321,7 @@ class Store:
             rows = self._base.execute("SELECT value FROM about").fetchall()
         if not rows:
             return None
-        tree: dict[str, Any] = json.loads(rows[0][0])
-        if tree.pop("format") != FORMAT:
-            raise RollnipError(
-                f"{self.name}: was made by rollnip {tree.get('version')} in another form; "
-                "choose another name, or delete it."
-            )
-        lists = {name: tuple(value) for name, value in tree.items() if isinstance(value, list)}
-        return About(**(tree | lists))
+        return About(**checked_about(self.name, rows[0][0], FORMAT, _ABOUT))
 
     def _write(self, outcome: Outcome) -> None:
         row = outcome.row

@@ -239,6 +239,12 @@ class Nip:
             raise InvalidInputError(
                 f"`approach` must be smaller than the radius {smallest:g} mm, got {approach!r}."
             )
+        covering = self.upper.coating_thickness + self.lower.coating_thickness
+        if approach >= covering:
+            raise InvalidInputError(
+                f"`approach` must be smaller than the coverings are thick, {covering:g} mm in all "
+                f"(there the rigid cores would touch), got {approach!r}."
+            )
 
 
 def _measurable(name: str, value: float, unit: str) -> float:

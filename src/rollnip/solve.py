@@ -25,6 +25,7 @@ from rollnip.rolling import (
     excess,
     half_width_guess,
     has_grip,
+    impossible,
     pair_kernels,
     refine,
     with_second_order,
@@ -202,14 +203,16 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
             "or the friction."
         )
     if not final.settled:
-        geometry = final.geometry_change > 0.1 * model.tolerance
-        what = (
-            f"The geometry correction did not converge (last change {final.geometry_change:.1e})"
-            if geometry
-            else "Contact, stick and slip did not settle"
-        )
+        what = "Contact, stick and slip did not settle"
+        if final.geometry_change > 0.1 * model.tolerance:
+            name = "The geometry correction"
+            if model.geometry == "linear":  # it has none; what follows the solution is a torque's
+                name = "The traction that gives `torque_lower`"
+            what = f"{name} did not converge (last change {final.geometry_change:.1e})"
         simpler = "" if model.geometry == "linear" else '`geometry = "linear"`, '
         return False, f"{what}; try {simpler}a smaller load or another tolerance."
+    if reason := impossible(nip, model.geometry, final):
+        return False, reason
     left = final.residual
     moves = model.geometry == "finite" and final.geometry_change > 0.5 * left
     if not left <= model.tolerance and moves:

@@ -9,6 +9,7 @@ from rollnip.rolling.check import (
     surface_strain,
     surface_strain_in_nip,
 )
+from rollnip.rolling.impossible import MOST_PRESSED_IN, impossible
 from rollnip.rolling.powers import Powers, powers
 from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
@@ -23,6 +24,7 @@ from rollnip.rolling.surfaces import (
 )
 
 __all__ = [
+    "MOST_PRESSED_IN",
     "DeformedSurfaces",
     "Displacements",
     "Fields",
@@ -40,6 +42,7 @@ __all__ = [
     "half_width_guess",
     "has_grip",
     "hoop_curvature",
+    "impossible",
     "pair_kernels",
     "peak_pressure",
     "powers",

@@ -11,7 +11,7 @@ import numpy as np
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.model import Model
 from rollnip.nip import Approach, LineLoad, Nip
-from rollnip.rolling import SolverInfo, half_width_guess, pair_kernels
+from rollnip.rolling import MOST_PRESSED_IN, SolverInfo, half_width_guess, pair_kernels
 from rollnip.rough.contact import RoughContact, rough_contact
 from rollnip.rough.sampling import sampled
 from rollnip.rough.solution import RoughSolution
@@ -109,6 +109,13 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
             f"the tolerance {model.tolerance:g}; try a smaller tolerance."
         )
     approach, load = rough.figures[:2]
+    covering = nip.upper.coating_thickness + nip.lower.coating_thickness
+    if not nip.has_half_space and approach >= MOST_PRESSED_IN * covering:
+        return False, (
+            f"The coverings are pressed in by {100.0 * approach / covering:.0f} % of their "
+            f"thickness; beyond {100.0 * MOST_PRESSED_IN:.0f} % none of the models here holds. "
+            "Lower the load or the approach, or take thicker or harder coverings."
+        )
     depth = max(abs(approach), 0.125 * nip.curvature * rough.figures[2] ** 2)
     by_load = isinstance(nip.normal, LineLoad)
     name = "approach" if by_load else "load"

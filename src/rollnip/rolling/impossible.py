@@ -1,0 +1,72 @@
+"""What no nip can be, however well its equations are solved."""
+
+from __future__ import annotations
+
+from math import isnan
+
+import numpy as np
+
+from rollnip.interior import SurfaceTractions, interior_field
+from rollnip.model import Geometry
+from rollnip.nip import Nip
+from rollnip.rollers import Roller
+from rollnip.rolling.round import Round
+from rollnip.rolling.surfaces import Array
+
+MOST_PRESSED_IN = 0.5
+"""Compression of a layer over its thickness, at most.
+
+Small-strain kinematics count u/d where the material sees -ln(1 - u/d): at one half these are 40 %
+apart, and at 1 the surface has reached the core. Coverings in use stay below a fifth.
+"""
+MOST_CREEPAGE = 2.0
+"""Creepage at which one roller stands still; beyond, it would turn backwards."""
+_SURELY_LESS = 0.5
+"""Of MOST_PRESSED_IN: peak pressure over the softest modulus that cannot press a layer in so far.
+
+A free column under the peak would be compressed by that ratio; what lies beside holds it.
+"""
+
+
+def impossible(nip: Nip, geometry: Geometry, final: Round) -> str:
+    """Return why the result is no nip, in a sentence; "" where nothing speaks against it."""
+    creepage = final.state.creepage
+    if not isnan(creepage) and abs(creepage) >= MOST_CREEPAGE:
+        return (
+            f"The creepage comes out as {creepage:.2g}: beyond -2 and 2 one roller would turn "
+            "backwards. Strains are far too large for this nip; lower the traction or the load."
+        )
+    for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
+        pressed = _pressed_in(side, roller, nip, geometry, final)
+        if pressed.size and np.max(pressed) >= MOST_PRESSED_IN:
+            return too_deep(side, int(np.argmax(pressed)), pressed, roller)
+    return ""
+
+
+def too_deep(side: str, number: int, pressed: Array, roller: Roller) -> str:
+    """Return the sentence on a layer that is pressed in too far."""
+    many = len(roller.layers) > 1
+    what = f"Layer {number + 1} (from the surface)" if many else "The covering"
+    return (
+        f"{what} of the {side} roller, {roller.layers[number].thickness:g} mm thick, is pressed in "
+        f"by {100.0 * pressed[number]:.0f} % of its thickness; beyond "
+        f"{100.0 * MOST_PRESSED_IN:.0f} % none of the models here holds. Lower the load or the "
+        "approach, or take a thicker or harder covering."
+    )
+
+
+def _pressed_in(side: str, roller: Roller, nip: Nip, geometry: Geometry, final: Round) -> Array:
+    """Compression of each layer over its thickness, where the surface is pressed in most."""
+    softest = min((one.material.relaxed_modulus for one in roller.layers), default=np.inf)
+    if final.figures.peak_pressure < _SURELY_LESS * MOST_PRESSED_IN * softest:
+        return np.zeros(0)
+    u = final.mesh.displacements(final.state)
+    inward, sign = (u.z_upper, 1.0) if side == "upper" else (u.z_lower, -1.0)
+    deepest = int(np.argmax(np.where(final.state.pressure > 0.0, inward[:-1], -np.inf)))
+    if len(roller.layers) == 1 and roller.core is None:
+        return np.array([inward[deepest] / roller.layers[0].thickness])
+    tractions = SurfaceTractions.on_inner(final.nodes, sign * final.shear, final.pressure)
+    depths = np.array([0.0, *roller.interfaces])
+    place = final.mesh.inner[[deepest]]
+    field = interior_field(roller, tractions, depths, place, geometry=geometry, speed=nip.speed)
+    return np.asarray(-np.diff(field.u_z[:, 0]) / np.diff(depths))

@@ -1,0 +1,84 @@
+"""A nip that cannot be is no result, however well its equations are solved."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+
+RUBBER = rn.Elastic(modulus=2.0, poisson=0.5)
+FOAM = rn.Elastic(modulus=0.05, poisson=0.3)
+NIP = rn.Nip(
+    upper=rn.Roller(radius=50.0, layers=[rn.Layer(4.0, RUBBER)]),
+    lower=rn.Roller(radius=30.0),
+    normal=rn.LineLoad(3.0),
+    friction=0.5,
+    speed=100.0,
+)
+GEOMETRIES = ("linear", "curved", "finite")
+
+
+@pytest.mark.parametrize("geometry", GEOMETRIES)
+@pytest.mark.parametrize("normal", [rn.LineLoad(1000.0), rn.Approach(3.9)])
+def test_a_covering_that_is_squeezed_out_is_no_result(geometry, normal):
+    """4 mm on a rigid core, pressed in by more than half, or by more than there is."""
+    solution = rn.solve(replace(NIP, normal=normal), rn.Model(geometry=geometry))
+    assert not solution.converged
+    assert "The covering of the upper roller, 4 mm thick, is pressed in by" in solution.status
+
+
+def test_a_load_sweep_ends_with_the_reason():
+    """Approach and verdict along a sweep: good, then none, and never good again."""
+    nip = replace(NIP, upper=rn.Roller(radius=50.0, layers=[rn.Layer(4.0, FOAM)]))
+    loads = 0.05 * 2.0 ** np.arange(8)
+    found = [
+        rn.solve(replace(nip, normal=rn.LineLoad(load)), rn.Model(geometry="linear"))
+        for load in loads
+    ]
+    good = [solution.converged for solution in found]
+    assert good == sorted(good, reverse=True)
+    assert 0 < sum(good) < len(good)
+    for solution in found:
+        # Against a bare roller the approach is what the covering is pressed in by at x = 0.
+        assert solution.converged == (solution.approach < 0.5 * 4.0)
+
+
+@pytest.mark.parametrize("core", [None, rn.Elastic(modulus=100.0, poisson=0.3)])
+def test_a_soft_layer_on_a_hard_one_counts_by_itself(core):
+    """1 mm of foam over 9 mm of something hard: the covering is 10 mm, what gives is not."""
+    layers = [rn.Layer(1.0, FOAM), rn.Layer(9.0, rn.Elastic(modulus=100.0, poisson=0.3))]
+    nip = replace(NIP, upper=rn.Roller(radius=50.0, layers=layers, core=core))
+    light = rn.solve(replace(nip, normal=rn.LineLoad(0.02)))
+    assert light.converged
+    heavy = rn.solve(replace(nip, normal=rn.LineLoad(1.0)), rn.Model(geometry="linear"))
+    assert not heavy.converged
+    assert "Layer 1 (from the surface) of the upper roller, 1 mm thick" in heavy.status
+    lower = rn.solve(replace(nip, upper=nip.lower, lower=nip.upper, normal=rn.LineLoad(1.0)))
+    assert not lower.converged
+    assert "of the lower roller, 1 mm thick" in lower.status
+
+
+def test_cores_that_would_touch_are_refused():
+    with pytest.raises(
+        rn.InvalidInputError, match=r"`approach` must be smaller than the coverings are thick, 4 mm"
+    ):
+        replace(NIP, normal=rn.Approach(4.5))
+    both = replace(NIP, lower=rn.Roller(radius=30.0, layers=[rn.Layer(2.0, RUBBER)]))
+    assert rn.solve(replace(both, normal=rn.Approach(0.5))).converged
+    with pytest.raises(rn.InvalidInputError, match="6 mm in all"):
+        replace(both, normal=rn.Approach(6.0))
+
+
+def test_no_roller_turns_backwards():
+    """F 60, T 250: the equations give a creepage of 6.5."""
+    nip = replace(
+        NIP, normal=rn.LineLoad(60.0), friction=5.0, tangential=rn.Traction(250.0), speed=None
+    )
+    solution = rn.solve(nip, rn.Model(geometry="linear"))
+    assert abs(solution.creepage) > 2.0
+    assert not solution.converged
+    assert "one roller would turn backwards" in solution.status
+    assert "geometry" not in solution.status
+    with pytest.raises(rn.ConvergenceError, match="turn backwards"):
+        rn.solve(nip, rn.Model(geometry="linear"), on_failure="raise")

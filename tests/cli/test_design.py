@@ -179,7 +179,7 @@ def test_optimise_says_writes_and_leaves_with_0(study, tmp_path):
     arguments = ("--geometry", "linear", "--out", str(out))
     result = run("optimise", study(OPTIMISE), *arguments)
     assert (result.exit_code, result.stderr) == (0, "")
-    assert result.stdout.startswith("Largest load\n\nload is largest, ")
+    assert result.stdout.startswith("Largest load\n\nThe largest load found is ")
     assert "The limit decides: nip_width at most 0.40000 mm." in result.stdout
     # the search ends at 1e-3 of the interval, the width is known to 1e-3: the load to 2e-3
     assert rn.read_case(out).nip.normal.load == pytest.approx(LOAD, abs=0.002 * LOAD + 0.5)

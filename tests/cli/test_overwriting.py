@@ -127,6 +127,29 @@ def test_optimise_and_find_keep_their_case(here: Path) -> None:
     refused(READ, "case.json", *found, "--out", "case.json")
 
 
+def test_an_optimum_that_is_not_finished_leaves_with_1(here: Path) -> None:
+    parameters = [
+        {"path": "nip.load", "low": 0.5, "high": 2.0},
+        {"path": "upper.layers[0].thickness", "low": 1.0, "high": 4.0},
+        {"path": "lower.radius", "low": 20.0, "high": 40.0},
+    ]
+    tree = {
+        "case": "case.json",
+        "parameters": parameters,
+        "objective": {"minimise": "peak_pressure"},
+        "limits": [{"result": "nip_width", "at_least": "5 mm"}],
+    }
+    few = {"search": {"solves": 20, "seed": 1}}
+    Path("optimise.json").write_text(json.dumps(tree | few))
+    alone = run("optimise", "optimise.json", "--json", "--workers", "1")
+    assert alone.exit_code == 1
+    found = json.loads(alone.stdout)
+    assert (found["is_feasible"], found["is_finished"]) == (True, False)
+    kept = ("--database", "best.db", "--workers", "2")
+    assert run("optimise", "optimise.json", "--json", *kept).stdout == alone.stdout
+    assert run("optimise", "optimise.json", "--json", *kept).stdout == alone.stdout
+
+
 def test_another_file_is_written_over_with_force_only(here: Path) -> None:
     Path("notes.json").write_text("{}")
     refused(THERE, "notes.json", "solve", "case.json", "--out", "notes.json")

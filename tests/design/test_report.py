@@ -101,7 +101,7 @@ def test_an_optimum_in_words(coated, stand_in):
         evaluate=stand_in(laws),
     )
     text = optimum_report(found, "A title")
-    assert text.startswith("A title\n\npeak_pressure is smallest, 2.00")
+    assert text.startswith("A title\n\nThe smallest peak_pressure found is 2.00")
     assert "nip_width at least 8.0000 mm: 8.0" in text
     assert " ± 0.020, decides" in text
     assert "stands at its upper bound" in text

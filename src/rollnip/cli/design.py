@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -13,12 +13,12 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.options import Force
+from rollnip.cli.options import WORKERS, Force
 
 if TYPE_CHECKING:
     from rollnip.design import Found
     from rollnip.io import Columns
-    from rollnip.sweep import Study, Table
+    from rollnip.sweep import Study, Table, Together
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
 _GEOMETRY = typer.Option(help="linear, corrected, curved or finite; overrides the file.")
@@ -70,7 +70,7 @@ def find(
         run.reserve({"--out": out})
         if out is not None:
             _check_case_target(out)
-        with _option_named(case), _evaluating(database, tree, [path]) as evaluate:
+        with _option_named(case), _evaluating(database, tree, [path], 1) as crew:
             found = search(
                 tree,
                 path,
@@ -79,7 +79,7 @@ def find(
                 *between,
                 tolerance=share,
                 points=points,
-                evaluate=evaluate,
+                evaluate=crew.evaluate,
             )
         if out is not None and found.value is not None:
             _write_case(found.case, {path: (found.value, found.unit)}, out)
@@ -94,13 +94,14 @@ def optimise(
     geometry: Annotated[str | None, _GEOMETRY] = None,
     json: Annotated[bool, _JSON] = False,
     out: Annotated[Path | None, _CASE_OUT] = None,
+    workers: Annotated[int | None, WORKERS] = None,
     database: Annotated[Path | None, _DATABASE] = None,
     force: Force = False,
 ) -> None:
     """Find the values of a few parameters that make one result small or large, within limits.
 
-    Leaves with 0 where a case was found that keeps all limits, confirmed by a fresh solve, 1
-    where none was, 2 for wrong input.
+    Leaves with 0 where a case was found that keeps all limits, confirmed by a fresh solve, and
+    the search came to rest; 1 where not; 2 for wrong input.
     """
     from rollnip.cli.app import _clear_failures, _named
 
@@ -118,12 +119,12 @@ def optimise(
         paths = [one.path for one in question.parameters]
         with (
             _named(study),
-            _evaluating(database, tree, paths) as evaluate,
-            progress(question.search.solves + 1, "solving") as advance,
+            _evaluating(database, tree, paths, workers) as crew,
+            progress(question.search.budget(len(paths)) + 1, "solving") as advance,
         ):
 
             def counted(case: Mapping[str, Any]) -> Mapping[str, Any]:
-                row = evaluate(case)
+                row = crew.evaluate(case)
                 advance()
                 return row
 
@@ -134,13 +135,14 @@ def optimise(
                 question.limits,
                 search=question.search,
                 evaluate=counted,
+                each=crew.each,
             )
         if out is not None and found.is_feasible:
             chosen = {one.path: (one.value, one.unit) for one in found.chosen}
             _write_case(found.case, chosen, out)
         sys.stdout.write(_json(found.as_dict()) if json else optimum_report(found, question.title))
         sys.stdout.flush()
-    if not found.is_feasible:
+    if not (found.is_feasible and found.is_finished):
         raise typer.Exit(1)
 
 
@@ -149,9 +151,7 @@ def tolerance(
     geometry: Annotated[str | None, _GEOMETRY] = None,
     json: Annotated[bool, _JSON] = False,
     plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
-    workers: Annotated[
-        int | None, typer.Option(help="Processes; by default one for each core.", min=1)
-    ] = None,
+    workers: Annotated[int | None, WORKERS] = None,
     database: Annotated[Path | None, _DATABASE] = None,
     force: Force = False,
 ) -> None:
@@ -261,21 +261,26 @@ def _option_named(case: str) -> Iterator[None]:
 
 @contextmanager
 def _evaluating(
-    database: Path | None, tree: Mapping[str, Any], paths: Sequence[str]
-) -> Iterator[Callable[[Mapping[str, Any]], Mapping[str, Any]]]:
-    """What solves one case; with a database, what it holds is not solved again."""
+    database: Path | None, tree: Mapping[str, Any], paths: Sequence[str], workers: int | None
+) -> Iterator[Together]:
+    """What solves cases; with a database, what it holds is not solved again."""
     from rollnip.cli.kept import interrupts_told
-    from rollnip.sweep import evaluate, recalling
+    from rollnip.sweep import recalling, together
+    from rollnip.sweep.crew import available_cores
+    from rollnip.sweep.interrupt import Interrupts
 
+    count = available_cores() if workers is None else workers
     if database is None:
-        yield evaluate
+        with Interrupts() as interrupts, together(count, interrupts) as crew:
+            yield crew
         return
     with (
         recalling(database, tree, paths) as recall,
         interrupts_told(recall.store) as interrupts,
+        together(count, interrupts) as crew,
     ):
-        interrupts.strike_at(1)
-        yield recall
+        recall.solve = crew.evaluate
+        yield crew.like(recall)
 
 
 def _solved(study: Study, *, database: Path | None, workers: int | None) -> Table:

@@ -10,3 +10,5 @@ Force = Annotated[
     bool,
     typer.Option("--force", help="Write over files that rollnip did not make, or that changed."),
 ]
+
+WORKERS = typer.Option(help="Processes; by default one for each core.", min=1)

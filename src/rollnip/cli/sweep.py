@@ -16,7 +16,7 @@ from typer.core import TyperGroup
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip._files import one_run
 from rollnip.cli.kept import interrupts_told, kept
-from rollnip.cli.options import Force
+from rollnip.cli.options import WORKERS, Force
 
 if TYPE_CHECKING:
     from rollnip.sweep.crew import Crew
@@ -63,9 +63,7 @@ def run(
         list[Path] | None,
         typer.Option(help="Database of another study: cases that it holds are taken from there."),
     ] = None,
-    workers: Annotated[
-        int | None, typer.Option(help="Processes; by default one for each core.", min=1)
-    ] = None,
+    workers: Annotated[int | None, WORKERS] = None,
     shard: Annotated[
         str, typer.Option(help="i/n: only every n-th case, from the i-th; for batch queues.")
     ] = "1/1",

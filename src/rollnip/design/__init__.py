@@ -10,7 +10,7 @@ from rollnip.design.distributions import (
     Varied,
 )
 from rollnip.design.find import Found, find
-from rollnip.design.optimise import Chosen, Optimum, optimise
+from rollnip.design.optimise import Chosen, Optimum, SearchEnd, optimise
 from rollnip.design.pareto import pareto_front
 from rollnip.design.problem import Bounds
 from rollnip.design.quantities import QUANTITIES
@@ -37,6 +37,7 @@ __all__ = [
     "Sampling",
     "Scatter",
     "Search",
+    "SearchEnd",
     "Share",
     "Tolerance",
     "Triangular",

@@ -36,25 +36,35 @@ class Maximise:
 
 @dataclass(frozen=True, slots=True)
 class AtLeast:
-    """A result must not be below a limit: a number in base units, or a text with its unit."""
+    """A result must not be below a limit: a number in base units, or a text with its unit.
+
+    ``tolerance`` is a share of the limit (of 1 where it is 0) by which it may be passed.
+    """
 
     quantity: str
     limit: float | str
+    tolerance: float = 0.0
 
     def __post_init__(self) -> None:
         require_quantity(self.quantity, "result")
+        _require_tolerance(self.tolerance)
         object.__setattr__(self, "limit", read_result("at_least", self.limit, self.quantity))
 
 
 @dataclass(frozen=True, slots=True)
 class AtMost:
-    """A result must not be above a limit: a number in base units, or a text with its unit."""
+    """A result must not be above a limit: a number in base units, or a text with its unit.
+
+    ``tolerance`` is a share of the limit (of 1 where it is 0) by which it may be passed.
+    """
 
     quantity: str
     limit: float | str
+    tolerance: float = 0.0
 
     def __post_init__(self) -> None:
         require_quantity(self.quantity, "result")
+        _require_tolerance(self.tolerance)
         object.__setattr__(self, "limit", read_result("at_most", self.limit, self.quantity))
 
 
@@ -71,7 +81,7 @@ class LimitKept:
     quantity, unit : the result.
     sense : "at least" or "at most".
     limit, value, error : in that unit; the error is the solver's estimate, None without one.
-    is_kept : whether the value keeps the limit (a share of 1e-4 is forgiven).
+    is_kept : whether the value keeps the limit, within the tolerance given with it.
     is_active : whether the value stands at the limit, within a share of 1e-3: it decides.
     """
 
@@ -97,10 +107,13 @@ def limit_text(limit: Limit) -> str:
 
 
 def excess_over(limit: Limit, value: float) -> float:
-    """How far a value is beyond a limit, as a share of it (of 1 where it is 0); < 0: within."""
+    """How far a value is beyond a limit and its tolerance, as a share of it; <= 0: it is kept.
+
+    The share is of 1 where the limit is 0.
+    """
     bound = float(limit.limit)
     beyond = value - bound if isinstance(limit, AtMost) else bound - value
-    return beyond / (abs(bound) or 1.0)
+    return beyond / (abs(bound) or 1.0) - limit.tolerance
 
 
 def standing(limit: Limit, row: Mapping[str, Any], error: float | None) -> LimitKept:
@@ -114,16 +127,28 @@ def standing(limit: Limit, row: Mapping[str, Any], error: float | None) -> Limit
         limit=float(limit.limit),
         value=value,
         error=error,
-        is_kept=excess <= 1e-4,
-        is_active=abs(excess) <= _ACTIVE,
+        is_kept=excess <= 0.0,
+        is_active=abs(excess) <= max(_ACTIVE, 2.0 * limit.tolerance),
     )
+
+
+def _require_tolerance(value: float) -> None:
+    if not 0.0 <= value < 1.0:
+        raise InvalidInputError(f"`tolerance` must lie from 0 to below 1, got {value!r}.")
 
 
 def require_consistent(limits: tuple[Limit, ...]) -> None:
     """Raise InvalidInputError where two limits on one result leave nothing between them."""
     for low in (one for one in limits if isinstance(one, AtLeast)):
         for high in (one for one in limits if isinstance(one, AtMost)):
-            if low.quantity == high.quantity and float(low.limit) > float(high.limit):
+            if low.quantity != high.quantity:
+                continue
+            if low.limit == high.limit and low.tolerance == high.tolerance == 0.0:
+                raise InvalidInputError(
+                    f"`tolerance` must be given where a result is to have one value, got "
+                    f"{limit_text(low)} and at most the same; no result is exact to the last digit."
+                )
+            if float(low.limit) > float(high.limit):
                 raise InvalidInputError(
                     f"`at_least` must not be above `at_most`, got {limit_text(low)} and "
                     f"{limit_text(high)}."

@@ -192,9 +192,9 @@ def _both_limits(table: LimitTable) -> list[Limit]:
         raise InvalidInputError("must hold at_least, at_most or both, got neither.")
     limits: list[Limit] = []
     if table.at_least is not None:
-        limits.append(AtLeast(table.result, table.at_least))
+        limits.append(AtLeast(table.result, table.at_least, table.tolerance))
     if table.at_most is not None:
-        limits.append(AtMost(table.result, table.at_most))
+        limits.append(AtMost(table.result, table.at_most, table.tolerance))
     return limits
 
 
@@ -214,7 +214,7 @@ def _result(name: str) -> str:
 
 
 def _search(table: SearchTable, source: str) -> Search:
-    given = {name: getattr(table, name) for name in ("solves", "tolerance", "seed")}
+    given = {name: getattr(table, name) for name in ("solves", "starts", "tolerance", "seed")}
     with _at(source, "search"):
         return Search(**{name: value for name, value in given.items() if value is not None})
 

@@ -6,18 +6,23 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
-import numpy as np
-
 from rollnip._units import format_quantity
 from rollnip.design.aims import Limit, LimitKept, Maximise, Objective, standing
 from rollnip.design.find import Evaluate
 from rollnip.design.problem import Bounds, Problem
 from rollnip.design.quantities import QUANTITIES, json_tree, result_error
-from rollnip.design.search import Array, Search, Trial, search_cube
+from rollnip.design.search import (
+    Each,
+    Ended,
+    Search,
+    Searched,
+    Trial,
+    in_turn,
+    search_cube,
+)
 from rollnip.io import with_values
 from rollnip.sweep import evaluate as evaluated
 
-_DIGITS = 8
 _SHOWN = 5
 _AT_BOUND = 2e-3  # of the interval
 _AS_GOOD = 0.01  # of the objective
@@ -46,12 +51,34 @@ class Chosen:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SearchEnd:
+    """Where one of the searches from different starts ended.
+
+    Attributes
+    ----------
+    values : by path, the best that it tried.
+    value : the objective there; None where nothing was solved.
+    is_feasible : whether all limits are kept there.
+    is_finished : whether it ended by its own tolerance, not for want of solves.
+    agrees : whether it keeps all limits with an objective within 1 % of the best of all.
+    """
+
+    values: Mapping[str, float]
+    value: float | None
+    is_feasible: bool
+    is_finished: bool
+    agrees: bool
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class Optimum:
     """What `optimise` found.
 
     Attributes
     ----------
     is_feasible : whether the case keeps all limits, by a solve of its own.
+    is_finished : whether all searches ended by their own tolerance; False: the solves ran out.
+    searches : where each search ended.
     chosen : the parameters.
     quantity, unit, sense : the objective; "minimise" or "maximise".
     value, error : the objective at the optimum, by a solve of its own; the solver's estimate of
@@ -66,6 +93,8 @@ class Optimum:
     """
 
     is_feasible: bool
+    is_finished: bool
+    searches: tuple[SearchEnd, ...]
     chosen: tuple[Chosen, ...]
     quantity: str
     unit: str
@@ -94,12 +123,14 @@ def optimise(
     *,
     search: Search | None = None,
     evaluate: Evaluate = evaluated,
+    each: Each = in_turn,
 ) -> Optimum:
     """Find the values of a few parameters that make one result as small or large as can be.
 
-    The whole box is searched by differential evolution, the best of it followed to the nearest
-    optimum by COBYQA; both keep the limits on results. A case that cannot be solved counts as
-    worse than any other, and is reported. The answer is solved afresh.
+    The whole box is looked through by differential evolution; from its best places that are apart
+    from each other COBYQA follows the slope to the nearest optimum. Both keep the limits on
+    results. That the searches agree is a sign, no proof, that there is nothing better. A case that
+    cannot be solved counts as worse than any other, and is reported. The answer is solved afresh.
 
     Parameters
     ----------
@@ -109,6 +140,8 @@ def optimise(
     limits : ``AtLeast("nip_width", "8 mm")``, ``AtMost("peak_pressure", "0.5 MPa")``.
     search : how; ``Search()`` by default.
     evaluate : solves one case; for tests, and for programs that keep count.
+    each : calls a function with several items; with that of `rollnip.sweep.together`, and its
+        ``evaluate``, several cases are solved at a time. The answer is the same.
 
     Returns
     -------
@@ -121,31 +154,14 @@ def optimise(
         contradict each other, or where not one case could be solved.
     """
     problem = Problem(case, tuple(parameters), objective, tuple(limits), evaluate)
-    best, trials = search_cube(
-        problem.judge, problem.start, len(problem.paths), Search() if search is None else search
-    )
-    problem.require_some()
-    values = _rounded(problem, best.at)
-    return _answer(problem, values, problem.solve(values), trials)
+    plan = Search() if search is None else search
+    found = search_cube(problem.judge, problem.start, len(problem.paths), plan, each)
+    problem.require_some(found.trials)
+    return _answer(problem, found, problem.solve(problem.by_path(found.best)))
 
 
-def _rounded(problem: Problem, place: Array) -> dict[str, float]:
-    """Values by path to 8 digits, within the bounds."""
-    values = problem.values(place)
-    ends = zip(values.items(), problem.low, problem.high, strict=True)
-    return {
-        path: min(max(float(f"{value:.{_DIGITS}g}"), float(low)), float(high))
-        for (path, value), low, high in ends
-    }
-
-
-def _answer(
-    problem: Problem,
-    values: dict[str, float],
-    row: Mapping[str, Any],
-    trials: tuple[Trial, ...],
-) -> Optimum:
-    objective = problem.objective
+def _answer(problem: Problem, found: Searched, row: Mapping[str, Any]) -> Optimum:
+    objective, trials, values = problem.objective, found.trials, problem.by_path(found.best)
     sign = -1.0 if isinstance(objective, Maximise) else 1.0
     limits: tuple[LimitKept, ...] = ()
     if not problem.fault(row):
@@ -153,9 +169,14 @@ def _answer(
             standing(limit, row, result_error(row, limit.quantity)) for limit in problem.limits
         )
     is_feasible = not problem.fault(row) and all(limit.is_kept for limit in limits)
-    chosen = _chosen(problem, values, trials, sign * (row[objective.quantity] or 0.0))
+    cost = sign * (row[objective.quantity] or 0.0)
+    chosen = _chosen(problem, values, trials, cost)
+    ends = tuple(_end(problem, one, sign, cost) for one in found.ends)
+    failures = tuple((problem.by_path(one), one.fault) for one in trials if one.fault)
     return Optimum(
         is_feasible=is_feasible,
+        is_finished=found.is_finished,
+        searches=ends,
         chosen=chosen,
         quantity=objective.quantity,
         unit=QUANTITIES[objective.quantity],
@@ -163,17 +184,73 @@ def _answer(
         value=row[objective.quantity],
         error=result_error(row, objective.quantity),
         limits=limits,
-        solves=problem.count,
-        failures=tuple(problem.failures),
+        solves=len(trials) + 1,
+        failures=failures,
         trials=tuple(
-            (problem.values(trial.at), sign * trial.cost, trial.violation == 0.0)
+            (problem.by_path(trial), sign * trial.cost, trial.violation == 0.0)
             for trial in trials
-            if np.isfinite(trial.cost)
+            if not trial.fault
         ),
         scalars=dict(row),
         case=with_values(problem.case, values),
-        message=" ".join(_sentences(problem, values, row, limits, chosen)),
+        message=" ".join(
+            [
+                *_sentences(problem, values, row, limits, chosen),
+                *_agreement(problem, ends, is_feasible, found.is_finished),
+                *_failed(problem, failures, len(trials) + 1),
+            ]
+        ),
     )
+
+
+def _end(problem: Problem, one: Ended, sign: float, best: float) -> SearchEnd:
+    kept = one.best.violation == 0.0
+    return SearchEnd(
+        values=problem.by_path(one.best),
+        value=None if one.best.fault else sign * one.best.cost,
+        is_feasible=kept,
+        is_finished=one.is_finished,
+        agrees=kept and one.best.cost <= best + _AS_GOOD * abs(best),
+    )
+
+
+def _agreement(
+    problem: Problem, ends: Sequence[SearchEnd], is_feasible: bool, is_finished: bool
+) -> list[str]:
+    """Whether the searches ended, and whether they ended alike."""
+    said = []
+    if not is_finished:
+        said.append(
+            "The search is not finished: the solves ran out before it came to rest; give more "
+            "`solves`."
+        )
+    if not is_feasible or len(ends) < 2:
+        return said
+    agree, count = sum(one.agrees for one in ends), len(ends)
+    if agree == count:
+        said.append(f"All {count} searches, from different starts, came within 1 % of it.")
+        return said
+    values = [one.value for one in ends if one.is_feasible and one.value is not None]
+    unit = QUANTITIES[problem.objective.quantity]
+    pick = min if isinstance(problem.objective, Maximise) else max
+    worst = pick(values, default=None)
+    far = "" if worst is None else f", the others at up to {format_quantity(worst, unit, digits=5)}"
+    said.append(
+        f"{agree} of {count} searches from different starts came within 1 % of it{far}: there may "
+        "be better cases; give more `solves` and `starts`."
+    )
+    return said
+
+
+def _failed(
+    problem: Problem, failures: Sequence[tuple[Mapping[str, float], str]], count: int
+) -> list[str]:
+    if not failures:
+        return []
+    at, message = failures[0]
+    return [
+        f"{len(failures)} of {count} cases could not be solved; at {problem.said(at)}: {message}"
+    ]
 
 
 def _chosen(
@@ -227,7 +304,7 @@ def _sentences(
         ]
     else:
         goal = "largest" if isinstance(problem.objective, Maximise) else "smallest"
-        said = [f"{quantity} is {goal}, {value}, at {problem.said(values)}."]
+        said = [f"The {goal} {quantity} found is {value}, at {problem.said(values)}."]
         said += [
             f"The limit decides: {one.quantity} {one.sense} {_shown(one.limit, one)}."
             for one in limits
@@ -238,12 +315,6 @@ def _sentences(
         for one in chosen
         if one.at
     ]
-    if problem.failures:
-        at, message = problem.failures[0]
-        said.append(
-            f"{len(problem.failures)} of {problem.count} cases could not be solved; at "
-            f"{problem.said(at)}: {message}"
-        )
     return said
 
 

@@ -1,8 +1,8 @@
-"""Many cases of one tree for a design: parameters in base units, counted, failures kept."""
+"""Many cases of one tree for a design: parameters in base units."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,6 +16,7 @@ from rollnip.design.quantities import parameter_dimension, read_parameter
 from rollnip.design.search import Array, Trial
 from rollnip.io import value_at, with_values
 
+_DIGITS = 8
 _SHOWN = 5
 _MOST = 20
 
@@ -30,7 +31,7 @@ class Bounds:
 
 
 class Problem:
-    """The question in base units, and every case solved for it."""
+    """The question in base units."""
 
     def __init__(
         self,
@@ -55,8 +56,6 @@ class Problem:
         bounds = [interval(case, one) for one in parameters]
         with_values(case, dict(zip(self.paths, (low for low, _ in bounds), strict=True)))
         self.low, self.high = (np.array(ends) for ends in zip(*bounds, strict=True))
-        self.failures: list[tuple[Mapping[str, float], str]] = []
-        self.count = 0
 
     @property
     def start(self) -> Array | None:
@@ -74,18 +73,15 @@ class Problem:
         return place if np.all((place >= 0.0) & (place <= 1.0)) else None
 
     def values(self, place: Array) -> dict[str, float]:
-        """From shares of the intervals to values by path."""
+        """From shares of the intervals to values by path, of 8 digits and within the bounds."""
         values = self.low + place * (self.high - self.low)
-        return dict(zip(self.paths, map(float, values), strict=True))
+        rounded = (float(f"{value:.{_DIGITS}g}") for value in values)
+        inside = np.clip(list(rounded), self.low, self.high)
+        return dict(zip(self.paths, map(float, inside), strict=True))
 
     def solve(self, values: Mapping[str, float]) -> Mapping[str, Any]:
-        """One case; counted, and a failure kept."""
-        self.count += 1
-        row = self.evaluate(with_values(self.case, values))
-        message = self.fault(row)
-        if message:
-            self.failures.append((values, message))
-        return row
+        """Solve one case."""
+        return self.evaluate(with_values(self.case, values))
 
     def fault(self, row: Mapping[str, Any]) -> str:
         """Why a row is of no use; empty where it is."""
@@ -97,20 +93,28 @@ class Problem:
 
     def judge(self, place: Array) -> Trial:
         """What a place in the unit cube is worth."""
-        row = self.solve(self.values(place))
-        if self.fault(row):
-            return Trial(place, float("inf"), (float("inf"),) * len(self.limits))
+        found = self.values(place)
+        row, values = self.solve(found), tuple(found.values())
+        fault = self.fault(row)
+        if fault:
+            beyond = (float("inf"),) * len(self.limits)
+            return Trial(place, float("inf"), beyond, values, fault)
         sign = -1.0 if isinstance(self.objective, Maximise) else 1.0
         excess = tuple(excess_over(limit, row[limit.quantity]) for limit in self.limits)
-        return Trial(place, sign * row[self.objective.quantity], excess)
+        return Trial(place, sign * row[self.objective.quantity], excess, values)
 
-    def require_some(self) -> None:
+    def by_path(self, trial: Trial) -> dict[str, float]:
+        """The values of a trial by path."""
+        return dict(zip(self.paths, trial.values, strict=True))
+
+    def require_some(self, trials: Sequence[Trial]) -> None:
         """Raise InvalidInputError where every case failed."""
-        if len(self.failures) < self.count:
+        if any(not trial.fault for trial in trials):
             return
-        values, message = self.failures[0]
+        first = trials[0]
         raise InvalidInputError(
-            f"not one of {self.count} cases could be solved; at {self.said(values)}: {message}"
+            f"not one of {len(trials)} cases could be solved; at "
+            f"{self.said(self.by_path(first))}: {first.fault}"
         )
 
     def said(self, values: Mapping[str, float]) -> str:

@@ -1,9 +1,13 @@
-"""Search in the unit cube under limits: differential evolution, then COBYQA. Numbers only."""
+"""Search in the unit cube under limits: differential evolution, then COBYQA from several places.
+
+Numbers only. What is tried does not depend on how many cases are solved at a time.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,23 +16,41 @@ from scipy.optimize import NonlinearConstraint, differential_evolution, minimize
 from rollnip._errors import InvalidInputError
 
 Array = NDArray[np.float64]
+_A = TypeVar("_A")
+_B = TypeVar("_B")
 
-FORGIVEN = 1e-5  # excess that still counts as kept: rounding, and the search's own last digits
+_INSIDE = 1e-5  # share of a limit by which the search stays within it: room for its own last digits
 _UNSOLVED = 1e3  # excess of a case without results: worse than any other
-_GLOBAL = 0.7  # share of the solves for the global part
+_GLOBAL = 0.4  # share of the solves for the global part
 _MEMBERS = 6  # of the population, for each parameter
 _FEWEST = 12
 _FIRST_RADIUS = 0.1
+_APART = 0.25  # of an interval: how far one start of a search is from the others
 _LEAST_SOLVES, _MOST_SOLVES = 20, 100_000
+_SOLVES, _SOLVES_EACH = 150, 100  # by default: these, and so many for each parameter
+
+
+class Each(Protocol):
+    """Calls a function with every item, in turn or at the same time; results in order."""
+
+    def __call__(self, function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
+        """Return the results."""
+        ...
+
+
+def in_turn(function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
+    """Call a function with every item, one after the other."""
+    return [function(one) for one in items]
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Search:
-    """How an optimum is searched: differential evolution first, then COBYQA from the best.
+    """How an optimum is searched: differential evolution first, then COBYQA from the best places.
 
     Parameters
     ----------
-    solves : at most so many cases, 20 to 100000.
+    solves : at most so many cases, 20 to 100000; None: 150, and 100 for each parameter.
+    starts : searches by COBYQA, 1 to 20, each from a place of its own.
     tolerance : how closely the parameters are found, as a share of their intervals.
     seed : of the random numbers; the same seed gives the same answer.
 
@@ -42,21 +64,28 @@ class Search:
     Storn & Price (1997), J. Global Optimization 11, 341-359; Ragonneau & Zhang (2024), COBYQA.
     """
 
-    solves: int = 250
+    solves: int | None = None
+    starts: int = 3
     tolerance: float = 1e-3
     seed: int = 0
 
     def __post_init__(self) -> None:
-        if not _LEAST_SOLVES <= self.solves <= _MOST_SOLVES:
+        if self.solves is not None and not _LEAST_SOLVES <= self.solves <= _MOST_SOLVES:
             raise InvalidInputError(
                 f"`solves` must lie between {_LEAST_SOLVES} and {_MOST_SOLVES}, got {self.solves}."
             )
+        if not 1 <= self.starts <= 20:
+            raise InvalidInputError(f"`starts` must lie between 1 and 20, got {self.starts}.")
         if not 1e-6 <= self.tolerance <= 0.1:
             raise InvalidInputError(
                 f"`tolerance` must lie between 1e-6 and 0.1, got {self.tolerance!r}."
             )
         if self.seed < 0:
             raise InvalidInputError(f"`seed` must be zero or positive, got {self.seed}.")
+
+    def budget(self, count: int) -> int:
+        """How many cases may be solved, with so many parameters."""
+        return _SOLVES + _SOLVES_EACH * count if self.solves is None else self.solves
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,19 +96,23 @@ class Trial:
     ----------
     at : (d,) shares of the intervals, 0 to 1.
     cost : to be made small; inf where there are no results.
-    excess : beyond each limit, as a share of it; < 0: within.
+    excess : beyond each limit and its tolerance, as a share of the limit; <= 0: kept.
+    values : what was solved there, for whoever judges.
+    fault : why there are no results; empty where there are.
     """
 
     at: Array
     cost: float
     excess: tuple[float, ...]
+    values: tuple[float, ...] = ()
+    fault: str = ""
 
     @property
     def violation(self) -> float:
         """Sum of what is beyond the limits; 0 where all are kept."""
         if not np.isfinite(self.cost):
             return float("inf")
-        return sum(one for one in self.excess if one > FORGIVEN)
+        return sum(one for one in self.excess if one > 0.0)
 
     @property
     def rank(self) -> tuple[float, float]:
@@ -87,44 +120,83 @@ class Trial:
         return (self.violation, self.cost)
 
 
+@dataclass(frozen=True, slots=True)
+class Ended:
+    """One search by COBYQA.
+
+    Attributes
+    ----------
+    begun : (d,) where it began.
+    best : the best that it tried.
+    is_finished : whether it ended by its own tolerance, and not because its solves were used up.
+    """
+
+    begun: Array
+    best: Trial
+    is_finished: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Searched:
+    """What `search_cube` found: the best trial, all in a fixed order, and how each search ended."""
+
+    best: Trial
+    trials: tuple[Trial, ...]
+    ends: tuple[Ended, ...]
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether no search ended for want of solves."""
+        return all(one.is_finished for one in self.ends)
+
+
 class _Spent(Exception):
     """The solves are used up."""
 
 
 class _Log:
-    """Every trial, each place tried once."""
+    """Every trial of one search, each place tried once."""
 
-    def __init__(self, judge: Callable[[Array], Trial], solves: int) -> None:
-        self.judge, self.solves = judge, solves
+    def __init__(self, judge: Callable[[Array], Trial], solves: int, each: Each) -> None:
+        self.judge, self.solves, self.each = judge, solves, each
         self.trials: dict[bytes, Trial] = {}
 
-    def at(self, place: Array) -> Trial:
-        """The trial at a place; raises _Spent where it is new and none is left."""
-        inside = np.clip(np.asarray(place, dtype=float), 0.0, 1.0)
-        key = inside.tobytes()
-        if key not in self.trials:
-            if len(self.trials) >= self.solves:
-                raise _Spent
-            self.trials[key] = self.judge(inside.copy())
-        return self.trials[key]
+    def at(self, places: Array) -> list[Trial]:
+        """Trials at places (n, d); raises _Spent where some are new and too few solves are left."""
+        inside = np.clip(np.asarray(places, dtype=float), 0.0, 1.0)
+        keys = [one.tobytes() for one in inside]
+        new = dict(zip(keys, inside, strict=True))
+        new = {key: place for key, place in new.items() if key not in self.trials}
+        room = self.solves - len(self.trials)
+        asked = list(new.items())[: max(room, 0)]
+        found = self.each(self.judge, [place.copy() for _, place in asked])
+        self.trials.update(zip((key for key, _ in asked), found, strict=True))
+        if len(asked) < len(new):
+            raise _Spent
+        return [self.trials[key] for key in keys]
 
-    def excess(self, place: Array) -> Array:
-        """Constraints of scipy: all must be <= 0; the first is whether there are results."""
-        trial = self.at(place)
-        solved = bool(np.isfinite(trial.cost))
-        return np.array(
-            [-1.0 if solved else _UNSOLVED] + [one if solved else _UNSOLVED for one in trial.excess]
-        )
+    def excess(self, places: Array) -> Array:
+        """Constraints of scipy, (m, n), all to be <= 0; the first is whether there are results."""
+        rows = []
+        for trial in self.at(places):
+            solved = bool(np.isfinite(trial.cost))
+            beyond = [one + _INSIDE if solved else _UNSOLVED for one in trial.excess]
+            rows.append([-1.0 if solved else _UNSOLVED, *beyond])
+        return np.array(rows).T
 
     @property
-    def best(self) -> Trial:
-        """The best so far, the first of equals."""
-        return min(self.trials.values(), key=lambda trial: trial.rank)
+    def ranked(self) -> list[Trial]:
+        """All trials, the best first."""
+        return sorted(self.trials.values(), key=lambda trial: trial.rank)
 
 
 def search_cube(
-    judge: Callable[[Array], Trial], start: Array | None, count: int, search: Search
-) -> tuple[Trial, tuple[Trial, ...]]:
+    judge: Callable[[Array], Trial],
+    start: Array | None,
+    count: int,
+    search: Search,
+    each: Each = in_turn,
+) -> Searched:
     """Search the unit cube.
 
     Parameters
@@ -133,58 +205,80 @@ def search_cube(
     start : (count,) a first place; None: none.
     count : of the dimensions.
     search : how.
-
-    Returns
-    -------
-    the best trial, and all in the order tried.
+    each : calls a function with several items, perhaps at the same time.
     """
-    log = _Log(judge, int(_GLOBAL * search.solves))
+    budget = search.budget(count)
+    log = _Log(judge, max(int(_GLOBAL * budget), 1), each)
     _globally(log, start, count, search)
-    log.solves = search.solves
-    _locally(log, search)
-    return log.best, tuple(log.trials.values())
+    known = log.ranked
+    begins = _apart(known, search.starts)
+    share = (budget - len(log.trials)) // max(len(begins), 1)
+    worst = max((one.cost for one in known if np.isfinite(one.cost)), default=0.0)
+    searches = each(lambda begin: _locally(judge, begin, share, worst, search), begins)
+    trials = [*log.trials.values(), *(trial for _, tried in searches for trial in tried)]
+    return Searched(
+        min(trials, key=lambda trial: trial.rank), tuple(trials), tuple(end for end, _ in searches)
+    )
 
 
 def _globally(log: _Log, start: Array | None, count: int, search: Search) -> None:
     members = max(_FEWEST, _MEMBERS * count)
     try:
         differential_evolution(
-            lambda place: log.at(place).cost,
+            lambda places: np.array([one.cost for one in log.at(np.atleast_2d(places.T))]),
             [(0.0, 1.0)] * count,
             popsize=-(-members // count),
-            maxiter=search.solves,
+            maxiter=search.budget(count),
             tol=search.tolerance,
             seed=np.random.default_rng(search.seed),
-            constraints=[NonlinearConstraint(log.excess, -np.inf, 0.0)],
+            constraints=[
+                NonlinearConstraint(
+                    lambda places: log.excess(np.atleast_2d(places.T)), -np.inf, 0.0
+                )
+            ],
             polish=False,
             x0=start,
+            vectorized=True,
+            updating="deferred",
         )
     except _Spent:
         return
 
 
-def _locally(log: _Log, search: Search) -> None:
-    best = log.best
-    if not np.isfinite(best.cost):
-        return
-    size = abs(best.cost) or 1.0
-    solved = [trial.cost for trial in log.trials.values() if np.isfinite(trial.cost)]
-    worst = max(solved)
+def _apart(ranked: Sequence[Trial], count: int) -> list[Trial]:
+    """The best solved trials that are apart from each other, the best of all first."""
+    solved = [trial for trial in ranked if np.isfinite(trial.cost)]
+    chosen: list[Trial] = []
+    for trial in solved:
+        gaps = [float(np.max(np.abs(trial.at - one.at))) for one in chosen]
+        if len(chosen) < count and all(gap >= _APART for gap in gaps):
+            chosen.append(trial)
+    return chosen
 
-    def cost(place: Array) -> float:
-        return min(log.at(place).cost, worst) / size
 
+def _locally(
+    judge: Callable[[Array], Trial], begin: Trial, solves: int, worst: float, search: Search
+) -> tuple[Ended, tuple[Trial, ...]]:
+    """COBYQA from one place; how it ended, and what it tried, the place itself left out."""
+    log = _Log(judge, solves + 1, in_turn)
+    log.trials[begin.at.tobytes()] = begin
+    size = abs(begin.cost) or 1.0
+    is_finished = False
     try:
-        minimize(
-            cost,
-            best.at,
+        found = minimize(
+            lambda place: min(log.at(place[None, :])[0].cost, worst) / size,
+            begin.at,
             method="COBYQA",
-            bounds=[(0.0, 1.0)] * best.at.size,
-            constraints=[NonlinearConstraint(log.excess, -np.inf, 0.0)],
+            bounds=[(0.0, 1.0)] * begin.at.size,
+            constraints=[
+                NonlinearConstraint(lambda place: log.excess(place[None, :])[:, 0], -np.inf, 0.0)
+            ],
             options={
                 "initial_tr_radius": max(_FIRST_RADIUS, search.tolerance),
                 "final_tr_radius": search.tolerance,
             },
         )
+        is_finished = found.status in (0, 2)  # the radius came down, or there is no room to move
     except _Spent:
-        return
+        pass
+    return Ended(begin.at, log.ranked[0], is_finished), tuple(log.trials.values())[1:]

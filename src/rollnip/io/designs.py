@@ -32,12 +32,20 @@ class LimitTable(Table):
     result: str = Field(description="Name of a result: nip_width.")
     at_least: Any = Field(default=None, description="With its unit.")
     at_most: Any = Field(default=None, description="With its unit.")
+    tolerance: Ratio = Field(
+        default=0.0, description="Share of the limit by which it may be passed; 0 by default."
+    )
 
 
 class SearchTable(Table):
     """How an optimum is searched."""
 
-    solves: int | None = Field(default=None, description="Cases at most; 250 by default.")
+    solves: int | None = Field(
+        default=None, description="Cases at most; by default 150, and 100 for each parameter."
+    )
+    starts: int | None = Field(
+        default=None, description="Searches, each from a place of its own; 3 by default."
+    )
     tolerance: Ratio | None = Field(
         default=None, description="Of the parameters; 0.1 % of the intervals."
     )

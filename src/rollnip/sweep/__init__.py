@@ -7,6 +7,7 @@ from rollnip.sweep.study_file import read_study
 from rollnip.sweep.sweep import sweep
 from rollnip.sweep.table import Table
 from rollnip.sweep.task import Outcome
+from rollnip.sweep.together import Together, together
 
 __all__ = [
     "SCALARS",
@@ -15,9 +16,11 @@ __all__ = [
     "Outcome",
     "Study",
     "Table",
+    "Together",
     "evaluate",
     "read_study",
     "recalling",
     "scalars",
     "sweep",
+    "together",
 ]

@@ -53,7 +53,10 @@ def open_to_write(path: Path | None) -> sqlite3.Connection:
         check_place(path)
     try:
         return sqlite3.connect(
-            ":memory:" if path is None else path, isolation_level=None, timeout=_BUSY_SECONDS
+            ":memory:" if path is None else path,
+            isolation_level=None,
+            timeout=_BUSY_SECONDS,
+            check_same_thread=False,  # `Recall` is called from threads, one at a time
         )
     except sqlite3.Error as error:
         raise RollnipError(f"{path}: cannot be opened: {error}.") from None

@@ -5,17 +5,19 @@ from __future__ import annotations
 import os
 import signal
 import threading
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing import get_context
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from rollnip._errors import RollnipError
 from rollnip.sweep import version
 from rollnip.sweep.task import Outcome, Task, perform, stand_alone
 from rollnip.sweep.version import own_version
 
+_A = TypeVar("_A")
+_B = TypeVar("_B")
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -66,6 +68,10 @@ class Processes:
     def submit(self, task: Task) -> Future[list[Outcome]]:
         """Start a task."""
         return self._pool.submit(perform, task)
+
+    def call(self, function: Callable[[_A], _B], argument: _A) -> Future[_B]:
+        """Call a function of a module in one of the processes."""
+        return self._pool.submit(function, argument)
 
     def restart(self) -> None:
         """New processes in place of those that broke."""

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
+from threading import Lock
 from time import perf_counter
 from typing import Any
 
-from rollnip.sweep.row import Row, own_kernels, ready, solved
+from rollnip.sweep.row import Row, evaluate, ready
 from rollnip.sweep.store import About, Store
 from rollnip.sweep.task import Outcome
 from rollnip.sweep.version import own_version
@@ -16,7 +17,10 @@ from rollnip.sweep.version import own_version
 
 @contextmanager
 def recalling(
-    database: str | Path, case: Mapping[str, Any], paths: Sequence[str]
+    database: str | Path,
+    case: Mapping[str, Any],
+    paths: Sequence[str],
+    solve: Callable[[Mapping[str, Any]], Row] = evaluate,
 ) -> Iterator[Recall]:
     """`evaluate` with a database, for searches that are to go on where they were stopped.
 
@@ -35,6 +39,8 @@ def recalling(
         tree of the case in which the search changes values.
     paths :
         of what it changes; their limits and the results wanted may change from run to run.
+    solve :
+        solves what the database does not hold, as `rollnip.sweep.evaluate` does.
 
     Raises
     ------
@@ -43,7 +49,7 @@ def recalling(
         of other questions.
     """
     with Store(Path(database), About.of_search(case, paths, own_version())) as store:
-        yield Recall(store)
+        yield Recall(store, solve)
 
 
 class Recall:
@@ -53,22 +59,30 @@ class Recall:
     ----------
     store :
         of a search.
+    solve :
+        solves what it does not hold.
     """
 
-    def __init__(self, store: Store) -> None:
+    def __init__(self, store: Store, solve: Callable[[Mapping[str, Any]], Row] = evaluate) -> None:
         self.store = store
+        self.solve = solve
+        self._lock = Lock()
         self._known = store.known()
         self._next = store.size
 
     def __call__(self, tree: Mapping[str, Any]) -> Row:
-        """As `evaluate`. Raises RollnipError where the database cannot be written."""
+        """As `evaluate`, from any thread. Raises RollnipError where nothing can be written."""
         start = perf_counter()
         one = ready(lambda: tree)
-        if one.name in self._known:
-            return self.store.row(self._known[one.name])
-        row, _ = solved(one, own_kernels())
-        if one.name is not None:
-            self.store.write(Outcome(self._next, (), one.name, row, perf_counter() - start))
-            self._known[one.name] = self._next
-            self._next += 1
+        if one.refusal is not None or one.name is None:
+            return self.solve(tree)
+        with self._lock:
+            if one.name in self._known:
+                return self.store.row(self._known[one.name])
+        row = self.solve(tree)
+        with self._lock:
+            if one.name not in self._known:
+                self.store.write(Outcome(self._next, (), one.name, row, perf_counter() - start))
+                self._known[one.name] = self._next
+                self._next += 1
         return row

@@ -148,7 +148,7 @@ maximise = "load"
 result = "nip_width"
 at_most = "0.4 mm"
 [search]
-solves = 30
+solves = 60
 """
 TOLERANCE = """
 case = "case.toml"

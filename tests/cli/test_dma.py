@@ -1,7 +1,9 @@
 """The command dma fit: tables in, a material out."""
 
+import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 from typer.testing import CliRunner
 
@@ -95,3 +97,33 @@ def test_show_of_what_is_no_table_says_so(tmp_path):
     assert "no table whose heads are known" in result.stdout
     missing = CliRunner().invoke(app, ["dma", "show", str(tmp_path / "none.csv")])
     assert missing.exit_code == 2
+
+
+def test_fit_as_json():
+    result = run(DATA, "--reference", "23 degC", "--json")
+    assert result.exit_code == 0
+    tree = json.loads(result.stdout)
+    assert tree["schema"] == 1
+    assert tree["kind"] == "dynamic"
+    assert tree["material"]["model"] == "prony"
+    assert tree["shift"]["c2"]["value"] == pytest.approx(101.0, abs=5.0)
+    assert tree["deviation"]["storage"]["rms"] < 0.03
+    assert tree["deviation"]["loss"]["row"].startswith("line ")
+    assert len(tree["isotherms"]) == 9
+    assert tree["warnings"] == []
+
+
+def test_fit_of_a_relaxation_test(tmp_path):
+    time = np.geomspace(0.1, 1000.0, 25)
+    values = 2.0 + 3.0 * np.exp(-time / 0.5) + np.exp(-time / 10.0)
+    path = tmp_path / "relaxation.txt"
+    rows = "".join(f"{t:.6g}\t{v:.6g}\n" for t, v in zip(time, values, strict=True))
+    path.write_text("t\tE(t)\ns\tMPa\n" + rows, encoding="utf-8")
+    plot = tmp_path / "relaxation.png"
+    result = run(path, "--temperature", "23 degC", "--plot", plot)
+    assert result.exit_code == 0, result.stderr
+    assert "# Deviation from the data: modulus" in result.stdout
+    assert plot.stat().st_size > 1000
+    wrong = run(path, "--temperature", "23 degC", "--frequency", "1 Hz")
+    assert wrong.exit_code == 2
+    assert "is over time" in wrong.stderr

@@ -5,6 +5,7 @@ import pytest
 
 from rollnip._errors import InvalidInputError
 from rollnip.dma import read_dma, read_tables
+from rollnip.dma.heads import read_head
 
 from .conftest import write_workbook
 
@@ -263,6 +264,28 @@ def test_messages_say_what_to_rewrite(file, text, said):
 def test_what_is_no_text_is_refused(file, data, said):
     with pytest.raises(InvalidInputError, match=said):
         read_dma(file(data))
+
+
+@pytest.mark.parametrize(
+    ("text", "quantity", "kind", "unit"),
+    [
+        ("Creep compliance J(t) [1/Pa]", "compliance", None, "1/Pa"),
+        ("Relaxationsmodul E(t) / MPa", "relaxation", "E", "MPa"),
+        ("Speichermodul (E') in MPa", "storage", "E", "MPa"),
+        ("shear storage modulus, Pa", "storage", "G", "Pa"),
+        ("Complex modulus |G*| (Pa)", "absolute", "G", "Pa"),
+        ("E''/E'", "tan delta", None, None),
+        ("Verlustfaktor tan δ [-]", "tan delta", None, "-"),
+        ('G"', "loss", "G", None),
+        ("t", "time", None, None),
+        ("T", "temperature", None, None),
+        ("Complex viscosity (Pa.s)", None, None, "Pa.s"),
+        ("Kraft [N]", None, None, "N"),
+    ],
+)
+def test_heads(text, quantity, kind, unit):
+    head = read_head(text)
+    assert (head.quantity, head.kind, head.unit) == (quantity, kind, unit)
 
 
 def test_letters_of_other_quantities_are_passed_over(file):

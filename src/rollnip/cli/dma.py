@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +16,7 @@ from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip._units import Dimension
-    from rollnip.dma import DmaFit
+    from rollnip.dma import DmaData, DmaFit, DmaMethod, TimeData, TimeFit
 
 dma = typer.Typer(
     name="dma",
@@ -77,9 +78,14 @@ def fit(
         Path | None,
         typer.Option(help="Case that names the material: is its nip within the data?"),
     ] = None,
+    json: Annotated[
+        bool, typer.Option("--json", help="Print what was found as JSON, in place of the table.")
+    ] = False,
     force: Force = False,
 ) -> None:
     """Shift isotherms to a master curve and fit a Prony series or a fractional Zener solid.
+
+    Takes sweeps of frequency or temperature, relaxation moduli and creep compliances over time.
 
     Prints the material as a table for the case file, with its range and its deviation from the
     data in comments; warnings go to the standard error.
@@ -87,19 +93,19 @@ def fit(
     from rollnip.cli.app import _clear_failures, _named
 
     with _clear_failures(), one_run(force=force) as run:
-        from rollnip.dma import DmaMethod, fit_dma, material_toml, read_dma
+        from rollnip.dma import DmaMethod, fit_dict, material_toml
 
         _check_targets(out, plot)
         _choose("--modulus", modulus, ("E", "G", None))
         degrees = _read("--reference", reference, "temperature")
-        data = read_dma(
+        data = _data(
             file,
-            modulus=modulus,  # type: ignore[arg-type]
+            modulus=modulus,
             poisson=poisson,
             temperature=_read("--temperature", temperature, "temperature"),
             frequency=_read("--frequency", frequency, "frequency"),
             sheet=sheet,
-            tables=table or (),
+            tables=tuple(table or ()),
         )
         run.reserve({"--out": out, "--plot": plot})
         law = _law(shift, c1, _read("--c2", c2, "temperature difference"), energy, degrees)
@@ -112,14 +118,61 @@ def fit(
                 terms=terms,
                 robust=robust,
             )
-            found = fit_dma(data, method)
+            found = _fitted(data, method)
         text = material_toml(found, name)
         warnings = [*found.warnings, *([] if case is None else _in_the_nip(found, case, name))]
         _write(found, text, out, plot)
-        if out is None:
+        if json:
+            tree = fit_dict(found) | {"warnings": warnings}
+            sys.stdout.write(dumps(tree, indent=2, allow_nan=False) + "\n")
+        elif out is None:
             sys.stdout.write(text)
         sys.stdout.flush()
         sys.stderr.write("".join(f"rollnip: warning: {said}\n" for said in warnings))
+
+
+def _data(
+    file: Path,
+    *,
+    modulus: Any,
+    poisson: float,
+    temperature: float | None,
+    frequency: float | None,
+    sheet: str | None,
+    tables: tuple[int, ...],
+) -> DmaData | TimeData:
+    """The measurements of a file: dynamic ones where it holds any, else those over time."""
+    from rollnip.dma import read_dma, read_tables, read_time_data
+
+    reading = read_tables(file, temperature=temperature, frequency=frequency, sheet=sheet)
+    used = [reading.tables[n - 1] for n in tables if n <= len(reading.tables)] or reading.tables
+    kinds = {one.kind for one in used} - {None}
+    if kinds and "dynamic" not in kinds:
+        if frequency is not None:
+            raise InvalidInputError(f"`--frequency` must not be given: {file} is over time.")
+        return read_time_data(
+            file,
+            modulus=modulus,
+            poisson=poisson,
+            temperature=temperature,
+            sheet=sheet,
+            tables=tables,
+        )
+    return read_dma(
+        file,
+        modulus=modulus,
+        poisson=poisson,
+        temperature=temperature,
+        frequency=frequency,
+        sheet=sheet,
+        tables=tables,
+    )
+
+
+def _fitted(data: DmaData | TimeData, method: DmaMethod) -> DmaFit | TimeFit:
+    from rollnip.dma import TimeData, fit_dma, fit_time
+
+    return fit_time(data, method) if isinstance(data, TimeData) else fit_dma(data, method)
 
 
 def _read(option: str, text: str | None, dimension: Dimension) -> float | None:
@@ -169,19 +222,20 @@ def _check_targets(out: Path | None, plot: Path | None) -> None:
         check_target(plot, (".png", ".svg", ".pdf"))
 
 
-def _write(found: DmaFit, text: str, out: Path | None, plot: Path | None) -> None:
+def _write(found: DmaFit | TimeFit, text: str, out: Path | None, plot: Path | None) -> None:
     from rollnip._files import write_whole
 
     if out is not None:
         write_whole(out, lambda file: file.write_text(text, "utf-8"))
     if plot is not None:
-        from rollnip.dma import plot_dma
+        from rollnip.dma import TimeFit, plot_dma, plot_time
         from rollnip.plots import save_figure
 
-        save_figure(plot_dma(found), plot)
+        figure = plot_time(found) if isinstance(found, TimeFit) else plot_dma(found)
+        save_figure(figure, plot)
 
 
-def _in_the_nip(found: DmaFit, case: Path, name: str) -> list[str]:
+def _in_the_nip(found: DmaFit | TimeFit, case: Path, name: str) -> list[str]:
     """Warnings of the nip of a case with the material put into its [materials]."""
     from rollnip.cli.app import _named
     from rollnip.dma import frequency_warning, material_toml

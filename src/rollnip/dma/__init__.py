@@ -1,7 +1,13 @@
 """Dynamic-mechanical data: master curve, Prony series or fractional Zener, material of a case."""
 
 from rollnip.dma.data import DmaData, read_dma
-from rollnip.dma.export import frequency_warning, material_toml, nip_frequency, valid_range
+from rollnip.dma.export import (
+    fit_dict,
+    frequency_warning,
+    material_toml,
+    nip_frequency,
+    valid_range,
+)
 from rollnip.dma.fit import DmaFit, DmaMethod, fit_dma
 from rollnip.dma.master import Master
 from rollnip.dma.pictures import (
@@ -10,11 +16,14 @@ from rollnip.dma.pictures import (
     plot_master,
     plot_phase,
     plot_shifts,
+    plot_time,
 )
 from rollnip.dma.quality import Quality
 from rollnip.dma.reading import Reading, read_tables
 from rollnip.dma.shifts import ShiftFit
 from rollnip.dma.spectrum import Reduced
+from rollnip.dma.timedata import TimeData, read_time_data
+from rollnip.dma.timefit import TimeFit, fit_time, relaxation_of_creep
 
 __all__ = [
     "DmaData",
@@ -25,7 +34,11 @@ __all__ = [
     "Reading",
     "Reduced",
     "ShiftFit",
+    "TimeData",
+    "TimeFit",
+    "fit_dict",
     "fit_dma",
+    "fit_time",
     "frequency_warning",
     "material_toml",
     "nip_frequency",
@@ -34,7 +47,10 @@ __all__ = [
     "plot_master",
     "plot_phase",
     "plot_shifts",
+    "plot_time",
     "read_dma",
     "read_tables",
+    "read_time_data",
+    "relaxation_of_creep",
     "valid_range",
 ]

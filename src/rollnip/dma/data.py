@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,6 +67,11 @@ class DmaData:
         checked_temperature("temperature", float(np.min(self.temperature)))
         require_finite("poisson", self.poisson)
 
+    @property
+    def kind(self) -> Literal["dynamic"]:
+        """What was measured: moduli over the frequency."""
+        return "dynamic"
+
     def row(self, index: int) -> str:
         """Where a measurement stands in the source."""
         return self.rows[index] if self.rows else f"measurement {index + 1}"
@@ -75,15 +81,20 @@ class DmaData:
 
         Temperatures within ``width`` [K] of the coldest of a group count as one.
         """
-        order = np.argsort(self.temperature, kind="stable")
-        groups: list[list[int]] = []
-        for index in order:
-            first = groups[-1][0] if groups else index
-            if groups and self.temperature[index] - self.temperature[first] <= width:
-                groups[-1].append(int(index))
-            else:
-                groups.append([int(index)])
-        return [np.array(group, dtype=np.int64) for group in groups]
+        return isotherms_of(self.temperature, width)
+
+
+def isotherms_of(temperature: Array, width: float) -> list[NDArray[np.int64]]:
+    """Indices of the temperatures within ``width`` of the coldest of a group, coldest first."""
+    order = np.argsort(temperature, kind="stable")
+    groups: list[list[int]] = []
+    for index in order:
+        first = groups[-1][0] if groups else index
+        if groups and temperature[index] - temperature[first] <= width:
+            groups[-1].append(int(index))
+        else:
+            groups.append([int(index)])
+    return [np.array(group, dtype=np.int64) for group in groups]
 
 
 def read_dma(

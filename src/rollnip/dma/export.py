@@ -3,18 +3,24 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections.abc import Iterator
+from typing import Any
+
+import numpy as np
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import format_quantity
 from rollnip.dma.fit import DmaFit
+from rollnip.dma.quality import NAMES
+from rollnip.dma.timefit import TimeFit
 from rollnip.materials import WLF, Arrhenius, FractionalZener, Prony, Shift
 from rollnip.solution import Solution
 
 _NAME = re.compile(r"[A-Za-z0-9_-]+")
 
 
-def material_toml(fit: DmaFit, name: str = "rubber") -> str:
+def material_toml(fit: DmaFit | TimeFit, name: str = "rubber") -> str:
     """The material as a table ``[materials.name]`` that a case file takes as it is.
 
     Comments say where it comes from, how far it departs from the data, and for which frequencies
@@ -24,7 +30,48 @@ def material_toml(fit: DmaFit, name: str = "rubber") -> str:
         raise InvalidInputError(
             f'`name` must be letters, digits, - and _, and not "rigid", got "{name}".'
         )
-    return "\n".join([*_comments(fit), f"[materials.{name}]", *_keys(fit)]) + "\n"
+    keys = material_keys(fit.material)
+    return "\n".join([*_comments(fit), f"[materials.{name}]", *keys]) + "\n"
+
+
+def fit_dict(fit: DmaFit | TimeFit) -> dict[str, Any]:
+    """What a fit found, as plain values for JSON: material, shift law, quality, range, warnings.
+
+    Moduli in MPa, times in s, temperatures in degC, frequencies in Hz; deviations are relative,
+    computed over measured less 1.
+    """
+    shift = fit.shift
+    errors = zip(shift.names, shift.values, shift.standard_errors, strict=True)
+    return {
+        "schema": 1,
+        "source": fit.master.data.source,
+        "kind": fit.master.data.kind,
+        "measurements": int(fit.master.data.storage.size),
+        "material": tomllib.loads("\n".join(material_keys(fit.material))),
+        "reference": fit.master.reference,
+        "isotherms": [
+            {"temperature": float(t), "log10_a": float(a), "b": float(np.exp(b))}
+            for t, a, b in zip(
+                fit.master.temperatures, fit.master.horizontal, fit.master.vertical, strict=True
+            )
+        ],
+        "shift": {name: {"value": v, "standard_error": e} for name, v, e in errors},
+        "deviation": _deviation(fit),
+        "frequency_range": list(fit.frequency_range),
+        "temperature_range": list(fit.temperature_range),
+        "warnings": list(fit.warnings),
+    }
+
+
+def _deviation(fit: DmaFit | TimeFit) -> dict[str, Any]:
+    if isinstance(fit, TimeFit):
+        return {fit.master.data.kind: {"rms": fit.rms, "largest": fit.largest, "row": fit.row}}
+    quality = fit.quality
+    parts = zip(NAMES, quality.rms, quality.largest, quality.rows, strict=True)
+    found: dict[str, Any] = {
+        name: {"rms": rms, "largest": largest, "row": row} for name, rms, largest, row in parts
+    }
+    return found | {"outlying": list(quality.outlying)}
 
 
 def nip_frequency(solution: Solution) -> float:
@@ -37,7 +84,9 @@ def nip_frequency(solution: Solution) -> float:
     return solution.nip.speed / solution.nip_width
 
 
-def frequency_warning(fit: DmaFit, solution: Solution, temperature: float | None = None) -> str:
+def frequency_warning(
+    fit: DmaFit | TimeFit, solution: Solution, temperature: float | None = None
+) -> str:
     """A sentence where a nip works outside the data of its material, else an empty text.
 
     Parameters
@@ -62,7 +111,7 @@ def frequency_warning(fit: DmaFit, solution: Solution, temperature: float | None
     )
 
 
-def valid_range(fit: DmaFit, temperature: float | None = None) -> tuple[float, float]:
+def valid_range(fit: DmaFit | TimeFit, temperature: float | None = None) -> tuple[float, float]:
     """Lowest and highest frequency [Hz] that the data reach at a temperature [degC].
 
     Raises InvalidInputError where the material has no shift law and another temperature than the
@@ -81,16 +130,13 @@ def valid_range(fit: DmaFit, temperature: float | None = None) -> tuple[float, f
     return low / factor, high / factor
 
 
-def _comments(fit: DmaFit) -> Iterator[str]:
+def _comments(fit: DmaFit | TimeFit) -> Iterator[str]:
     low, high = (format_quantity(v, digits=3) for v in fit.frequency_range)
     cold, warm = fit.temperature_range
-    storage, loss = (100.0 * v for v in fit.quality.rms)
-    most_storage, most_loss = (100.0 * v for v in fit.quality.largest)
     yield f"# From {fit.master.data.source}, {fit.master.data.frequency.size} measurements."
     yield f"# Valid from {low} Hz to {high} Hz at {fit.master.reference:g} degC,"
     yield f"# measured at {cold:.4g} to {warm:.4g} degC; outside of that it is extrapolated."
-    yield f"# Deviation from the data: storage {storage:.2g} % rms, {most_storage:+.2g} % at most;"
-    yield f"# loss {loss:.2g} % rms, {most_loss:+.2g} % at most."
+    yield from _said_deviation(fit)
     shift = fit.shift
     units = {"c1": "", "c2": " K", "activation_energy": " kJ/mol"}
     for name, value, error in zip(shift.names, shift.values, shift.standard_errors, strict=True):
@@ -99,8 +145,22 @@ def _comments(fit: DmaFit) -> Iterator[str]:
     yield from (f"# Warning: {said}" for said in fit.warnings)
 
 
-def _keys(fit: DmaFit) -> Iterator[str]:
-    material = fit.material
+def _said_deviation(fit: DmaFit | TimeFit) -> Iterator[str]:
+    if isinstance(fit, TimeFit):
+        low, high = (format_quantity(v, digits=3) for v in fit.time_range)
+        yield f"# That is {low} s to {high} s, as 1/(2 pi time)."
+        rms, most = 100.0 * fit.rms, 100.0 * fit.largest
+        name = "compliance" if fit.master.data.kind == "creep" else "modulus"
+        yield f"# Deviation from the data: {name} {rms:.2g} % rms, {most:+.2g} % at most."
+        return
+    storage, loss = (100.0 * v for v in fit.quality.rms)
+    most_storage, most_loss = (100.0 * v for v in fit.quality.largest)
+    yield f"# Deviation from the data: storage {storage:.2g} % rms, {most_storage:+.2g} % at most;"
+    yield f"# loss {loss:.2g} % rms, {most_loss:+.2g} % at most."
+
+
+def material_keys(material: Prony | FractionalZener) -> Iterator[str]:
+    """The lines of a material below its ``[materials.name]``, every digit kept."""
     yield f'model = "{"prony" if isinstance(material, Prony) else "fractional-zener"}"'
     yield f'modulus = "{material.modulus!r} MPa"'
     if isinstance(material, FractionalZener):

@@ -151,10 +151,10 @@ def fit_dma(data: DmaData, method: DmaMethod | None = None) -> DmaFit:
     """
     method = DmaMethod() if method is None else method
     start = unshifted(data, method.reference, method.vertical, method.width)
-    shift = _shifted(start, method)
+    shift = shifted(start, method)
     for _ in range(_REWEIGHED if method.robust else 0):
         start = replace(start, weights=robust_weights(shift.master).weights)
-        shift = _shifted(start, method)
+        shift = shifted(start, method)
     master = shift.master
     free, errors = _free(master)
     material, squares = _material(master, shift, method)
@@ -178,7 +178,8 @@ def fit_dma(data: DmaData, method: DmaMethod | None = None) -> DmaFit:
     )
 
 
-def _shifted(start: Master, method: DmaMethod) -> ShiftFit:
+def shifted(start: Master, method: DmaMethod) -> ShiftFit:
+    """The isotherms shifted by the law of the method, or by one whose constants are fitted."""
     law = method.shift
     if not isinstance(law, WLF | Arrhenius):
         return fit_law(start, law, levels=method.vertical == "free")
@@ -207,11 +208,11 @@ def _free(master: Master) -> tuple[Master | None, Array]:
 def _material(
     master: Master, shift: ShiftFit, method: DmaMethod
 ) -> tuple[Prony | FractionalZener, Array]:
-    law = _with_levels(shift.law, master, method.vertical)
+    law = with_levels(shift.law, master, method.vertical)
     temperature = None if law is None else master.reference
     data, poisson = master.reduced, master.data.poisson
     if method.model == "fractional-zener":
-        modulus, stiffening, time, order = (_rounded(v) for v in fractional_zener(data))
+        modulus, stiffening, time, order = (rounded(v) for v in fractional_zener(data))
         zener = FractionalZener(
             modulus=modulus,
             stiffening=stiffening,
@@ -219,7 +220,7 @@ def _material(
             order=min(order, 1.0),
             poisson=poisson,
             temperature=temperature,
-            shift=_rounded_law(law),
+            shift=rounded_law(law),
         )
         return zener, np.zeros(0)
     count, strength, squares = method.terms or 0, 0.0, np.zeros(0)
@@ -229,21 +230,21 @@ def _material(
     moduli, _ = non_negative(data, times, strength)
     least = max(_NO_PLATEAU * float(np.min(data.storage)), _SOFTEST)
     terms = [
-        (_rounded(float(e)), _rounded(float(t)))
+        (rounded(float(e)), rounded(float(t)))
         for e, t in zip(moduli[1:], times, strict=True)
         if e > 1e-9 * float(np.max(moduli))
     ]
     prony = Prony(
-        modulus=_rounded(max(float(moduli[0]), least)),
-        terms=tuple(terms) or ((0.0, _rounded(float(times[0]))),),
+        modulus=rounded(max(float(moduli[0]), least)),
+        terms=tuple(terms) or ((0.0, rounded(float(times[0]))),),
         poisson=poisson,
         temperature=temperature,
-        shift=_rounded_law(law),
+        shift=rounded_law(law),
     )
     return prony, squares
 
 
-def _with_levels(
+def with_levels(
     law: WLF | Arrhenius | None, master: Master, vertical: Vertical
 ) -> WLF | Arrhenius | None:
     """The law with the vertical shifts; None where the reference lies outside of their table."""
@@ -255,7 +256,7 @@ def _with_levels(
     if not float(temperatures[0]) <= master.reference <= float(temperatures[-1]):
         return None
     levels = zip(temperatures, np.exp(master.vertical), strict=True)
-    return replace(law, vertical=tuple((_rounded(float(t)), _rounded(float(b))) for t, b in levels))
+    return replace(law, vertical=tuple((rounded(float(t)), rounded(float(b))) for t, b in levels))
 
 
 def fractional_zener(data: Reduced) -> tuple[float, float, float, float]:
@@ -361,7 +362,7 @@ def _model_warnings(
         " More terms follow them closer." if prony else ' `model = "prony"` follows them closer.'
     )
     said = quality_warnings(quality, noise, best=prony and not method.terms, other=other)
-    if np.any(master.vertical) and _with_levels(law, master, method.vertical) is None:
+    if np.any(master.vertical) and with_levels(law, master, method.vertical) is None:
         said.append(
             "Moduli were shifted too, and the reference lies outside of the isotherms: the "
             f"material holds at {master.reference:g} degC only."
@@ -369,13 +370,15 @@ def _model_warnings(
     return said
 
 
-def _rounded_law(law: WLF | Arrhenius | None) -> WLF | Arrhenius | None:
+def rounded_law(law: WLF | Arrhenius | None) -> WLF | Arrhenius | None:
+    """The law with six digits in its constants."""
     if isinstance(law, WLF):
-        return replace(law, c1=_rounded(law.c1), c2=_rounded(law.c2))
+        return replace(law, c1=rounded(law.c1), c2=rounded(law.c2))
     if isinstance(law, Arrhenius):
-        return replace(law, activation_energy=_rounded(law.activation_energy))
+        return replace(law, activation_energy=rounded(law.activation_energy))
     return None
 
 
-def _rounded(value: float) -> float:
+def rounded(value: float) -> float:
+    """The value with six digits."""
     return float(f"{value:.{_DIGITS - 1}e}")

@@ -285,13 +285,20 @@ def _fits(unit: str, dimension: Dimension) -> bool:
     return True
 
 
+def _bared(part: str) -> str:
+    """A part of a head without brackets around it and dashes or commas beside it."""
+    trimmed = part.strip(" ,-")
+    closed = trimmed[:1] + trimmed[-1:] in {"()", "[]"} and trimmed.count("(") < 2
+    return trimmed[1:-1].strip() if closed else trimmed
+
+
 def _composed(plain: str) -> tuple[Quantity, Modulus | None, bool] | None:
     """``speichermodul e'``, ``shear storage modulus``, ``e stor``, ``verlustfaktor tan delta``."""
     words = plain.split()
     for cut in range(1, len(words)):
         first, rest = " ".join(words[:cut]), " ".join(words[cut:])
         for one, other in ((first, rest), (rest, first)):
-            one, other = one.strip("()[],-"), other.strip("()[],-") or other
+            one, other = _bared(one), _bared(other)
             quantity = _QUANTITIES.get(one)
             if one in _ANGULAR_NAMES and other in _ANGULAR_NAMES:
                 return "frequency", None, True

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip.dma.data import DmaData
 from rollnip.dma.spectrum import Reduced, most_terms, non_negative, relaxation_times
+from rollnip.dma.timedata import TimeData
 
 Array = NDArray[np.float64]
 Vertical = Literal["none", "entropic", "free"]
@@ -40,7 +41,7 @@ class Master:
     weights : (n,) by which the residuals of each measurement are multiplied; None: all 1.
     """
 
-    data: DmaData
+    data: DmaData | TimeData
     groups: tuple[NDArray[np.int64], ...]
     temperatures: Array
     reference: float
@@ -59,13 +60,15 @@ class Master:
         """All data at the reference temperature, coldest isotherm first."""
         sizes = [group.size for group in self.groups]
         factor = np.repeat(10.0**self.horizontal, sizes)
-        level = np.repeat(np.exp(-self.vertical), sizes)
+        up = 1.0 if self.data.kind == "creep" else -1.0  # a compliance goes the other way
+        level = np.repeat(np.exp(up * self.vertical), sizes)
         return Reduced(
             2.0 * np.pi * self.data.frequency[self.order] * factor,
             self.data.storage[self.order] * level,
             self.data.loss[self.order] * level,
             self.errors,
             None if self.weights is None else self.weights[self.order],
+            self.data.kind,
         )
 
     @property
@@ -85,7 +88,9 @@ class Master:
         )
 
 
-def unshifted(data: DmaData, reference: float | None, vertical: Vertical, width: float) -> Master:
+def unshifted(
+    data: DmaData | TimeData, reference: float | None, vertical: Vertical, width: float
+) -> Master:
     """The isotherms side by side; the reference is the middle one by default.
 
     Storage and loss are weighed by the scatter of neighbouring values, with 1 % more that no
@@ -147,7 +152,7 @@ def robust_weights(master: Master) -> Master:
     for _ in range(_ROUNDS):
         weighed = replace(data, weights=weights)
         moduli, _ = non_negative(weighed, times)
-        parts = (data.design(times) @ moduli - data.target).reshape(2, -1)
+        parts = (data.design(times) @ moduli - data.target).reshape(-1, data.omega.size)
         size = np.max(np.abs(parts), axis=0)
         typical = max(_MAD * float(np.median(np.abs(parts))), 1e-9)
         weights = 1.0 / (1.0 + (size / (_OUTLYING * typical)) ** 2)

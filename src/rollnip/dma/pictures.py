@@ -11,6 +11,8 @@ from matplotlib.figure import Figure
 
 from rollnip.dma.fit import DmaFit
 from rollnip.dma.quality import relative_deviations
+from rollnip.dma.timefit import TimeFit
+from rollnip.materials import creep_compliance, relaxation_modulus
 from rollnip.plots.style import FULL, MM, Look, Style, label, palette_of, prepare
 
 _HEIGHT = 150.0  # mm
@@ -75,6 +77,42 @@ def plot_master(fit: DmaFit, ax: Axes | None = None, style: Style | None = None)
     )
     _legend(ax, look)
     return ax
+
+
+def plot_time(fit: TimeFit, style: Style = "light") -> Figure:
+    """Draw a relaxation modulus or creep compliance over reduced time, with the material.
+
+    Returns
+    -------
+    Figure
+        88 by 66 mm, outside pyplot.
+    """
+    figure = Figure(
+        figsize=(0.49 * FULL * MM, 66.0 * MM),
+        layout="constrained",
+        facecolor=palette_of(style).ground,
+    )
+    ax, look = prepare(figure.subplots(), style)
+    colours, data = look.palette, fit.master.reduced
+    grid = np.geomspace(*fit.time_range, 300)
+    plain = replace(fit.material, temperature=None, shift=None)
+    creeps = data.kind == "creep"
+    curve = creep_compliance(plain, grid) if creeps else relaxation_modulus(plain, grid)
+    ax.loglog(
+        1.0 / data.omega,
+        data.storage,
+        "o",
+        color=colours.pressure,
+        markersize=_MARK * look.size,
+        markerfacecolor="none",
+        markeredgewidth=look.thin,
+        label="measured",
+    )
+    ax.loglog(grid, curve, color=colours.ink, linewidth=0.7 * look.line, label="material")
+    name = "creep compliance [1/MPa]" if creeps else "relaxation modulus [MPa]"
+    label(ax, look, f"time at {fit.master.reference:g} °C [s]", name)
+    _legend(ax, look)
+    return figure
 
 
 def plot_shifts(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) -> Axes:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from rollnip.dma.master import Master
 from rollnip.dma.spectrum import Reduced
+from rollnip.dma.timedata import TimeData
 from rollnip.materials import FractionalZener, Prony
 
 Array = NDArray[np.float64]
@@ -54,17 +56,22 @@ def judged(material: Prony | FractionalZener, master: Master) -> Quality:
     """How far the material lies from every row, whatever weight the row had in the fit."""
     both = relative_deviations(material, master.reduced)
     where = [int(np.argmax(np.abs(one))) for one in both]
-    far = np.zeros(both[0].size)
-    for one in both:
-        typical = max(_OUTLYING * _MAD * float(np.median(np.abs(one))), ROW_LIMIT)
-        far = np.maximum(far, np.where(np.abs(one) > typical, np.abs(one), 0.0))
-    outlying = np.argsort(-far, kind="stable")[: int(np.count_nonzero(far))]
     return Quality(
         rms=(float(np.sqrt(np.mean(both[0] ** 2))), float(np.sqrt(np.mean(both[1] ** 2)))),
         largest=(float(both[0][where[0]]), float(both[1][where[1]])),
-        rows=(_row(master, where[0]), _row(master, where[1])),
-        outlying=tuple(_row(master, int(i)) for i in outlying),
+        rows=(row_of(master, where[0]), row_of(master, where[1])),
+        outlying=outlying_rows(master, both),
     )
+
+
+def outlying_rows(master: Master, deviations: Sequence[Array]) -> tuple[str, ...]:
+    """Rows of which one deviation exceeds 20 % and five standard deviations, largest first."""
+    far = np.zeros(deviations[0].size)
+    for one in deviations:
+        typical = max(_OUTLYING * _MAD * float(np.median(np.abs(one))), ROW_LIMIT)
+        far = np.maximum(far, np.where(np.abs(one) > typical, np.abs(one), 0.0))
+    order = np.argsort(-far, kind="stable")[: int(np.count_nonzero(far))]
+    return tuple(row_of(master, int(index)) for index in order)
 
 
 def quality_warnings(
@@ -135,9 +142,13 @@ def plateau_warnings(material: Prony | FractionalZener, master: Master) -> list[
     ]
 
 
-def _row(master: Master, index: int) -> str:
+def row_of(master: Master, index: int) -> str:
+    """A reduced measurement as messages name it: its row, temperature, frequency or time."""
     data, at = master.data, int(master.order[index])
-    return f"{data.row(at)}: {data.temperature[at]:.4g} degC, {data.frequency[at]:.3g} Hz"
+    when = (
+        f"{data.time[at]:.3g} s" if isinstance(data, TimeData) else f"{data.frequency[at]:.3g} Hz"
+    )
+    return f"{data.row(at)}: {data.temperature[at]:.4g} degC, {when}"
 
 
 def _percent(value: float) -> str:

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear, nnls
 
 Array = NDArray[np.float64]
+Measured = Literal["dynamic", "relaxation", "creep"]
 
 _FOLDS = 5
+_TOLD = 1e-6  # size of a column over the largest, below which the data do not tell its term
 # Terms at most, and at least: evenly spaced equal terms ripple in the loss modulus by the part
 # 2/cosh(pi^2/ln spacing), 5 % with one a decade, .6 % with one and a half.
 _PER_DECADE, _LEAST_PER_DECADE = 3.0, 1.5
@@ -25,10 +28,12 @@ class Reduced:
 
     Attributes
     ----------
-    omega : (n,) reduced angular frequency [rad/s].
-    storage, loss : (n,) [MPa].
+    omega : (n,) reduced angular frequency [rad/s], or the reciprocal of the time [1/s].
+    storage, loss : (n,) [MPa]; the relaxation modulus [MPa] or creep compliance [1/MPa] both,
+        where one of these was measured.
     errors : relative standard errors of storage and loss.
     weights : (n,) by which the residuals of a measurement are multiplied; all 1 by default.
+    kind : of measurement.
     """
 
     omega: Array
@@ -36,15 +41,27 @@ class Reduced:
     loss: Array
     errors: tuple[float, float] = (1.0, 1.0)
     weights: Array | None = None
+    kind: Measured = "dynamic"
 
     @property
     def target(self) -> Array:
-        """(2 n,) storage over its error, then loss over its error: both relative, 1/error."""
+        """(2 n,) storage over its error, then loss over its error: both relative, 1/error.
+
+        (n,) of a relaxation modulus or a creep compliance.
+        """
         ones = np.ones(self.omega.size) if self.weights is None else self.weights
+        if self.kind != "dynamic":
+            return np.asarray(ones / self.errors[0])
         return np.concatenate([ones / self.errors[0], ones / self.errors[1]])
 
     def design(self, times: Array) -> Array:
-        """(2 n, m + 1): what the relaxed modulus and each term add to the target."""
+        """(2 n, m + 1): what the relaxed modulus and each term add to the target.
+
+        (n, m + 1) of a relaxation modulus, E + sum E_i e^(-t/tau_i), or of a creep compliance,
+        J + sum J_i (1 - e^(-t/tau_i)), with the instantaneous compliance first.
+        """
+        if self.kind != "dynamic":
+            return self._over_time(times)
         x = np.outer(self.omega, times)
         imaginary = 1.0 / (x + 1.0 / x)
         real = x * imaginary  # x^2/(1 + x^2), without overflow
@@ -55,12 +72,18 @@ class Reduced:
             return whole
         return np.asarray(np.tile(self.weights, 2)[:, None] * whole)
 
+    def _over_time(self, times: Array) -> Array:
+        decay = np.exp(-1.0 / np.outer(self.omega, times))
+        terms = decay if self.kind == "relaxation" else 1.0 - decay
+        whole = np.column_stack([np.ones(self.omega.size), terms])
+        weights = 1.0 if self.weights is None else self.weights[:, None]
+        return np.asarray(weights * whole / (self.storage[:, None] * self.errors[0]))
+
     def at(self, chosen: NDArray[np.bool_]) -> Reduced:
         """Only the measurements where ``chosen`` (n,) is true."""
         weights = None if self.weights is None else self.weights[chosen]
-        return Reduced(
-            self.omega[chosen], self.storage[chosen], self.loss[chosen], self.errors, weights
-        )
+        storage, loss = self.storage[chosen], self.loss[chosen]
+        return Reduced(self.omega[chosen], storage, loss, self.errors, weights, self.kind)
 
 
 def relaxation_times(omega: Array, count: int) -> Array:
@@ -76,7 +99,7 @@ def most_terms(omega: Array) -> int:
 
 
 def non_negative(data: Reduced, times: Array, smoothing: float = 0.0) -> tuple[Array, Array]:
-    """Moduli (m + 1,), the relaxed one first, and residuals (2 n,) of the best fit.
+    """Moduli (m + 1,), the relaxed one first, and residuals of the best fit, as the target.
 
     ``smoothing`` weighs the second differences of neighbouring terms, each over the storage
     modulus measured at its frequency, against the residuals (Tikhonov 1963).
@@ -89,6 +112,8 @@ def non_negative(data: Reduced, times: Array, smoothing: float = 0.0) -> tuple[A
         aim = np.concatenate([target, np.zeros(rows.shape[0])])
     # columns of one size: the solver's thresholds are absolute
     scale = np.linalg.norm(whole, axis=0)
+    told = scale > _TOLD * float(np.max(scale))
+    scale[~told] = np.inf  # a term that has decayed before the data begin stays zero
     try:
         moduli, _ = nnls(whole / scale, aim, maxiter=30 * scale.size)
     except RuntimeError:  # its active set cycled; slower, and as good

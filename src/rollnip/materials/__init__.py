@@ -3,7 +3,7 @@
 from rollnip.materials.base import Material
 from rollnip.materials.elastic import Elastic
 from rollnip.materials.passivity import is_passive
-from rollnip.materials.relaxation import relaxation_modulus, with_shore_a
+from rollnip.materials.relaxation import creep_compliance, relaxation_modulus, with_shore_a
 from rollnip.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 from rollnip.materials.shore import (
     ShoreBand,
@@ -32,6 +32,7 @@ __all__ = [
     "StandardLinearSolid",
     "TabulatedShift",
     "Viscoelastic",
+    "creep_compliance",
     "is_passive",
     "relaxation_modulus",
     "shore_a_band",

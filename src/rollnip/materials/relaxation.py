@@ -49,6 +49,11 @@ def relaxation_modulus(material: Material, time: ArrayLike) -> NDArray[np.float6
     InvalidInputError
         where a time is not positive and finite, or the material has a constant loss factor.
     """
+    return _inverse(material, time, 1)
+
+
+def _inverse(material: Material, time: ArrayLike, power: int) -> NDArray[np.float64]:
+    """Inverse Laplace transform of E*(s)^power/s."""
     if isinstance(material, LossFactor):
         raise InvalidInputError(
             "`material` must have an answer in time: a constant loss factor is not causal."
@@ -62,8 +67,16 @@ def relaxation_modulus(material: Material, time: ArrayLike) -> NDArray[np.float6
     slope = _NODES * (_MU * cot - _MU * _ALPHA * theta / np.sin(_ALPHA * theta) ** 2 + 1j * _NU)
     weights = np.exp(contour) * slope / (1j * _NODES)
     # e^(s t) E*(s)/s ds with s = contour/t: the factor 1/t of ds cancels that of 1/s
-    values = material.modulus_at(contour / t[..., None]) / contour
+    values = material.modulus_at(contour / t[..., None]) ** power / contour
     return np.asarray(np.sum(weights * values, axis=-1).real)
+
+
+def creep_compliance(material: Material, time: ArrayLike) -> NDArray[np.float64]:
+    """Creep compliance J(t) [1/MPa]: strain over stress, a time after a sudden constant stress.
+
+    The inverse Laplace transform of 1/(s E*(s)); parameters and errors as `relaxation_modulus`.
+    """
+    return _inverse(material, time, -1)
 
 
 def with_shore_a(material: Solid, shore_a: float, *, reading_time: float = READING_TIME) -> Solid:

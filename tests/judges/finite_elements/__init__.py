@@ -1,0 +1,1 @@
+"""Steady rolling of coated rollers by finite elements at finite strain; nothing of rollnip."""

@@ -1,0 +1,89 @@
+"""Run the cases of a data file: python -m finite_elements FILE [--only NAME] [--write OUT].
+
+Every case is solved on two meshes, the second finer by a factor of 1.5, and extrapolated to none.
+Stored results, where the file has them, are printed beside the new ones.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from finite_elements.case import Nip, nip_of
+from finite_elements.edges import Solved, solve
+from finite_elements.figures import checks, entry, figures
+from finite_elements.mesh import Grading
+
+GRADING = Grading(edge=0.002, inside=0.05, plies=3)
+FACTOR = 1.5
+INPUTS = ("case", "upper", "lower", "load", "friction", "traction", "profile")
+
+
+@dataclass
+class Chain:
+    """Solve nips that differ in traction one from the other, on meshes of one grading."""
+
+    grading: Grading
+    known: dict[Nip, dict[float, Solved]] = field(default_factory=dict)
+
+    def solve(self, nip: Nip) -> Solved:
+        """Go from the nearest traction that is known by steps of at most a tenth of the load."""
+        known = self.known.setdefault(replace(nip, traction=0.0), {})
+        if not known:
+            free = replace(nip, traction=0.0)
+            known[0.0] = solve(free, self.grading)
+        nearest = min(known, key=lambda traction: abs(traction - nip.traction))
+        steps = int(np.ceil(abs(nip.traction - nearest) / (0.101 * nip.load)))
+        for traction in np.linspace(nearest, nip.traction, steps + 1)[1:]:
+            step = replace(nip, traction=float(traction))
+            known[step.traction] = solve(step, self.grading, known[nearest])
+            nearest = step.traction
+        return known[nearest]
+
+
+def run(case: Mapping[str, Any], coarse: Chain, fine: Chain) -> tuple[dict[str, Any], Solved]:
+    """Solve one case on both meshes; return its entry and the solution on the finer."""
+    nip = nip_of(case)
+    first, second = coarse.solve(nip), fine.solve(nip)
+    limit, error = figures(first).extrapolated(figures(second), FACTOR)
+    return entry(str(case["case"]), nip, limit, error, second), second
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("file", type=Path)
+    parser.add_argument("--only", help="run the cases of this name")
+    parser.add_argument("--refine", type=float, default=1.0, help="smaller elements by a factor")
+    parser.add_argument("--write", type=Path, help="write the results to this file")
+    options = parser.parse_args()
+    stored = json.loads(options.file.read_text(encoding="utf-8"))
+    grading = GRADING.refined(options.refine)
+    coarse, fine = Chain(grading), Chain(grading.refined(FACTOR))
+    results = []
+    for case in stored["results"]:
+        if options.only and case["case"] != options.only:
+            continue
+        began = time.process_time()
+        found, second = run(case, coarse, fine)
+        results.append(found)
+        traction = case.get("traction", 0.0)
+        print(
+            f"{case['case']}, mu {case['friction']:g}, T {traction:g}: "
+            f"{time.process_time() - began:.0f} s of processor, {checks(second)}"
+        )
+        for name in [key for key in found if key not in INPUTS]:
+            print(f"  {name:15s} {found[name]}   stored: {case.get(name, '-')}", flush=True)
+        if options.write:
+            text = json.dumps({"note": stored.get("note", ""), "results": results}, indent=1)
+            options.write.write_text(text + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()

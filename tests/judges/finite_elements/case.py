@@ -1,0 +1,85 @@
+"""What is rolled: rollers, coverings and what is prescribed. Units mm, N, MPa."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A layer of a covering; a Poisson ratio of 0.5 means exactly incompressible.
+
+    ``volumetric`` chooses the law of the change of volume of a compressible layer: "log" is
+    lambda/2 (ln J)^2, "square" is lambda/2 (J - 1)^2.
+    """
+
+    thickness: float
+    modulus: float
+    poisson: float
+    volumetric: str = "log"
+
+    @property
+    def shear_modulus(self) -> float:
+        return self.modulus / (2.0 * (1.0 + self.poisson))
+
+    @property
+    def incompressible(self) -> bool:
+        return self.poisson == 0.5
+
+    @property
+    def lame(self) -> float:
+        """Lame's first constant; meaningless (0) where the layer is incompressible."""
+        if self.incompressible:
+            return 0.0
+        nu = self.poisson
+        return self.modulus * nu / ((1.0 + nu) * (1.0 - 2.0 * nu))
+
+
+@dataclass(frozen=True)
+class Roller:
+    """A rigid core with layers bonded to it, outermost first; without layers it is rigid."""
+
+    radius: float
+    layers: tuple[Layer, ...] = ()
+
+    @property
+    def covering(self) -> float:
+        return sum(layer.thickness for layer in self.layers)
+
+
+@dataclass(frozen=True)
+class Nip:
+    """Two rollers under a load; the upper one is coated. T > 0: the upper roller drives.
+
+    ``load`` is the vertical force per length, ``traction`` the integral of the shear over the
+    deformed interface.
+    """
+
+    upper: Roller
+    lower: Roller
+    load: float
+    friction: float = 0.0
+    traction: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not self.upper.layers:
+            raise ValueError("the upper roller must be the coated one")
+
+
+def nip_of(case: Mapping[str, Any]) -> Nip:
+    """Read the nip of one entry of tests/data/finite_strain_*.json."""
+
+    def roller(entry: Mapping[str, Any]) -> Roller:
+        return Roller(
+            float(entry["radius"]), tuple(Layer(**layer) for layer in entry.get("layers", ()))
+        )
+
+    return Nip(
+        upper=roller(case["upper"]),
+        lower=roller(case["lower"]),
+        load=float(case["load"]),
+        friction=float(case["friction"]),
+        traction=float(case.get("traction", 0.0)),
+    )

@@ -1,0 +1,122 @@
+"""The finite-element program itself: patch, tangent, energy, linear limit, stored values."""
+
+import json
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from finite_elements.case import Layer, Nip, Roller, nip_of
+from finite_elements.edges import meshed, solve
+from finite_elements.figures import checks, figures
+from finite_elements.mesh import Grading, Places, ring
+from finite_elements.solid import Solid
+
+DATA = Path(__file__).parents[1] / "data"
+RUBBER = Layer(2.0, 0.91, 0.5)
+ONE = Nip(Roller(50.0, (RUBBER,)), Roller(25.0), load=0.74, friction=0.5)
+COARSE = Grading(edge=0.01, inside=0.1)
+
+
+def stored(file, case, traction):
+    results = json.loads((DATA / file).read_text(encoding="utf-8"))["results"]
+    return next(r for r in results if r["case"] == case and r.get("traction") == traction)
+
+
+@pytest.mark.parametrize(
+    "layer",
+    [RUBBER, Layer(2.0, 1.0, 0.3), Layer(2.0, 1.0, 0.3, "square")],
+    ids=["incompressible", "log", "square"],
+)
+def test_patch(layer):
+    """On a ring that is nearly straight a homogeneous deformation is in equilibrium."""
+    roller = Roller(1e4, (layer,))
+    mesh = ring(roller, Places(-2.0, 2.0), Grading(edge=0.1, inside=0.3, surface=0.2))
+    solid = Solid(mesh)
+    deform = np.array([[1.08, 0.06], [0.03, 1.0]])
+    deform[1, 1] = (1.0 + deform[0, 1] * deform[1, 0]) / deform[0, 0]  # no change of volume
+    angle, radius = mesh.arc[:, None] / 1e4, 1e4 - mesh.depth[None, :]
+    place = np.stack((radius * np.sin(angle), 1e4 - radius * np.cos(angle)), axis=-1)
+    fades = np.interp(np.abs(mesh.arc), (2.5, 10.0), (1.0, 0.0))[:, None, None]
+    moved = fades * (place @ (deform - np.eye(2)).T)
+    pressure = solid.no_pressure()
+    pressure[:, 0] = 0.4 if layer.incompressible else 0.0
+    force = solid.forces(moved[:, :-1].ravel(), pressure).force.reshape(mesh.columns, -1, 2)
+    inside = np.abs(mesh.arc) < 1.5
+    scale = np.abs(force[inside, 0]).max()  # at the surface tractions would be needed
+    assert scale > 1e-3
+    assert np.abs(force[inside, 1:-2]).max() < 1e-6 * scale
+
+
+def test_tangent():
+    """The interface of two coverings is linearised exactly: forces, gaps, friction, totals."""
+    lower = Roller(40.0, (Layer(1.0, 2.0, 0.5), Layer(2.0, 1.0, 0.4)))
+    nip = replace(ONE, lower=lower, traction=0.1)
+    problem = meshed(nip, Places(-2.5, 2.5), Grading(0.1, 0.1, 0.3, 0.2))
+    state = problem.start(-2.5, 2.5)
+    for _ in range(2):
+        state, _ = problem.step(state)
+    state = replace(state, slip=np.where(state.closed & (problem.interface.ends < -1.0), 1, 0))
+    linear = problem.linearised(state)
+    generator = np.random.default_rng(1)
+    sizes = (state.upper.size, state.lower.size, linear.at.size, linear.at.size)
+    way = [generator.standard_normal(size) for size in sizes]
+
+    def at(step):
+        pressure, shear = state.pressure.copy(), state.shear.copy()
+        pressure[linear.at] += step * way[2]
+        shear[linear.at] += step * way[3]
+        moved = replace(
+            state,
+            upper=state.upper + step * way[0],
+            lower=state.lower + step * way[1],
+            pressure=pressure,
+            shear=shear,
+        )
+        return problem.linearised(moved)
+
+    small = 1e-6
+    up, down = at(small), at(-small)
+    difference = (up.rest - down.rest) / (2.0 * small)
+    expected = linear.matrix @ np.concatenate(way)
+    first = sizes[0] + sizes[1]
+    # gaps and friction
+    assert difference[first:] == pytest.approx(
+        expected[first:], abs=1e-6 * np.abs(expected[first:]).max()
+    )
+    total = (up.loads.load - down.loads.load) / (2.0 * small)
+    rates = np.concatenate(
+        (linear.loads.totals[0], linear.loads.totals_by_pressure[0][linear.at],
+         linear.loads.totals_by_shear[0][linear.at])
+    )  # fmt: skip
+    assert total == pytest.approx(rates @ np.concatenate(way), rel=1e-6)
+    pushed = (up.loads.force - down.loads.force) / (2.0 * small)
+    rates = linear.loads
+    expected = (
+        rates.by_displacement @ np.concatenate(way[:2])
+        + rates.by_pressure[:, linear.at] @ way[2]
+        + rates.by_shear[:, linear.at] @ way[3]
+    )
+    assert pushed == pytest.approx(expected, abs=1e-5 * np.abs(expected).max())
+
+
+def test_coarse_mesh_against_stored_values():
+    """Case I, free: what two other programs gave, within what this mesh can do."""
+    nip = nip_of(stored("finite_strain_fe.json", "I", 0.0))
+    solved = solve(nip, COARSE)
+    found = figures(solved)
+    assert found.approach == pytest.approx(0.135818, rel=1e-3)
+    assert found.creepage == pytest.approx(-0.0413343, rel=8e-3)
+    assert found.leading == pytest.approx(2.353642, rel=4e-3)
+    assert found.trailing == pytest.approx(-found.leading, rel=1e-3)
+    assert found.peak_pressure == pytest.approx(0.2167887, rel=3e-3)
+    assert checks(solved).penetration == 0.0
+
+
+def test_power_in_is_the_heat_of_friction():
+    solved = solve(replace(ONE, traction=0.074), COARSE)
+    found = figures(solved)
+    assert found.power_in > 1e-3
+    assert found.friction_power == pytest.approx(found.power_in, rel=5e-3)
+    assert found.torque_lower == pytest.approx(-0.074 * 25.0, rel=1e-4)

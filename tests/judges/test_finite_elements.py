@@ -46,7 +46,8 @@ def test_patch(layer):
     inside = np.abs(mesh.arc) < 1.5
     scale = np.abs(force[inside, 0]).max()  # at the surface tractions would be needed
     assert scale > 1e-3
-    assert np.abs(force[inside, 1:-2]).max() < 1e-6 * scale
+    # rounding of the radius, times the stiffness of volume in the tangent
+    assert np.abs(force[inside, 1:-2]).max() < 1e-5 * scale
 
 
 def test_tangent():

@@ -1,6 +1,7 @@
 """The command dma fit: tables in, a material out."""
 
 import json
+import tomllib
 from pathlib import Path
 
 import numpy as np
@@ -127,3 +128,49 @@ def test_fit_of_a_relaxation_test(tmp_path):
     wrong = run(path, "--temperature", "23 degC", "--frequency", "1 Hz")
     assert wrong.exit_code == 2
     assert "is over time" in wrong.stderr
+
+
+def convert(*arguments):
+    return CliRunner().invoke(app, ["dma", "convert", *map(str, arguments)])
+
+
+def test_a_material_goes_to_abaqus_and_back(tmp_path):
+    material, deck = tmp_path / "rubber.toml", tmp_path / "rubber.inp"
+    assert run(DATA, "--reference", "23 degC", "--out", material).exit_code == 0
+    assert convert(material, "--to", "abaqus", "--out", deck).exit_code == 0
+    assert "*VISCOELASTIC, TIME=PRONY" in deck.read_text()
+    back = convert(deck, "--unit", "MPa")
+    assert back.exit_code == 0
+    one, other = (tomllib.loads(text) for text in (material.read_text(), back.stdout))
+    for key in ("model", "poisson", "shift", "temperature"):
+        assert one["materials"]["rubber"][key] == other["materials"]["rubber"][key]
+    assert len(one["materials"]["rubber"]["terms"]) == len(other["materials"]["rubber"]["terms"])
+
+
+def test_a_standard_linear_solid_goes_to_ansys(tmp_path):
+    path = tmp_path / "black.toml"
+    path.write_text(
+        '[materials.rubber]\nmodel = "standard-linear-solid"\nmodulus = "2 MPa"\n'
+        'stiffening = "3 MPa"\nrelaxation_time = "7 ms"\npoisson = 0.5\n'
+    )
+    result = convert(path, "--to", "ansys")
+    assert result.exit_code == 0, result.stderr
+    assert "MP,EX,1,5.0 " in result.stdout
+    assert "TB,PRONY,1,1,1,SHEAR\nTBDATA,1,0.6,0.007\n" in result.stdout
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ((NIP, "--to", "nastran"), "`--to` must be one of"),
+        ((NIP, "--name", "nobody"), "must hold a material named `nobody`, has rubber"),
+        ((NIP,), "must be a Prony series or a standard linear solid, got Elastic"),
+        ((DATA,), "must hold *VISCOELASTIC"),
+        (("missing.inp", "--unit", "MPa"), "missing.inp"),
+    ],
+)
+def test_what_cannot_be_converted_is_said(arguments, said):
+    result = convert(*arguments)
+    assert result.exit_code == 2
+    assert said in result.stderr
+    assert result.stdout == ""

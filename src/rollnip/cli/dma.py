@@ -11,7 +11,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.dma_files import show
+from rollnip.cli.dma_files import convert, show
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
@@ -28,6 +28,7 @@ dma = typer.Typer(
 
 
 dma.command()(show)
+dma.command()(convert)
 
 
 @dma.command()

@@ -1,9 +1,11 @@
 """Dynamic-mechanical data: master curve, Prony series or fractional Zener, material of a case."""
 
 from rollnip.dma.data import DmaData, read_dma
+from rollnip.dma.decks import ReadDeck, prony_deck, read_deck
 from rollnip.dma.export import (
     fit_dict,
     frequency_warning,
+    material_keys,
     material_toml,
     nip_frequency,
     valid_range,
@@ -31,6 +33,7 @@ __all__ = [
     "DmaMethod",
     "Master",
     "Quality",
+    "ReadDeck",
     "Reading",
     "Reduced",
     "ShiftFit",
@@ -40,6 +43,7 @@ __all__ = [
     "fit_dma",
     "fit_time",
     "frequency_warning",
+    "material_keys",
     "material_toml",
     "nip_frequency",
     "plot_deviation",
@@ -48,6 +52,8 @@ __all__ = [
     "plot_phase",
     "plot_shifts",
     "plot_time",
+    "prony_deck",
+    "read_deck",
     "read_dma",
     "read_tables",
     "read_time_data",

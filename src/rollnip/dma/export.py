@@ -26,12 +26,18 @@ def material_toml(fit: DmaFit | TimeFit, name: str = "rubber") -> str:
     Comments say where it comes from, how far it departs from the data, and for which frequencies
     it holds. Raises InvalidInputError where the name is none for a TOML key.
     """
+    checked_name(name)
+    keys = material_keys(fit.material)
+    return "\n".join([*_comments(fit), f"[materials.{name}]", *keys]) + "\n"
+
+
+def checked_name(name: str) -> str:
+    """Return the name of a material, or raise InvalidInputError where it is none for a key."""
     if _NAME.fullmatch(name) is None or name == "rigid":
         raise InvalidInputError(
             f'`name` must be letters, digits, - and _, and not "rigid", got "{name}".'
         )
-    keys = material_keys(fit.material)
-    return "\n".join([*_comments(fit), f"[materials.{name}]", *keys]) + "\n"
+    return name
 
 
 def fit_dict(fit: DmaFit | TimeFit) -> dict[str, Any]:

@@ -75,14 +75,9 @@ def read_cells(path: str | Path) -> Cells:
         where it cannot be read, is no regular file or too large, or is no text.
     """
     file = Path(path)
-    reading(file)
-    try:
-        data = read_regular(file, LARGEST)
-    except UnreadableError as error:
-        raise InvalidInputError(f"{path}: {error}") from None
     if file.suffix.lower() in EXCEL:
-        return Cells(str(path), tuple(_sheets(file, data)))
-    text, encoding = _decoded(data, str(path))
+        return Cells(str(path), tuple(_sheets(file, _bytes(file))))
+    text, encoding = read_text(file)
     numbered = [(n, line) for n, line in enumerate(text.splitlines(), 1) if line.strip()]
     mark = _separator([line for _, line in numbered])
     if len(numbered) + text.count(mark) > MOST_CELLS:
@@ -90,6 +85,25 @@ def read_cells(path: str | Path) -> Cells:
     rows = _split([line for _, line in numbered], mark)
     sheet = Sheet("", tuple(rows), tuple(n for n, _ in numbered))
     return Cells(str(path), (sheet,), encoding, _SEPARATORS[mark])
+
+
+def read_text(path: str | Path) -> tuple[str, str]:
+    """Read a text file in UTF-8, UTF-16 or Windows-1252: its text and the name of its encoding.
+
+    Raises
+    ------
+    InvalidInputError
+        where it cannot be read, is no regular file or too large, or is no text.
+    """
+    return _decoded(_bytes(Path(path)), str(path))
+
+
+def _bytes(file: Path) -> bytes:
+    reading(file)
+    try:
+        return read_regular(file, LARGEST)
+    except UnreadableError as error:
+        raise InvalidInputError(f"{file}: {error}") from None
 
 
 def _sheets(file: Path, data: bytes) -> Iterator[Sheet]:

@@ -6,6 +6,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,7 +18,6 @@ from rollnip.cli.options import WORKERS, Force
 
 if TYPE_CHECKING:
     from rollnip.design import Found
-    from rollnip.io import Columns
     from rollnip.sweep import Study, Table, Together
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
@@ -203,6 +203,7 @@ def pareto(
     plot: Annotated[
         Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf; for two columns.")
     ] = None,
+    json: Annotated[bool, _JSON] = False,
     force: Force = False,
 ) -> None:
     """Pick the rows of a table that no other row beats in all wanted columns at once.
@@ -214,8 +215,8 @@ def pareto(
     with _clear_failures(), one_run(force=force) as run:
         from rollnip._files import check_target, write_whole
         from rollnip.design import pareto_front
-        from rollnip.design.pareto import Sense, column_values, rows_text
-        from rollnip.io import read_columns
+        from rollnip.design.pareto import Sense, rows_text
+        from rollnip.design.results import open_results
         from rollnip.plots import check_figure_target, plot_pareto, save_figure
         from rollnip.plots.style import figure_of
 
@@ -231,20 +232,26 @@ def pareto(
             check_target(out, (".csv",))
         if plot is not None:
             check_figure_target(plot)
-        read = read_columns(table)
+        read = open_results(table)
         run.reserve({"--out": out, "--plot": plot})
-        values = column_values(read, names)
+        values = read.values(names)
         with _named(str(table)):
             front = pareto_front(values, [sense for _, sense in wanted])
         if plot is not None:
-            heads = (_head(read, names[0]), _head(read, names[1]))
+            heads = (read.head(names[0]), read.head(names[1]))
             ax = plot_pareto(values[:, 0], values[:, 1], front, names=heads)
             save_figure(figure_of(ax), plot)
-        text = rows_text(read, front)
-        if out is None:
-            sys.stdout.write(text)
-        else:
+        found = read.rows(front)
+        rows = [found[row] for row in front]
+        text = rows_text(read.heads, rows)
+        if out is not None:
             write_whole(out, lambda file: file.write_text(text, "utf-8"))
+        if json:
+            tree = {"minimise": minimise or [], "maximise": maximise or [], "rows": len(values)}
+            plain = [[_plain(cell) for cell in row] for row in rows]
+            sys.stdout.write(_json({**tree, "columns": read.heads, "front": plain}))
+        elif out is None:
+            sys.stdout.write(text)
         sys.stdout.flush()
 
 
@@ -296,9 +303,13 @@ def _solved(study: Study, *, database: Path | None, workers: int | None) -> Tabl
         return read_table(store)
 
 
-def _head(table: Columns, name: str) -> str:
-    unit = table.unit(name)
-    return f"{name} [{unit}]" if unit else name
+def _plain(cell: str | float | None) -> str | float | None:
+    """A cell for JSON: numbers as numbers, empty ones as null."""
+    try:
+        number = float(cell) if cell not in (None, "") else float("nan")
+    except ValueError:
+        return cell
+    return number if isfinite(number) else None
 
 
 def _parted(wanted: str) -> tuple[str, str]:

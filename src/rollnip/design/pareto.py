@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import csv
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from io import StringIO
 from typing import Literal
 
@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError
-from rollnip.io import Columns
 
 Sense = Literal["minimise", "maximise"]
+_BLOCK = 4096  # rows that are compared with a row of the front at once
 
 
 def pareto_front(values: ArrayLike, senses: Sequence[Sense]) -> NDArray[np.intp]:
@@ -47,61 +47,27 @@ def pareto_front(values: ArrayLike, senses: Sequence[Sense]) -> NDArray[np.intp]
     rows = np.flatnonzero(~np.isnan(costs).any(axis=1))
     order = rows[np.lexsort(costs[rows].T[::-1])]
     front: list[int] = []
-    for row in order:  # a later row never dominates an earlier one
-        kept = costs[front]
-        dominated = np.all(kept <= costs[row], axis=1) & np.any(kept < costs[row], axis=1)
-        if not dominated.any():
-            front.append(int(row))
+    for first in range(0, order.size, _BLOCK):  # a later row never dominates an earlier one
+        block = order[first : first + _BLOCK]
+        beaten = np.zeros(block.size, dtype=bool)
+        for row in front:
+            beaten |= _dominates(costs[row], costs[block])
+        begun = len(front)
+        for row in block[~beaten]:
+            if not _dominates(costs[front[begun:]], costs[row]).any():
+                front.append(int(row))
     return np.array(front, dtype=np.intp)
 
 
-def column_values(table: Columns, names: Sequence[str]) -> NDArray[np.float64]:
-    """Columns of a table of results, each in the unit of its head.
-
-    Parameters
-    ----------
-    table : as read.
-    names : (m,) of columns.
-
-    Returns
-    -------
-    (n, m) array; nan where a cell is empty, and in rows whose column "converged", where there is
-    one, does not say so.
-
-    Raises
-    ------
-    InvalidInputError
-        where there is no such column, or a cell is no number; with file, line and column.
-    """
-    values = np.array(
-        [
-            [
-                _number(cell, f'{table.source}, line {line}: "{name}"')
-                for cell, line in zip(table.cells(name), table.lines, strict=True)
-            ]
-            for name in names
-        ]
-    ).T
-    if "converged" in table.names:
-        said = [str(cell).strip().lower() for cell in table.cells("converged")]
-        values[[one not in ("1", "1.0", "true") for one in said]] = np.nan
-    return values
+def _dominates(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Where ``one`` is as good as ``other`` in every column and better in one, row by row."""
+    return np.asarray(np.all(one <= other, axis=-1) & np.any(one < other, axis=-1))
 
 
-def rows_text(table: Columns, rows: Sequence[int] | NDArray[np.intp]) -> str:
+def rows_text(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
     """Some rows of a table as CSV, under its heads."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
-    heads = zip(table.names, table.units, strict=True)
-    writer.writerow([f"{name} [{unit}]" if unit else name for name, unit in heads])
-    writer.writerows(table.rows[row] for row in rows)
+    writer.writerow(heads)
+    writer.writerows(rows)
     return text.getvalue()
-
-
-def _number(cell: str | float, where: str) -> float:
-    if cell == "":
-        return float("nan")
-    try:
-        return float(cell)
-    except ValueError:
-        raise InvalidInputError(f'{where} must be a number, got "{str(cell)[:60]}".') from None

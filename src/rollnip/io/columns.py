@@ -269,7 +269,7 @@ def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> Column
     heads = [str(head) for head in numbered[0][1]]
     while heads and not heads[-1]:
         heads.pop()
-    names, units = zip(*(_head(head, source) for head in heads), strict=True)
+    names, units = zip(*(head_parts(head, source) for head in heads), strict=True)
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InvalidInputError(f'{source}: column "{twice}" must not be there twice.')
@@ -285,8 +285,8 @@ def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> Column
     )
 
 
-def _head(head: str, source: str) -> tuple[str, str]:
-    """Name and unit of ``load [N/mm]``; a path may itself hold an index in brackets."""
+def head_parts(head: str, source: str) -> tuple[str, str]:
+    """Part ``load [N/mm]`` into name and unit; a path may itself hold an index in brackets."""
     name, bracket, unit = head.rpartition("[")
     if not bracket or not unit.endswith("]") or unit[:-1].isdigit():
         name, unit = head, "]"

@@ -65,6 +65,8 @@ class Measurements(Cost):
         by which the set's squares count; 1 leaves it to the standard errors.
     name :
         for reports; the kind by default.
+    rows :
+        (n,) where each value stands, for messages, such as "widths.csv line 3".
 
     Raises
     ------
@@ -85,6 +87,7 @@ class Measurements(Cost):
     standard_error: ArrayLike | None = None
     weight: float = 1.0
     name: str = ""
+    rows: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         measured = np.atleast_1d(np.asarray(self.measured, dtype=float))

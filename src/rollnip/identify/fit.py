@@ -16,7 +16,7 @@ from rollnip._errors import InvalidInputError
 from rollnip._units import base_unit
 from rollnip.identify.costs import Cost, Measurements
 from rollnip.identify.forward import Forward, Predictor, check_paths, model_of
-from rollnip.identify.intervals import End, covariance, profile_ends
+from rollnip.identify.intervals import End, covariance, prediction_errors, profile_ends
 from rollnip.identify.judge import (
     at_bounds,
     bound_warnings,
@@ -25,9 +25,18 @@ from rollnip.identify.judge import (
     singular_values,
     start_warnings,
 )
+from rollnip.identify.loss import LOSSES, Loss, robust_covariance
 from rollnip.identify.noise import Noise, estimated_noise, first_noise, largest_change
+from rollnip.identify.quality import quality_warnings
 from rollnip.identify.result import Estimate, Fit, FittedSet, Start
-from rollnip.identify.search import Local, Misfit, local_search, several_starts
+from rollnip.identify.search import (
+    Local,
+    Misfit,
+    local_search,
+    rescaled,
+    several_starts,
+    straightened,
+)
 from rollnip.identify.unknowns import Unknown, outer_values
 from rollnip.io import dimension_at, with_values
 from rollnip.io.document import read_document
@@ -59,6 +68,10 @@ class LeastSquares:
         of the intervals.
     profile :
         whether intervals are also computed from profiles of the likelihood.
+    loss :
+        how deviations count: "squares", or "huber": those beyond 1.345 standard errors count less
+        than their squares, so that a few wrong values do little. Intervals are then those of the
+        covariance.
 
     Raises
     ------
@@ -73,6 +86,7 @@ class LeastSquares:
     step: float = 0.02
     confidence: float = 0.95
     profile: bool = True
+    loss: Loss = "squares"
 
     def __post_init__(self) -> None:
         if not 0 <= self.tried <= 10_000:
@@ -83,6 +97,10 @@ class LeastSquares:
             raise InvalidInputError(f"`step` must lie between 1e-3 and 0.1, got {self.step!r}.")
         if not 0.5 <= self.confidence < 1.0:
             raise InvalidInputError(f"`confidence` must lie in [0.5, 1), got {self.confidence!r}.")
+        if self.loss not in LOSSES:
+            raise InvalidInputError(
+                f'`loss` must be one of {", ".join(LOSSES)}, got "{self.loss}".'
+            )
 
 
 def identify(
@@ -158,14 +176,18 @@ def fitted(
         relative accuracy of the predictions.
     """
     noise = first_noise(parts)
-    misfit = Misfit(predictor, unknowns, parts, noise.errors, method.step)
+    misfit = Misfit(predictor, unknowns, parts, noise.errors, method.step, method.loss)
     ends = several_starts(misfit, method.tried, method.followed)
     misfit, best, noise = _with_noise(misfit, ends[0], noise)
-    scatter = _Scatter.of(misfit, best, noise, method.confidence)
-    weights = _row_weights(misfit)
-    spread = covariance(best.jacobian, weights) * scatter.widened**2
+    plain = straightened(misfit, best)
+    scatter = _Scatter.of(misfit, plain, noise, method.confidence)
+    weights = misfit.row_weights
+    if method.loss == "huber":
+        spread = robust_covariance(plain.jacobian, plain.residuals)
+    else:
+        spread = covariance(best.jacobian, weights) * scatter.widened**2
     profiles: list[tuple[End, End] | None] = [None] * len(unknowns)
-    if method.profile and np.all(weights == 1.0):
+    if method.profile and method.loss == "squares" and np.all(weights == 1.0):
         profiles = [
             profile_ends(misfit, best, spread, i, scatter.quantile * scatter.widened)
             for i in range(len(unknowns))
@@ -177,6 +199,7 @@ def fitted(
         *bound_warnings(misfit, best),
         *identifiability_warnings(misfit, best, spread, scatter.quantile, tolerance),
         *misfit_warnings(scatter.chi_square, scatter.degrees, scatter.probability, scatter.given),
+        *quality_warnings(misfit, plain.jacobian, plain.residuals, noise, scatter.degrees),
         # with the noise estimated the searches were weighed with a guess of it
         *(start_warnings(ends, misfit, spread, rise) if not any(noise.estimated) else ()),
         *_profile_warnings(profiles, rise),
@@ -186,9 +209,14 @@ def fitted(
         correlation=_correlation(spread),
         singular_values=singular_values(misfit, best),
         sets=tuple(
-            FittedSet.of(part, prediction, error, estimated)
-            for part, prediction, error, estimated in zip(
-                parts, predictions, noise.errors, noise.estimated, strict=True
+            FittedSet.of(part, prediction, error, estimated, band)
+            for part, prediction, error, estimated, band in zip(
+                parts,
+                predictions,
+                noise.errors,
+                noise.estimated,
+                prediction_errors(misfit, plain.jacobian, spread),
+                strict=True,
             )
         ),
         chi_square=scatter.chi_square,
@@ -196,6 +224,9 @@ def fitted(
         probability=scatter.probability,
         widened=scatter.widened,
         confidence=method.confidence,
+        quantile=scatter.quantile,
+        loss=method.loss,
+        spread=spread,
         starts=tuple(
             Start(outer_values(unknowns, one.begun), outer_values(unknowns, one.ended), one.cost)
             for one in ends
@@ -217,14 +248,14 @@ class _Scatter:
 
     @classmethod
     def of(cls, misfit: Misfit, best: Local, noise: Noise, confidence: float) -> _Scatter:
-        plain = best.residuals / np.sqrt(_row_weights(misfit))
+        plain = best.residuals / np.sqrt(misfit.row_weights)  # straight ones
         total = float(plain @ plain)
         nuisances = sum(part.nuisances for part in misfit.parts)
         degrees = float(misfit.size - best.ended.size - nuisances)
         given = not any(noise.estimated)
         tail = 0.5 * (1.0 + confidence)
         probability, widened = None, 1.0
-        if given and degrees > 0.0:
+        if given and degrees > 0.0 and misfit.loss == "squares":
             probability = float(chi2.sf(total, degrees))
             if probability < _IMPROBABLE:
                 widened = sqrt(total / degrees)
@@ -271,31 +302,19 @@ def _with_noise(misfit: Misfit, best: Local, noise: Noise) -> tuple[Misfit, Loca
     if not any(noise.estimated):
         return misfit, best, noise
     for _ in range(_MOST_TURNS):
-        found = estimated_noise(misfit.parts, noise, best)
+        plain = straightened(misfit, best)
+        found = estimated_noise(misfit.parts, noise, plain, misfit.loss)
         change = largest_change(noise, found)
         scale = [old / new for old, new in zip(noise.errors, found.errors, strict=True)]
         priors = np.ones(misfit.size - sum(one.size for one in scale))
         factors = np.concatenate([*scale, priors])
         noise = found
-        misfit = Misfit(misfit.predictor, misfit.unknowns, misfit.parts, found.errors, misfit.step)
-        residuals = best.residuals * factors
-        best = replace(
-            best,
-            residuals=residuals,
-            jacobian=best.jacobian * factors[:, None],
-            cost=float(residuals @ residuals),
-        )
+        misfit = misfit.with_errors(found.errors)
+        best = rescaled(misfit, plain, factors)
         if change < _STILL and not (priors.size and np.any(np.abs(factors - 1.0) > _STILL)):
             break
         best = replace(local_search(misfit, best.ended), begun=best.begun)
     return misfit, best, noise
-
-
-def _row_weights(misfit: Misfit) -> Array:
-    """Weight of the set of each residual; 1 for priors."""
-    rows = [np.full(part.values.size, part.weight) for part in misfit.parts]
-    weights = np.concatenate(rows)
-    return np.concatenate([weights, np.ones(misfit.size - weights.size)])
 
 
 def _estimates(
@@ -324,6 +343,7 @@ def _estimates(
                 open_ends=(False, False) if ends is None else (ends[0].is_bound, ends[1].is_bound),
                 bounds=(one.low, one.high),
                 bound=bounds[index],
+                log=one.log,
             )
         )
     return tuple(found)

@@ -50,6 +50,27 @@ def covariance(jacobian: Array, weights: Array) -> Array:
     return np.asarray(bread @ meat @ bread)
 
 
+def prediction_errors(misfit: Misfit, jacobian: Array, spread: Array) -> list[Array]:
+    """Standard errors of the predictions of each set, in its unit, from those of the unknowns.
+
+    First order: sqrt(J C J') for each value. inf where a direction matters that the data leave
+    open. They say how well the fitted curve is known, not how far measurements lie from it.
+
+    Parameters
+    ----------
+    jacobian : (n, p) straight derivatives of the weighted residuals.
+    spread : (p, p) covariance of the unknowns.
+    """
+    found, first = [], 0
+    for part, error in zip(misfit.parts, misfit.errors, strict=True):
+        rows = jacobian[first : first + part.values.size]
+        first += part.values.size
+        size = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", rows, spread, rows), 0.0))
+        size = size * error / np.sqrt(part.weight)
+        found.append(np.where(size < 1e100, size, np.inf))
+    return found
+
+
 def profile_ends(
     misfit: Misfit, best: Local, spread: Array, index: int, quantile: float
 ) -> tuple[End, End]:

@@ -10,10 +10,12 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip.identify.costs import Measurements
+from rollnip.identify.loss import Loss
 from rollnip.identify.search import Local
 
 Array = NDArray[np.float64]
 
+_MEDIAN = 0.6745  # of the sizes of normal deviates
 _GUESS = 0.02  # of the root mean square of the values, before anything is known
 
 
@@ -42,12 +44,16 @@ def first_noise(parts: Sequence[Measurements]) -> Noise:
     return Noise(errors, tuple(part.errors is None for part in parts))
 
 
-def estimated_noise(parts: Sequence[Measurements], noise: Noise, end: Local) -> Noise:
+def estimated_noise(
+    parts: Sequence[Measurements], noise: Noise, end: Local, loss: Loss = "squares"
+) -> Noise:
     """Errors from the residuals of each set, over its share of the degrees of freedom.
 
     Each set has one error for all its values. Of the p unknowns a set of n values takes the sum
     of its leverages, so that its variance is its sum of squares over n less that sum, and less
-    the numbers fitted within it (Foerstner 1979, variance components).
+    the numbers fitted within it (Foerstner 1979, variance components). With Huber's loss the
+    median of the residuals' sizes takes the place of their mean square. ``end`` holds straight
+    residuals.
 
     Raises
     ------
@@ -55,13 +61,13 @@ def estimated_noise(parts: Sequence[Measurements], noise: Noise, end: Local) -> 
         where a set has too few values to tell its noise.
     """
     errors, degrees, first = list(noise.errors), [], 0
-    leverages = _leverages(end.jacobian)
+    projected = leverages(end.jacobian)
     for index, part in enumerate(parts):
         rows = slice(first, first + part.values.size)
         first = rows.stop
         if not noise.estimated[index]:
             continue
-        free = part.values.size - part.nuisances - float(np.sum(leverages[rows]))
+        free = part.values.size - part.nuisances - float(np.sum(projected[rows]))
         if free < 0.5:
             raise InvalidInputError(
                 f"`standard_error` must be given for the {part.name}: {part.values.size} values "
@@ -69,6 +75,9 @@ def estimated_noise(parts: Sequence[Measurements], noise: Noise, end: Local) -> 
             )
         residuals = end.residuals[rows] * errors[index] / np.sqrt(part.weight)
         size = float(np.sqrt(np.sum(residuals**2) / free))
+        if loss == "huber":  # the median does not care how far the farthest are
+            share = np.sqrt(part.values.size / free)
+            size = float(np.median(np.abs(residuals))) / _MEDIAN * float(share)
         # exact data, as from a simulation without noise, still carry rounding
         least = 1e-12 * float(np.max(np.abs(part.values)) or 1.0)
         errors[index] = np.full(part.values.size, max(size, least))
@@ -82,8 +91,8 @@ def largest_change(old: Noise, new: Noise) -> float:
     return max(ratios) / min(ratios) - 1.0
 
 
-def _leverages(jacobian: Array) -> Array:
-    """Diagonal of the projection onto the columns; nothing for columns that vanish."""
+def leverages(jacobian: Array) -> Array:
+    """Return the diagonal of the projection onto the columns; nothing for columns that vanish."""
     left, values, _ = np.linalg.svd(jacobian, full_matrices=False)
     kept = left[:, values > 1e-10 * max(float(values[0]), 1e-300)]
     return np.asarray(np.sum(kept**2, axis=1))

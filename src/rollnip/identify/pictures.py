@@ -42,15 +42,25 @@ def plot_fit(fit: Fit, style: Style = "light") -> Figure:
     for part, one in zip(grids.flat, fit.sets, strict=False):
         part.set_facecolor(palette_of(style).ground)
         above, below = part.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
-        plot_set(one, above, style=style)
+        plot_set(one, above, style=style, quantile=fit.quantile)
         plot_residuals(one, below, style=style)
         above.set_xlabel("")
         above.tick_params(labelbottom=False)
     return figure
 
 
-def plot_set(one: FittedSet, ax: Axes | None = None, style: Style | None = None) -> Axes:
-    """Draw the measurements of a set with two standard errors, and the predictions."""
+def plot_set(
+    one: FittedSet,
+    ax: Axes | None = None,
+    style: Style | None = None,
+    *,
+    quantile: float = _BAND,
+) -> Axes:
+    """Draw the measurements of a set with two standard errors, and the predictions.
+
+    A band about the predictions, ``quantile`` standard errors each way, says how well the fitted
+    curve is known.
+    """
     ax, look = prepare(ax, style)
     colours = look.palette
     order = np.argsort(one.at, kind="stable")
@@ -62,6 +72,17 @@ def plot_set(one: FittedSet, ax: Axes | None = None, style: Style | None = None)
         marker=".",
         label="fit",
     )
+    reach = quantile * one.prediction_error[order]
+    if np.all(np.isfinite(reach)):
+        ax.fill_between(
+            one.at[order],
+            one.predicted[order] - reach,
+            one.predicted[order] + reach,
+            color=colours.pressure,
+            alpha=0.2,
+            linewidth=0.0,
+            label="interval of the curve",
+        )
     ax.errorbar(
         one.at,
         one.measured,

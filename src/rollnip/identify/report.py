@@ -7,6 +7,8 @@ from math import floor, isfinite, log10
 from typing import Any
 
 from rollnip._units import format_quantity
+from rollnip.identify.loss import BEYOND
+from rollnip.identify.quality import share_of_values
 from rollnip.identify.result import Estimate, Fit, FittedSet
 from rollnip.io import case_toml, with_values
 
@@ -25,6 +27,8 @@ def fit_dict(fit: Fit) -> dict[str, Any]:
         "schema": SCHEMA,
         "unknowns": [_estimate_dict(one, fit) for one in fit.estimates],
         "confidence": fit.confidence,
+        "loss": fit.loss,
+        "covariance": [[_number(v) for v in row] for row in fit.spread.tolist()],
         "correlation": [[_number(v) for v in row] for row in fit.correlation.tolist()],
         "singular_values": [_number(v) for v in fit.singular_values.tolist()],
         "chi_square": _number(fit.chi_square),
@@ -118,17 +122,26 @@ def _table(fit: Fit) -> Iterator[str]:
 def _set_line(one: FittedSet) -> str:
     unit = f" {one.unit}" if one.unit else ""
     rms, error = format_quantity(one.rms, digits=3), one.standard_error
+    share = 100.0 * share_of_values(one.measured, one.measured - one.predicted)
     low, high = (format_quantity(float(v), digits=3) for v in (error.min(), error.max()))
     spread = low if low == high else f"{low} to {high}"
     how = "estimated" if one.estimated else "given"
     weight = "" if one.weight == 1.0 else f", weight {one.weight:g}"
     return (
-        f"{one.name}: {one.measured.size} values, rms deviation {rms}{unit}, "
-        f"standard error {spread}{unit} ({how}){weight}"
+        f"{one.name}: {one.measured.size} values, rms deviation {rms}{unit} "
+        f"({share:.2g} % of them), standard error {spread}{unit} ({how}){weight}"
     )
 
 
 def _misfit_line(fit: Fit) -> str:
+    if fit.degrees < 0.5:
+        return "No degrees of freedom: the fit passes through the data, whatever the model."
+    if fit.loss == "huber":
+        far = sum(int((abs(one.residuals) > BEYOND).sum()) for one in fit.sets)
+        return (
+            f"Huber's loss: {far} values more than {BEYOND} standard errors off count less than "
+            f"their squares; {fit.degrees:.3g} degrees of freedom."
+        )
     if fit.probability is None:
         return f"Noise estimated from the scatter, {fit.degrees:.3g} degrees of freedom."
     return (
@@ -174,6 +187,8 @@ def _estimate_dict(one: Estimate, fit: Fit) -> dict[str, Any]:
         "standard_error": _number(one.standard_error) if one.is_told else None,
         "low": _number(one.low),
         "high": _number(one.high),
+        "bounds": list(one.bounds),
+        "scale": "log" if one.log else "linear",
         "profile": None if one.profile is None else [_number(v) for v in one.profile],
         "open_ends": list(one.open_ends),
         "bound": one.bound,
@@ -189,6 +204,7 @@ def _set_dict(one: FittedSet) -> dict[str, Any]:
         "at": one.at.tolist(),
         "measured": one.measured.tolist(),
         "predicted": one.predicted.tolist(),
+        "prediction_error": [_number(value) for value in one.prediction_error.tolist()],
         "standard_error": one.standard_error.tolist(),
         "estimated": one.estimated,
         "weight": one.weight,

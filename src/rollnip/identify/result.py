@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.identify.costs import Measurements
+from rollnip.identify.loss import Loss
 from rollnip.model import Model
 
 Array = NDArray[np.float64]
@@ -25,6 +26,7 @@ class Estimate:
     value : the best fit.
     standard_error : from the covariance.
     low, high : interval from the covariance, in the scale of the search, cut at the bounds.
+    log : whether the search, and so the interval, is on a logarithmic scale.
     profile : interval from the profile of the likelihood; None where none was computed.
     open_ends : whether the lower, the upper end of ``profile`` is only the bound.
     bounds : of the search, lower and upper.
@@ -40,6 +42,7 @@ class Estimate:
     open_ends: tuple[bool, bool]
     bounds: tuple[float, float]
     bound: str | None
+    log: bool = False
 
     @property
     def is_told(self) -> bool:
@@ -59,6 +62,7 @@ class FittedSet:
     standard_error : (n,) given or estimated.
     estimated : whether it was estimated.
     weight : of the set.
+    prediction_error : (n,) standard error of each prediction, from those of the unknowns.
     """
 
     name: str
@@ -71,10 +75,13 @@ class FittedSet:
     standard_error: Array
     estimated: bool
     weight: float
+    prediction_error: Array
 
     @classmethod
-    def of(cls, part: Measurements, predicted: Array, error: Array, estimated: bool) -> FittedSet:
-        """The set ``part`` with its predictions (n,) and standard errors (n,)."""
+    def of(
+        cls, part: Measurements, predicted: Array, error: Array, estimated: bool, band: Array
+    ) -> FittedSet:
+        """The set ``part`` with its predictions, standard errors and those of predictions (n,)."""
         against, at = part.abscissa
         return cls(
             part.name,
@@ -87,6 +94,7 @@ class FittedSet:
             error,
             estimated,
             part.weight,
+            band,
         )
 
     @property
@@ -124,6 +132,10 @@ class Fit:
     probability : of so large a chi-square; None where standard errors were estimated.
     widened : factor on the intervals where chi-square is improbably large, else 1.
     confidence : of the intervals.
+    quantile : standard errors from a value to the end of its interval.
+    loss : how deviations counted, "squares" or "huber".
+    spread : (p, p) covariance of the unknowns in the scale of the search: of the logarithm where
+        that is logarithmic.
     starts : the searches, best first.
     warnings : what the fit does not tell, in plain words.
     case : the tree of the case with the fitted values.
@@ -142,6 +154,9 @@ class Fit:
     probability: float | None
     widened: float
     confidence: float
+    quantile: float
+    loss: Loss
+    spread: Array
     starts: tuple[Start, ...]
     warnings: tuple[str, ...]
     case: Mapping[str, Any] = field(default_factory=dict)

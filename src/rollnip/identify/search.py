@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,7 @@ from scipy.optimize import least_squares
 from rollnip._errors import InvalidInputError
 from rollnip.identify.costs import Measurements
 from rollnip.identify.forward import Predictions, Predictor
+from rollnip.identify.loss import Loss, bent, slope, straight
 from rollnip.identify.unknowns import Unknown, inner_bounds, outer_values
 
 Array = NDArray[np.float64]
@@ -56,6 +57,8 @@ class Misfit:
         standard error of each value of each set.
     step :
         relative step of the derivatives.
+    loss :
+        how residuals count.
     """
 
     def __init__(
@@ -65,22 +68,27 @@ class Misfit:
         parts: tuple[Measurements, ...],
         errors: Sequence[Array],
         step: float,
+        loss: Loss = "squares",
     ) -> None:
         self.predictor, self.unknowns, self.parts = predictor, unknowns, parts
-        self.errors, self.step = tuple(errors), step
+        self.errors, self.step, self.loss = tuple(errors), step, loss
         self.low, self.high = inner_bounds(unknowns)
+
+    def with_errors(self, errors: Sequence[Array]) -> Misfit:
+        """The same with other standard errors."""
+        return Misfit(self.predictor, self.unknowns, self.parts, errors, self.step, self.loss)
 
     def predictions(self, z: Array) -> Predictions | None:
         """What would have been measured at the coordinates z (p,)."""
         return self.predictor.predict(outer_values(self.unknowns, z))
 
     def residuals(self, z: Array) -> Array:
-        """(n,) weighted residuals, priors last; all nan where there is no solution."""
+        """(n,) weighted residuals as they count, priors last; nan where there is no solution."""
         found = self.predictions(z)
         if found is None:
             return np.full(self.size, np.nan)
         rows = [
-            np.sqrt(part.weight) * (prediction - part.values) / error
+            np.sqrt(part.weight) * bent((prediction - part.values) / error, self.loss)
             for part, prediction, error in zip(self.parts, found, self.errors, strict=True)
         ]
         return np.concatenate([*rows, self._priors(z)])
@@ -90,6 +98,13 @@ class Misfit:
         """Number of residuals."""
         priors = sum(one.prior is not None for one in self.unknowns)
         return sum(part.values.size for part in self.parts) + priors
+
+    @property
+    def row_weights(self) -> Array:
+        """(n,) weight of the set of each residual; 1 for priors."""
+        rows = [np.full(part.values.size, part.weight) for part in self.parts]
+        weights = np.concatenate(rows)
+        return np.concatenate([weights, np.ones(self.size - weights.size)])
 
     def jacobian(self, z: Array) -> Array:
         """(n, p) derivatives of the residuals by central differences, one-sided at a bound.
@@ -133,6 +148,38 @@ class Misfit:
             if one.prior is not None
         ]
         return np.array(rows, dtype=float)
+
+
+def straightened(misfit: Misfit, end: Local) -> Local:
+    """The same end with residuals and derivatives as they are, not as the loss counts them."""
+    weights = np.sqrt(misfit.row_weights)
+    counted = end.residuals / weights
+    residuals = _with_priors(misfit, straight(counted, misfit.loss), counted)
+    factors = _with_priors(misfit, slope(residuals, misfit.loss), np.ones_like(counted))
+    jacobian = end.jacobian / factors[:, None]
+    return replace(end, residuals=weights * residuals, jacobian=jacobian)
+
+
+def rescaled(misfit: Misfit, end: Local, factors: Array) -> Local:
+    """An end with every residual and its derivatives multiplied, its cost counted anew.
+
+    Parameters
+    ----------
+    end : straight, as `straightened` returns it.
+    factors : (n,) of the rows.
+    """
+    weights = np.sqrt(misfit.row_weights)
+    plain = end.residuals * factors / weights
+    counted = weights * _with_priors(misfit, bent(plain, misfit.loss), plain)
+    slopes = _with_priors(misfit, slope(plain, misfit.loss), np.ones_like(plain))
+    jacobian = end.jacobian * (factors * slopes)[:, None]
+    return replace(end, residuals=counted, jacobian=jacobian, cost=float(counted @ counted))
+
+
+def _with_priors(misfit: Misfit, data: Array, priors: Array) -> Array:
+    """Rows of the data from one array, those of the priors, which no loss bends, from another."""
+    count = sum(part.values.size for part in misfit.parts)
+    return np.concatenate([data[:count], priors[count:]])
 
 
 def local_search(misfit: Misfit, begin: Array) -> Local:

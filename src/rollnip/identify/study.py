@@ -26,6 +26,7 @@ from rollnip.identify.costs import (
     Total,
 )
 from rollnip.identify.fit import LeastSquares
+from rollnip.identify.quality import row_names
 from rollnip.identify.surface import Strains, Velocities
 from rollnip.identify.unknowns import Prior, Unknown
 from rollnip.io import Columns, dimension_at, read_columns
@@ -162,6 +163,7 @@ class _Reader:
                 standard_error=self._errors(where, table, columns, dimension),
                 weight=table.weight,
                 name=table.name or kind.quantity,
+                rows=row_names(Path(columns.source).name, columns.lines),
                 **shared,
             )
 
@@ -178,6 +180,7 @@ class _Reader:
                 at=at,
                 weight=table.weight,
                 name=table.name,
+                rows=row_names(Path(columns.source).name, columns.lines),
                 roller=table.roller,
                 width=table.width,
             )

@@ -69,6 +69,7 @@ class MethodTable(Table):
     step: Ratio | None = None
     confidence: Ratio | None = None
     profile: bool | None = None
+    loss: Literal["squares", "huber"] | None = None
 
 
 class FitTable(Table):

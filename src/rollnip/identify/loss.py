@@ -1,0 +1,63 @@
+"""How residuals count: their squares, or less than that where they are large (Huber).
+
+A residual r, over its standard error, counts rho(r) = r^2 up to k and 2 k |r| - k^2 beyond
+(Huber 1964, Ann. Math. Statist. 35, 73-101), k = 1.345: for normal noise that costs 5 % of the
+information. The search works with r* = sign(r) sqrt(rho(r)), whose squares add up to the sum.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Loss = Literal["squares", "huber"]
+LOSSES: tuple[Loss, ...] = ("squares", "huber")
+BEYOND = 1.345
+"""Standard errors beyond which a residual counts less than its square, with Huber's loss."""
+
+
+def bent(residuals: Array, loss: Loss) -> Array:
+    """Residuals whose squares are what the residuals count."""
+    if loss == "squares":
+        return residuals
+    size = np.abs(residuals)
+    far = np.sqrt(np.maximum(2.0 * BEYOND * size - BEYOND**2, 0.0))
+    return np.asarray(np.where(size <= BEYOND, residuals, np.sign(residuals) * far))
+
+
+def straight(counted: Array, loss: Loss) -> Array:
+    """Residuals from what `bent` made of them."""
+    if loss == "squares":
+        return counted
+    size = np.abs(counted)
+    far = (counted**2 + BEYOND**2) / (2.0 * BEYOND)
+    return np.asarray(np.where(size <= BEYOND, counted, np.sign(counted) * far))
+
+
+def slope(residuals: Array, loss: Loss) -> Array:
+    """Derivative of `bent`: 1 within, k / |r*| beyond."""
+    if loss == "squares":
+        return np.ones_like(residuals)
+    counted = np.abs(bent(residuals, loss))
+    return np.asarray(np.where(counted <= BEYOND, 1.0, BEYOND / np.maximum(counted, BEYOND)))
+
+
+def robust_covariance(jacobian: Array, residuals: Array) -> Array:
+    """Covariance (p, p) of a fit with Huber's loss from straight derivatives and residuals.
+
+    A^-1 B A^-1 n / (n - p), A = sum psi'(r) J J', B = sum psi(r)^2 J J', psi = rho' / 2
+    (Huber & Ronchetti 2009, Robust Statistics, eq. 7.81). Directions that A does not see get 1e300.
+    """
+    size = np.abs(residuals)
+    inner = jacobian[size <= BEYOND]
+    score = np.minimum(size, BEYOND)
+    count, unknowns = jacobian.shape
+    values, vectors = np.linalg.eigh(inner.T @ inner)
+    floor = 1e-20 * max(float(values[-1]), 1e-300)
+    scale = np.where(values > floor, 1.0 / np.maximum(values, floor), 1e150)
+    inverse = (vectors * scale) @ vectors.T
+    middle = (jacobian * score[:, None] ** 2).T @ jacobian
+    return np.asarray(inverse @ middle @ inverse * count / max(count - unknowns, 1))

@@ -1,6 +1,7 @@
 """The result tree is the contract's, and both kinds of file hold it."""
 
 import json
+import sys
 from dataclasses import replace
 from math import inf, nan
 
@@ -9,7 +10,6 @@ import pytest
 
 import rollnip as rn
 from rollnip._errors import RollnipError
-from rollnip.io import netcdf as netcdf_module
 from rollnip.io import result_dict, result_text, write_result
 
 KEYS = [
@@ -131,7 +131,7 @@ def test_netcdf_without_zones_speed_or_title(solution, tmp_path):
 def test_an_unknown_ending_or_a_missing_extra_is_one_line(solution, tmp_path, monkeypatch):
     with pytest.raises(RollnipError, match=r"must end in \.json or \.nc"):
         write_result(solution, tmp_path / "result.csv")
-    monkeypatch.setattr(netcdf_module, "find_spec", lambda name: None)
-    with pytest.raises(RollnipError, match=r"pip install 'rollnip\[netcdf\]'"):
+    monkeypatch.setitem(sys.modules, "xarray", None)
+    with pytest.raises(RollnipError, match=r"needs xarray, of the extra `netcdf`"):
         write_result(solution, tmp_path / "result.nc")
     assert list(tmp_path.iterdir()) == []

@@ -15,7 +15,6 @@ import rollnip as rn
 from rollnip._errors import RollnipError
 from rollnip.io import read_columns
 from rollnip.sweep import SCALARS
-from rollnip.sweep import table as table_module
 from rollnip.sweep.version import own_version
 
 
@@ -78,8 +77,8 @@ def test_a_target_that_cannot_be_is_said_before_anything_is_solved(
 def test_parquet_without_its_extra_says_so(
     tree: dict[str, Any], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(table_module, "find_spec", lambda _: None)
-    with pytest.raises(RollnipError, match=r'pip install "rollnip\[tables\]"'):
+    monkeypatch.setitem(sys.modules, "polars", None)
+    with pytest.raises(RollnipError, match=r"needs polars, of the extra `tables`"):
         rn.sweep(tree, workers=1, out=tmp_path / "a.parquet")
 
 

@@ -244,5 +244,7 @@ def test_without_the_extra_it_says_what_to_install():
     )
     assert done.returncode == 2
     assert done.stderr == (
-        "rollnip: the web page needs fastapi; install it with: pip install 'rollnip[web]'\n"
+        "rollnip: the web page needs fastapi, of the extra `web`: install it with "
+        "`pip install '.[web]'` in the folder of the source, or with `[web]` behind the name of "
+        "the wheel.\n"
     )

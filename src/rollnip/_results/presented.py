@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from rollnip._errors import RollnipError
+from rollnip._extras import require_extra
 from rollnip._results import summary
 from rollnip._results.case import case_tree, problem_hash
 from rollnip._results.dataset import result_dataset
@@ -48,12 +48,8 @@ class Presented:
         RollnipError
             where xarray is not installed.
         """
-        try:
-            return result_dataset(result_dict(self, interfaces=interfaces))
-        except ModuleNotFoundError as error:
-            raise RollnipError(
-                f"to_xarray needs {error.name}; it comes with the extra netcdf (docs: Install)."
-            ) from None
+        require_extra("netcdf", "to_xarray")
+        return result_dataset(result_dict(self, interfaces=interfaces))
 
     def __repr__(self) -> str:
         return summary.brief(self)

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 from io import BytesIO
 from pathlib import Path
 
-from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._errors import InvalidInputError
+from rollnip._extras import require_extra
 from rollnip._files import reading
 from rollnip._reading import UnreadableError, read_regular
 from rollnip.io.columns import EXCEL, LARGEST, MOST_CELLS, Cell, cell_of, check_extents
@@ -107,13 +108,9 @@ def _bytes(file: Path) -> bytes:
 
 
 def _sheets(file: Path, data: bytes) -> Iterator[Sheet]:
-    try:
-        from python_calamine import CalamineError, CalamineWorkbook
-    except ImportError:
-        raise RollnipError(
-            f'{file}: reading workbooks needs an extra; pip install "rollnip[tables]", or save '
-            "the sheet as CSV."
-        ) from None
+    require_extra("tables", f"{file}: reading a workbook", "save the sheet as CSV")
+    from python_calamine import CalamineError, CalamineWorkbook
+
     check_extents(file, data)
     try:
         with CalamineWorkbook.from_filelike(BytesIO(data)) as book:

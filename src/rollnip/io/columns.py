@@ -20,7 +20,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._errors import InvalidInputError
+from rollnip._extras import require_extra
 from rollnip._files import reading
 from rollnip._reading import UnreadableError, read_regular
 from rollnip._units import Dimension, base_unit, parse_quantity
@@ -204,13 +205,9 @@ def _split(line: str, mark: str) -> list[Cell]:
 
 
 def _sheet_rows(file: Path, data: bytes, sheet: str | None) -> Iterator[_Line]:
-    try:
-        from python_calamine import CalamineError, CalamineWorkbook
-    except ImportError:
-        raise RollnipError(
-            f'{file}: reading workbooks needs an extra; pip install "rollnip[tables]", or save '
-            "the sheet as CSV."
-        ) from None
+    require_extra("tables", f"{file}: reading a workbook", "save the sheet as CSV")
+    from python_calamine import CalamineError, CalamineWorkbook
+
     check_extents(file, data)
     try:
         with CalamineWorkbook.from_filelike(BytesIO(data)) as book:

@@ -2,20 +2,16 @@
 
 from __future__ import annotations
 
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
-from rollnip._errors import RollnipError
+from rollnip._extras import require_extra
 from rollnip._results.dataset import result_dataset
 
 
 def require_netcdf() -> None:
     """Raise RollnipError where the extra is not installed."""
-    if any(find_spec(name) is None for name in ("xarray", "h5netcdf", "h5py")):
-        raise RollnipError(
-            "writing netCDF needs the extra: pip install 'rollnip[netcdf]' (or write .json)."
-        )
+    require_extra("netcdf", "writing netCDF", "write .json")
 
 
 def write_netcdf(tree: dict[str, Any], path: Path) -> None:

@@ -10,6 +10,7 @@ from time import monotonic
 from typing import Any
 
 from rollnip._errors import RollnipError
+from rollnip._extras import require_extra
 from rollnip.sweep import version
 from rollnip.sweep.crew import Given, one_thread_each
 from rollnip.sweep.task import Outcome, Task
@@ -46,10 +47,9 @@ def dask_crew(address: str, workers: int) -> Iterator[Given]:
             f'the address of a Dask scheduler must be like tcp://host:8786, or "local", '
             f'got "{address}".'
         )
-    try:
-        from distributed import Client, LocalCluster
-    except ImportError:
-        raise RollnipError('Dask needs an extra; pip install "rollnip[cluster]".') from None
+    require_extra("cluster", "solving on a Dask cluster", "leave out --dask")
+    from distributed import Client, LocalCluster
+
     if address != "local":
         with _connected(Client, address) as client:
             yield _checked(client, address)

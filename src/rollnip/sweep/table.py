@@ -10,7 +10,6 @@ import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from importlib import import_module
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -18,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._extras import require_extra
 from rollnip._files import check_target, write_whole
 from rollnip._units import parse_quantity
 from rollnip.model import Model
@@ -116,11 +116,8 @@ def _module(name: str) -> Any:
 def check_table_target(path: Path) -> None:
     """Raise RollnipError where a table could not be written to ``path``; costs next to nothing."""
     check_target(path, SUFFIXES)
-    if path.suffix.lower() == ".parquet" and find_spec("polars") is None:
-        raise RollnipError(
-            f'{path}: Parquet needs an extra; pip install "rollnip[tables]", or choose a name '
-            "that ends in .csv."
-        )
+    if path.suffix.lower() == ".parquet":
+        require_extra("tables", f"{path}: Parquet", "choose a name that ends in .csv")
 
 
 def read_table(store: Store) -> Table:

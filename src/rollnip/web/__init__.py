@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from typing import Any
 
+from rollnip._extras import require_extra
 from rollnip.web.limits import Limits
 
 __all__ = ["Limits", "create_app", "serve"]
@@ -31,6 +32,7 @@ def create_app(
     RollnipError
         where the extra ``rollnip[web]`` is not installed.
     """
+    require_extra("web", "the web page")
     from rollnip.web.app import application
 
     return application(limits or Limits(), host)[0]
@@ -55,6 +57,7 @@ def serve(*, host: str = "127.0.0.1", port: int = 8000, open_page: bool = True) 
     KeyboardInterrupt
         after Ctrl-C, once all has been stopped.
     """
+    require_extra("web", "the web page")
     from rollnip.web.server import run
 
     run(host, port, open_page=open_page)

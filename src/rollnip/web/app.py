@@ -9,7 +9,12 @@ from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
-from rollnip._errors import RollnipError
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import FileResponse, Response
+from fastapi.staticfiles import StaticFiles
+from starlette.exceptions import HTTPException
+
 from rollnip.io import case_schema
 from rollnip.web.answers import RefusedError, error_tree, json_bytes
 from rollnip.web.bodies import CASE
@@ -18,19 +23,7 @@ from rollnip.web.guard import Guard
 from rollnip.web.library import Library, figures_module
 from rollnip.web.limits import Limits
 
-try:
-    from fastapi import FastAPI, Request
-    from fastapi.exceptions import RequestValidationError
-    from fastapi.responses import FileResponse, Response
-    from fastapi.staticfiles import StaticFiles
-    from starlette.exceptions import HTTPException
-
-    PLOTLY = Path(str(files("plotly") / "package_data" / "plotly.min.js"))
-except ImportError as error:
-    raise RollnipError(
-        f"the web page needs {error.name}; install it with: pip install 'rollnip[web]'"
-    ) from None
-
+PLOTLY = Path(str(files("plotly") / "package_data" / "plotly.min.js"))
 STATIC = Path(__file__).parent / "static"
 _COMPONENT = "#/components/schemas/{model}"
 

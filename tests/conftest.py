@@ -1,6 +1,8 @@
 """What the tests share. Threads are set before numpy loads: see the Makefile."""
 
 import os
+import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from tempfile import TemporaryDirectory
 
@@ -21,6 +23,26 @@ from rollnip.solution import Profiles, SolverInfo, Zone  # noqa: E402
 # a slow machine is no error of the code under test
 settings.register_profile("rollnip", deadline=None)
 settings.load_profile("rollnip")
+
+
+def cpu_seconds(work: Callable[[], object], repeats: int = 3) -> float:
+    """Processor time of this process for some work, the least of some repeats [s]."""
+
+    def once() -> float:
+        start = time.process_time()
+        work()
+        return time.process_time() - start
+
+    return min(once() for _ in range(repeats))
+
+
+@pytest.fixture(scope="session")
+def cpu_unit() -> float:
+    """Processor time of a fixed piece of Python, some 20 ms: what others are compared with [s].
+
+    Processor time of one process and its ratio to this hardly depend on what else the machine does.
+    """
+    return cpu_seconds(lambda: sum(hash((i, str(i))) for i in range(100_000)), repeats=5)
 
 
 @dataclass(frozen=True)

@@ -64,6 +64,7 @@ def test_what_is_hidden_cannot_be_imported(folder: Path) -> None:
     assert done.stdout.split() == ["False", "True", "True", "True", "True"], done.stderr
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     "arguments",
     [

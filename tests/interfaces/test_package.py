@@ -2,7 +2,6 @@
 
 import subprocess
 import sys
-import time
 from importlib.metadata import version
 
 import pytest
@@ -39,14 +38,23 @@ def test_the_command_line_starts_without_numerics():
     assert loaded.isdisjoint({"numpy", "scipy", "matplotlib"})
 
 
-def test_help_comes_at_once():
-    def seconds() -> float:
-        start = time.perf_counter()
-        code = "from rollnip.cli import main; main()"
-        subprocess.run([sys.executable, "-c", code, "--help"], capture_output=True, check=True)
-        return time.perf_counter() - start
-
-    assert min(seconds() for _ in range(5)) < 0.3
+def test_help_loads_little_beyond_what_reads_the_command_line():
+    """Counted in modules, as time depends on what else the machine does."""
+    count = "import sys\nprint(len(sys.modules))"
+    typer = "import typer, typer.main, click\n" + count
+    code = (
+        "import atexit, sys\n"
+        "atexit.register(lambda: sys.stderr.write(str(len(sys.modules))))\n"
+        "sys.argv = ['rollnip', '--help']\n"
+        "from rollnip.cli import main\n"
+        "main()\n"
+    )
+    least, help_ = (
+        subprocess.run([sys.executable, "-c", one], capture_output=True, check=True, text=True)
+        for one in (typer, code)
+    )
+    assert "solve" in help_.stdout
+    assert int(help_.stderr) < int(least.stdout) + 60
 
 
 @pytest.mark.parametrize("name", rn.__all__)

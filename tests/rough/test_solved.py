@@ -265,5 +265,3 @@ def test_a_hundred_thousand_samples(coated, with_profile, rough):
     assert solution.converged, solution.status
     assert solution.solver.elements == 99_999
     assert solution.solver.iterations < 80
-    # 1 s on an idle core of 2020; a loaded machine counts too
-    assert solution.solver.seconds < 30.0

@@ -22,8 +22,9 @@ def test_a_solve_beyond_the_time_limit_is_answered_and_the_next_one_is_solved(ha
         answer = client.post("/api/solve", json=hard)
         assert answer.status_code == 422
         assert "Not solved within 0.1 s" in answer.json()["error"]
-        # Reading is quick enough, and done by the worker that took the place of the other.
-        again = client.post("/api/toml", json={"text": "a = 1"})
+        # Reading is quick enough, and done by the worker that took the place of the other. On a
+        # busy machine it may take several attempts to stay within the limit, too.
+        again = wait_for_workers(client)
         assert again.json() == {"case": {"a": 1}}
 
 
@@ -67,7 +68,7 @@ def test_too_many_long_tasks_are_429(case, served):
 
 @pytest.mark.slow
 def test_a_slider_goes_on_beside_sweeps(case, served):
-    body = {"case": case, "path": "nip.friction", "values": [1.0 + i / 40 for i in range(20)]}
+    body = {"case": case, "path": "nip.friction", "values": [1.0 + i / 80 for i in range(40)]}
     with served(workers=2) as client:
         wait_for_workers(client)
         sweeps = [
@@ -82,12 +83,17 @@ def test_a_slider_goes_on_beside_sweeps(case, served):
             case["nip"]["friction"] = 1.0 + answered / 100
             assert client.post("/api/solve?interfaces=false", json=case).status_code == 200
             answered += 1
-        assert answered >= 10  # the 40 solves of the sweeps took one worker, the other was free
+        assert answered >= 10  # the 80 solves of the sweeps took one worker, the other was free
 
 
 def wait_for_workers(client):
-    while client.post("/api/toml", json={"text": "a = 1"}).status_code != 200:
+    """The first answer of a worker that is ready, within some attempts."""
+    for _ in range(300):
+        answer = client.post("/api/toml", json={"text": "a = 1"})
+        if answer.status_code == 200:
+            return answer
         time.sleep(0.1)
+    raise AssertionError(answer.text)
 
 
 def together(client, route, bodies):

@@ -60,14 +60,14 @@ def test_what_is_no_plain_object_is_refused(client, body, said):
     ],
     ids=["keys", "lists", "numbers", "lines", "tables"],
 )
-def test_no_body_of_the_allowed_size_takes_long_to_refuse(client, body):
+def test_no_body_of_the_allowed_size_takes_long_to_refuse(client, body, cpu_unit):
     assert len(body) <= Limits().body
     head = {"content-type": "application/json"}
     start = time.process_time()
     answer = client.post("/api/toml", content=body, headers=head)
     assert answer.status_code in (400, 422)
     # Of this process, which has the event loop; what workers do has a time limit of its own.
-    assert time.process_time() - start < 1.0
+    assert time.process_time() - start < 60.0 * cpu_unit
 
 
 def test_layers(post, case):

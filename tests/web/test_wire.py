@@ -186,11 +186,11 @@ DEEP = {
 
 
 @pytest.mark.parametrize("text", DEEP.values(), ids=DEEP)
-def test_a_deep_text_is_refused_before_it_takes_time(post, text):
+def test_a_deep_text_is_refused_before_it_takes_time(post, text, cpu_unit):
     began = time.process_time()
     refusal = post("toml", {"text": text}, 422)
     assert refusal["error"] == "is nested too deeply for a case file."
-    assert time.process_time() - began < 5.0
+    assert time.process_time() - began < 200.0 * cpu_unit
 
 
 def test_dots_in_numbers_titles_and_comments_are_no_keys(post):

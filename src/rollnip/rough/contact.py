@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 
 _SHARE = 0.01  # of the wanted accuracy that the iteration may leave
 _DIRECT = 16  # places at which transforms are checked against sums
+_BETWEEN = 256  # places between nodes at which the contact is checked afresh
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,8 @@ class RoughContact:
     state : pressures and approach; with a half-space core the approach is relative.
     gap : (n,) of the deformed surfaces, evaluated afresh [mm].
     coarser : figures of the same profile with every second sample; None on too few.
-    residual : largest violation of the contact conditions, evaluated afresh, relative.
+    residual : largest violation of the contact conditions at the nodes, evaluated afresh, relative.
+    between : the same between the nodes, where nothing was solved.
     """
 
     sampling: Sampling
@@ -41,6 +43,7 @@ class RoughContact:
     gap: Array
     coarser: tuple[float, float, float, float] | None
     residual: float
+    between: float
 
     @property
     def x(self) -> Array:
@@ -111,6 +114,7 @@ def rough_contact(
     _require_room(sampling.x, state)
     gap = clearance - state.approach + problem.compliance.of(state.pressure)
     wrong = _wrong_sums(sampling.x, state.pressure, kernel, problem.compliance, lift)
+    between = _between(nip, sampling, state, kernel, lift)
     coarser = None if before is None else _figures(sampling.x[::2], before)
     return RoughContact(
         sampling=sampling,
@@ -119,6 +123,7 @@ def rough_contact(
         gap=gap,
         coarser=coarser,
         residual=_residual(nip, problem, state, gap, wrong),
+        between=between / _depth(nip, problem, state),
     )
 
 
@@ -173,6 +178,40 @@ def _wrong_sums(
     return float(np.max(np.abs(direct - compliance.of(pressure)[rows])))
 
 
+def _between(nip: Nip, sampling: Sampling, state: GridState, kernel: Kernel, lift: float) -> float:
+    """Largest violation of the contact conditions between the nodes, at some places [mm].
+
+    Nothing was solved there. Between two nodes that touch, the surfaces must lie on each other; at
+    an edge of the contact and outside they must not cross. Displacements are direct sums.
+    """
+    x, pressure = sampling.x, state.pressure
+    touching = np.flatnonzero(pressure > 0.0)
+    first, last = touching[0] - 1, touching[-1] + 1
+    rows = np.unique(np.linspace(first, last - 1, _BETWEEN).astype(int))
+    middle = 0.5 * (x[rows] + x[rows + 1])
+    u = displacement_matrix(kernel, middle, x[first : last + 1]) @ pressure[first + 1 : last]
+    u = u + lift * sampling.spacing * float(np.sum(pressure))
+    heights = sum(
+        roller.profile.at(middle) for roller in (nip.upper, nip.lower) if roller.profile is not None
+    )
+    gap = 0.5 * nip.curvature * middle**2 - heights - state.approach + u
+    inside = (pressure[rows] > 0.0) & (pressure[rows + 1] > 0.0)
+    return float(np.max(np.where(inside, np.abs(gap), -gap)))
+
+
+def _depth(nip: Nip, problem: GridProblem, state: GridState) -> float:
+    """What distances are compared with: the approach, or the depth of the gap at the edges [mm]."""
+    touching = np.flatnonzero(state.pressure > 0.0)
+    width = problem.spacing * float(touching[-1] - touching[0])
+    depth = 0.125 * nip.curvature * width**2
+    return depth if nip.has_half_space else max(depth, abs(state.approach))
+
+
+def max_or_nan(*values: float) -> float:
+    """Return the largest value, at least 0; nan where any is nan, as Python's max may not."""
+    return float(np.max([0.0, *values]))
+
+
 def _residual(nip: Nip, problem: GridProblem, state: GridState, gap: Array, wrong: float) -> float:
     """Largest violation of the contact conditions, each relative.
 
@@ -181,11 +220,7 @@ def _residual(nip: Nip, problem: GridProblem, state: GridState, gap: Array, wron
     """
     pressure = state.pressure
     peak, total = float(np.max(pressure)), float(np.sum(pressure)) * problem.spacing
-    touching = np.flatnonzero(pressure > 0.0)
-    width = problem.spacing * float(touching[-1] - touching[0])
-    depth = 0.125 * nip.curvature * width**2
-    if not nip.has_half_space:
-        depth = max(depth, abs(state.approach))
+    depth = _depth(nip, problem, state)
     load = 0.0 if problem.load is None else abs(total / problem.load - 1.0)
     parts = [
         float(np.max(-gap)) / depth,
@@ -195,4 +230,4 @@ def _residual(nip: Nip, problem: GridProblem, state: GridState, gap: Array, wron
         state.correction,
         load,
     ]
-    return float(max(0.0, *parts))
+    return max_or_nan(*parts)

@@ -12,7 +12,7 @@ from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.model import Model
 from rollnip.nip import Approach, LineLoad, Nip
 from rollnip.rolling import MOST_PRESSED_IN, SolverInfo, half_width_guess, pair_kernels
-from rollnip.rough.contact import RoughContact, rough_contact
+from rollnip.rough.contact import RoughContact, max_or_nan, rough_contact
 from rollnip.rough.sampling import sampled
 from rollnip.rough.solution import RoughSolution
 from rollnip.validity import CONTACT_ANGLE, NIP_STRAIN, THICKNESS_RATIO
@@ -65,7 +65,7 @@ def solve_rough(
         solver=SolverInfo(
             elements=rough.x.size - 1,
             iterations=rough.state.steps,
-            residual=rough.residual,
+            residual=max_or_nan(rough.residual, rough.between),
             geometry_change=0.0,
             seconds=perf_counter() - start,
             version=version,
@@ -108,6 +108,12 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
             f"The contact conditions are violated by {rough.residual:.1e} (relative), more than "
             f"the tolerance {model.tolerance:g}; try a smaller tolerance."
         )
+    if not rough.between <= model.tolerance:
+        return False, (
+            f"Between the samples the contact conditions are violated by {rough.between:.1e} "
+            f"(relative), more than the tolerance {model.tolerance:g}: the samples are too far "
+            "apart; measure more closely, or accept it with a larger tolerance."
+        )
     approach, load = rough.figures[:2]
     covering = nip.upper.coating_thickness + nip.lower.coating_thickness
     if not nip.has_half_space and approach >= MOST_PRESSED_IN * covering:
@@ -127,8 +133,8 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
             "it with a larger tolerance."
         )
     return True, (
-        f"Solved and verified on the samples of the profile: residual {rough.residual:.1e}, "
-        f"tolerance {model.tolerance:g}."
+        f"Solved on the samples of the profile and verified there and between them: residual "
+        f"{max_or_nan(rough.residual, rough.between):.1e}, tolerance {model.tolerance:g}."
     )
 
 

@@ -7,6 +7,7 @@ import os
 import random
 import resource
 import signal
+import sqlite3
 import subprocess
 import sys
 import time
@@ -16,6 +17,7 @@ from typing import Any
 import pytest
 from typer.testing import CliRunner
 
+from rollnip.cli import progress
 from rollnip.cli.app import app
 from rollnip.sweep import cluster, read_study
 from rollnip.sweep.store import Store
@@ -107,7 +109,7 @@ def test_profiles_are_written_beside(study: Path, tmp_path: Path) -> None:
     [
         (["--shard", "3/2"], '--shard: must be i/n with 1 <= i <= n, such as 2/8, got "3/2"'),
         (["--shard", "half"], 'got "half"'),
-        (["--out", "a.xlsx"], "must end in .csv or .parquet"),
+        (["--out", "a.ods"], "must end in .csv or .parquet or .xlsx"),
         (["--profiles", "a.txt"], "must end in .nc"),
         (["--database", "none/a.db"], "none/a.db: cannot write, there is no directory none."),
         (["--dask", "somewhere"], 'must be like tcp://host:8786, or "local", got "somewhere"'),
@@ -176,6 +178,63 @@ def wait_for_rows(database: Path, process: subprocess.Popen[str], more: int = 60
         if log.is_file() and log.stat().st_size > size + more:
             return
         time.sleep(0.01)
+
+
+def test_status_of_a_sweep_that_was_stopped_and_its_table_so_far(
+    study: Path, tmp_path: Path
+) -> None:
+    whole, database = tmp_path / "whole.csv", tmp_path / "whole.db"
+    done = sweep(study, "--out", whole, "--workers", 1, "--plot", tmp_path / "whole.png")
+    assert done.exit_code == 0, done.stderr
+    assert (tmp_path / "whole.png").read_bytes().startswith(b"\x89PNG")
+    said = sweep("status", database)
+    assert said.exit_code == 0
+    assert f"{database}: 6 of 6 cases; no process is writing it" in said.stdout
+    assert "4 solved, 2 refused" in said.stdout
+    with sqlite3.connect(database) as base:
+        base.execute("DELETE FROM cases WHERE position > 2")  # as if stopped there
+    base.close()
+    some = tmp_path / "some.csv"
+    said = sweep("status", database, "--out", some, "--json")
+    assert said.exit_code == 1
+    tree = json.loads(said.stdout)
+    assert [tree[key] for key in ("cases", "open", "solved", "refused")] == [6, 3, 2, 1]
+    assert tree["is_running"] is False
+    assert tree["first_not_solved"]["case"] == 1
+    assert some.read_text().splitlines() == whole.read_text().splitlines()[:4]
+    refused("status", tmp_path / "none.db")
+    again = sweep(study, "--out", whole, "--workers", 1, "--json")
+    assert [json.loads(again.stdout)[key] for key in ("cases", "open", "solved")] == [6, 0, 4]
+
+
+@pytest.mark.slow
+def test_status_while_it_runs(study: Path, tmp_path: Path) -> None:
+    """The database was locked, and nobody could tell how far a sweep was."""
+    enlarged(study, 2000)
+    process = start(study, tmp_path / "out.csv", start_new_session=True)
+    wait_for_rows(tmp_path / "out.db", process)
+    first = json.loads(sweep("status", tmp_path / "out.db", "--json").stdout)
+    time.sleep(2.0)
+    table = tmp_path / "so-far.csv"
+    second = json.loads(sweep("status", tmp_path / "out.db", "--out", table, "--json").stdout)
+    os.killpg(process.pid, signal.SIGINT)
+    process.communicate(timeout=120)
+    assert first["is_running"]
+    assert 0 < first["solved"] < second["solved"] < 1000
+    assert len(table.read_text().splitlines()) > second["solved"]
+
+
+def test_a_log_has_a_line_now_and_then(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    now = [0.0]
+    monkeypatch.setattr(progress, "monotonic", lambda: now[0])
+    with progress.progress(5000, "solving") as advance:
+        for _ in range(1000):
+            now[0] += 0.1
+            advance()
+    said = capsys.readouterr().err
+    assert said == "rollnip: 600 of 5,000 cases, 10 a second, 0:07:20 left\n"
 
 
 @pytest.mark.slow

@@ -74,10 +74,13 @@ def _geometry(name: str) -> Geometry:
 
 
 @contextmanager
-def _progress() -> Iterator[Callable[[int], None] | None]:
-    """Count solved nips on the standard error, where that is a terminal."""
+def _progress() -> Iterator[Callable[[int], None]]:
+    """Count solved nips on the standard error: on a terminal, else now and then in a line."""
     if not sys.stderr.isatty():
-        yield None
+        from rollnip.cli.progress import Lines
+
+        lines = Lines(None, "nips solved")
+        yield lambda _: lines.advance()
         return
     from rich.console import Console
     from rich.progress import Progress, SpinnerColumn, TextColumn, TimeElapsedColumn

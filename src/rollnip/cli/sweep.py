@@ -46,7 +46,9 @@ sweep = typer.Typer(
     no_args_is_help=True,
 )
 
-_OUT = typer.Option(help="Table of results: name.csv or name.parquet.")
+_OUT = typer.Option(help="Table of results: name.csv, name.parquet or name.xlsx.")
+_PLOT = typer.Option(help="Draw the results over the parameters: name.png, .svg or .pdf.")
+_JSON = typer.Option("--json", help="Print what became of the cases as JSON.")
 _PROFILES = typer.Option(help="Write the profiles of every case too: name.nc (netCDF).")
 
 
@@ -71,6 +73,8 @@ def run(
         str | None,
         typer.Option(help="Address of a Dask scheduler, tcp://host:8786, or local.", metavar="TO"),
     ] = None,
+    plot: Annotated[Path | None, _PLOT] = None,
+    json: Annotated[bool, _JSON] = False,
     yes: Annotated[
         bool, typer.Option("--yes", help=f"Go on with more than {_MANY:,} cases.")
     ] = False,
@@ -101,21 +105,24 @@ def run(
             profiles = table.with_suffix(".nc")
         if profiles is not None:
             check_profiles_target(profiles)
-        run.reserve({"--out": table, "--profiles": profiles})
+        _check_figure(plot)
+        run.reserve({"--out": table, "--profiles": profiles, "--plot": plot})
         file = database or _database(table, part)
         with Store(file, About.of(plan, own_version(), part)) as store:
             taken = take_known(plan, store, known or [])
-            if known:
+            if known and not json:
                 _say(f"{taken:,} cases taken over")
             cases = OpenCases(plan, store, with_profiles=profiles is not None)
             start = perf_counter()
             solve_open(cases, store, workers, dask)
-            if cases.count:
+            if cases.count and not json:
                 seconds = perf_counter() - start
                 rate = cases.count / seconds
                 _say(f"{cases.count:,} cases in {seconds:.3g} s, {rate:.3g} a second")
             if part == (1, 1):
-                _finish(store, table, profiles)
+                _finish(store, (table, profiles, plot), as_json=json)
+            elif json:
+                _say(tally_json(store, None))
             else:
                 _say(f"{file}: shard {shard} is done; join all with: rollnip sweep merge")
 
@@ -125,6 +132,8 @@ def merge(
     databases: Annotated[list[Path], typer.Argument(help="Databases of all shards of a study.")],
     out: Annotated[Path, _OUT],
     profiles: Annotated[Path | None, _PROFILES] = None,
+    plot: Annotated[Path | None, _PLOT] = None,
+    json: Annotated[bool, _JSON] = False,
     force: Force = False,
 ) -> None:
     """Join the databases of the shards of one study into one table."""
@@ -138,9 +147,46 @@ def merge(
         check_table_target(out)
         if profiles is not None:
             check_profiles_target(profiles)
-        run.reserve({"--out": out, "--profiles": profiles})
+        _check_figure(plot)
+        run.reserve({"--out": out, "--profiles": profiles, "--plot": plot})
         with merged(databases) as store:
-            _finish(store, out, profiles)
+            _finish(store, (out, profiles, plot), as_json=json)
+
+
+@sweep.command()
+def status(
+    database: Annotated[Path, typer.Argument(help="Database of a sweep, running or not.")],
+    out: Annotated[Path | None, _OUT] = None,
+    plot: Annotated[Path | None, _PLOT] = None,
+    json: Annotated[bool, _JSON] = False,
+    force: Force = False,
+) -> None:
+    """Say how far a sweep is, and write the table of what is there, while it runs or after.
+
+    Leaves with 0 where all cases are there, 1 where some are open, 2 for wrong input.
+    """
+    from rollnip.cli.app import _clear_failures
+
+    with _clear_failures(), one_run(force=force) as run:
+        from rollnip.sweep.connect import is_being_written
+        from rollnip.sweep.store import Store
+        from rollnip.sweep.table import check_table_target, write_table
+
+        if out is not None:
+            check_table_target(out)
+        _check_figure(plot)
+        is_running = is_being_written(database)
+        with Store(database) as store:
+            run.reserve({"--out": out, "--plot": plot})
+            if not store.about.count:
+                raise InvalidInputError(f"{database}: holds the cases of a search, no sweep.")
+            if out is not None:
+                write_table(store, out)
+            _draw(store, plot)
+            _say(tally_json(store, is_running) if json else _status_text(store, is_running))
+            is_whole = store.size == len(store.about.positions)
+    if not is_whole:
+        raise typer.Exit(1)
 
 
 def solve_open(
@@ -164,21 +210,81 @@ def solve_open(
         raise RollnipError(f"{error}{kept(store, total, ' (', ')')}") from None
 
 
-def _finish(store: Store, table: Path, profiles: Path | None) -> None:
-    """Write the files and say what became of the cases."""
+def _finish(store: Store, files: tuple[Path, Path | None, Path | None], *, as_json: bool) -> None:
+    """Write table, profiles and picture, and say what became of the cases."""
     from rollnip.sweep.profiles import write_profiles
-    from rollnip.sweep.row import STATUSES
     from rollnip.sweep.table import write_table
 
+    table, profiles, plot = files
     write_table(store, table)
     if profiles is not None:
         write_profiles(store, profiles)
-    tally = store.tally()
-    counts = [f"{tally[status]:,} {status}" for status in STATUSES if status in tally]
-    _say(f"{table}: {store.about.count:,} cases: {', '.join(counts)}")
+    _draw(store, plot)
+    if as_json:
+        _say(tally_json(store, None))
+        return
+    _say(f"{table}: {store.about.count:,} cases: {_tally(store)}")
     first = next(store.rows_not_solved(), None)
     if first is not None:
         _say(f"first not solved, case {first[0]}: {first[1]}")
+
+
+def tally_json(store: Store, is_running: bool | None) -> str:
+    """How many cases became what, as JSON; whether a process writes them, where that is asked."""
+    from json import dumps
+
+    from rollnip.sweep.row import STATUSES
+
+    tally, first = store.tally(), next(store.rows_not_solved(), None)
+    total = len(store.about.positions)
+    tree: dict[str, Any] = {
+        "title": store.about.title,
+        "cases": total,
+        "open": total - sum(tally.values()),
+        **{status: tally.get(status, 0) for status in STATUSES},
+        "first_not_solved": first and {"case": first[0], "message": first[1]},
+        "seconds_each": store.seconds_each(),
+    }
+    if is_running is not None:
+        tree["is_running"] = is_running
+    return dumps(tree, indent=2, allow_nan=False)
+
+
+def _status_text(store: Store, is_running: bool) -> str:
+    total, done = len(store.about.positions), store.size
+    who = "a process is writing it" if is_running else "no process is writing it"
+    lines = [f"{store.name}: {done:,} of {total:,} cases; {who}"]
+    if done:
+        lines.append(_tally(store))
+    each = store.seconds_each()
+    if total > done and each:
+        minutes = (total - done) * each / 60.0
+        lines.append(
+            f"{total - done:,} are open: some {minutes:.3g} min of one process ({each:.3g} s each)"
+        )
+    return "\n".join(lines)
+
+
+def _tally(store: Store) -> str:
+    from rollnip.sweep.row import STATUSES
+
+    tally = store.tally()
+    return ", ".join(f"{tally[status]:,} {status}" for status in STATUSES if status in tally)
+
+
+def _check_figure(plot: Path | None) -> None:
+    if plot is not None:
+        from rollnip.plots import check_figure_target
+
+        check_figure_target(plot)
+
+
+def _draw(store: Store, plot: Path | None) -> None:
+    if plot is not None:
+        from rollnip.plots import save_figure
+        from rollnip.sweep.picture import plot_sweep
+
+        save_figure(plot_sweep(store), plot)
 
 
 @contextmanager

@@ -229,6 +229,13 @@ class Store:
         with self._spoken():
             return dict(self._base.execute("SELECT status, count(*) FROM cases GROUP BY status"))
 
+    def seconds_each(self) -> float | None:
+        """Mean time that a case took [s]; None without any."""
+        with self._spoken():
+            query = "SELECT avg(seconds) FROM cases WHERE status != 'lost'"
+            found: float | None = self._base.execute(query).fetchone()[0]
+        return found
+
     def rows(self, names: Sequence[str]) -> Iterator[tuple[Any, ...]]:
         """The cases in the order of the study, as tuples of the columns asked for."""
         wanted = ", ".join(f'"{name}"' for name in names)

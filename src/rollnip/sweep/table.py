@@ -23,8 +23,9 @@ from rollnip._units import parse_quantity
 from rollnip.model import Model
 from rollnip.sweep.row import SCALARS
 from rollnip.sweep.store import About, Store
+from rollnip.sweep.workbook import MOST_ROWS, write_workbook
 
-SUFFIXES = (".csv", ".parquet")
+SUFFIXES = (".csv", ".parquet", ".xlsx")
 _TEXTS = ("status", "message", "geometry")
 _AFTER = ("warnings", "hash")
 _TEXT = ""
@@ -145,17 +146,25 @@ def write_table(store: Store, path: Path) -> None:
     store :
         of the sweep.
     path :
-        ends in .csv or .parquet (with the extra ``rollnip[tables]``). Heads carry the unit:
+        ends in .csv, .parquet (with the extra ``rollnip[tables]``) or .xlsx. Heads carry the unit:
         ``nip_width [mm]``; what is not there is empty.
 
     Raises
     ------
     RollnipError
-        where the ending is another, the extra is missing or the file cannot be written.
+        where the ending is another, the extra is missing, a sheet has too few rows or the file
+        cannot be written.
     """
     check_table_target(path)
     if path.suffix.lower() == ".csv":
         write_whole(path, lambda file: _write_csv(store, file))
+    elif path.suffix.lower() == ".xlsx":
+        if store.size >= MOST_ROWS:
+            raise RollnipError(
+                f"{path}: a sheet of a workbook has {MOST_ROWS:,} rows, for {store.size:,} cases "
+                "too few; choose a name that ends in .csv or .parquet."
+            )
+        write_whole(path, lambda file: write_workbook(file, _heads(store.about), _rows(store)))
     else:
         write_whole(path, lambda file: _write_parquet(store, file))
 

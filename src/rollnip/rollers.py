@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError, require_positive, with_hints
 from rollnip.materials import Material
+from rollnip.shafts import Shaft
 
 _MOST_SAMPLES = 2**18
 _ROUNDING = 1e-9  # of the length of a profile
@@ -134,6 +135,8 @@ class Roller:
         None for a rigid core, or the material of an elastic or viscoelastic half-space.
     profile :
         None for a smooth surface, or its measured height over the smooth one.
+    shaft :
+        what carries the core along the face; it counts only for a `Face`.
 
     Raises
     ------
@@ -145,6 +148,7 @@ class Roller:
     layers: tuple[Layer, ...] = ()
     core: Material | None = None
     profile: Profile | None = None
+    shaft: Shaft | None = None
 
     def __init__(
         self,
@@ -171,6 +175,8 @@ class Roller:
             _require_material("core", self.core)
         if self.profile is not None and not isinstance(self.profile, Profile):
             raise InvalidInputError(f"`profile` must be a Profile, got {self.profile!r}.")
+        if self.shaft is not None and not isinstance(self.shaft, Shaft):
+            raise InvalidInputError(f"`shaft` must be a Shaft, got {self.shaft!r}.")
         if self.coating_thickness >= self.radius:
             raise InvalidInputError(
                 f"`layers` must be thinner in all than the radius {self.radius:g} mm, "

@@ -18,6 +18,7 @@ from rollnip.closed_forms.hertz import (
     effective_radius,
     hertz_line,
 )
+from rollnip.closed_forms.hetenyi import end_loaded_rollers
 from rollnip.closed_forms.hunter import Hunter, hunter
 from rollnip.closed_forms.partial_slip import (
     Carter,
@@ -65,6 +66,7 @@ __all__ = [
     "cattaneo",
     "contact_modulus",
     "effective_radius",
+    "end_loaded_rollers",
     "free_rolling_full_stick",
     "free_rolling_vanishing_friction",
     "hertz_line",

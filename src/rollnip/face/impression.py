@@ -1,0 +1,302 @@
+"""Reading a nip impression: from widths at several places to loads, crown, tilt and modulus.
+
+A nip impression is what carbon paper or foil keeps of a standing nip: its width at places along the
+face. Widths are fitted by least squares; what the data do not tell shows in wide intervals.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.optimize import least_squares
+from scipy.stats import chi2 as chi_squared
+from scipy.stats import norm
+
+from rollnip._errors import InvalidInputError, require_positive
+from rollnip.face.design import Name, with_crown
+from rollnip.face.face import Face
+from rollnip.face.find import solve_face
+from rollnip.face.law import NipLaw
+from rollnip.face.solution import FaceSolution
+from rollnip.face.solve import face_problem
+from rollnip.model import Model
+from rollnip.nip import LineLoad, Nip
+from rollnip.shafts import Crown
+
+Array = NDArray[np.float64]
+Unknown = Literal["load", "tilt", "crown", "modulus"]
+
+_UNTOLD = 0.5  # relative half-width of an interval beyond which the data do not tell
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Impression:
+    """Widths of one nip at places along the face.
+
+    Parameters
+    ----------
+    y : (n,) places from the middle of the face [mm].
+    width : (n,) nip widths there [mm], positive.
+    scatter : standard deviation of a width [mm].
+    load : mean line load under which it was made [N/mm]; None: that of the nip.
+    """
+
+    y: Sequence[float] | Array
+    width: Sequence[float] | Array
+    scatter: float
+    load: float | None = None
+
+    def __post_init__(self) -> None:
+        y, width = np.asarray(self.y, float), np.asarray(self.width, float)
+        if y.ndim != 1 or y.shape != width.shape or y.size == 0:
+            raise InvalidInputError("`width` must have one value for each place of `y`.")
+        if not (np.all(np.isfinite(y)) and np.all(width > 0.0) and np.all(np.isfinite(width))):
+            raise InvalidInputError("`y` must be finite and `width` positive everywhere.")
+        object.__setattr__(self, "y", y)
+        object.__setattr__(self, "width", width)
+        object.__setattr__(self, "scatter", require_positive("scatter", self.scatter))
+
+    @property
+    def places(self) -> Array:
+        """Places from the middle of the face, (n,) [mm]."""
+        return np.asarray(self.y)
+
+    @property
+    def widths(self) -> Array:
+        """Nip widths there, (n,) [mm]."""
+        return np.asarray(self.width)
+
+
+@dataclass(frozen=True, slots=True)
+class Estimate:
+    """One unknown as the widths tell it.
+
+    Attributes
+    ----------
+    name, unit : what it is.
+    value, low, high : estimate and its 95 % interval.
+    """
+
+    name: str
+    unit: str
+    value: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """What an impression says.
+
+    Attributes
+    ----------
+    estimates : of each unknown.
+    solutions : the fitted faces, one for each impression.
+    chi_squared, freedom : sum of squared residuals over their scatter, degrees of freedom.
+    warnings : what the widths do not tell, or contradict.
+    shop_crown : what the shop formula (N_e^2 - N_c^2)(D_u + D_l)/(2 D_u D_l) asks to be added to
+        the crown on the diameter [mm]; N_e, N_c outermost and middlemost widths of the first
+        impression.
+    """
+
+    estimates: tuple[Estimate, ...]
+    solutions: tuple[FaceSolution, ...]
+    chi_squared: float
+    freedom: int
+    warnings: tuple[str, ...]
+    shop_crown: float
+
+    def __getitem__(self, name: str) -> Estimate:
+        """Return the estimate of an unknown by its name."""
+        return next(one for one in self.estimates if one.name == name)
+
+
+_UNITS = {
+    "load": ("load", "N/mm"),
+    "tilt": ("difference of end loads", "N"),
+    "crown": ("crown on the diameter", "mm"),
+    "modulus": ("modulus over the assumed one", "1"),
+}
+
+
+def read_impressions(
+    nip: Nip,
+    face: Face,
+    impressions: Sequence[Impression],
+    unknowns: Sequence[Unknown] = ("crown", "tilt"),
+    model: Model | None = None,
+    *,
+    roller: Name = "upper",
+) -> Reading:
+    """Fit loads, crown, tilt or modulus to measured nip widths.
+
+    Parameters
+    ----------
+    nip, face, model : the face as it is thought to be; shafts give the bending.
+    impressions : one for each load; their load is taken as known unless "load" is unknown.
+    unknowns :
+        "load", the mean line load, of a single impression;
+        "tilt", second less first end load [N], the same in all; "crown", of ``roller``, parabolic;
+        "modulus", a factor on all moduli.
+    roller : whose crown is unknown.
+
+    Raises
+    ------
+    InvalidInputError
+        where there are fewer widths than unknowns, a place lies outside the face, an unknown is not
+        one of the four, or the loads are not known.
+    """
+    _check(nip, face, impressions, unknowns)
+    first = _loads(nip, impressions)
+    one = nip.upper if roller == "upper" else nip.lower
+    if one.shaft is None:
+        raise InvalidInputError(f"`{roller}.shaft` is needed to read an impression.")
+    crown = one.shaft.crown.height if isinstance(one.shaft.crown, Crown) else 0.0
+    start = {"load": first[0], "tilt": 0.0, "crown": crown, "modulus": 1.0}
+    scales = {"load": first[0], "tilt": 0.2 * first[0] * face.length, "crown": 0.1, "modulus": 1.0}
+    law = _wide_law(nip, face, first, model)
+
+    def solved(values: Array) -> list[FaceSolution]:
+        named: dict[str, float] = dict(start)
+        for unknown, value in zip(unknowns, values, strict=True):
+            named[unknown] = float(value) * scales[unknown]
+        return _faces(nip, face, impressions, first, named, "load" in unknowns, roller, model, law)
+
+    def residuals(values: Array) -> Array:
+        parts = [
+            (np.interp(i.places, s.y, s.nip_width) - i.widths) / i.scatter
+            for i, s in zip(impressions, solved(values), strict=True)
+        ]
+        return np.concatenate(parts)
+
+    begin = np.array([start[u] / scales[u] for u in unknowns])
+    low = [1e-3 if u in ("load", "modulus") else -np.inf for u in unknowns]
+    fit = least_squares(residuals, begin, bounds=(low, np.inf), x_scale="jac", diff_step=1e-4)
+    return _reading(unknowns, scales, fit, solved(fit.x), impressions, nip)
+
+
+def _check(
+    nip: Nip, face: Face, impressions: Sequence[Impression], unknowns: Sequence[Unknown]
+) -> None:
+    if not impressions:
+        raise InvalidInputError("`impressions` must hold at least one impression.")
+    for unknown in unknowns:
+        if unknown not in get_args(Unknown):
+            raise InvalidInputError(
+                f"`unknowns` must be among load, tilt, crown, modulus, got {unknown!r}."
+            )
+    if len(set(unknowns)) != len(unknowns) or not unknowns:
+        raise InvalidInputError("`unknowns` must hold different names, at least one.")
+    count = sum(i.places.size for i in impressions)
+    if count < len(unknowns):
+        raise InvalidInputError(f"{len(unknowns)} unknowns need as many widths, got {count}.")
+    for impression in impressions:
+        if np.max(np.abs(impression.places)) > 0.5 * face.length * (1.0 + 1e-9):
+            raise InvalidInputError(
+                f"`y` must lie on the face, within {0.5 * face.length:g} mm of its middle."
+            )
+    if "load" in unknowns and len(impressions) > 1:
+        raise InvalidInputError("`load` can be unknown for one impression alone.")
+    if face.end_loads is not None and len(impressions) > 1:
+        raise InvalidInputError("several impressions need a `load` each, not `end_loads`.")
+    del nip
+
+
+def _loads(nip: Nip, impressions: Sequence[Impression]) -> list[float]:
+    loads = []
+    for impression in impressions:
+        load = impression.load
+        if load is None:
+            if not isinstance(nip.normal, LineLoad):
+                raise InvalidInputError("`load` must be given with the impression or the nip.")
+            load = nip.normal.load
+        loads.append(float(load))
+    return loads
+
+
+def _wide_law(nip: Nip, face: Face, loads: list[float], model: Model | None) -> NipLaw:
+    """Return a table that covers all impressions as they are expected."""
+    law = None
+    for load in sorted(loads):
+        law = solve_face(replace(nip, normal=LineLoad(load)), face, model, law=law).law
+    assert law is not None
+    return law
+
+
+def _faces(
+    nip: Nip,
+    face: Face,
+    impressions: Sequence[Impression],
+    loads: list[float],
+    named: dict[str, float],
+    load_is_unknown: bool,
+    roller: Name,
+    model: Model | None,
+    law: NipLaw,
+) -> list[FaceSolution]:
+    """Solve the faces of all impressions with values for the unknowns.
+
+    A factor on the moduli is a factor on the law; the nip keeps its own.
+    """
+    crowned = with_crown(nip, roller, Crown(named["crown"]))
+    out = []
+    for load, _ in zip(loads, impressions, strict=True):
+        mean = named["load"] if load_is_unknown else load
+        one = replace(crowned, normal=LineLoad(mean))
+        problem = face_problem(one, replace(face, end_loads=None), 3)
+        own = problem.weights[0] * face.length
+        total = mean * face.length - own
+        half = 0.5 * named["tilt"]
+        loaded = replace(face, end_loads=(0.5 * total - half, 0.5 * total + half))
+        out.append(solve_face(one, loaded, model, law=law.stiffened(named["modulus"])))
+    return out
+
+
+def _reading(
+    unknowns: Sequence[Unknown],
+    scales: dict[str, float],
+    fit: object,
+    solutions: list[FaceSolution],
+    impressions: Sequence[Impression],
+    nip: Nip,
+) -> Reading:
+    values, jacobian = fit.x, fit.jac  # type: ignore[attr-defined]
+    chi2 = 2.0 * float(fit.cost)  # type: ignore[attr-defined]
+    freedom = int(jacobian.shape[0] - jacobian.shape[1])
+    covariance = np.linalg.pinv(jacobian.T @ jacobian)
+    spread = float(norm.ppf(0.975)) * np.sqrt(np.diag(covariance))
+    notes = []
+    improbable = freedom > 0 and chi_squared.sf(chi2, freedom) < 0.01
+    if improbable:
+        spread = spread * np.sqrt(chi2 / freedom)
+        notes.append(
+            f"The widths scatter about the fit by {np.sqrt(chi2 / freedom):.1f} times what "
+            "`scatter` says; intervals are widened by as much."
+        )
+    estimates = []
+    for name, value, half in zip(unknowns, values, spread, strict=True):
+        label, unit = _UNITS[name]
+        scale = scales[name]
+        estimates.append(
+            Estimate(name, unit, value * scale, (value - half) * scale, (value + half) * scale)
+        )
+        if name in ("load", "modulus") and half > _UNTOLD * abs(value):
+            notes.append(
+                f"These widths do not tell the {label}: its interval is wider than itself."
+            )
+    return Reading(
+        tuple(estimates), tuple(solutions), chi2, freedom, tuple(notes), _shop(impressions[0], nip)
+    )
+
+
+def _shop(impression: Impression, nip: Nip) -> float:
+    y, width = impression.places, impression.widths
+    ends = np.abs(np.abs(y) - np.max(np.abs(y))) < 1e-9 * max(np.max(np.abs(y)), 1.0)
+    middle = np.argmin(np.abs(y))
+    end = float(np.mean(width[ends]))
+    upper, lower = 2.0 * nip.upper.radius, 2.0 * nip.lower.radius
+    return float((end**2 - width[middle] ** 2) * (upper + lower) / (2.0 * upper * lower))

@@ -1,0 +1,168 @@
+"""A solved face: figures over y, uniformity, totals, and how well they are known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.face.face import Face
+from rollnip.face.law import NipLaw
+from rollnip.face.solve import Balance, FaceProblem
+from rollnip.model import Model
+from rollnip.nip import Nip
+
+Array = NDArray[np.float64]
+
+_EVEN = 0.1  # of the mean load: the share of the face that is even is counted within this
+
+
+@dataclass(frozen=True, slots=True)
+class Bearings:
+    """Forces that the two bearings of a roller put on it, towards the other roller [N].
+
+    Attributes
+    ----------
+    first, second : at y < 0 and at y > 0.
+    """
+
+    first: float
+    second: float
+
+
+@dataclass(frozen=True)
+class FaceSolution:
+    """A nip along its face. Units mm, N, MPa, s; y from one end of the face to the other.
+
+    Attributes
+    ----------
+    nip, face, model : the problem.
+    converged : whether the balance settled and every claimed error is within ``tolerance``.
+    status : a sentence that says so, or what is wrong.
+    error : relative errors: of approach, nip width and peak pressure by interpolation between plane
+        nips, and of the load by the number of places along the face ("places").
+    law : the table of cross-sections.
+    """
+
+    nip: Nip
+    face: Face
+    model: Model
+    converged: bool
+    status: str
+    warnings: tuple[str, ...]
+    error: dict[str, float]
+    law: NipLaw = field(repr=False)
+    problem: FaceProblem = field(repr=False)
+    balance: Balance = field(repr=False)
+
+    @property
+    def y(self) -> Array:
+        """Places along the face, (n,), from -length/2 to length/2 [mm]."""
+        return self.problem.grid.y
+
+    @property
+    def load(self) -> Array:
+        """Line load, (n,) [N/mm]; 0 where the nip is open."""
+        return self.balance.section.load
+
+    @property
+    def approach(self) -> Array:
+        """Approach of the surfaces, (n,) [mm]; negative where the nip is open by as much."""
+        return self.balance.approach
+
+    @property
+    def traction(self) -> Array:
+        """Traction, (n,) [N/mm]; the upper roller drives where it is positive."""
+        return self.balance.section.traction
+
+    @property
+    def creepage(self) -> float:
+        """Creepage of both rollers as wholes, by their nominal radii."""
+        return self.balance.creepage
+
+    @property
+    def local_creepage(self) -> Array:
+        """Creepage with the local radii, (n,)."""
+        return self.creepage + self.problem.local
+
+    @cached_property
+    def nip_width(self) -> Array:
+        """Nip width, (n,) [mm]."""
+        return self._of_law("nip_width")
+
+    @cached_property
+    def peak_pressure(self) -> Array:
+        """Peak pressure, (n,) [MPa]."""
+        return self._of_law("peak_pressure")
+
+    @cached_property
+    def friction_loss(self) -> Array | None:
+        """Friction loss, (n,) [N/s = mW/mm]; None without speed."""
+        return None if self.nip.speed is None else self._of_law("friction_loss")
+
+    @cached_property
+    def viscous_loss(self) -> Array | None:
+        """Viscous loss, (n,) [N/s = mW/mm]; None without speed."""
+        return None if self.nip.speed is None else self._of_law("viscous_loss")
+
+    @property
+    def deflection_upper(self) -> Array:
+        """Deflection of the upper axis away from the lower roller, from its bearings, (n,) [mm]."""
+        return self.problem.upper @ (self.load - self.problem.weights[0])
+
+    @property
+    def deflection_lower(self) -> Array:
+        """Deflection of the lower axis away from the upper roller, from its bearings, (n,) [mm]."""
+        return self.problem.lower @ (self.load + self.problem.weights[1])
+
+    @property
+    def total_load(self) -> float:
+        """Force of the whole nip [N]."""
+        return float(self.problem.grid.weights @ self.load)
+
+    @property
+    def total_traction(self) -> float:
+        """Tangential force of the whole nip [N]."""
+        return float(self.problem.grid.weights @ self.traction)
+
+    @property
+    def mean_load(self) -> float:
+        """Mean line load [N/mm]."""
+        return self.total_load / self.face.length
+
+    @property
+    def evenness(self) -> float:
+        """Smallest over largest line load."""
+        return float(self.load.min() / self.load.max())
+
+    @property
+    def even_share(self) -> float:
+        """Share of the face whose line load is within 10 % of the mean."""
+        near = np.abs(self.load / self.mean_load - 1.0) <= _EVEN
+        # The share of a fine, even grid: places are denser at the ends.
+        y = np.linspace(self.y[0], self.y[-1], 2001)
+        return float(np.mean(np.interp(y, self.y, near.astype(float)) > 0.5))
+
+    @property
+    def largest_scrub(self) -> float:
+        """Largest departure of the traction from its mean [N/mm]: surfaces that rub each other."""
+        mean = self.total_traction / self.face.length
+        return float(np.max(np.abs(self.traction - mean)))
+
+    def bearings(self, roller: str) -> Bearings | None:
+        """Return the bearing forces of the "upper" or "lower" roller; None without its shaft."""
+        one = self.nip.upper if roller == "upper" else self.nip.lower
+        if one.shaft is None:
+            return None
+        weight = self.problem.weights[0 if roller == "upper" else 1]
+        pushed = self.load - weight if roller == "upper" else self.load + weight
+        moment = float(self.problem.grid.weights @ (pushed * self.y)) / one.shaft.bearing_distance
+        half = 0.5 * float(self.problem.grid.weights @ pushed)
+        return Bearings(half - moment, half + moment)
+
+    def _of_law(self, name: str) -> Array:
+        section = self.balance.section
+        values = self.law.figure(name, section.log_load, section.s)
+        return np.where(self.load > 0.0, values, 0.0)

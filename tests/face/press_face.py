@@ -1,0 +1,35 @@
+"""A press of two steel rollers, the upper one covered, for the tests of the face."""
+
+from dataclasses import replace
+
+import numpy as np
+
+import rollnip as rn
+from rollnip.face import Face, NipLaw
+from rollnip.shafts import Shaft
+
+RUBBER = rn.Elastic(modulus=3.6, poisson=0.5)
+FACE = Face(length=1600.0)
+
+
+def press(*, crown=0.0, load=6.0, **upper):
+    """The press with a crown on the upper roller and a mean line load."""
+    shaft = Shaft(bearing_distance=1900.0, bore=100.0, journal_diameter=80.0, crown=crown, **upper)
+    return rn.Nip(
+        upper=rn.Roller(radius=100.0, layers=(rn.Layer(12.0, RUBBER),), shaft=shaft),
+        lower=rn.Roller(radius=75.0, shaft=Shaft(bearing_distance=1900.0)),
+        normal=rn.LineLoad(load),
+        friction=0.5,
+        speed=1500.0,
+    )
+
+
+def foundation_law(stiffness, nip):
+    """A law F = stiffness * approach without friction, for beams on a linear foundation."""
+    loads = np.geomspace(1e-4, 1e4, 41)
+    ones = np.ones((loads.size, 1))
+    table = dict.fromkeys(("creepage", "nip_width", "peak_pressure"), ones)
+    table |= dict.fromkeys(("friction_loss", "viscous_loss", "torque_lower"), ones)
+    table["approach"] = (loads / stiffness)[:, None]
+    plain = replace(nip, friction=0.0, tangential=rn.Traction(0.0))
+    return NipLaw(plain, rn.Model(), loads, np.zeros(1), table, {})

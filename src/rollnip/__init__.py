@@ -21,6 +21,7 @@ from rollnip._errors import (
 )
 
 if TYPE_CHECKING:
+    from rollnip.face import solve_face
     from rollnip.identify import identify
     from rollnip.influence import KernelCache
     from rollnip.io import Case, read_case, write_result
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
     from rollnip.model import Model
     from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
     from rollnip.rollers import Layer, Profile, Roller
+    from rollnip.shafts import Crown, CrownTable, Face, Shaft
     from rollnip.solution import Solution
     from rollnip.solve import solve
     from rollnip.sweep import sweep
@@ -50,6 +52,7 @@ _HOMES = {
         "WLF",
         "Arrhenius",
         "Elastic",
+        "Face",
         "FractionalZener",
         "LossFactor",
         "Prony",
@@ -58,7 +61,9 @@ _HOMES = {
     ),
     "rollnip.model": ("Model",),
     "rollnip.nip": ("Approach", "Creepage", "LineLoad", "Nip", "Torque", "Traction"),
+    "rollnip.face": ("solve_face",),
     "rollnip.rollers": ("Layer", "Profile", "Roller"),
+    "rollnip.shafts": ("Crown", "CrownTable", "Face", "Shaft"),
     "rollnip.solution": ("Solution",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
@@ -71,7 +76,10 @@ __all__ = [
     "CaseFileError",
     "ConvergenceError",
     "Creepage",
+    "Crown",
+    "CrownTable",
     "Elastic",
+    "Face",
     "FractionalZener",
     "InvalidInputError",
     "KernelCache",
@@ -85,6 +93,7 @@ __all__ = [
     "Roller",
     "RollnipError",
     "RollnipWarning",
+    "Shaft",
     "Solution",
     "StandardLinearSolid",
     "TabulatedShift",
@@ -94,6 +103,7 @@ __all__ = [
     "identify",
     "read_case",
     "solve",
+    "solve_face",
     "sweep",
     "write_result",
 ]

@@ -28,6 +28,8 @@ Dimension = Literal[
     "molar energy",
     "frequency",
     "angle",
+    "total force",
+    "density",
 ]
 
 
@@ -169,6 +171,17 @@ _FREQUENCY = _units(
     {"Hz": 1, "mHz": "1e-3", "kHz": 1000, "MHz": 1_000_000, "GHz": 10**9, "1/min": Fraction(1, 60)}
 ) | {"rad/s": (Fraction(1.0 / tau), Fraction(0))}
 _ANGLE = _units({"rad": 1, "mrad": "1e-3"}) | {"deg": (Fraction(pi / 180.0), Fraction(0))}
+_TOTAL = _units({"N": 1, "mN": "1e-3", "daN": 10, "kN": 1000, "kgf": _KGF, "kp": _KGF, "lbf": _LBF})
+_POUND = Fraction("0.45359237")  # kg
+_DENSITY = _units(
+    {
+        "kg/m3": 1,
+        "g/cm3": 1000,
+        "kg/dm3": 1000,
+        "lb/in3": _POUND / (_IN / 1000) ** 3,
+        "lb/ft3": _POUND / (12 * _IN / 1000) ** 3,
+    }
+)
 _MOLAR = _units({"kJ/mol": 1, "J/mol": "1e-3", "kcal/mol": "4.184", "cal/mol": "4.184e-3"})
 
 _KINDS: dict[Dimension, _Kind] = {
@@ -183,6 +196,8 @@ _KINDS: dict[Dimension, _Kind] = {
     "ratio": _Kind("a plain number", "", "0.5 %", _RATIO),
     "frequency": _Kind("a frequency", "Hz", "10 Hz", _FREQUENCY),
     "angle": _Kind("an angle", "rad", "10 deg", _ANGLE),
+    "total force": _Kind("a force", "N", "2.6 kN", _TOTAL),
+    "density": _Kind("a density", "kg/m3", "7850 kg/m3", _DENSITY),
     "molar energy": _Kind("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
 }
 

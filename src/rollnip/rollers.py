@@ -157,12 +157,14 @@ class Roller:
         layers: Sequence[Layer] = (),
         core: Material | None = None,
         profile: Profile | None = None,
+        shaft: Shaft | None = None,
     ) -> None:
         object.__setattr__(self, "radius", _checked_radius(radius))
         if not isinstance(layers, Sequence) or isinstance(layers, str | bytes):
             raise InvalidInputError(f"`layers` must be a list of Layer objects, got {layers!r}.")
         object.__setattr__(self, "layers", tuple(layers))
         object.__setattr__(self, "core", core)
+        object.__setattr__(self, "shaft", shaft)
         object.__setattr__(self, "profile", profile)
         self._check()
 

@@ -1,8 +1,9 @@
-"""The shaft of a roller: what carries its core over the face, and the crown ground on it."""
+"""Rollers along their face: the shaft that carries a core, its crown, and how a face is loaded."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from hashlib import sha256
 from math import cos, pi, radians, sqrt
 from typing import Literal
 
@@ -19,6 +20,7 @@ from rollnip._errors import (
 Array = NDArray[np.float64]
 Shape = Literal["parabolic", "cosine", "circular"]
 
+_LARGEST_SKEW = 0.1  # rad; the gap of crossed axes is then no parabola
 _COSINE = radians(70.0)  # half the angle of the cosine that grinders use
 STEEL = 206e3
 """Young's modulus of steel [MPa], the default of a shaft."""
@@ -74,7 +76,7 @@ class Crown:
         return np.asarray(half * (1.0 - share**2))
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class CrownTable:
     """A measured or freely chosen crown: diameters at places along the face.
 
@@ -113,6 +115,12 @@ class CrownTable:
 
     def __hash__(self) -> int:
         return hash((np.asarray(self.y).tobytes(), np.asarray(self.diameter).tobytes()))
+
+    def __repr__(self) -> str:
+        # Whole problems are told apart by their texts: this one holds a digest of all places.
+        y, diameter = np.asarray(self.y), np.asarray(self.diameter)
+        digest = sha256(y.tobytes() + diameter.tobytes()).hexdigest()[:16]
+        return f"CrownTable({y.size} places, {y[0]:.6g} to {y[-1]:.6g} mm, {digest})"
 
     def radial(self, y: Array, length: float) -> Array:
         """Return the radius at ``y`` over the nominal one, (n,) [mm]; raise beyond the table."""
@@ -180,6 +188,56 @@ class Shaft:
         """Return the radius at ``y`` over the nominal one, (n,) [mm]."""
         assert isinstance(self.crown, Crown | CrownTable)
         return self.crown.radial(y, length)
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Face:
+    """A nip along its rollers.
+
+    Parameters
+    ----------
+    length :
+        of the face, over which the rollers can touch [mm].
+    skew :
+        angle between the axes, in the plane of contact [rad].
+    end_loads :
+        forces on the bearings of the upper roller towards the lower one, at y < 0 and at y > 0
+        [N]; None: the nip's own control holds, its load or its approach in the middle.
+    nip_angle :
+        angle of the line from the lower to the upper axis against the vertical [rad]; 0: the
+        upper roller lies on the lower one. It counts only where a shaft has a density.
+
+    Raises
+    ------
+    InvalidInputError
+        where a value lies outside its range.
+    """
+
+    length: float
+    skew: float = 0.0
+    end_loads: tuple[float, float] | None = None
+    nip_angle: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "length", require_positive("length", self.length))
+        object.__setattr__(self, "nip_angle", require_finite("nip_angle", self.nip_angle))
+        skew = require_finite("skew", self.skew)
+        if abs(skew) > _LARGEST_SKEW:
+            raise InvalidInputError(f"`skew` must lie between -0.1 and 0.1 rad, got {self.skew!r}.")
+        object.__setattr__(self, "skew", skew)
+        if self.end_loads is not None:
+            object.__setattr__(self, "end_loads", _checked_ends(self.end_loads))
+
+
+def _checked_ends(ends: tuple[float, float]) -> tuple[float, float]:
+    if not isinstance(ends, tuple | list) or len(ends) != 2:
+        raise InvalidInputError(f"`end_loads` must be two forces in N, got {ends!r}.")
+    first, second = (require_finite("end_loads", value) for value in ends)
+    if first + second <= 0.0:
+        raise InvalidInputError(
+            f"`end_loads` must press the rollers together, got {first:g} and {second:g} N."
+        )
+    return first, second
 
 
 def bending_stiffness(outer: float, bore: float, modulus: float) -> float:

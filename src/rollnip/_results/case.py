@@ -20,6 +20,7 @@ from rollnip.materials import (
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
+from rollnip.shafts import Crown, CrownTable, Shaft
 
 # What `model` is called in a case file.
 _NAMES: Mapping[type, str] = {
@@ -69,6 +70,17 @@ def _roller(roller: Roller) -> dict[str, Any]:
         ]
     if roller.profile is not None:
         tree["profile"] = repr(roller.profile)
+    if roller.shaft is not None:
+        tree["shaft"] = _shaft(roller.shaft)
+    return tree
+
+
+def _shaft(shaft: Shaft) -> dict[str, Any]:
+    tree = _without_none({one.name: getattr(shaft, one.name) for one in fields(shaft)})
+    if isinstance(shaft.crown, Crown):
+        tree["crown"] = {"height": shaft.crown.height, "shape": shaft.crown.shape}
+    elif isinstance(shaft.crown, CrownTable):
+        tree["crown"] = repr(shaft.crown)
     return tree
 
 

@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, TextIO, cast
+from typing import TYPE_CHECKING, Annotated, Any, TextIO, cast
 
 import typer
 
@@ -15,6 +15,7 @@ from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
 from rollnip._files import one_run
 from rollnip.cli.design import find, optimise, pareto, tolerance
 from rollnip.cli.dma import dma
+from rollnip.cli.face import face
 from rollnip.cli.fit import fit
 from rollnip.cli.lda import lda
 from rollnip.cli.options import Force
@@ -24,6 +25,8 @@ from rollnip.cli.sweep import sweep
 from rollnip.cli.verify import verify
 
 if TYPE_CHECKING:
+    from rollnip.face import FaceSolution
+    from rollnip.io import Case
     from rollnip.model import Geometry, Model
 
 app = typer.Typer(
@@ -38,6 +41,7 @@ app.command()(verify)
 app.add_typer(lda)
 app.add_typer(dma)
 app.add_typer(sweep)
+app.add_typer(face)
 app.command()(paper)
 app.command()(fit)
 app.command()(find)
@@ -107,21 +111,48 @@ def solve(
 
         with _named(problem.source):
             solution = solve_nip(problem.nip, model, on_failure="return")
+        along = _along_the_face(problem, model)
         if out is not None:
-            write_result(solution, out)
+            write_result(solution, out, _face_part(along))
         if fields is not None:
             write_fields(solution, fields)
         if plot is not None:
             save_figure(plot_overview(solution), plot)
         if json:
-            _print(result_text(solution))
+            _print(result_text(solution, _face_part(along)))
         elif not quiet:
             from rollnip.cli.summary import print_summary
 
             print_summary(solution)
+            _print_face(along)
         _flush()
-    if not solution.converged:
+    if not solution.converged or (along is not None and not along.converged):
         raise typer.Exit(1)
+
+
+def _along_the_face(problem: Case, model: Model) -> FaceSolution | None:
+    """Solve the face of a case; None where it has none."""
+    if problem.face is None:
+        return None
+    from rollnip.face import solve_face
+
+    with _named(problem.source):
+        return solve_face(problem.nip, problem.face, model)
+
+
+def _face_part(along: FaceSolution | None) -> dict[str, Any] | None:
+    if along is None:
+        return None
+    from rollnip.face.report import face_dict
+
+    return {"face": face_dict(along)}
+
+
+def _print_face(along: FaceSolution | None) -> None:
+    if along is not None:
+        from rollnip.face.report import face_lines
+
+        _print("\n" + "\n".join(face_lines(along)) + "\n")
 
 
 @app.command()

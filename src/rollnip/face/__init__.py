@@ -1,23 +1,37 @@
 """The face: load, width and traction of a nip along rollers that bend, are crowned or crossed."""
 
 from rollnip.face.beam import Beam, FaceGrid
-from rollnip.face.face import Face
+from rollnip.face.design import EvenCrown, LoadRange, even_crown, load_range, with_crown
 from rollnip.face.find import solve_face
+from rollnip.face.impression import Estimate, Impression, Reading, read_impressions
 from rollnip.face.law import NipLaw, nip_law
 from rollnip.face.solution import Bearings, FaceSolution
 from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
+from rollnip.shafts import Crown, CrownTable, Face, Shaft
 
 __all__ = [
     "Balance",
     "Beam",
     "Bearings",
+    "Crown",
+    "CrownTable",
+    "Estimate",
+    "EvenCrown",
     "Face",
     "FaceGrid",
     "FaceProblem",
     "FaceSolution",
+    "Impression",
+    "LoadRange",
     "NipLaw",
+    "Reading",
+    "Shaft",
     "balance",
+    "even_crown",
     "face_problem",
+    "load_range",
     "nip_law",
+    "read_impressions",
     "solve_face",
+    "with_crown",
 ]

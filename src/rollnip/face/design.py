@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq, minimize_scalar
 
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.face.face import Face
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw
 from rollnip.face.solution import FaceSolution
@@ -19,7 +18,7 @@ from rollnip.face.solve import face_problem
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
-from rollnip.shafts import Crown, CrownTable, skew_of_crown
+from rollnip.shafts import Crown, CrownTable, Face, skew_of_crown
 
 Array = NDArray[np.float64]
 Name = Literal["upper", "lower"]

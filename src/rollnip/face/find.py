@@ -9,13 +9,13 @@ from numpy.typing import NDArray
 
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.face.face import Face
 from rollnip.face.law import NipLaw, Progress, nip_law, slip_measure
 from rollnip.face.solution import FaceSolution
 from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Approach, LineLoad, Nip, Traction
+from rollnip.shafts import Face
 from rollnip.solve import solve
 
 Array = NDArray[np.float64]

@@ -18,14 +18,13 @@ from scipy.stats import norm
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.face.design import Name, with_crown
-from rollnip.face.face import Face
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw
 from rollnip.face.solution import FaceSolution
 from rollnip.face.solve import face_problem
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
-from rollnip.shafts import Crown
+from rollnip.shafts import Crown, Face
 
 Array = NDArray[np.float64]
 Unknown = Literal["load", "tilt", "crown", "modulus"]

@@ -8,11 +8,11 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.face.face import Face
 from rollnip.face.law import NipLaw
 from rollnip.face.solve import Balance, FaceProblem
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.shafts import Face
 
 Array = NDArray[np.float64]
 

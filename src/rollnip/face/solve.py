@@ -17,10 +17,10 @@ from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.beam import Beam, FaceGrid
-from rollnip.face.face import Face
 from rollnip.face.law import NipLaw, Section
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Traction
 from rollnip.rollers import Roller
+from rollnip.shafts import Face
 
 Array = NDArray[np.float64]
 

@@ -17,6 +17,7 @@ from rollnip.io.messages import form_error, wrong_controls
 from rollnip.io.tables import CaseTable
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.shafts import Face
 
 _MOST_ERRORS = 20
 
@@ -33,11 +34,14 @@ class Case:
         the model of the geometry and the tolerance.
     source :
         the file's name.
+    face :
+        the nip along its rollers; None where the case has no such table.
     """
 
     nip: Nip
     model: Model
     source: str
+    face: Face | None = None
 
 
 def read_case(path: str | Path) -> Case:
@@ -70,10 +74,10 @@ def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:
 
 def _built(tree: dict[str, Any], source: str, folder: Path | None) -> Case:
     builder = Builder(_checked(tree, source), folder)
-    nip, model = builder.nip(), builder.model()
-    if nip is None or model is None:
+    nip, model, face = builder.nip(), builder.model(), builder.face()
+    if nip is None or model is None or builder.errors:
         _refuse(source, builder.errors)
-    return Case(nip=nip, model=model, source=source)
+    return Case(nip=nip, model=model, source=source, face=face)
 
 
 def case_hash(case: Case) -> str:

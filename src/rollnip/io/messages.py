@@ -37,7 +37,11 @@ def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
             lines.append(
                 f"nip: must hold only one of {', '.join(names)}, got {' and '.join(given)}."
             )
-    if "load" not in nip and "approach" not in nip:
+    face = tree.get("face")
+    ends = isinstance(face, dict) and "end_loads" in face
+    if ends and ("load" in nip or "approach" in nip):
+        lines.append("nip: must not hold load or approach beside face.end_loads.")
+    if not ends and "load" not in nip and "approach" not in nip:
         lines.append("nip: must hold load or approach, got neither.")
     return lines
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from rollnip._files import check_target, write_whole
 from rollnip._results.tree import result_dict
@@ -15,16 +17,18 @@ __all__ = ["check_result_target", "result_dict", "result_text", "write_result"]
 SUFFIXES = (".json", ".nc")
 
 
-def result_text(solution: Solution) -> str:
-    """The result as JSON, a line for each key."""
+def result_text(solution: Solution, parts: Mapping[str, Any] | None = None) -> str:
+    """Return the result as JSON, a line for each key; ``parts`` adds keys such as "face"."""
+    tree = {**result_dict(solution), **(parts or {})}
     lines = [
-        f"{json.dumps(name)}: {json.dumps(value, allow_nan=False)}"
-        for name, value in result_dict(solution).items()
+        f"{json.dumps(name)}: {json.dumps(value, allow_nan=False)}" for name, value in tree.items()
     ]
     return "{\n  " + ",\n  ".join(lines) + "\n}\n"
 
 
-def write_result(solution: Solution, path: str | Path) -> None:
+def write_result(
+    solution: Solution, path: str | Path, parts: Mapping[str, Any] | None = None
+) -> None:
     """Write a solution to a file, all or nothing.
 
     Parameters
@@ -33,6 +37,8 @@ def write_result(solution: Solution, path: str | Path) -> None:
         what `solve` returned.
     path :
         ends in .json or .nc (netCDF, with the extra ``rollnip[netcdf]``).
+    parts :
+        keys that a JSON file gets besides, such as "face".
 
     Raises
     ------
@@ -46,7 +52,7 @@ def write_result(solution: Solution, path: str | Path) -> None:
         tree = result_dict(solution)
         write_whole(target, lambda file: write_netcdf(tree, file))
     else:
-        text = result_text(solution)
+        text = result_text(solution, parts)
         write_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
 
 

@@ -50,6 +50,9 @@ class Quantity:
 Length = Annotated[float, Quantity("length")]
 Radius = Annotated[float, Quantity("length", infinite=True)]
 Force = Annotated[float, Quantity("force")]
+TotalForce = Annotated[float, Quantity("total force")]
+Density = Annotated[float, Quantity("density")]
+Angle = Annotated[float, Quantity("angle")]
 LineLoad = Annotated[float, Quantity("line load")]
 Pressure = Annotated[float, Quantity("pressure")]
 Ratio = Annotated[float, Quantity("ratio")]
@@ -227,6 +230,43 @@ class LayerTable(Table):
     material: MaterialOrName
 
 
+class CrownTableTable(Table):
+    """A crown on the diameter: a height and a shape, or a file."""
+
+    height: Length | None = None
+    shape: Literal["parabolic", "cosine", "circular"] = "parabolic"
+    file: str | None = Field(
+        None,
+        description="CSV file with the columns y, from the middle of the face, and diameter over "
+        "the nominal one.",
+    )
+
+
+class ShaftTable(Table):
+    """What carries the core of a roller over its face."""
+
+    bearing_distance: Length
+    bore: Length = 0.0
+    journal_diameter: Length | None = None
+    modulus: Pressure | None = None
+    poisson: Ratio = 0.3
+    density: Density | None = None
+    crown: Length | CrownTableTable | None = Field(
+        None, description="Height on the diameter, parabolic; or a table with height and shape."
+    )
+
+
+class FaceTable(Table):
+    """The nip along its rollers."""
+
+    length: Length
+    skew: Angle = 0.0
+    end_loads: list[TotalForce] | None = Field(
+        None, description="Forces on the bearings of the upper roller, at y < 0 and at y > 0."
+    )
+    nip_angle: Angle = 0.0
+
+
 class RollerTable(Table):
     """A roller: radius, core, and layers from the surface to the core."""
 
@@ -240,6 +280,7 @@ class RollerTable(Table):
         description="CSV file with the columns x and height over the smooth surface, in the "
         "folder of the case file.",
     )
+    shaft: ShaftTable | None = None
 
 
 class NipTable(Table):
@@ -276,6 +317,7 @@ class CaseTable(Table):
     nip: NipTable
     model: ModelTable = ModelTable()
     solver: SolverTable = SolverTable()
+    face: FaceTable | None = None
     upper: RollerTable
     lower: RollerTable
     materials: dict[str, Material] = {}
@@ -288,6 +330,9 @@ TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIAL
     "upper": RollerTable,
     "lower": RollerTable,
     "layers": LayerTable,
+    "face": FaceTable,
+    "shaft": ShaftTable,
+    "crown": CrownTableTable,
     "terms": TermTable,
     "<wlf>": WlfTable,
     "<arrhenius>": ArrheniusTable,

@@ -1,0 +1,208 @@
+"""The commands ``face``: along the face of a nip, which crown, and reading an impression."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from rollnip._errors import InvalidInputError
+from rollnip._files import one_run
+from rollnip.cli.options import Force
+
+if TYPE_CHECKING:
+    from rollnip.model import Model
+    from rollnip.nip import Nip
+    from rollnip.shafts import Face
+
+face = typer.Typer(
+    name="face",
+    help="Along the face: load and width over rollers that bend; crowns; nip impressions.",
+    no_args_is_help=True,
+)
+CaseFile = Annotated[str, typer.Argument(help="Case file with [face] and shafts.")]
+Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+Plot = Annotated[Path | None, typer.Option(help="Draw the face: name.png, .svg or .pdf.")]
+Crowned = Annotated[str, typer.Option(help="Which roller has the crown: upper or lower.")]
+
+
+@face.command("solve")
+def solve(case: CaseFile, json: Json = False, plot: Plot = None, force: Force = False) -> None:
+    """Solve a nip along its face and print line load, width and scrub.
+
+    The exit code is 0 where the solution was verified, 1 where not, 2 for wrong input.
+    """
+    from rollnip.cli.app import _clear_failures
+
+    with _clear_failures(), one_run(force=force) as run:
+        nip, along, model = _read(case)
+        run.reserve({"--plot": plot})
+        from rollnip.face import solve_face
+        from rollnip.face.report import face_dict, face_lines
+
+        solution = solve_face(nip, along, model)
+        _draw(solution, plot)
+        _print(face_dict(solution) if json else "\n".join(face_lines(solution)) + "\n")
+    if not solution.converged:
+        raise typer.Exit(1)
+
+
+@face.command()
+def crown(
+    case: CaseFile,
+    roller: Crowned = "upper",
+    within: Annotated[
+        float, typer.Option(help="Departure of the load from its mean that is allowed, over it.")
+    ] = 0.1,
+    json: Json = False,
+    plot: Plot = None,
+    force: Force = False,
+) -> None:
+    """Find the crown that makes the line load even, and the loads that it serves.
+
+    The case's own crown on that roller does not matter.
+    """
+    from rollnip.cli.app import _clear_failures
+
+    with _clear_failures(), one_run(force=force) as run:
+        nip, along, model = _read(case)
+        run.reserve({"--plot": plot})
+        from rollnip.face import even_crown, load_range, with_crown
+        from rollnip.shafts import Crown
+
+        name = _roller(roller)
+        best = even_crown(nip, along, model, roller=name)
+        crowned = with_crown(nip, name, Crown(best.height))
+        law = best.solution.law
+        loads = load_range(crowned, along, model, within=within, law=law)
+        _draw(best.solution, plot)
+        _print(_crown_dict(best, loads) if json else _crown_text(best, loads, within))
+
+
+@face.command()
+def read(
+    case: CaseFile,
+    widths: Annotated[str, typer.Argument(help="CSV or workbook with the columns y and width.")],
+    unknown: Annotated[
+        list[str] | None,
+        typer.Option(help="crown, tilt, load or modulus; several times for several."),
+    ] = None,
+    scatter: Annotated[str, typer.Option(help="Standard deviation of a width.")] = "0.2 mm",
+    roller: Crowned = "upper",
+    json: Json = False,
+) -> None:
+    """Read a nip impression: crown, tilt, load or modulus from widths along the face."""
+    from rollnip.cli.app import _clear_failures
+
+    with _clear_failures():
+        nip, along, model = _read(case)
+        from rollnip._units import parse_quantity
+        from rollnip.face import Impression, read_impressions
+        from rollnip.io.columns import read_columns
+
+        table = read_columns(widths)
+        impression = Impression(
+            table.samples("y", "length"),
+            table.samples("width", "length"),
+            parse_quantity(scatter, "length"),
+        )
+        reading = read_impressions(
+            nip,
+            along,
+            [impression],
+            tuple(unknown or ("crown", "tilt")),  # type: ignore[arg-type]
+            model,
+            roller=_roller(roller),
+        )
+        _print(_reading_dict(reading) if json else _reading_text(reading))
+
+
+def _read(case: str) -> tuple[Nip, Face, Model]:
+    from rollnip.io import read_case
+
+    problem = read_case(case)
+    if problem.face is None:
+        raise InvalidInputError(
+            f"{problem.source}: face: is missing; add a table [face] with a length."
+        )
+    return problem.nip, problem.face, problem.model
+
+
+def _roller(name: str) -> Any:
+    if name not in ("upper", "lower"):
+        raise InvalidInputError(f"`--roller` must be upper or lower, got {name!r}.")
+    return name
+
+
+def _draw(solution: Any, plot: Path | None) -> None:
+    if plot is not None:
+        from rollnip.face.pictures import plot_face
+        from rollnip.plots import save_figure
+
+        save_figure(plot_face(solution), plot)
+
+
+def _print(what: dict[str, Any] | str) -> None:
+    from json import dumps
+
+    text = what if isinstance(what, str) else dumps(what, indent=2, allow_nan=False) + "\n"
+    sys.stdout.write(text)
+    sys.stdout.flush()
+
+
+def _crown_dict(best: Any, loads: Any) -> dict[str, Any]:
+    from rollnip.face.report import face_dict
+
+    span = None if loads is None else {"within": loads.within, "low": loads.low, "high": loads.high}
+    return {
+        "roller": best.roller,
+        "height": best.height,
+        "skew_instead": best.skew,
+        "y": best.y.tolist(),
+        "diameter": best.diameter.tolist(),
+        "loads": span,
+        "face": face_dict(best.solution),
+    }
+
+
+def _crown_text(best: Any, loads: Any, within: float) -> str:
+    found = best.solution
+    lines = [
+        f"Parabolic crown of the {best.roller} roller: {best.height:.4g} mm on the diameter",
+        f"  line load with it      {found.load.min():.4g} to {found.load.max():.4g} N/mm",
+        f"  even load asks for     {best.diameter[best.y.size // 2]:.4g} mm in the middle "
+        "(table with --json)",
+        f"  skew instead           {best.skew * 57.29577951308232:.4g} degrees",
+    ]
+    if loads is None:
+        lines.append(f"  no load is within {100 * within:g} % of its mean over the whole face")
+    else:
+        low = "less" if loads.low is None else f"{loads.low:.4g}"
+        high = "more" if loads.high is None else f"{loads.high:.4g}"
+        lines.append(f"  within {100 * within:g} % of the mean  from {low} to {high} N/mm")
+    return "\n".join(lines) + "\n"
+
+
+def _reading_dict(reading: Any) -> dict[str, Any]:
+    return {
+        "estimates": {
+            one.name: {"value": one.value, "low": one.low, "high": one.high, "unit": one.unit}
+            for one in reading.estimates
+        },
+        "chi_squared": reading.chi_squared,
+        "freedom": reading.freedom,
+        "shop_crown": reading.shop_crown,
+        "warnings": list(reading.warnings),
+    }
+
+
+def _reading_text(reading: Any) -> str:
+    lines = ["Read from the impression, with 95 % intervals:"]
+    for one in reading.estimates:
+        unit = "" if one.unit == "1" else f" {one.unit}"
+        lines.append(f"  {one.name:10s} {one.value:10.4g}{unit}  ({one.low:.4g} to {one.high:.4g})")
+    lines.append(f"  the shop formula would add {reading.shop_crown:.4g} mm to the crown")
+    lines += [f"  note: {line}" for line in reading.warnings]
+    return "\n".join(lines) + "\n"

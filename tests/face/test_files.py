@@ -1,0 +1,132 @@
+"""Faces from case files and on the command line."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import rollnip as rn
+from rollnip.cli.app import app
+from rollnip.face.pictures import plot_face
+from rollnip.io import parse_case
+
+EXAMPLE = Path(__file__).parents[2] / "examples" / "press-face.toml"
+TEXT = EXAMPLE.read_text(encoding="utf-8")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(one) for one in arguments])
+
+
+def test_the_example_is_read():
+    case = rn.read_case(EXAMPLE)
+    assert case.face == rn.Face(length=1600.0)
+    shaft = case.nip.upper.shaft
+    assert shaft.bearing_distance == 1900.0
+    assert shaft.crown == rn.Crown(0.25)
+    assert shaft.modulus == 206e3
+    assert case.nip.lower.shaft.journal_diameter is None
+
+
+def test_units_and_shapes():
+    text = TEXT.replace('length = "1600 mm"', 'length = "63 in"\nskew = "0.1 deg"').replace(
+        'crown = "0.25 mm"',
+        'density = "0.2836 lb/in3"\ncrown = { height = "10 mil", shape = "cosine" }',
+    )
+    case = parse_case(text)
+    assert case.face.length == pytest.approx(1600.2)
+    assert case.face.skew == pytest.approx(0.1 * 3.141592653589793 / 180.0)
+    assert case.nip.upper.shaft.crown == rn.Crown(0.254, "cosine")
+    assert case.nip.upper.shaft.density == pytest.approx(7850.0, rel=1e-3)
+
+
+def test_end_loads_take_the_place_of_the_load():
+    text = TEXT.replace('load = "6 N/mm" ', "# ").replace(
+        'length = "1600 mm"', 'length = "1600 mm"\nend_loads = ["4.8 kN", 5000]'
+    )
+    case = parse_case(text)
+    assert case.face.end_loads == (4800.0, 5000.0)
+    assert case.nip.normal.load == pytest.approx(9800.0 / 1600.0)
+
+
+def test_a_crown_from_a_file(tmp_path):
+    (tmp_path / "crown.csv").write_text("y [mm], diameter [um]\n-800, 0\n0, 250\n800, 0\n")
+    path = tmp_path / "case.toml"
+    path.write_text(TEXT.replace('crown = "0.25 mm"', 'crown = { file = "crown.csv" }'))
+    crown = rn.read_case(path).nip.upper.shaft.crown
+    assert list(crown.diameter) == pytest.approx([0.0, 0.25, 0.0])
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "sentence"),
+    [
+        ('bore = "100 mm"', "bore = -1", "upper.shaft.bore: must not be negative"),
+        ('bearing_distance = "1900 mm"\nbore', "bore", "upper.shaft.bearing_distance"),
+        ('crown = "0.25 mm"', "crown = {}", "upper.shaft.crown: must hold either height or file"),
+        (
+            'length = "1600 mm"',
+            'length = "1600 mm"\nend_loads = ["1 kN", "1 kN"]',
+            "beside face.end_l",
+        ),
+        ('length = "1600 mm"', 'lenght = "1600 mm"', "length"),
+        ('length = "1600 mm"', 'length = "1600 kg"', "face.length"),
+    ],
+)
+def test_wrong_files_say_what_is_wrong(old, new, sentence):
+    assert old in TEXT
+    with pytest.raises(rn.CaseFileError, match=sentence):
+        parse_case(TEXT.replace(old, new, 1))
+
+
+def test_solve_prints_and_writes_the_face(tmp_path):
+    result = run("solve", EXAMPLE, "--json")
+    assert result.exit_code == 0, result.output
+    tree = json.loads(result.stdout)
+    face = tree["face"]
+    assert set(face) >= {
+        "creepage", "y", "load", "approach", "nip_width", "peak_pressure", "traction",
+        "local_creepage", "deflection_upper", "deflection_lower",
+    }  # fmt: skip
+    assert face["y"][0] == -800.0
+    assert face["y"][-1] == 800.0
+    assert face["load"][0] > face["load"][len(face["load"]) // 2]
+    assert tree["case"]["upper"]["shaft"]["crown"] == {"height": 0.25, "shape": "parabolic"}
+
+
+def test_face_solve_draws(tmp_path):
+    result = run("face", "solve", EXAMPLE, "--plot", tmp_path / "face.png")
+    assert result.exit_code == 0, result.output
+    assert "line load" in result.stdout
+    assert (tmp_path / "face.png").stat().st_size > 10_000
+
+
+def test_face_crown():
+    result = run("face", "crown", EXAMPLE, "--json")
+    assert result.exit_code == 0, result.output
+    tree = json.loads(result.stdout)
+    assert 0.4 < tree["height"] < 0.55
+    assert tree["loads"]["low"] < 6.0 < tree["loads"]["high"]
+
+
+def test_face_read(tmp_path):
+    widths = tmp_path / "widths.csv"
+    widths.write_text("y [mm], width [mm]\n-750, 14.1\n0, 13.6\n750, 14.4\n")
+    result = run("face", "read", EXAMPLE, widths, "--unknown", "crown", "--json")
+    assert result.exit_code == 0, result.output
+    tree = json.loads(result.stdout)
+    one = tree["estimates"]["crown"]
+    assert one["low"] < one["value"] < one["high"]
+
+
+def test_a_case_without_a_face_is_told_what_is_missing():
+    result = run("face", "solve", EXAMPLE.parent / "press-driven.toml")
+    assert result.exit_code == 2
+    assert "add a table [face]" in result.output
+
+
+@pytest.mark.parametrize("style", ["light", "dark"])
+def test_the_picture_names_its_axes(straight, style):
+    figure = plot_face(straight, style=style)
+    labels = [ax.get_ylabel() for ax in figure.axes]
+    assert labels == ["nip width [mm]", "line load [N/mm]", "traction [N/mm]", "over the ends [µm]"]

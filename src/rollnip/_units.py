@@ -28,7 +28,6 @@ Dimension = Literal[
     "molar energy",
     "frequency",
     "angle",
-    "total force",
     "density",
 ]
 
@@ -171,7 +170,6 @@ _FREQUENCY = _units(
     {"Hz": 1, "mHz": "1e-3", "kHz": 1000, "MHz": 1_000_000, "GHz": 10**9, "1/min": Fraction(1, 60)}
 ) | {"rad/s": (Fraction(1.0 / tau), Fraction(0))}
 _ANGLE = _units({"rad": 1, "mrad": "1e-3"}) | {"deg": (Fraction(pi / 180.0), Fraction(0))}
-_TOTAL = _units({"N": 1, "mN": "1e-3", "daN": 10, "kN": 1000, "kgf": _KGF, "kp": _KGF, "lbf": _LBF})
 _POUND = Fraction("0.45359237")  # kg
 _DENSITY = _units(
     {
@@ -196,7 +194,6 @@ _KINDS: dict[Dimension, _Kind] = {
     "ratio": _Kind("a plain number", "", "0.5 %", _RATIO),
     "frequency": _Kind("a frequency", "Hz", "10 Hz", _FREQUENCY),
     "angle": _Kind("an angle", "rad", "10 deg", _ANGLE),
-    "total force": _Kind("a force", "N", "2.6 kN", _TOTAL),
     "density": _Kind("a density", "kg/m3", "7850 kg/m3", _DENSITY),
     "molar energy": _Kind("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
 }

@@ -20,7 +20,7 @@ from rollnip.materials import (
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.shafts import Crown, CrownTable, Shaft
+from rollnip.shafts import Crown, CrownTable, Face, Shaft
 
 # What `model` is called in a case file.
 _NAMES: Mapping[type, str] = {
@@ -54,10 +54,11 @@ def case_tree(nip: Nip, model: Model) -> dict[str, Any]:
     return tree
 
 
-def problem_hash(nip: Nip, model: Model) -> str:
+def problem_hash(nip: Nip, model: Model, face: Face | None = None) -> str:
     """Return 16 hexadecimal digits that tell problems apart; the title does not count."""
     problem = replace(nip, title="") if nip.title else nip
-    return sha256(repr((problem, model)).encode()).hexdigest()[:16]
+    parts = (problem, model) if face is None else (problem, model, face)
+    return sha256(repr(parts).encode()).hexdigest()[:16]
 
 
 def _roller(roller: Roller) -> dict[str, Any]:

@@ -80,12 +80,11 @@ def _shapes(ax: Axes, solution: FaceSolution, palette: Palette) -> None:
     away = solution.deflection_upper + solution.deflection_lower
     away = away - 0.5 * (away[0] + away[-1])
     crown = solution.problem.still - 0.5 * (solution.problem.still[0] + solution.problem.still[-1])
-    ax.plot(
-        solution.y, 1e3 * away, color=palette.upper, linewidth=1.8, label="both axes bend apart"
+    lines = (
+        (away, palette.upper, "-", "both axes bend apart"),
+        (crown, palette.lower, "--", "crowns and skew fill"),
     )
-    label = "crowns and skew"
-    ax.plot(
-        solution.y, 1e3 * crown, color=palette.lower, linewidth=1.8, linestyle="--", label=label
-    )
+    for values, color, dashes, name in lines:
+        ax.plot(solution.y, 1e3 * values, color=color, linewidth=1.8, linestyle=dashes, label=name)
     ax.set_ylabel("over the ends [µm]")
     ax.legend(frameon=False, fontsize=9, loc="best", labelcolor="linecolor")

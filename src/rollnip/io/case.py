@@ -86,7 +86,7 @@ def case_hash(case: Case) -> str:
     Of the values in base units, not of how they were written; neither the title nor the name of
     the file counts. The version of rollnip is not part of it.
     """
-    return problem_hash(case.nip, case.model)
+    return problem_hash(case.nip, case.model, case.face)
 
 
 def case_schema(*, ref: str = "#/$defs/{model}") -> dict[str, Any]:

@@ -26,6 +26,7 @@ from rollnip.materials import (
 )
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Roller
+from rollnip.shafts import Crown, Face, Shaft
 
 _WIDTH = 88
 # What stands in `rollnip` itself under the same name.
@@ -33,6 +34,7 @@ _TYPES = (
     *(Nip, Roller, Layer, LineLoad, Approach, Traction, Creepage, Torque),
     *(Elastic, StandardLinearSolid, Prony, FractionalZener, LossFactor),
     *(WLF, Arrhenius, TabulatedShift),
+    *(Shaft, Crown, Face),
 )
 
 
@@ -44,14 +46,22 @@ def case_python(case: Case) -> str:
     RollnipError
         where a part of the case is no object of `rollnip`.
     """
-    arguments = (f"{name}={_python(value, 1)}" for name, value in _given(case.model))
+    arguments = [f"{name}={_python(value, 1)}" for name, value in _given(case.model)]
+    model = f"rn.Model({', '.join(arguments)})"
+    along = ""
+    if case.face is not None:
+        along = (
+            f"face = {_python(case.face, 0)}\n"
+            f"along = rn.solve_face(nip, face, {model})\n"
+            'print(f"line load {along.load.min():.4g} to {along.load.max():.4g} N/mm")\n'
+        )
     return (
         "import rollnip as rn\n\n"
         f"nip = {_python(case.nip, 0)}\n"
-        f"solution = rn.solve(nip, rn.Model({', '.join(arguments)}))\n"
+        f"solution = rn.solve(nip, {model})\n"
         'print(f"nip width {solution.nip_width:.4g} mm, '
         'peak pressure {solution.peak_pressure:.4g} MPa")\n'
-    )
+    ) + along
 
 
 def case_toml(tree: Mapping[str, Any]) -> str:

@@ -50,7 +50,6 @@ class Quantity:
 Length = Annotated[float, Quantity("length")]
 Radius = Annotated[float, Quantity("length", infinite=True)]
 Force = Annotated[float, Quantity("force")]
-TotalForce = Annotated[float, Quantity("total force")]
 Density = Annotated[float, Quantity("density")]
 Angle = Annotated[float, Quantity("angle")]
 LineLoad = Annotated[float, Quantity("line load")]
@@ -261,7 +260,7 @@ class FaceTable(Table):
 
     length: Length
     skew: Angle = 0.0
-    end_loads: list[TotalForce] | None = Field(
+    end_loads: list[Force] | None = Field(
         None, description="Forces on the bearings of the upper roller, at y < 0 and at y > 0."
     )
     nip_angle: Angle = 0.0

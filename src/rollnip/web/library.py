@@ -29,6 +29,7 @@ _SHOWN: dict[Dimension, tuple[str, str]] = {
     "molar energy": ("kJ/mol", "kcal/mol"),
     "frequency": ("Hz", "Hz"),
     "angle": ("deg", "deg"),
+    "density": ("kg/m3", "lb/in3"),
 }
 # Dimensions and totals of results alone: [unit, scale] of the metric and the US page.
 _SHARE, _DEGREE = ["%", 0.01], ["°", 1.0]

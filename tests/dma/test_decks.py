@@ -146,3 +146,19 @@ def test_what_is_no_series_is_refused(deck, text, options, said):
 def test_an_unknown_format_is_refused():
     with pytest.raises(InvalidInputError, match="`to` must be abaqus, ansys or pyvisco"):
         prony_deck(SOLID, "nastran")
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "i,tau_i,alpha_i,E_0,E_i\n-,s,-,MPa,MPa\n1,0.01\n",
+        "i,tau_i,alpha_i,E_0,E_i\n",
+        "*ELASTIC\n2,.4\n*VISCOELASTIC, TIME=PRONY\n.5\n*TRS\n20\n",
+        "*ELASTIC\n\n*VISCOELASTIC, TIME=PRONY\n.5,.5,1\n",
+        "TB,PRONY\nTBDATA\nMP,EX,1,8\n",
+        'tau_i,"' + 200_000 * "x" + "\n",
+    ],
+)
+def test_broken_decks_are_refused_in_words(deck, text):
+    with pytest.raises(InvalidInputError):
+        read_deck(deck(text, "broken.csv"), unit="MPa", poisson=0.4)

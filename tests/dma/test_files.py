@@ -117,7 +117,7 @@ def test_rows_with_gaps_are_left_out_and_said(file):
     body = lines(F, T, STORAGE, LOSS) + "5;30;;1,2\n6;30;9,5;---\n"
     path = file("f [Hz];T [°C];E' [MPa];E'' [MPa]\n" + body)
     check(read_dma(path))
-    assert "left out: 2 rows with an empty cell (lines 6, 7)" in read_tables(path).text()
+    assert "left out: 2 rows without a value (lines 6, 7)" in read_tables(path).text()
 
 
 TRIOS = """Filename\tsample 4.tri
@@ -212,7 +212,7 @@ def test_eplexor_sheets(tmp_path):
     }
     write_workbook(path, sheets)
     check(read_dma(path))
-    assert "left out: 1 row with an empty cell (line 5)" in read_tables(path).text()
+    assert "left out: 1 row without a value (line 5)" in read_tables(path).text()
     assert len(read_tables(path, sheet="Exported Data").tables) == 1
     with pytest.raises(InvalidInputError, match='has no sheet "data"'):
         read_dma(path, sheet="data")

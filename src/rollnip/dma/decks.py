@@ -190,7 +190,7 @@ def _read_abaqus(text: str, source: str, scale: float, poisson: float | None) ->
 def _abaqus_shift(options: Sequence[tuple[str, list[list[float]]]]) -> Shift | None:
     found = next((rows for line, rows in options if line.upper().startswith("*TRS")), None)
     line = next((line for line, _ in options if line.upper().startswith("*TRS")), "")
-    if found and found[0] and ("DEFINITION" not in line.upper() or "WLF" in line.upper()):
+    if found and len(found[0]) >= 3 and ("DEFINITION" not in line.upper() or "WLF" in line.upper()):
         reference, c1, c2 = found[0][:3]
         return WLF(c1, c2, reference)
     return None
@@ -273,6 +273,9 @@ def _read_pyvisco(path: str | Path, poisson: float | None) -> ReadDeck:
         raise InvalidInputError(f"{source}: must have the columns tau_i, alpha_i and E_0 or G_0.")
     columns = [heads.index(name) for name in ("tau_i", "alpha_i", f"{kind}_0")]
     start = next(i for i, row in enumerate(rows) if "tau_i" in row) + 1
+    short = next((row for row in rows[start:] if len(row) <= max(columns)), None)
+    if short is not None:
+        raise InvalidInputError(f"{source}: a row must have {len(heads)} cells, has {len(short)}.")
     unit = bare_unit(str(rows[start][columns[2]])) if start < len(rows) else ""
     scale = parse_quantity(f"1 {unit}", "pressure")
     values = [[_float(str(row[i])) for i in columns] for row in rows[start + 1 :]]

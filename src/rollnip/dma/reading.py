@@ -192,11 +192,11 @@ def _understood(
     good = np.all([np.isfinite(column) for column in values.values()], axis=0)
     lost = [line for line, kept in zip(table.lines, good, strict=True) if not kept]
     if lost:
-        notes.append(f"left out: {_count(len(lost), 'row')} with an empty cell ({_lines(lost)})")
+        notes.append(f"left out: {_count(len(lost), 'row')} without a value ({_lines(lost)})")
     where = "line" if cells.encoding else f'sheet "{table.name}", row'
     rows = tuple(f"{where} {line}" for line, k in zip(table.lines, good, strict=True) if k)
     if not rows:
-        return replace(empty, problem=f"it has no row without an empty cell {_seen(table)}.")
+        return replace(empty, problem=f"it has no row in which all values stand {_seen(table)}.")
     kinds = {table.heads[i].kind for i in used.values()} - {None}
     if len(kinds) > 1:
         fault = f"{source}, line {table.line}: moduli must be of one kind, got E and G."

@@ -176,10 +176,16 @@ def _is_blank_separated(line: str) -> bool:
     return len(numbers) >= 2 and 2 * len(numbers) > len(parts) and not ("," in line and "." in line)
 
 
+def _parted(line: str, mark: str) -> list[str]:
+    try:
+        return next(csv.reader([line], delimiter=mark))
+    except csv.Error:  # a cell longer than any number or head
+        return line.split(mark)
+
+
 def _split(lines: Sequence[str], mark: str) -> list[tuple[Cell, ...]]:
     if mark != " ":
-        rows = (next(csv.reader([line], delimiter=mark)) for line in lines)
-        return [tuple(cell.strip() for cell in row) for row in rows]
+        return [tuple(cell.strip() for cell in _parted(line, mark)) for line in lines]
     narrow = [tuple(_BLANKS.split(line.strip())) for line in lines]
     counts = Counter(len(row) for row in narrow if len(_NUMERIC.findall(" ".join(row))) >= 2)
     width = counts.most_common(1)[0][0]

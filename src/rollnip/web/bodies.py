@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from math import inf
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema
+from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema, field_validator
 
 from rollnip._units import Dimension
 
@@ -50,6 +51,24 @@ class FindBody(Body):
     wanted: Value
     low: Value
     high: Value
+
+
+class KnownBody(Body):
+    """A case whose figures are asked how well they are known."""
+
+    case: Case
+    measured: dict[str, list[float]] = Field(
+        default_factory=dict,
+        description="Lowest and highest modulus [MPa] by path of a material that was measured.",
+        examples=[{"upper.layers[0].material": [3.1, 3.6]}],
+    )
+
+    @field_validator("measured")
+    @classmethod
+    def _are_bands(cls, measured: dict[str, list[float]]) -> dict[str, list[float]]:
+        if any(len(one) != 2 or not 0.0 < one[0] <= one[1] < inf for one in measured.values()):
+            raise ValueError("must hold two moduli, the lower one first")
+        return measured
 
 
 class TomlBody(Body):

@@ -9,7 +9,7 @@ from contextlib import asynccontextmanager
 from typing import Any
 
 from rollnip.web.answers import RefusedError, Reply, json_bytes
-from rollnip.web.bodies import FindBody, InteriorBody, SweepBody
+from rollnip.web.bodies import FindBody, InteriorBody, KnownBody, SweepBody
 from rollnip.web.limits import Limits
 from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError
 
@@ -85,6 +85,15 @@ class Desk:
             seconds = self._limits.long_seconds
             try:
                 return await self.pool.run("find", body.model_dump(), seconds, patient=True)
+            except (OverloadedError, TimeLimitError, WorkerError) as error:
+                raise _refused(error, seconds) from None
+
+    async def known(self, body: KnownBody) -> Reply:
+        """What is known about the figures of a case. Raises RefusedError."""
+        async with self._gate:
+            seconds = 3.0 * self._limits.solve_seconds  # three solves
+            try:
+                return await self.pool.run("known", body.model_dump(), seconds, patient=True)
             except (OverloadedError, TimeLimitError, WorkerError) as error:
                 raise _refused(error, seconds) from None
 

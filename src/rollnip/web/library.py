@@ -37,10 +37,12 @@ _SHOWN_RESULTS = {
     "power per length": {"metric": ["W/m", 1.0], "us": ["W/ft", 1.0 / 0.3048]},
     "share": {"metric": _SHARE, "us": _SHARE},
     "angle": {"metric": _DEGREE, "us": _DEGREE},
+    "roller force": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
+    "air pressure": {"metric": ["bar", 0.1], "us": ["psi", 4.4482216152605 / 25.4**2]},
 }
 _SHOWN_TOTALS = {
     "N": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
-    "N m": {"metric": ["N·m", 1.0], "us": ["lbf·ft", 1.3558179483314]},
+    "N m": {"metric": ["N·m", 1.0], "us": ["lbf·in", 0.11298482902762]},
     "W": {"metric": ["W", 1.0], "us": ["W", 1.0]},
 }
 # In the order of the page: what is read first stands first.
@@ -55,11 +57,14 @@ class Library:
     Attributes
     ----------
     examples : {"name", "title", "group": "paper" or "typical", "description", "case"} of each.
-    materials : {"name", "title", "description", "source", "material", "range"} of each.
+    materials : {"name", "title", "description", "source", "material", "range"} of each; with
+        "family" a kind of covering that comes in any hardness.
+    hardness : moduli over Shore A: {"shore_a", "low", "likely", "high"}, lists.
     """
 
     examples: list[dict[str, Any]]
     materials: list[dict[str, Any]]
+    hardness: dict[str, list[float]]
 
     @classmethod
     def read(cls) -> Library:
@@ -69,7 +74,13 @@ class Library:
         paper = [example for example in paper if not _names_a_file(example["case"])]
         others = tomllib.loads((_DATA / "materials.toml").read_text(encoding="utf-8"))["material"]
         rubbers = [_rubber(hardness) for hardness in _HARDNESSES]
-        return cls(typical + paper, rubbers + [_material(table) for table in others])
+        coverings = tomllib.loads((_DATA / "coverings.toml").read_text(encoding="utf-8"))
+        families = [_family(table) for table in coverings["covering"]]
+        return cls(
+            typical + paper,
+            families + rubbers + [_material(table) for table in others],
+            _hardness_table(),
+        )
 
 
 def units() -> dict[str, Any]:
@@ -146,6 +157,22 @@ def _paper_folder() -> Path:
     package = Path(str(files("rollnip")))
     inside = package / "examples"
     return inside if inside.is_dir() else package.parents[1] / "examples"
+
+
+def _family(table: dict[str, Any]) -> dict[str, Any]:
+    """A kind of covering, at the hardness it is offered in most often."""
+    kept = {name: table[name] for name in ("name", "title", "description", "source")}
+    material = {"model": "elastic", "shore_a": table["shore_a"], "poisson": 0.5}
+    band = {"modulus": _range(*shore_a_band(table["shore_a"]))}
+    return kept | {"family": True, "material": material, "range": band}
+
+
+def _hardness_table() -> dict[str, list[float]]:
+    """Moduli [MPa] at every half point of Shore A."""
+    points = [20.0 + 0.5 * i for i in range(151)]
+    found = [shore_a_band(point) for point in points]
+    columns = {name: [getattr(band, name) for band in found] for name in ("low", "likely", "high")}
+    return {"shore_a": points, **columns}
 
 
 def _rubber(hardness: int) -> dict[str, Any]:

@@ -18,6 +18,7 @@ from rollnip.web.bodies import (
     Case,
     FindBody,
     InteriorBody,
+    KnownBody,
     Quantity,
     QuantityBody,
     Refusal,
@@ -85,6 +86,12 @@ async def find(request: Request, body: FindBody) -> Response:
     return await _answer(request, _desk(request).find(body))
 
 
+@posts.post("/known", response_model=dict[str, Any])
+async def known(request: Request, body: KnownBody) -> Response:
+    """Accuracy of the model against finite elements; figures over the bands of the materials."""
+    return await _answer(request, _desk(request).known(body))
+
+
 @posts.post("/case", response_model=dict[str, Any])
 async def case(request: Request, case: CaseBody) -> Response:
     """Check a case: its hash, the case as TOML, as Python, and in base units."""
@@ -123,6 +130,12 @@ async def examples(request: Request) -> Response:
 async def materials(request: Request) -> Response:
     """Materials to choose from, each with its source."""
     return _json(_library(request).materials)
+
+
+@router.get("/hardness", response_model=dict[str, list[float]])
+async def hardness(request: Request) -> Response:
+    """Young's modulus [MPa] over Shore A: lowest, likely and highest, at every half point."""
+    return _json(_library(request).hardness)
 
 
 @router.get("/schema", response_model=dict[str, Any])

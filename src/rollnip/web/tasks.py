@@ -36,6 +36,8 @@ from rollnip.solution import Solution
 from rollnip.solve import solve
 from rollnip.sweep import scalars
 from rollnip.web.answers import SOURCE, Reply, error_tree, json_bytes, refusal
+from rollnip.web.known import JUDGED, at_end, bands, spread
+from rollnip.web.library import Library
 from rollnip.web.limits import Limits
 
 Body = Mapping[str, Any]
@@ -76,12 +78,14 @@ class Tasks:
         self._limits = limits
         self._kept: OrderedDict[str, Solution] = OrderedDict()
         self._kernels = KernelCache()
+        self._library: Library | None = None
         self._tasks: dict[str, Callable[[Body], Reply]] = {
             "solve": self._solve,
             "surfaces": self._surfaces,
             "interior": self._interior,
             "value": self._value,
             "find": self._find,
+            "known": self._known,
             "case": self._case,
             "toml": self._toml,
         }
@@ -169,6 +173,36 @@ class Tasks:
             "message": found.message,
         }
         return Reply(200, json_bytes(tree), case_hash(case))
+
+    def _known(self, body: Body) -> Reply:
+        """Accuracy of the model, and the figures at both ends of the bands of the materials."""
+        case = self._read(body["case"])
+        solution = self._solution(case)
+        base = base_tree(body["case"])
+        self._library = self._library or Library.read()
+        found = bands(base, self._library.materials, body["measured"])
+        answer: dict[str, Any] = {
+            "geometry": solution.model.geometry,
+            "accuracy": JUDGED[solution.model.geometry],
+            "is_judged": not solution.warnings,
+            "materials": [band._asdict() for band in found],
+            "figures": {},
+            "message": "",
+        }
+        if found:
+            try:
+                ends = [_flat(self._sound_row(at_end(base, found, end))) for end in ("low", "high")]
+                answer["figures"] = spread(_flat(scalars(solution)), *ends)
+            except RollnipError as error:
+                answer["message"] = refusal(error)["error"]
+        return Reply(200, json_bytes(answer), case_hash(case))
+
+    def _sound_row(self, tree: Body) -> dict[str, Any]:
+        """The scalars of a case's solution. Raises CaseFileError where it did not converge."""
+        row = self._row(tree)
+        if not row["converged"]:
+            raise CaseFileError(f"{SOURCE}: at an end of the band there is no converged solution.")
+        return row
 
     def _case(self, body: Body) -> Reply:
         tree = body["case"]

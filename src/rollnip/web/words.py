@@ -37,6 +37,13 @@ _SPELLINGS: dict[Dimension, dict[str, str]] = {
         "kN/m": "kn/m",
         "kgf/cm": "kg/cm kgf/cm kp/cm",
     },
+    "force": {
+        "lbf": "lb lbs lbf pound pounds",
+        "N": "n newton newtons",
+        "kN": "kn",
+        "daN": "dan",
+        "kgf": "kg kgf kp",
+    },
     "pressure": {"psi": "psi lb/in2 lbs/in2", "MPa": "mpa n/mm2", "kPa": "kpa", "bar": "bar bars"},
     "speed": {
         "fpm": "fpm ft/min feet/min",

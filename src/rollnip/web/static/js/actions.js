@@ -137,8 +137,19 @@ export class Actions {
   async saveCsv(what) {
     await this.attempt("The figures could not be saved", () => {
       const { tree, result } = this.answer;
-      const text = what === "curves" ? profilesCsv(result, this.units()) : figuresCsv(result, this.units());
+      const units = this.units();
+      const text = what === "curves" ? profilesCsv(result, units) : figuresCsv(this.answer, units);
       download(fileName(tree, `${what}.csv`), text, "text/csv");
+    });
+  }
+
+  /** Everything that was computed, as the command line gives it, with the case and what is known. */
+  async saveJson() {
+    await this.attempt(say("json.failed"), async () => {
+      const { tree, known } = this.answer;
+      const result = await post("/api/solve", tree);
+      const text = JSON.stringify({ case: tree, result, known }, null, 1);
+      download(fileName(tree, "json"), text, "application/json");
     });
   }
 

@@ -1,6 +1,7 @@
 // The figures: one big, four beside it, all of them below; alarms and warnings.
 
 import { byId, el, withUnit } from "./dom.js";
+import { bandOf, headline, rangeText, showKnown } from "./known.js";
 import { ANSWERS, errorOf, flat, totalsOf } from "./quantities.js";
 import { say } from "./texts.js";
 import { number } from "./units.js";
@@ -8,8 +9,9 @@ import { number } from "./units.js";
 const SECONDS = ["peak_pressure", "approach", "dwell_time", "speed_ratio"];
 const ROOT = document.documentElement;
 
-/** Show a result. */
-export function showAnswers(result, units) {
+/** Show {result, known}. */
+export function showAnswers(snapshot, units) {
+  const { result, known } = snapshot;
   const all = flat(result);
   ROOT.classList.toggle("unsound", !result.converged);
   const nip = units.format(all.nip_width, "length");
@@ -18,8 +20,9 @@ export function showAnswers(result, units) {
     el("span", { class: "error", id: "big-error" }),
   );
   byId("big-hint").textContent = ANSWERS[0].hint(all);
-  byId("seconds").replaceChildren(...SECONDS.map((key) => second(key, all, units)));
-  showFigures(all, units);
+  byId("seconds").replaceChildren(...SECONDS.map((key) => second(key, all, units, known)));
+  showKnown(snapshot, units);
+  showFigures(all, units, known);
   showWarnings(result);
   showSolver(result);
 }
@@ -34,19 +37,14 @@ export function showStanding(standing, snapshot, units) {
   ROOT.classList.toggle("old", isOld);
   ROOT.classList.toggle("stale", standing === "none");
   ROOT.classList.toggle("preview", standing === "preview");
-  const said = standing === "settled" ? numericalError(snapshot.result, units) : say(`state.${standing}`);
+  const said = standing === "settled" ? headline(snapshot, units) : say(`state.${standing}`);
   const line = document.getElementById("big-error");
   if (line) line.textContent = said;
   if (isOld) byId("mini").replaceChildren(el("span", { class: "alarm", text: said }));
   else if (snapshot) showMini(snapshot.result, units);
 }
 
-function numericalError(result, units) {
-  const error = result.error?.nip_width;
-  return error ? `± ${units.error(error, "length")} (estimated numerical error)` : "";
-}
-
-function second(key, all, units) {
+function second(key, all, units, known) {
   const { label, dimension, digits } = ANSWERS.find((one) => one.key === key);
   const shown = units.format(all[key], dimension, digits);
   return el(
@@ -54,7 +52,14 @@ function second(key, all, units) {
     {},
     el("dt", { text: label }),
     el("dd", { "data-key": key }, ...withUnit(shown)),
+    bandLine(key, dimension, units, known),
   );
+}
+
+/** Between what the material leaves a figure, where that is known. */
+function bandLine(key, dimension, units, known) {
+  const band = bandOf(known, key);
+  return band ? el("dd", { class: "band", text: rangeText(band, dimension, units) }) : null;
 }
 
 function showMini(result, units) {
@@ -68,12 +73,13 @@ function showMini(result, units) {
   else bar.replaceChildren(el("span", { class: "alarm", text: "NOT CONVERGED" }));
 }
 
-function showFigures(all, units) {
+function showFigures(all, units, known) {
   const shown = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined);
   const rows = shown.map(({ key, label, dimension, digits, hint }) => {
     const noted = errorOf(all, key);
     const error = noted ? `± ${units.error(noted, dimension)}` : "";
-    return figure(label, key, units.format(all[key], dimension, digits), error, hint(all));
+    const band = bandLine(key, dimension, units, known);
+    return figure(label, key, units.format(all[key], dimension, digits), error, hint(all), band);
   });
   const totals = totalsOf(all, units.system).map(({ label, text, unit }) =>
     figure(label, null, { text, unit }, "", ""),
@@ -81,7 +87,7 @@ function showFigures(all, units) {
   byId("figures").replaceChildren(...rows, ...totals);
 }
 
-function figure(label, key, shown, error, hint) {
+function figure(label, key, shown, error, hint, band = null) {
   return el(
     "dl",
     { class: "figure" },
@@ -92,6 +98,7 @@ function figure(label, key, shown, error, hint) {
       ...withUnit(shown),
       error ? el("span", { class: "error", text: error }) : null,
     ),
+    band,
     hint ? el("dd", { class: "note", text: hint }) : null,
   );
 }
@@ -105,7 +112,7 @@ function showWarnings(result) {
 function showSolver({ solver, geometry }) {
   const change = `${number(1000 * solver.seconds, 2)} ms, ${solver.elements} elements, residual ${number(solver.residual, 2)}`;
   byId("solver-line").textContent =
-    `Computed with rollnip ${solver.version}, geometry “${geometry}”: ${change}. Errors shown are numerical; the modulus of a real rubber is usually known far worse.`;
+    `Computed with rollnip ${solver.version}, geometry “${geometry}”: ${change}. `;
 }
 
 /** An alarm above everything: a title, sentences, and elements below them. */

@@ -2,7 +2,7 @@
 
 import { Actions } from "./actions.js";
 import { announce, clearAlarm, alarm, showAnswers, showStanding, unsoundAlarm } from "./answers.js";
-import { onOutage, post, sentencesOf } from "./api.js";
+import { isAbort, onOutage, post, sentencesOf } from "./api.js";
 import { CompareView, MOST_KEPT } from "./compare.js";
 import { CurveView } from "./curves.js";
 import { defaultCase, designOf, nameOf } from "./design.js";
@@ -34,6 +34,10 @@ const VIEW = {
   whatif: { path: "nip.load", answer: "nip_width" },
   find: { path: "nip.load", answer: "nip_width" },
   compare: { profile: "pressure" },
+  families: {}, // kind of covering by path of a material
+  measured: {}, // [lowest, highest] modulus by path of a material
+  machine: { bore: 50, count: 2, ratio: 1 }, // cylinders that press [mm]
+  press: "load",
   keeps: { upper: "diameter", lower: "diameter" },
 };
 
@@ -41,10 +45,12 @@ const IDLE = 300; // ms
 
 /** The designer. */
 export class App extends Actions {
-  constructor({ units, materials, examples }) {
+  constructor({ units, materials, hardness, examples }) {
     super();
     this.table = units;
-    this.library = materials;
+    this.library = materials.filter(({ family }) => !family);
+    this.families = materials.filter(({ family }) => family);
+    this.hardness = hardness;
     this.snapshot = null; // {tree, result, state, surfaces, isPlaced} last shown
     this.failure = null; // {tree, error} where the design at hand has no answer
     this.broken = null; // why a link could not be opened, until something else is asked for
@@ -207,6 +213,7 @@ export class App extends Actions {
     document.documentElement.classList.toggle("moving", why === "live");
     this.broken = null;
     if (why === "design") this.failure = null;
+    if (this.snapshot?.tree !== tree) this.learning?.abort();
     if (why === "live") this.move(tree);
     else this.runner.settle(tree, why === "rest");
   }
@@ -257,11 +264,12 @@ export class App extends Actions {
   answered(tree, result, state) {
     const moved = this.snapshot && state === "preview";
     const surfaces = this.snapshot?.surfaces ?? null;
-    this.snapshot = { tree, result, state, surfaces, isPlaced: false };
+    const known = this.snapshot?.tree === tree ? this.snapshot.known : null;
+    this.snapshot = { tree, result, state, surfaces, isPlaced: false, known };
     this.failure = null;
     this.inputs.complain([]);
     byId("drawings").classList.add("old");
-    showAnswers(result, this.units());
+    showAnswers(this.snapshot, this.units());
     this.stand();
     this.tabs.open.show(this.snapshot);
     if (!moved) {
@@ -275,6 +283,24 @@ export class App extends Actions {
     this.snapshot = { ...this.snapshot, surfaces, isPlaced: true };
     byId("drawings").classList.remove("old");
     this.drawings.show(this.snapshot);
+    if (this.snapshot.state === "settled" && !this.snapshot.known) this.learn(tree);
+  }
+
+  /** What else is known of the figures: two more solves, so once things are quiet. */
+  async learn(tree) {
+    this.learning?.abort();
+    const learning = new AbortController();
+    this.learning = learning;
+    const body = { case: tree, measured: this.store.state.view.measured };
+    try {
+      const known = await post("/api/known", body, learning.signal);
+      if (this.snapshot.tree !== tree) return;
+      this.snapshot = { ...this.snapshot, known };
+      showAnswers(this.snapshot, this.units());
+      this.stand();
+    } catch (error) {
+      if (!isAbort(error)) this.complain(sentencesOf(error)[0]);
+    }
   }
 
   failed(tree, error) {
@@ -297,7 +323,7 @@ export class App extends Actions {
   showAll() {
     if (this.snapshot) {
       this.remember();
-      showAnswers(this.snapshot.result, this.units());
+      showAnswers(this.snapshot, this.units());
       this.drawings.show(this.snapshot);
       this.tabs.open.show(this.snapshot);
     }

@@ -11,6 +11,7 @@ import { joined, typable } from "./units.js";
 const STEPS = 500; // of a slider
 const DIGITS = 3; // a slider gives round values in the unit shown
 const BOX_DIGITS = 5;
+const ASKED = { share: "ratio", "roller force": "force", "air pressure": "pressure" };
 
 /** A control of the number at `path`. `app` is {store, units()}. */
 export class Control {
@@ -87,7 +88,7 @@ export class Control {
 
   /** Show the value of a design, in the unit now chosen. */
   refresh(tree) {
-    const value = getAt(tree, this.path);
+    const value = this.valueIn(tree);
     if (typeof value !== "number") return;
     const { dimension, factor } = this.input;
     const units = this.app.units();
@@ -173,7 +174,11 @@ export class Control {
 
   /** The value of the design at hand; undefined where it has none any more. */
   get value() {
-    return getAt(this.app.store.state.case, this.path);
+    return this.valueIn(this.app.store.state.case);
+  }
+
+  valueIn(tree) {
+    return getAt(tree, this.path);
   }
 
   question(text, dimension) {
@@ -182,14 +187,18 @@ export class Control {
 
   set(value, gesture) {
     this.sent = gesture === null ? null : value;
+    this.app.store.design({ case: this.treeWith(value) }, gesture);
+  }
+
+  treeWith(value) {
     const { case: tree, view } = this.app.store.state;
-    this.app.store.design({ case: withSize(tree, this.path, value, view.keeps) }, gesture);
+    return withSize(tree, this.path, value, view.keeps);
   }
 }
 
 /** The question what a text means; a plain number is in the unit shown. */
 export function questionOf(text, dimension, units, hardness = false) {
-  const asked = dimension === "share" ? "ratio" : dimension;
+  const asked = ASKED[dimension] ?? dimension;
   const unit = units.of(dimension).name;
   return { text, dimension: asked, unit, hardness };
 }

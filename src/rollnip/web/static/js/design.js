@@ -158,7 +158,7 @@ function term(modulus, time) {
 
 /** Which editor a material needs: its model, or "shore" where hardness is what is given. */
 export function kindOf(material) {
-  return material.shore_a === undefined ? material.model : "shore";
+  return material.shore_a !== undefined && material.model === "elastic" ? "shore" : material.model;
 }
 
 /** Layers changed by `act(list)`, on a roller "upper" or "lower". */

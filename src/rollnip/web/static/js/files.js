@@ -4,7 +4,9 @@ import { image } from "./charts.js";
 import { nameOf } from "./design.js";
 import { pairPicture, words } from "./drawing.js";
 import { svg } from "./dom.js";
-import { ANSWERS, flat } from "./quantities.js";
+import { bandOf } from "./known.js";
+import { getAt } from "./paths.js";
+import { ANSWERS, flat, inputsOf, totalsOf } from "./quantities.js";
 import { sectionPicture, windowOf } from "./section.js";
 
 const PROFILES = [
@@ -47,26 +49,35 @@ export function profilesCsv(result, units) {
   return table([head, ...rows]);
 }
 
-/** The key figures as CSV. */
-export function figuresCsv(result, units) {
+/** The key figures as CSV: with what is known about each, the inputs, the model, the warnings. */
+export function figuresCsv({ tree, result, known }, units) {
   const all = flat(result);
-  const rows = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined).map(
-    ({ key, label, dimension }) => {
-      const error = all.error?.[key];
-      const { name, scale } = units.of(dimension);
-      return [
-        label,
-        plainNumber(units.shown(all[key], dimension)),
-        name,
-        error ? plainNumber(error / scale) : "",
-      ];
-    },
+  const shown = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined);
+  const rows = shown.map(({ key, label, dimension }) => {
+    const error = all.error?.[key];
+    const { name, scale } = units.of(dimension);
+    const band = (bandOf(known, key) ?? []).map((value) => plainNumber(units.shown(value, dimension)));
+    const value = plainNumber(units.shown(all[key], dimension));
+    return [label, value, name, error ? plainNumber(error / scale) : "", band[0] ?? "", band[1] ?? ""];
+  });
+  const totals = totalsOf(all, units.system).map(({ label, text, unit }) => [label, text, unit]);
+  const inputs = inputsOf(tree).map(({ path, label, dimension, factor }) => {
+    const value = units.shown(getAt(tree, path) * factor, dimension);
+    return [`Input: ${label}`, plainNumber(value), units.of(dimension).name];
+  });
+  const warnings = result.warnings.map((text, i) => [`Warning ${i + 1}`, text]);
+  return table(
+    [
+      ["figure", "value", "unit", "estimated numerical error", "low (material)", "high (material)"],
+      ...rows,
+      ...totals,
+      ["converged", String(result.converged)],
+      ["Geometry", result.geometry],
+      ["Design", nameOf(tree)],
+      ...inputs,
+      ...warnings,
+    ].map((row) => [...row, ...Array(6 - row.length).fill("")]),
   );
-  return table([
-    ["figure", "value", "unit", "estimated error"],
-    ...rows,
-    ["converged", String(result.converged), "", ""],
-  ]);
 }
 
 /** A curve of a chart as CSV: a column for each line. */

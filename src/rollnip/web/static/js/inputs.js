@@ -1,9 +1,10 @@
 // The column of inputs. It is built anew only where the shape of a design changes.
 
-import { driveBy, driving, pressBy, pressing } from "./design.js";
+import { driveBy, driving } from "./design.js";
 import { el, select } from "./dom.js";
 import { Control } from "./control.js";
 import { idOf, setAt } from "./paths.js";
+import { choosePress, pressControls, pressKind, pressKinds } from "./press.js";
 import { coreEditor, rollerGroup, swapper } from "./rollers.js";
 
 const GEOMETRIES = [
@@ -33,8 +34,13 @@ export class Inputs {
   }
 
   refresh(state) {
-    if (shapeOf(state.case) !== this.shape) this.rebuild();
+    if (this.shapeOf(state.case) !== this.shape) this.rebuild();
     else for (const part of [...this.controls, ...this.parts]) part.refresh(state.case);
+  }
+
+  /** What must be the same for the panel to stay as it is. */
+  shapeOf(tree) {
+    return `${shapeOf(tree)} ${pressKind(this.app)}`;
   }
 
   /** Everything anew; focus and open folds stay where they are. */
@@ -44,7 +50,7 @@ export class Inputs {
     this.open = new Set(Array.from(this.place.querySelectorAll("details[open]"), ({ id }) => id));
     this.controls = [];
     this.parts = [];
-    this.shape = shapeOf(tree);
+    this.shape = this.shapeOf(tree);
     this.place.replaceChildren(
       rollerGroup("upper", tree, this),
       swapper(this),
@@ -90,22 +96,12 @@ export class Inputs {
     return this.controls.some((control) => control.isUnread && control.node.isConnected);
   }
 
-  pressingGroup(tree) {
-    const kind = pressing(tree);
-    const choose = (value) => this.change(pressBy(this.app.store.state.case, value, this.app.result()));
+  pressingGroup() {
+    const kind = pressKind(this.app);
     return group(
       "Pressed together",
-      choices(
-        "press",
-        "Pressed by",
-        [
-          ["load", "Line load"],
-          ["approach", "Approach"],
-        ],
-        kind,
-        choose,
-      ),
-      this.control(`nip.${kind}`),
+      choices("press", "Pressed by", pressKinds(), kind, (value) => choosePress(this.app, value)),
+      ...pressControls(kind, this),
     );
   }
 
@@ -139,6 +135,7 @@ export class Inputs {
     const width = (yes) =>
       this.change(setAt(this.app.store.state.case, "nip.face_width", yes ? 1000 : undefined));
     const hasWidth = tree.nip.face_width !== undefined;
+    const isWhole = ["force", "cylinders"].includes(pressKind(this.app));
     const note =
       "How exactly strains and the shape of the gap are taken. While a slider moves, finite strain gives way to the faster curved layers.";
     return this.fold(
@@ -153,8 +150,8 @@ export class Inputs {
           act: geometry,
         }),
         el("p", { class: "note", text: note }),
-        checkbox("in-has-width", "Totals over the face width", hasWidth, width),
-        hasWidth ? this.control("nip.face_width") : null,
+        isWhole ? null : checkbox("in-has-width", "Totals over the face width", hasWidth, width),
+        hasWidth && !isWhole ? this.control("nip.face_width") : null,
         ...["upper", "lower"].flatMap((side) => [coreEditor(side, tree, this), this.planeBox(side, tree)]),
       ],
       "group",

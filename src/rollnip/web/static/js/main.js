@@ -10,12 +10,13 @@ const PICKED = ".toml,.json,application/toml,application/json,text/plain";
 
 async function start() {
   onOutage((yes) => (yes ? alarm(say("outage.title"), [say("outage.text")]) : clearAlarm()));
-  const [units, materials, examples] = await Promise.all([
+  const [units, materials, hardness, examples] = await Promise.all([
     get("/api/units"),
     get("/api/materials"),
+    get("/api/hardness"),
     get("/api/examples"),
   ]);
-  const app = new App({ units, materials, examples });
+  const app = new App({ units, materials, hardness, examples });
   const file = el("input", {
     type: "file",
     id: "file",

@@ -3,7 +3,9 @@
 import { kindOf, materialAs } from "./design.js";
 import { button, el, select } from "./dom.js";
 import { icon } from "./icons.js";
+import { rangeText } from "./known.js";
 import { getAt, idOf, setAt } from "./paths.js";
+import { say } from "./texts.js";
 
 const MODELS = [
   ["shore", "Rubber by hardness (Shore A)"],
@@ -22,6 +24,7 @@ const NUMBERS = {
   "loss-factor": ["modulus", "loss_factor"],
 };
 const LIBRARY = "library:";
+const FAMILY = "family:";
 const SHIFTS = {
   none: undefined,
   wlf: { model: "wlf", c1: 17.44, c2: 51.6, reference: 23 },
@@ -46,7 +49,10 @@ export function materialEditor(path, panel) {
 }
 
 function numbers(kind, material) {
-  if (kind !== "elastic") return NUMBERS[kind];
+  if (kind !== "elastic") {
+    const isHard = kind !== "shore" && material.shore_a !== undefined;
+    return NUMBERS[kind].map((name) => (isHard && name === "modulus" ? "shore_a" : name));
+  }
   return [material.shear_modulus === undefined ? "modulus" : "shear_modulus"];
 }
 
@@ -56,11 +62,19 @@ class Choice {
     this.path = path;
     this.app = panel.app;
     const library = this.app.library.map(({ name, title }) => [LIBRARY + name, title]);
+    const families = this.app.families.map(({ name, title }) => [FAMILY + name, title]);
     const groups = [
+      { group: say("material.coverings"), options: families },
       { group: "Own material", options: MODELS },
       { group: "Library", options: library },
     ];
-    const act = (value) => put(panel, path, this.chosen(value));
+    const act = (value) => {
+      const { store } = this.app;
+      const family = value.startsWith(FAMILY) ? value.slice(FAMILY.length) : undefined;
+      const families = { ...store.state.view.families, [path]: family };
+      store.state = { ...store.state, view: { ...store.state.view, families } };
+      put(panel, path, this.chosen(value));
+    };
     this.node = select({ id: `${idOf(path)}-kind`, label: "Material", options: groups, value: "", act });
     this.note = el("p", { class: "note" });
     this.refresh(this.app.store.state.case);
@@ -68,20 +82,54 @@ class Choice {
 
   refresh(tree) {
     const material = getAt(tree, this.path);
-    const entry = this.app.libraryEntry(material);
-    const byHardness = material.shore_a !== undefined;
-    this.node.querySelector("select").value =
-      entry && !byHardness ? LIBRARY + entry.name : kindOf(material);
-    this.note.textContent = entry ? `${entry.description} Source: ${entry.source}.` : "";
-    this.note.hidden = !entry;
+    if (!material) return;
+    const kind = kindOf(material);
+    const family = kind === "shore" ? this.family() : undefined;
+    const entry = kind === "shore" ? family : this.app.libraryEntry(material);
+    const value = family ? FAMILY + family.name : entry ? LIBRARY + entry.name : kind;
+    this.node.querySelector("select").value = value;
+    const described = entry ? `${entry.description} ${say("material.source", { source: entry.source })}` : "";
+    this.note.textContent =
+      kind === "shore" ? `${this.hardness(material.shore_a)} ${described}`.trim() : described;
+    this.note.hidden = this.note.textContent === "";
+  }
+
+  /** The kind of covering that was chosen here, if any. */
+  family() {
+    const chosen = this.app.store.state.view.families[this.path];
+    return this.app.families.find(({ name }) => name === chosen);
+  }
+
+  /** Modulus and band of any hardness, and where they are from. */
+  hardness(shore) {
+    const found = modulusOf(shore, this.app.hardness);
+    if (!found) return "";
+    const units = this.app.units();
+    return say("material.hardness", {
+      likely: units.text(found.likely, "pressure", 2),
+      band: rangeText([found.low, found.high], "pressure", units, 2),
+    });
   }
 
   chosen(value) {
-    const entry = this.app.library.find(({ name }) => LIBRARY + name === value);
-    return entry
-      ? structuredClone(entry.material)
-      : materialAs(value, getAt(this.app.store.state.case, this.path));
+    const named = ({ name }) => LIBRARY + name === value || FAMILY + name === value;
+    const entry = [...this.app.families, ...this.app.library].find(named);
+    if (!entry) return materialAs(value, getAt(this.app.store.state.case, this.path));
+    const { shore_a: now } = getAt(this.app.store.state.case, this.path);
+    const made = structuredClone(entry.material);
+    return entry.family && now !== undefined ? { ...made, shore_a: now } : made;
   }
+}
+
+/** {low, likely, high} of a hardness, from the table of the server; null outside it. */
+function modulusOf(shore, table) {
+  const at = table.shore_a.findIndex((point) => point >= shore);
+  if (at < 0 || shore < table.shore_a[0]) return null;
+  const before = Math.max(0, at - 1);
+  const span = table.shore_a[at] - table.shore_a[before];
+  const share = span > 0 ? (shore - table.shore_a[before]) / span : 0;
+  const between = (list) => list[before] * (list[at] / list[before]) ** share;
+  return { low: between(table.low), likely: between(table.likely), high: between(table.high) };
 }
 
 function terms(path, material, panel) {

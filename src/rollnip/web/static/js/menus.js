@@ -4,6 +4,7 @@ import { nameOf } from "./design.js";
 import { button, byId, el } from "./dom.js";
 import { icon } from "./icons.js";
 import { removeDesign, savedDesigns } from "./saved.js";
+import { say } from "./texts.js";
 
 const GROUPS = [
   ["typical", "Typical nips"],
@@ -70,6 +71,7 @@ export function shareItems(app) {
     el("h3", { text: "Data and pictures" }),
     item("Curves as CSV", () => app.saveCsv("curves"), close, "csv-curves"),
     item("Key figures as CSV", () => app.saveCsv("figures"), close, "csv-figures"),
+    item(say("json.item"), () => app.saveJson(), close, "save-json"),
     item("Drawing as SVG", () => app.saveDrawing("svg"), close, "drawing-svg"),
     item("Drawing as PNG", () => app.saveDrawing("png"), close, "drawing-png"),
   ];

@@ -4,8 +4,10 @@ import { image } from "./charts.js";
 import { driving, kindOf, nameOf } from "./design.js";
 import { byId, el } from "./dom.js";
 import { drawingSvg } from "./files.js";
+import { bandOf, partsOf, rangeText } from "./known.js";
 import { PLOTS } from "./plots.js";
 import { ANSWERS, errorOf, flat, inputAt, totalsOf } from "./quantities.js";
+import { say } from "./texts.js";
 import { joined } from "./units.js";
 import { getAt } from "./paths.js";
 
@@ -66,7 +68,14 @@ export async function fillReport(answer, units, palette, about) {
       "div",
       { class: "two" },
       el("div", {}, el("h2", { text: "Inputs" }), inputs(tree, units)),
-      el("div", {}, el("h2", { text: "Figures" }), figures(result, units)),
+      el(
+        "div",
+        {},
+        el("h2", { text: "Figures" }),
+        figures(answer, units),
+        el("h2", { text: say("known.title") }),
+        table(partsOf(answer, units)),
+      ),
     ),
     el("div", { class: "two" }, ...pictures),
     el("h2", { text: "Assumptions" }),
@@ -91,13 +100,15 @@ function warnings({ warnings: list }) {
   return [el("h2", { text: "Keep in mind" }), el("ul", {}, ...list.map((text) => el("li", { text })))];
 }
 
-function figures(result, units) {
+function figures({ result, known }, units) {
   const all = flat(result);
   const rows = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined).map(
     ({ key, label, dimension, digits }) => {
       const noted = errorOf(all, key);
       const error = noted ? ` ± ${units.error(noted, dimension)}` : "";
-      return [label, units.text(all[key], dimension, digits) + error];
+      const band = bandOf(known, key);
+      const range = band ? ` (${rangeText(band, dimension, units)})` : "";
+      return [label, units.text(all[key], dimension, digits) + error + range];
     },
   );
   return table([

@@ -1,0 +1,127 @@
+"""What is known about a figure besides its numerical error: the model, and the material.
+
+The model: how far the figures of a geometry were from finite elements at finite strain, wherever
+no warning says that a nip lies outside that comparison (docs/validity.md). The material: Young's
+moduli known only within a band are put to their soft ends all together, and to their stiff ends;
+nip width, approach and pressures of an elastic nip lie between, as they go one way with every
+modulus.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any, NamedTuple
+
+from rollnip.materials import shore_a_band
+from rollnip.model import Geometry
+
+JUDGED: Mapping[Geometry, Mapping[str, float]] = {
+    "finite": {"nip_width": 0.011, "approach": 0.01, "peak_pressure": 0.01},
+    "curved": {"nip_width": 0.046, "approach": 0.066, "peak_pressure": 0.049},
+    "corrected": {"nip_width": 0.038, "approach": 0.135, "peak_pressure": 0.045},
+    "linear": {"nip_width": 0.038, "approach": 0.135, "peak_pressure": 0.045},
+}
+"""Largest relative deviation from finite elements of a geometry, by figure."""
+BANDED = ("nip_width", "approach", "load", "peak_pressure", "mean_pressure", "dwell_time")
+"""Figures that are given a band: those that go one way with every modulus."""
+_LIBRARY_KEYS = {"model", "modulus", "poisson"}
+
+
+class Band(NamedTuple):
+    """Young's modulus [MPa] of the material at a path of a case: lowest, likely, highest."""
+
+    path: str
+    low: float
+    likely: float
+    high: float
+
+
+def bands(
+    tree: Mapping[str, Any], library: list[dict[str, Any]], measured: Mapping[str, Any]
+) -> list[Band]:
+    """The elastic materials of a case whose modulus is known only within a band.
+
+    Parameters
+    ----------
+    tree :
+        a case in base units (`rollnip.io.base_tree`).
+    library :
+        materials with a "range", as `rollnip.web.library` has them.
+    measured :
+        (low, high) [MPa] by path, of moduli that were measured.
+    """
+    found = []
+    for path, material in _materials(tree):
+        if material.get("model", "elastic") != "elastic":
+            continue
+        modulus = material.get("modulus")
+        if path in measured and modulus is not None:
+            low, high = measured[path]
+            found.append(Band(path, low, modulus, high))
+        elif material.get("shore_a") is not None:
+            found.append(Band(path, *shore_a_band(material["shore_a"])))
+        elif modulus is not None:
+            found += [Band(path, *one) for one in _ranges(material, library)]
+    return found
+
+
+def at_end(tree: Mapping[str, Any], found: list[Band], end: str) -> dict[str, Any]:
+    """A copy of the case with the moduli at one end of their bands, "low" or "high"."""
+    moduli = {band.path: float(getattr(band, end)) for band in found}
+    copy: dict[str, Any] = {**tree}
+    for side in ("upper", "lower"):
+        roller = {**tree[side]}
+        layers = [{**layer} for layer in roller.get("layers", [])]
+        for i, layer in enumerate(layers):
+            path = f"{side}.layers[{i}].material"
+            if path in moduli:
+                layer["material"] = _elastic(_named(tree, layer["material"]), moduli[path])
+        path = f"{side}.core"
+        if path in moduli:
+            roller["core"] = _elastic(_named(tree, roller["core"]), moduli[path])
+        copy[side] = roller | ({"layers": layers} if layers else {})
+    return copy
+
+
+def spread(likely: Mapping[str, Any], *ends: Mapping[str, Any]) -> dict[str, list[float]]:
+    """[lowest, highest] of each figure that all results have."""
+    results = (likely, *ends)
+    return {
+        key: [min(one[key] for one in results), max(one[key] for one in results)]
+        for key in BANDED
+        if all(one.get(key) is not None for one in results)
+    }
+
+
+def _materials(tree: Mapping[str, Any]) -> Iterator[tuple[str, Mapping[str, Any]]]:
+    """Path and table of every material."""
+    for side in ("upper", "lower"):
+        roller = tree[side]
+        for i, layer in enumerate(roller.get("layers", [])):
+            yield f"{side}.layers[{i}].material", _named(tree, layer["material"])
+        if roller.get("core") not in (None, "rigid"):
+            yield f"{side}.core", _named(tree, roller["core"])
+
+
+def _named(tree: Mapping[str, Any], material: Any) -> Mapping[str, Any]:
+    table: Mapping[str, Any] = (
+        tree["materials"][material] if isinstance(material, str) else material
+    )
+    return table
+
+
+def _elastic(material: Mapping[str, Any], modulus: float) -> dict[str, Any]:
+    kept = {key: value for key, value in material.items() if key != "shore_a"}
+    return kept | {"modulus": modulus}
+
+
+def _ranges(
+    material: Mapping[str, Any], library: list[dict[str, Any]]
+) -> list[tuple[float, float, float]]:
+    """Band of the entry of the library that a material is, if any."""
+    own = {key: value for key, value in material.items() if key in _LIBRARY_KEYS}
+    return [
+        (band["low"], band["likely"], band["high"])
+        for entry in library
+        if (band := entry.get("range", {}).get("modulus")) and entry["material"] == own
+    ][:1]

@@ -1,0 +1,102 @@
+// What presses the rollers together: a line load, an approach, a force, or cylinders.
+
+import { Control } from "./control.js";
+import { pressBy, pressing } from "./design.js";
+import { setAt } from "./paths.js";
+import { say } from "./texts.js";
+
+const FACE = { metric: 1000, us: 1016 }; // mm, 40 in
+const RANGES = {
+  force: { dimension: "roller force", low: 10, high: 500000, log: true },
+  pressure: { dimension: "air pressure", low: 0.01, high: 20, log: true },
+  bore: { dimension: "length", low: 10, high: 400, log: true },
+  count: { dimension: "ratio", low: 1, high: 8 },
+  ratio: { dimension: "ratio", low: 0.1, high: 10, log: true },
+};
+const CYLINDERS = ["pressure", "bore", "count", "ratio"];
+
+/** "load", "approach", "force" or "cylinders". */
+export function pressKind(app) {
+  const { case: tree, view } = app.store.state;
+  if (pressing(tree) === "approach") return "approach";
+  const isWhole = view.press !== "load" && tree.nip.face_width !== undefined;
+  return isWhole ? view.press : "load";
+}
+
+/** The kinds of pressing as [key, text]. */
+export function pressKinds() {
+  return ["load", "approach", "force", "cylinders"].map((key) => [key, say(`press.${key}`)]);
+}
+
+/** Take another kind of pressing; the nip stays as it is. */
+export function choosePress(app, kind) {
+  const { store } = app;
+  store.state = { ...store.state, view: { ...store.state.view, press: kind } };
+  const wanted = kind === "approach" ? "approach" : "load";
+  const { case: now } = store.state;
+  const tree = pressing(now) === wanted ? now : pressBy(now, wanted, app.result());
+  const isWhole = kind === "force" || kind === "cylinders";
+  const face = tree.nip.face_width ?? (isWhole ? FACE[store.state.view.system] : undefined);
+  store.design({ case: setAt(tree, "nip.face_width", face) });
+}
+
+/** The controls of a kind of pressing. */
+export function pressControls(kind, panel) {
+  if (kind === "load" || kind === "approach") return [panel.control(`nip.${kind}`)];
+  const names = kind === "force" ? ["force"] : CYLINDERS;
+  const controls = names.map((name) => new PressControl(name, panel.app));
+  const face = new FaceControl("nip.face_width", panel.app);
+  panel.controls.push(...controls, face);
+  return [...controls, face].map(({ node }) => node);
+}
+
+/** Area of all cylinders times their lever [mm2]. */
+function lever({ bore, count, ratio }) {
+  return 0.25 * Math.PI * bore * bore * count * ratio;
+}
+
+/** A control of what makes the line load: the force is line load times face width. */
+class PressControl extends Control {
+  constructor(name, app) {
+    super(`press.value.${name}`, app);
+  }
+
+  get name() {
+    return this.path.split(".")[2];
+  }
+
+  get input() {
+    const name = this.path.split(".")[2];
+    const hint = ["force", "pressure", "ratio"].includes(name) ? say(`press.${name}-hint`) : null;
+    return { path: this.path, factor: 1, label: say(`press.${name}-label`), hint, ...RANGES[name] };
+  }
+
+  valueIn(tree) {
+    const { machine } = this.app.store.state.view;
+    const name = this.path.split(".")[2];
+    const force = tree.nip.load * tree.nip.face_width;
+    if (name === "force") return force;
+    return name === "pressure" ? force / lever(machine) : machine[name];
+  }
+
+  treeWith(value) {
+    const { store } = this.app;
+    const { case: tree, view } = store.state;
+    const face = tree.nip.face_width;
+    if (this.name === "force") return setAt(tree, "nip.load", value / face);
+    if (this.name === "pressure") return setAt(tree, "nip.load", (value * lever(view.machine)) / face);
+    const machine = { ...view.machine, [this.name]: value };
+    const pressure = (tree.nip.load * face) / lever(view.machine);
+    store.state = { ...store.state, view: { ...view, machine } };
+    return setAt(tree, "nip.load", (pressure * lever(machine)) / face);
+  }
+}
+
+/** The face width where a force is given: the force stays. */
+class FaceControl extends Control {
+  treeWith(value) {
+    const tree = this.app.store.state.case;
+    const force = tree.nip.load * tree.nip.face_width;
+    return setAt(setAt(tree, "nip.face_width", value), "nip.load", force / value);
+  }
+}

@@ -1,0 +1,100 @@
+"""What is known about a figure: bands of materials, accuracy of the model."""
+
+import sys
+from copy import deepcopy
+from pathlib import Path
+
+import pytest
+
+import rollnip as rn
+from rollnip.materials import shore_a_band
+from rollnip.web.known import JUDGED, Band, at_end, bands
+
+HARD = {"model": "elastic", "shore_a": 60, "poisson": 0.5}
+NIP = {
+    "nip": {"load": 4.0, "friction": 0.5, "speed": 1000.0},
+    "model": {"geometry": "curved"},
+    "upper": {"radius": 100.0, "layers": [{"thickness": 12.0, "material": HARD}]},
+    "lower": {"radius": 75.0},
+}
+
+
+def solved(modulus):
+    rubber = rn.Elastic(modulus=modulus, poisson=0.5)
+    nip = rn.Nip(
+        upper=rn.Roller(radius=100.0, layers=(rn.Layer(12.0, rubber),)),
+        lower=rn.Roller(radius=75.0),
+        normal=rn.LineLoad(4.0),
+        friction=0.5,
+        speed=1000.0,
+    )
+    return rn.solve(nip, rn.Model(geometry="curved"))
+
+
+def test_the_band_of_a_hardness_is_carried_to_nip_width_and_pressure(post):
+    answer = post("known", {"case": NIP})
+    band = shore_a_band(60.0)
+    assert answer["materials"] == [{"path": "upper.layers[0].material", **band._asdict()}]
+    soft, stiff = solved(band.low), solved(band.high)
+    low, high = answer["figures"]["nip_width"]
+    assert low == pytest.approx(stiff.nip_width, rel=1e-6)
+    assert high == pytest.approx(soft.nip_width, rel=1e-6)
+    low, high = answer["figures"]["peak_pressure"]
+    assert (low, high) == pytest.approx((soft.peak_pressure, stiff.peak_pressure), rel=1e-6)
+    assert answer["geometry"] == "curved"
+    assert answer["accuracy"] == JUDGED["curved"]
+    assert answer["is_judged"] is True
+
+
+def test_what_was_measured_takes_the_place_of_the_hardness(post):
+    case = deepcopy(NIP)
+    case["upper"]["layers"][0]["material"] = {"model": "elastic", "modulus": 3.4, "poisson": 0.5}
+    assert post("known", {"case": case})["materials"] == []
+    measured = {"upper.layers[0].material": [3.2, 3.6]}
+    answer = post("known", {"case": case, "measured": measured})
+    assert answer["materials"][0]["low"] == 3.2
+    low, high = answer["figures"]["nip_width"]
+    assert 0.0 < high - low < 0.06 * low
+
+
+@pytest.mark.parametrize("wrong", [[3.6, 3.2], [3.2], [0.0, 1.0], [-1.0, 2.0]])
+def test_a_band_the_wrong_way_round_is_refused(post, wrong):
+    refusal = post("known", {"case": NIP, "measured": {"upper.layers[0].material": wrong}}, 422)
+    assert "the lower one first" in refusal["error"]
+
+
+def test_a_named_material_and_a_core_have_their_bands():
+    tree = deepcopy(NIP)
+    tree["materials"] = {"rubber": HARD}
+    tree["upper"]["layers"][0]["material"] = "rubber"
+    tree["lower"]["core"] = dict(HARD)
+    found = bands(tree, [], {})
+    assert [band.path for band in found] == ["upper.layers[0].material", "lower.core"]
+    soft = at_end(tree, found, "low")
+    assert soft["lower"]["core"]["modulus"] == found[1].low
+    assert soft["upper"]["layers"][0]["material"]["modulus"] == found[0].low
+    assert "shore_a" not in soft["lower"]["core"]
+    assert tree["upper"]["layers"][0]["material"] == "rubber"
+
+
+def test_a_material_of_the_library_has_the_band_of_its_source():
+    material = {"model": "elastic", "modulus": 5.0, "poisson": 0.5}
+    library = [
+        {"material": material, "range": {"modulus": {"low": 4.0, "likely": 5.0, "high": 7.0}}}
+    ]
+    tree = deepcopy(NIP)
+    tree["upper"]["layers"][0]["material"] = {**material, "conductivity": 0.2}
+    assert bands(tree, library, {}) == [Band("upper.layers[0].material", 4.0, 5.0, 7.0)]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("geometry", JUDGED)
+def test_the_accuracies_are_those_of_the_comparison_with_finite_elements(geometry):
+    sys.path.insert(0, str(Path(__file__).parents[2] / "docs" / "_ext"))
+    from judged import largest
+
+    groups = ("rubber, rolling freely or driven gently", "compressible covering")
+    names = {"nip_width": "edges", "approach": "approach", "peak_pressure": "peak"}
+    for figure, claimed in JUDGED[geometry].items():
+        seen = max(largest(group, geometry, names[figure]) for group in groups)
+        assert 0.8 * claimed <= seen <= claimed

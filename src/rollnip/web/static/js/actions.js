@@ -9,6 +9,7 @@ import {
   figuresCsv,
   fileName,
   profilesCsv,
+  rowsCsv,
   rasterOf,
   saveChart,
 } from "./files.js";
@@ -20,6 +21,7 @@ import { same } from "./paths.js";
 import { saveDesign, savedDesigns } from "./saved.js";
 import { say } from "./texts.js";
 
+const PROJECT = "rollnip_project";
 const LIGHT = "light"; // of every export
 const REFUSALS = {
   none: "refuse.none",
@@ -44,11 +46,34 @@ export class Actions {
 
   async loadFile(file) {
     await this.attempt(`“${file.name}” could not be opened`, async () => {
-      const { case: tree } = await post("/api/toml", { text: await file.text() });
+      const text = await file.text();
+      const project = projectIn(text);
+      if (project) return this.openProject(project);
+      const { case: tree } = await post("/api/toml", { text });
       const design = await this.checked(tree);
       this.store.design({ case: { ...design, title: design.title || file.name.replace(/\.[^.]*$/, "") } });
-      this.say(`“${file.name}” is open.`);
+      return this.say(`“${file.name}” is open.`);
     });
+  }
+
+  /** All saved designs and the one at hand in one file. */
+  saveProject() {
+    const { case: tree, kept, view } = this.store.state;
+    const designs = savedDesigns();
+    const text = JSON.stringify({ [PROJECT]: 1, designs, last: { case: tree, kept, ...view } }, null, 1);
+    download("rollnip-project.json", text, "application/json");
+  }
+
+  /** Put the designs of a project file among the saved ones, beside those of the same name. */
+  async openProject({ designs, last }) {
+    const read = await Promise.all(designs.map(async (one) => ({ ...one, case: await this.checked(one.case) })));
+    for (const { name, case: tree } of read.reverse()) {
+      const taken = savedDesigns();
+      const isThere = taken.some((one) => one.name === name && same(one.case, tree));
+      if (!isThere) saveDesign(otherName(name, taken), tree);
+    }
+    if (last) await this.restore(last);
+    this.say(say("project.open", { count: read.length }));
   }
 
   /** Save the design in this browser. */
@@ -66,8 +91,7 @@ export class Actions {
   async freeName(name, tree) {
     const taken = new Map(savedDesigns().map((one) => [one.name, one.case]));
     if (!taken.has(name) || same(taken.get(name), tree)) return name;
-    let other = name;
-    for (let count = 2; taken.has(other); count += 1) other = `${name} (${count})`;
+    const other = otherName(name, savedDesigns());
     const answer = await askDialog(say("save.exists", { name }), say("save.ask"), [
       ["replace", say("save.replace")],
       ["both", say("save.both", { name: other })],
@@ -169,7 +193,7 @@ export class Actions {
       const figure = view.isOld?.() ? null : view.figure(this.answer, paletteOf(LIGHT));
       const name = fileName(this.answer.tree, `${view.id}.${format.toLowerCase()}`);
       if (!figure) throw new Error(say("refuse.empty"));
-      if (format === "CSV") download(name, chartCsv(figure), "text/csv");
+      if (format === "CSV") download(name, view.csvRows ? rowsCsv(view.csvRows()) : chartCsv(figure), "text/csv");
       else await saveChart(figure, format, name);
     });
   }
@@ -192,6 +216,25 @@ export class Actions {
     } catch (error) {
       this.complain(`${failure}: ${sentencesOf(error, keyOf).slice(0, 3).join(" ")}`);
     }
+  }
+}
+
+/** The name, with a number where it is taken. */
+function otherName(name, saved) {
+  const taken = new Set(saved.map((one) => one.name));
+  let other = name;
+  for (let count = 2; taken.has(other); count += 1) other = `${name} (${count})`;
+  return other;
+}
+
+/** {designs, last} where a text is a project file; null where it is not. */
+function projectIn(text) {
+  if (!text.trimStart().startsWith("{")) return null;
+  try {
+    const tree = JSON.parse(text);
+    return tree[PROJECT] && Array.isArray(tree.designs) ? tree : null;
+  } catch {
+    return null;
   }
 }
 

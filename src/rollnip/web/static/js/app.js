@@ -13,8 +13,10 @@ import { icon } from "./icons.js";
 import { Inputs } from "./inputs.js";
 import { InsideView } from "./inside.js";
 import { designItems, examplesDialog, menu, shareItems } from "./menus.js";
+import { MeasuredView, measuredIn } from "./measured.js";
 import { paletteOf } from "./palette.js";
 import { same, setAt } from "./paths.js";
+import { modulusOf } from "./materials.js";
 import { linkOf, stateIn } from "./permalink.js";
 import { inputAt } from "./quantities.js";
 import { Runner } from "./runner.js";
@@ -35,7 +37,7 @@ const VIEW = {
   find: { path: "nip.load", answer: "nip_width" },
   compare: { profile: "pressure" },
   families: {}, // kind of covering by path of a material
-  measured: {}, // [lowest, highest] modulus by path of a material
+  measured: {}, // {modulus, band} by path of a material
   machine: { bore: 50, count: 2, ratio: 1 }, // cylinders that press [mm]
   press: "load",
   keeps: { upper: "diameter", lower: "diameter" },
@@ -88,6 +90,7 @@ export class App extends Actions {
       new InsideView(this),
       new WhatIfView(this),
       new FindView(this),
+      new MeasuredView(this),
       new CompareView(this),
     ];
   }
@@ -138,10 +141,23 @@ export class App extends Actions {
     try {
       const state = await stateIn(hash);
       if (state !== undefined) return await this.restore(state);
+      if (!this.snapshot && (await this.resumed())) return undefined;
     } catch (error) {
       return this.refuseLink(sentencesOf(error).slice(0, 3).join(" "));
     }
     return this.changed(this.store.state, "design");
+  }
+
+  /** Go on with the last design of this browser; false where there is none. */
+  async resumed() {
+    const last = remembered("last");
+    if (!last) return false;
+    try {
+      await this.restore(JSON.parse(last));
+      return true;
+    } catch {
+      return false; // of an older version, or damaged: begin anew
+    }
   }
 
   /** No answer is shown that one might take for that of the link. */
@@ -187,6 +203,11 @@ export class App extends Actions {
 
   result() {
     return this.snapshot?.result;
+  }
+
+  /** Likely modulus of a hardness [MPa]. */
+  modulusOf(shore) {
+    return modulusOf(shore, this.hardness).likely;
   }
 
   /** The entry of the library that a material is, if any. */
@@ -291,7 +312,7 @@ export class App extends Actions {
     this.learning?.abort();
     const learning = new AbortController();
     this.learning = learning;
-    const body = { case: tree, measured: this.store.state.view.measured };
+    const body = { case: tree, measured: measuredIn(tree, this.store.state.view.measured) };
     try {
       const known = await post("/api/known", body, learning.signal);
       if (this.snapshot.tree !== tree) return;
@@ -341,7 +362,11 @@ export class App extends Actions {
   /** Put the state into the address, once things are quiet. */
   remember() {
     clearTimeout(this.timer);
-    this.timer = setTimeout(async () => history.replaceState(null, "", await this.link()), 250);
+    this.timer = setTimeout(async () => {
+      const { case: tree, kept, view } = this.store.state;
+      if (this.store.past.length > 0) remember("last", JSON.stringify({ case: tree, kept, ...view }));
+      history.replaceState(null, "", await this.link());
+    }, 250);
   }
 
   link() {

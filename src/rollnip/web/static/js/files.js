@@ -89,6 +89,11 @@ export function chartCsv(figure) {
   return table([["curve", figure.layout.xaxis.title.text, figure.layout.yaxis.title.text], ...rows]);
 }
 
+/** Rows of numbers and texts as CSV. */
+export function rowsCsv(rows) {
+  return table(rows.map((row) => row.map((cell) => (typeof cell === "string" ? cell : plainNumber(cell)))));
+}
+
 function plainNumber(value) {
   return value === null || value === undefined ? "" : String(Number(value.toPrecision(9)));
 }

@@ -3,6 +3,9 @@
 import { isAbort, post } from "./api.js";
 import { Chart, layoutOf, line, titled } from "./charts.js";
 import { button, el, select } from "./dom.js";
+import { same } from "./paths.js";
+import { Probe, bondTable, fieldRows } from "./probe.js";
+import { say } from "./texts.js";
 
 const POINTS = { nx: 120, nz: 40 };
 const FIELDS = [
@@ -26,7 +29,7 @@ export class InsideView {
     this.chart = new Chart(place);
     this.asks = el("div", { class: "ask" });
     this.said = el("p", { class: "empty" });
-    const exports = ["PNG", "SVG"].map((format) =>
+    const exports = ["PNG", "SVG", "CSV"].map((format) =>
       button(format, () => app.exportChart(format), {
         kind: "small",
         id: `inside-${format.toLowerCase()}`,
@@ -41,8 +44,31 @@ export class InsideView {
       el("p", { class: "hint", text: hint }),
       el("div", { class: "row" }, ...exports),
     );
-    this.node = el("div", {}, this.asks, place, this.said, foot);
+    this.probe = new Probe(app, FIELDS);
+    this.bonds = el("div", { class: "scroll", tabindex: "0", role: "region", "aria-label": say("bond.title") });
+    this.node = el("div", {}, this.asks, place, this.said, foot, this.probe.node, this.bonds);
     this.answer = null;
+    place.addEventListener("drawn", () => this.hear(place));
+  }
+
+  /** A click on the picture probes the point. */
+  hear(place) {
+    if (this.isHeard) return;
+    this.isHeard = true;
+    place.on("plotly_click", ({ points: [point] }) => {
+      const units = this.app.units();
+      this.probe.at(units.base(point.x, "length"), units.base(point.y, "length"));
+    });
+  }
+
+  /** Whether what is shown is of another design. */
+  isOld() {
+    return !this.answer || !same(this.answer.tree, this.app.store.state.case);
+  }
+
+  /** The field as rows of a table. */
+  csvRows() {
+    return fieldRows(this.shown.field, FIELDS, this.app.units());
   }
 
   /** Asks for the field of a settled design, once; draws it in the units and colours of now. */
@@ -63,10 +89,11 @@ export class InsideView {
     const abort = new AbortController();
     this.abort = abort;
     try {
-      this.answer = {
-        key,
-        field: await post("/api/interior", { case: tree, roller, ...POINTS }, abort.signal),
-      };
+      const [field, result] = await Promise.all([
+        post("/api/interior", { case: tree, roller, ...POINTS }, abort.signal),
+        post("/api/solve", tree, abort.signal), // with the stresses on interfaces
+      ]);
+      this.answer = { key, tree, field, interfaces: result.interfaces };
     } catch (error) {
       if (!isAbort(error)) this.say(error.message);
     }
@@ -75,6 +102,7 @@ export class InsideView {
   say(text) {
     this.said.textContent = text;
     this.said.hidden = !text;
+    for (const node of [this.probe.node, this.bonds]) node.hidden = Boolean(text);
     this.chart.node.hidden = Boolean(text);
   }
 
@@ -86,6 +114,8 @@ export class InsideView {
     this.say("");
     this.shown = { field, chosen, roller, result };
     this.choose(sides, roller, there, chosen);
+    this.probe.show(field);
+    this.bonds.replaceChildren(bondTable(this.answer.interfaces, this.app.units()));
     this.chart.show(contours(this.shown, this.app.units(), this.app.palette()));
   }
 

@@ -122,7 +122,7 @@ class Choice {
 }
 
 /** {low, likely, high} of a hardness, from the table of the server; null outside it. */
-function modulusOf(shore, table) {
+export function modulusOf(shore, table) {
   const at = table.shore_a.findIndex((point) => point >= shore);
   if (at < 0 || shore < table.shore_a[0]) return null;
   const before = Math.max(0, at - 1);

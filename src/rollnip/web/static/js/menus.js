@@ -100,6 +100,9 @@ export function designItems(app) {
       item("Start anew", () => app.startAnew(), close, "start-anew"),
       el("h3", { text: "Saved in this browser" }),
       ...(rows.length ? rows : [none]),
+      el("h3", { text: say("project.title") }),
+      item(say("project.save"), () => app.saveProject(), close, "save-project"),
+      item(say("project.load"), () => byId("file").click(), close, "load-project"),
     ];
   };
 }

@@ -1,0 +1,127 @@
+// Inside a covering: the values at one point, and the stresses on bonds.
+
+import { post } from "./api.js";
+import { questionOf } from "./control.js";
+import { el } from "./dom.js";
+import { say } from "./texts.js";
+
+/** The values of every field at one computed point; `fields` are {key, title, dimension}. */
+export class Probe {
+  constructor(app, fields) {
+    this.app = app;
+    this.fields = fields;
+    this.point = null; // {x, z} as asked for [mm]
+    this.boxes = ["x", "z"].map((axis) => this.box(axis));
+    this.values = el("dl", { class: "probe-values", id: "probe-values" });
+    this.node = el(
+      "div",
+      { class: "probe" },
+      el("h3", { text: say("probe.title") }),
+      el("div", { class: "ask" }, ...this.boxes.map(({ node }) => node)),
+      this.values,
+    );
+  }
+
+  box(axis) {
+    const id = `probe-${axis}`;
+    const input = el("input", { type: "text", id, autocomplete: "off", value: "0" });
+    const label = el("label", { for: id });
+    input.addEventListener("change", () => this.typed());
+    return { axis, input, label, node: el("div", { class: "field" }, label, input) };
+  }
+
+  async typed() {
+    const units = this.app.units();
+    const read = async ({ input }) =>
+      (await post("/api/quantity", questionOf(input.value.trim(), "length", units))).value;
+    try {
+      const [x, z] = await Promise.all(this.boxes.map(read));
+      this.at(x, z);
+    } catch (error) {
+      this.values.replaceChildren(el("p", { class: "wrong", text: error.message }));
+    }
+  }
+
+  /** Ask for the point that is nearest to a place [mm]. */
+  at(x, z) {
+    this.point = { x, z };
+    this.show(this.field);
+  }
+
+  /** The values in a field of the server. */
+  show(field) {
+    this.field = field;
+    const units = this.app.units();
+    for (const { axis, label } of this.boxes)
+      label.textContent = `${say(`probe.${axis}`)} [${units.name("length")}]`;
+    const { x = 0, z = 0 } = this.point ?? {};
+    const [i, j] = [nearest(field.z, z), nearest(field.x, x)];
+    const there = this.fields.filter(({ key }) => field[key]);
+    const rows = there.map(({ key, title, dimension }) => {
+      const value = field[key][i][j];
+      return [title, dimension ? units.text(value, dimension) : `${value} mW/mm³`];
+    });
+    const place = say("probe.place", {
+      x: units.text(field.x[j], "length", 3),
+      z: units.text(field.z[i], "length", 3),
+    });
+    this.values.replaceChildren(
+      el("p", { class: "hint", text: place }),
+      ...rows.map(([title, text]) => el("div", {}, el("dt", { text: title }), el("dd", { text }))),
+    );
+  }
+}
+
+function nearest(list, value) {
+  let best = 0;
+  list.forEach((one, i) => {
+    if (Math.abs(one - value) < Math.abs(list[best] - value)) best = i;
+  });
+  return best;
+}
+
+/** Shear and tension on every bond and interface, as a table; `interfaces` as the result has them. */
+export function bondTable(interfaces, units) {
+  if (interfaces.length === 0) return el("p", { class: "hint", text: say("bond.none") });
+  const head = ["bond.where", "bond.depth", "bond.shear", "bond.range", "bond.peel"].map((key) =>
+    el("th", { scope: "col", text: say(key) }),
+  );
+  const rows = interfaces.map((one) => {
+    const shear = Math.max(Math.abs(one.shear_min), Math.abs(one.shear_max));
+    const name = say(one.bond ? "bond.core" : "bond.between", { roller: say(`side.${one.roller}`) });
+    const peel = one.peel_max > 0 ? units.text(one.peel_max, "pressure", 3) : say("bond.pressed");
+    const cells = [
+      units.text(one.depth, "length"),
+      units.text(shear, "pressure", 3),
+      units.text(one.shear_range, "pressure", 3),
+      peel,
+    ];
+    return el("tr", {}, el("th", { scope: "row", text: name }), ...cells.map((text) => el("td", { text })));
+  });
+  return el(
+    "table",
+    { class: "bonds", id: "bonds" },
+    el("caption", { text: say("bond.title") }),
+    el("thead", {}, el("tr", {}, ...head)),
+    el("tbody", {}, ...rows),
+  );
+}
+
+/** A field as CSV: a row for each point. */
+export function fieldRows(field, fields, units) {
+  const there = fields.filter(({ key }) => field[key]);
+  const head = there.map(({ title, dimension }) => `${title} [${dimension ? units.of(dimension).name : "mW/mm3"}]`);
+  const length = units.of("length").name;
+  const rows = field.z.flatMap((z, i) =>
+    field.x.map((x, j) => [
+      units.shown(x, "length"),
+      units.shown(z, "length"),
+      field.layer[i]?.[j] ?? field.layer[i],
+      ...there.map(({ key, dimension }) => {
+        const value = field[key][i][j];
+        return dimension && value !== null ? units.shown(value, dimension) : value;
+      }),
+    ]),
+  );
+  return [[`x [${length}]`, `depth [${length}]`, "layer", ...head], ...rows];
+}

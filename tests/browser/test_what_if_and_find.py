@@ -143,3 +143,49 @@ def test_what_has_no_influence_is_said_so(designer):
     page.press("#find-wanted", "Enter")
     page.wait_for_selector(".found.not", timeout=60_000)
     assert "Line load: has no influence" in page.inner_text("#find-said")
+
+
+def test_a_what_if_goes_from_where_to_where_she_says(designer):
+    page = designer.page
+    designer.tab("whatif")
+    swept(designer, "Nip width")
+    page.fill("#whatif-from", "2")
+    page.press("#whatif-from", "Enter")
+    page.fill("#whatif-to", "6 N/mm")
+    page.press("#whatif-to", "Enter")
+    designer.until("document.getElementById('chart-whatif').data[0].x.at(-1) === 6", timeout=60_000)
+    curve = swept(designer, "Nip width")
+    assert (curve["x"][0], curve["x"][-1]) == (2, 6)
+    assert curve["y"][-1] == pytest.approx(rn.solve(nip(6.0)).nip_width, rel=2e-3)
+
+
+def test_a_map_over_two_inputs_is_made_of_full_solutions(designer):
+    page = designer.page
+    designer.tab("whatif")
+    page.select_option("#whatif-second", "upper.layers[0].thickness")
+    designer.until(
+        "document.getElementById('whatif-said').textContent.includes('81 full solutions')",
+        timeout=240_000,
+    )
+    drawn = page.evaluate(
+        "(() => { const d = document.getElementById('chart-whatif').data[0];"
+        " return [Array.from(d.x), Array.from(d.y), d.z.map(r => Array.from(r))]; })()"
+    )
+    x, y, z = (np.array(one, dtype=float) for one in drawn)
+    assert z.shape == (9, 9)
+    expected = rn.solve(nip(x[2], y[6])).nip_width
+    assert z[6, 2] == pytest.approx(expected, rel=2e-3)
+
+
+def test_a_value_is_sought_where_she_says(designer):
+    page = designer.page
+    designer.tab("find")
+    page.fill("#find-from", "1")
+    page.press("#find-from", "Enter")
+    page.fill("#find-to", "2")
+    page.press("#find-to", "Enter")
+    page.fill("#find-wanted", "12 mm")
+    page.press("#find-wanted", "Enter")
+    page.wait_for_selector(".found.not", timeout=60_000)
+    said = page.inner_text("#find-said").replace("\u202f", " ")
+    assert "nothing from 1 N/mm to 2 N/mm" in said

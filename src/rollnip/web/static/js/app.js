@@ -27,21 +27,8 @@ import { Tabs } from "./tabs.js";
 import { say } from "./texts.js";
 import { Theme } from "./theme.js";
 import { Units } from "./units.js";
+import { VIEW, viewOf } from "./view.js";
 import { WhatIfView } from "./whatif.js";
-
-const VIEW = {
-  tab: "pressure",
-  system: "metric",
-  inside: { roller: "upper", field: "mises" },
-  whatif: { path: "nip.load", answer: "nip_width" },
-  find: { path: "nip.load", answer: "nip_width" },
-  compare: { profile: "pressure" },
-  families: {}, // kind of covering by path of a material
-  measured: {}, // {modulus, band} by path of a material
-  machine: { bore: 50, count: 2, ratio: 1 }, // cylinders that press [mm]
-  press: "load",
-  keeps: { upper: "diameter", lower: "diameter" },
-};
 
 const IDLE = 300; // ms
 
@@ -392,12 +379,3 @@ export class App extends Actions {
   }
 }
 
-/** How a state from outside wants to be looked at; what is missing or odd is as usual. */
-function viewOf(state) {
-  const entries = Object.entries(VIEW).map(([key, usual]) => {
-    const given = state[key] ?? usual;
-    return [key, typeof usual === "string" ? String(given) : { ...usual, ...given }];
-  });
-  const view = Object.fromEntries(entries);
-  return { ...view, system: view.system === "us" ? "us" : "metric" };
-}

@@ -5,6 +5,7 @@ import { button, el, select } from "./dom.js";
 import { questionOf } from "./control.js";
 import { getAt, same, setAt } from "./paths.js";
 import { flat, inputsOf } from "./quantities.js";
+import { RangeBoxes } from "./ranges.js";
 import { typable } from "./units.js";
 import { answersOf } from "./whatif.js";
 
@@ -24,6 +25,10 @@ export class FindView {
       this.search();
     });
     this.said = el("div", { role: "status", id: "find-said" });
+    this.within = new RangeBoxes("find", app, (path, ends) => {
+      const { find } = app.store.state.view;
+      app.store.view({ find: { ...find, ranges: { ...find.ranges, [path]: ends } } });
+    });
     this.node = el("div", {}, this.asks, this.said);
   }
 
@@ -43,6 +48,8 @@ export class FindView {
     ]);
     if (key !== this.key) this.build(inputs, answers, result);
     this.key = key;
+    const { low, high } = this.range(this.input, tree);
+    this.within.show(this.input, [low, high]);
     if (this.told && !this.isTold(tree)) this.said.replaceChildren();
   }
 
@@ -85,6 +92,7 @@ export class FindView {
         el("label", { for: "find-wanted", text: unit ? `of [${unit}]` : "of" }),
         this.wanted,
       ),
+      ...this.within.nodes,
       el("button", { type: "submit", class: "button main", id: "find-go", text: "Find" }),
     );
     this.said.replaceChildren();
@@ -107,7 +115,7 @@ export class FindView {
           path: input.path,
           quantity: asked.key.replace("dissipation_", "dissipation."),
           wanted,
-          ...range(input, getAt(tree, input.path)),
+          ...this.range(input, tree),
         },
         abort.signal,
       );
@@ -118,6 +126,12 @@ export class FindView {
       if (!isAbort(error))
         this.said.replaceChildren(el("div", { class: "found not" }, el("p", { text: complaintOf(error) })));
     }
+  }
+
+  /** Where the value is sought: as typed, else far around the present one. */
+  range(input, tree) {
+    const typed = this.app.store.state.view.find.ranges?.[input.path];
+    return typed ? { low: typed[0], high: typed[1] } : range(input, getAt(tree, input.path));
   }
 
   /** What is wanted, in the base unit; a plain number is in the unit beside the box. */

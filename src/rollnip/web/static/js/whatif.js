@@ -3,8 +3,11 @@
 import { isAbort, post } from "./api.js";
 import { Chart, layoutOf, line, titled } from "./charts.js";
 import { button, el, select } from "./dom.js";
+import { SIDE, mapChart, solveMap } from "./map.js";
 import { getAt } from "./paths.js";
 import { ANSWERS, flat, inputsOf } from "./quantities.js";
+import { RangeBoxes } from "./ranges.js";
+import { say } from "./texts.js";
 
 const POINTS = 19;
 const COARSE = 3;
@@ -25,6 +28,12 @@ export class WhatIfView {
     const place = el("div", { class: "chart", id: "chart-whatif" });
     this.chart = new Chart(place);
     this.asks = el("div", { class: "ask" });
+    const put = (path, range) => {
+      const { whatif } = app.store.state.view;
+      app.store.view({ whatif: { ...whatif, ranges: { ...whatif.ranges, [path]: range } } });
+    };
+    this.range = new RangeBoxes("whatif", app, put);
+    this.across = new RangeBoxes("whatif-second", app, put);
     this.said = el("p", { class: "hint", id: "whatif-said" });
     const exports = ["PNG", "SVG", "CSV"].map((format) =>
       button(format, () => app.exportChart(format), {
@@ -46,19 +55,66 @@ export class WhatIfView {
     if (state === "preview") return;
     const inputs = inputsOf(tree);
     const answers = answersOf(result);
-    const { path, answer } = this.app.store.state.view.whatif;
+    const { path, answer } = this.view;
     const input = inputs.find((one) => one.path === path) ?? inputs[0];
     const asked = answers.find(({ key }) => key === answer) ?? answers[0];
-    this.choose(inputs, answers, input, asked);
-    const values = valuesOf(input, getAt(tree, input.path));
-    const key = JSON.stringify([tree, input.path, values]);
-    const now = { value: getAt(tree, input.path), result: flat(result) };
-    this.asking = { key, input, asked, now };
+    const others = inputs.filter((one) => one.path !== input.path);
+    const second = others.find((one) => one.path === this.view.second);
+    this.choose(inputs, answers, input, asked, second);
+    const [first, across] = [input, second].map((one) => one && this.rangeOf(one, getAt(tree, one.path)));
+    this.range.show(input, first);
+    for (const node of this.across.nodes) node.hidden = !second;
+    if (second) this.across.show(second, across);
+    const values = spread(first, input.log, second ? SIDE : POINTS);
+    const ys = second ? spread(across, second.log, SIDE) : [];
+    const key = JSON.stringify([tree, input.path, values, second?.path, ys]);
+    const now = {
+      value: getAt(tree, input.path),
+      second: second && getAt(tree, second.path),
+      result: flat(result),
+    };
+    this.asking = { key, tree, input, second, asked, now, xs: values, ys };
+    if (second) return this.showMap();
     if (this.sweep?.key === key) this.draw();
     else {
       if (!this.shown) this.begin(values);
       await this.fetch(key, tree, input.path, values);
     }
+    return undefined;
+  }
+
+  get view() {
+    return this.app.store.state.view.whatif;
+  }
+
+  /** From where to where an input is varied. */
+  rangeOf(input, now) {
+    return this.view.ranges?.[input.path] ?? usualRange(input, now);
+  }
+
+  /** The map over two inputs, row by row. */
+  async showMap() {
+    const asking = this.asking;
+    const draw = (rows) => {
+      const isWhole = rows.every((row) => row);
+      this.map = { ...asking, rows, isWhole };
+      this.shown = this.map;
+      this.chart.node.classList.toggle("old", !isWhole);
+      this.said.textContent = isWhole ? say("map.said") : say("whatif.computing");
+      this.chart.show(mapChart(this.map, this.app.units(), this.app.palette()));
+    };
+    if (this.map?.key === asking.key && this.map.isWhole) return draw(this.map.rows);
+    this.abort?.abort();
+    const abort = new AbortController();
+    this.abort = abort;
+    this.said.textContent = say("whatif.computing");
+    this.chart.node.classList.add("old");
+    try {
+      await solveMap(asking, abort.signal, (rows) => this.asking.key === asking.key && draw(rows));
+    } catch (error) {
+      if (!isAbort(error)) this.said.textContent = error.message;
+    }
+    return undefined;
   }
 
   /** Axes and the dot of the design, while there is no curve yet. */
@@ -71,11 +127,13 @@ export class WhatIfView {
 
   /** Whether what is drawn is still of an older question. */
   isOld() {
+    if (this.asking?.second) return this.map?.key !== this.asking.key || !this.map.isWhole;
     return this.sweep?.key !== this.asking?.key || this.sweep.values.length < POINTS;
   }
 
-  choose(inputs, answers, input, asked) {
+  choose(inputs, answers, input, asked, second) {
     const key = JSON.stringify([
+      second?.path,
       inputs.map((one) => one.path),
       answers.map((one) => one.key),
       input.path,
@@ -101,6 +159,18 @@ export class WhatIfView {
         value: input.path,
         act: (value) => put({ path: value }),
       }),
+      ...this.range.nodes,
+      select({
+        id: "whatif-second",
+        label: say("map.and"),
+        options: [
+          ["", say("map.nothing")],
+          ...inputs.filter((one) => one.path !== input.path).map((one) => [one.path, one.label]),
+        ],
+        value: second?.path ?? "",
+        act: (value) => put({ second: value }),
+      }),
+      ...this.across.nodes,
     );
     if (focused) document.getElementById(focused)?.focus();
   }
@@ -129,7 +199,7 @@ export class WhatIfView {
   }
 
   draw() {
-    if (this.sweep.key !== this.asking.key) return;
+    if (this.sweep.key !== this.asking.key || this.asking.second) return;
     const { results } = this.sweep;
     const lost = results.filter((one) => !isSound(one)).length;
     if (results.length < POINTS) this.said.textContent = "Computing …";
@@ -143,7 +213,9 @@ export class WhatIfView {
   }
 
   figure(_snapshot, palette) {
-    return this.shown ? curve(this.shown, this.app.units(), palette) : null;
+    if (!this.shown) return null;
+    const draw = this.shown.rows ? mapChart : curve;
+    return draw(this.shown, this.app.units(), palette);
   }
 }
 
@@ -151,14 +223,17 @@ function isSound(one) {
   return !one.error && one.converged !== false;
 }
 
-/** Values of a sweep around the present one, without what no slider could reach. */
-function valuesOf({ low, high, log, factor }, now) {
-  const [first, last] = log
-    ? [(now * factor) / TURN, now * factor * TURN]
-    : [Math.min(low, now * factor), Math.max(high, now * factor)];
-  const at = (i) =>
-    log ? first * (last / first) ** (i / (POINTS - 1)) : first + ((last - first) * i) / (POINTS - 1);
-  return Array.from({ length: POINTS }, (_none, i) => Number((at(i) / factor).toPrecision(8)));
+/** The range around the present value, without what no slider could reach. */
+function usualRange({ low, high, log, factor }, now) {
+  if (log) return [now / TURN, now * TURN];
+  return [Math.min(low / factor, now), Math.max(high / factor, now)];
+}
+
+/** So many values from end to end, in equal steps or, on a logarithmic scale, equal factors. */
+function spread([first, last], log, count) {
+  const isLog = log && first > 0;
+  const at = (share) => (isLog ? first * (last / first) ** share : first + (last - first) * share);
+  return Array.from({ length: count }, (_none, i) => Number(at(i / (count - 1)).toPrecision(8)));
 }
 
 function curve({ sweep, input, asked, now }, units, palette) {

@@ -49,9 +49,7 @@ def test_a_point_is_probed_by_its_place_and_depth(designer):
     page.fill("#probe-x", "0")
     page.fill("#probe-z", "12 mm")
     page.press("#probe-z", "Enter")
-    designer.until(
-        "document.querySelector('#probe-values').textContent.includes('12\u202fmm deep')"
-    )
+    designer.until("document.querySelector('#probe-place').textContent.includes('12\u202fmm deep')")
     field = "document.getElementById('chart-inside').data[0]"
     last = page.evaluate(
         f"(() => {{ const f = {field}; const j = f.x.reduce((b, x, i) => "

@@ -13,11 +13,13 @@ export class Probe {
     this.point = null; // {x, z} as asked for [mm]
     this.boxes = ["x", "z"].map((axis) => this.box(axis));
     this.values = el("dl", { class: "probe-values", id: "probe-values" });
+    this.place = el("p", { class: "hint", id: "probe-place" });
     this.node = el(
       "div",
       { class: "probe" },
       el("h3", { text: say("probe.title") }),
       el("div", { class: "ask" }, ...this.boxes.map(({ node }) => node)),
+      this.place,
       this.values,
     );
   }
@@ -25,7 +27,7 @@ export class Probe {
   box(axis) {
     const id = `probe-${axis}`;
     const input = el("input", { type: "text", id, autocomplete: "off", value: "0" });
-    const label = el("label", { for: id });
+    const label = el("label", { for: id, text: say(`probe.${axis}`) });
     input.addEventListener("change", () => this.typed());
     return { axis, input, label, node: el("div", { class: "field" }, label, input) };
   }
@@ -38,7 +40,8 @@ export class Probe {
       const [x, z] = await Promise.all(this.boxes.map(read));
       this.at(x, z);
     } catch (error) {
-      this.values.replaceChildren(el("p", { class: "wrong", text: error.message }));
+      this.values.replaceChildren();
+      this.place.textContent = error.message;
     }
   }
 
@@ -65,8 +68,8 @@ export class Probe {
       x: units.text(field.x[j], "length", 3),
       z: units.text(field.z[i], "length", 3),
     });
+    this.place.textContent = place;
     this.values.replaceChildren(
-      el("p", { class: "hint", text: place }),
       ...rows.map(([title, text]) => el("div", {}, el("dt", { text: title }), el("dd", { text }))),
     );
   }

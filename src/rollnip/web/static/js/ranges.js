@@ -13,7 +13,7 @@ export class RangeBoxes {
     this.put = put;
     this.boxes = ["from", "to"].map((end) => {
       const input = el("input", { type: "text", id: `${id}-${end}`, autocomplete: "off" });
-      const label = el("label", { for: `${id}-${end}` });
+      const label = el("label", { for: `${id}-${end}`, text: say(`range.${end}`) });
       input.addEventListener("change", () => this.typed());
       return { end, input, label, node: el("div", { class: "field short" }, label, input) };
     });

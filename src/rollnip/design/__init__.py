@@ -12,6 +12,7 @@ from rollnip.design.distributions import (
 from rollnip.design.find import Found, find
 from rollnip.design.optimise import Chosen, Optimum, SearchEnd, optimise
 from rollnip.design.pareto import pareto_front
+from rollnip.design.posterior import posterior
 from rollnip.design.problem import Bounds
 from rollnip.design.quantities import QUANTITIES
 from rollnip.design.scatter import Chance, Quantile, Sampling, Scatter, Share, Tolerance
@@ -46,5 +47,6 @@ __all__ = [
     "find",
     "optimise",
     "pareto_front",
+    "posterior",
     "tolerance",
 ]

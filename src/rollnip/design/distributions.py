@@ -17,15 +17,22 @@ from rollnip.design.quantities import read_parameter
 Array = NDArray[np.float64]
 Number = float | str
 
+_LEAST_SHARE = 1e-6  # of a distribution between its ends
 _EDGE = 1e-12  # probabilities closer to 0 and 1 than this are not drawn
 
 
 @dataclass(frozen=True, slots=True)
 class Normal:
-    """Normal: mean and standard deviation; numbers in base units, or texts with their unit."""
+    """Normal: mean and standard deviation; numbers in base units, or texts with their unit.
+
+    With ``low`` or ``high`` what lies beyond is left out, and the rest is normal in proportion:
+    mean and deviation are those before the cut.
+    """
 
     mean: Number
     deviation: Number
+    low: Number | None = None
+    high: Number | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,10 +54,15 @@ class Triangular:
 
 @dataclass(frozen=True, slots=True)
 class LogNormal:
-    """The logarithm is normal: median, and the standard deviation of the logarithm (a ratio)."""
+    """The logarithm is normal: median, and the standard deviation of the logarithm (a ratio).
+
+    With ``low`` or ``high`` what lies beyond is left out, as of `Normal`.
+    """
 
     median: Number
     spread: Number
+    low: Number | None = None
+    high: Number | None = None
 
 
 Distribution = Normal | Uniform | Triangular | LogNormal
@@ -91,11 +103,12 @@ def frozen(distribution: Distribution, dimension: Dimension) -> Any:
         round.
     """
     match distribution:
-        case Normal(mean, deviation):
+        case Normal(mean, deviation, low, high):
             kind: Dimension = "temperature difference" if dimension == "temperature" else dimension
-            return norm(
+            whole = norm(
                 read_parameter("mean", mean, dimension), _positive("deviation", deviation, kind)
             )
+            return _cut(whole, dimension, low, high)
         case Uniform(low, high):
             a, b = _ordered(dimension, low=low, high=high)
             return uniform(a, b - a)
@@ -105,10 +118,52 @@ def frozen(distribution: Distribution, dimension: Dimension) -> Any:
             if not a <= c <= b:
                 raise InvalidInputError(f"`mode` must lie between low and high, got {mode!r}.")
             return triang((c - a) / (b - a), a, b - a)
-        case LogNormal(median, spread):
-            return lognorm(
+        case LogNormal(median, spread, low, high):
+            whole = lognorm(
                 _positive("spread", spread, "ratio"), scale=_positive("median", median, dimension)
             )
+            return _cut(whole, dimension, low, high)
+
+
+class Truncated:
+    """A distribution without what lies beyond two ends.
+
+    Parameters
+    ----------
+    whole : distribution of scipy.
+    low, high : the ends.
+
+    Raises
+    ------
+    InvalidInputError
+        where next to nothing of it lies between them.
+    """
+
+    def __init__(self, whole: Any, low: float, high: float) -> None:
+        self.whole, self.low, self.high = whole, low, high
+        self._below = float(whole.cdf(low))
+        self._share = float(whole.cdf(high)) - self._below
+        if self._share < _LEAST_SHARE:
+            raise InvalidInputError(
+                f"`low` and `high` must leave more than {_LEAST_SHARE:g} of the distribution, "
+                f"they leave {max(self._share, 0.0):.1g}."
+            )
+
+    def ppf(self, probability: Any) -> Any:
+        """The value below which lies a share of what is left."""
+        found = self.whole.ppf(self._below + np.asarray(probability) * self._share)
+        return np.clip(found, self.low, self.high)
+
+
+def _cut(whole: Any, dimension: Dimension, low: Number | None, high: Number | None) -> Any:
+    """The distribution between two ends, of which either may be missing."""
+    if low is None and high is None:
+        return whole
+    a = -np.inf if low is None else read_parameter("low", low, dimension)
+    b = np.inf if high is None else read_parameter("high", high, dimension)
+    if not a < b:
+        raise InvalidInputError(f"`low` must be below `high`, got {low!r} and {high!r}.")
+    return Truncated(whole, a, b)
 
 
 def hypercube(distributions: Sequence[Any], count: int, scores: Array | None, seed: int) -> Array:

@@ -22,6 +22,7 @@ from rollnip.design.distributions import (
     Varied,
     frozen,
 )
+from rollnip.design.posterior import posterior
 from rollnip.design.problem import Bounds, interval
 from rollnip.design.quantities import parameter_dimension, require_quantity
 from rollnip.design.scatter import Sampling
@@ -45,12 +46,13 @@ _Entry = TypeVar("_Entry")
 _Read = TypeVar("_Read")
 
 _KEYS = {
-    "normal": ("mean", "deviation"),
+    "normal": ("mean", "deviation", "low", "high"),
     "uniform": ("low", "high"),
     "triangular": ("low", "mode", "high"),
-    "lognormal": ("median", "spread"),
+    "lognormal": ("median", "spread", "low", "high"),
 }
 _FROM_CASE = ("mean", "mode", "median")
+_MAY_MISS = {"normal": ("low", "high"), "lognormal": ("low", "high")}
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -117,13 +119,20 @@ def read_tolerance(path: str | Path) -> ToleranceStudy:
     source = str(path)
     table = parse_tolerance(read_document(path), source)
     case = _case(table.case, path)
+    known, together = _fitted(table.fit, path)
     return ToleranceStudy(
         title=table.title or str(case.get("title", "")),
         case=case,
-        parameters=_each(table.parameters, source, "parameters", partial(_varied, case)),
+        parameters=(
+            *known,
+            *_each(table.parameters, source, "parameters", partial(_varied, case)),
+        ),
         results=_each(table.results, source, "results", _result),
         limits=_limits(table.limits, source),
-        correlations=_each(table.correlations, source, "correlations", _correlation),
+        correlations=(
+            *together,
+            *_each(table.correlations, source, "correlations", _correlation),
+        ),
         sampling=_sampling(table.sampling, source),
     )
 
@@ -158,6 +167,17 @@ def _case(given: Any, path: str | Path) -> Mapping[str, Any]:
     if not isinstance(given, dict):
         raise CaseFileError(f"{path}: case: must be the name of a case file, or a table.")
     return given
+
+
+def _fitted(
+    name: str | None, path: str | Path
+) -> tuple[tuple[Varied, ...], tuple[Correlation, ...]]:
+    """The unknowns of a fit as parameters, and their correlations; nothing without one."""
+    if name is None:
+        return (), ()
+    folder = Path() if str(path) == "-" else Path(path).parent
+    with _at(str(path), "fit"):
+        return posterior(read_document(folder / name))
 
 
 def _objective(table: ObjectiveTable, source: str) -> Objective:
@@ -243,7 +263,7 @@ def _distribution(table: VariedTable, case: Mapping[str, Any]) -> Distribution:
         value = getattr(table, name)
         if value is None and name in _FROM_CASE:
             value = value_at(case, table.path)
-        if value is None:
+        if value is None and name not in _MAY_MISS.get(kind, ()):
             raise InvalidInputError(f"`{name}` must be given for a {kind} distribution.")
         values[name] = value
     makers: dict[str, Any] = {

@@ -72,8 +72,8 @@ class VariedTable(Table):
     distribution: Literal["normal", "uniform", "triangular", "lognormal"]
     mean: Any = Field(default=None, description="Of a normal one; none: the value in the case.")
     deviation: Any = Field(default=None, description="Standard deviation of a normal one.")
-    low: Any = Field(default=None, description="Least value of a uniform or triangular one.")
-    high: Any = Field(default=None, description="Largest value of a uniform or triangular one.")
+    low: Any = Field(default=None, description="Least value; a normal one may go without.")
+    high: Any = Field(default=None, description="Largest value; a normal one may go without.")
     mode: Any = Field(default=None, description="Of a triangular one; none: the value in the case.")
     median: Any = Field(
         default=None, description="Of a lognormal one; none: the value in the case."
@@ -114,7 +114,10 @@ class ToleranceTable(Table):
 
     title: str = ""
     case: Any = Field(description="A case file, or the case itself as a table.")
-    parameters: list[VariedTable]
+    parameters: list[VariedTable] = Field(default=[])
+    fit: str | None = Field(
+        default=None, description="fit.json of a fit: its unknowns scatter as it knows them."
+    )
     results: list[str] = Field(
         default=[], description="Names of results; those of limits are there too."
     )

@@ -1,38 +1,42 @@
-"""The command line: parse, call, print."""
+"""The command line, `rollnip`: parse, call, print."""
 
 from __future__ import annotations
 
 import os
 import sys
-from pathlib import Path
 
 __all__ = ["main"]
 
 
 def main() -> None:
-    """Run the command ``rollnip``; leaves through SystemExit with 0, 1 or 2 (130 after Ctrl-C)."""
+    """Run the command ``rollnip``; leaves through SystemExit with its exit code.
+
+    0 is done, 1 not converged, 2 wrong input, 130 after Ctrl-C, 141 where the reader of the output
+    has gone.
+    """
     # Threaded BLAS makes small dense systems many times slower; set before numpy loads.
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
         os.environ.setdefault(name, "1")
-    _open_closed_streams()
+    from rollnip.cli.console import CLOSED_PIPE, open_closed_streams, silence, write_plain_letters
+
+    open_closed_streams()
+    write_plain_letters()
     try:
         from rollnip.cli.app import app
 
         app()
     except KeyboardInterrupt:
         sys.exit(130)
-    except OSError as error:  # of the help; commands say what they cannot write themselves
-        from rollnip.cli.app import _silence
-
-        _silence(sys.stdout)
+    except SystemExit as error:
+        # Of the help: what parses the command line makes an exit of 1 of a closed pipe.
+        if isinstance(error.__context__, BrokenPipeError):
+            sys.exit(CLOSED_PIPE)
+        raise
+    except BrokenPipeError:  # of the help; commands say what they cannot write themselves
+        silence(sys.stdout)
+        sys.exit(CLOSED_PIPE)
+    except OSError as error:
+        silence(sys.stdout)
         reason = error.strerror or error
         sys.stderr.write(f"rollnip: cannot write to the standard output: {reason}.\n")
         sys.exit(2)
-
-
-def _open_closed_streams() -> None:
-    """Streams that the caller has closed: nothing to read, and what is written goes nowhere."""
-    for name, mode in (("stdin", "r"), ("stdout", "w"), ("stderr", "w")):
-        if getattr(sys, name) is None:
-            stream = Path(os.devnull).open(mode, encoding="utf-8")  # noqa: SIM115 - to the end
-            setattr(sys, name, stream)

@@ -2,17 +2,13 @@
 
 from __future__ import annotations
 
-import os
-import sys
-from collections.abc import Iterator
-from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, TextIO, cast
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
 from rollnip._files import one_run
+from rollnip.cli.console import clear_failures, named, overridden, write
 from rollnip.cli.design import find, optimise, pareto, tolerance
 from rollnip.cli.dma import dma
 from rollnip.cli.face import face
@@ -27,15 +23,15 @@ from rollnip.cli.verify import verify
 if TYPE_CHECKING:
     from rollnip.face import FaceSolution
     from rollnip.io import Case
-    from rollnip.model import Geometry, Model
+    from rollnip.model import Model
 
 app = typer.Typer(
     name="rollnip",
     help="Rolling contact of cylinders coated with layered, viscoelastic rubber.",
-    add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
     no_args_is_help=True,
+    context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command()(verify)
 app.add_typer(lda)
@@ -59,8 +55,10 @@ def root(
 ) -> None:
     """Take the options that stand before a command."""
     if version:
-        with _clear_failures():
-            _print_version()
+        with clear_failures():
+            from importlib.metadata import version as version_of
+
+            write(f"rollnip {version_of('rollnip')}\n")
         raise typer.Exit
 
 
@@ -91,12 +89,12 @@ def solve(
 
     Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
     """
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip.io import check_result_target, read_case, result_text, write_result
 
         problem = read_case(case)
         run.reserve({"--out": out, "--fields": fields, "--plot": plot})
-        model = _overridden(problem.model, geometry, tolerance)
+        model = overridden(problem.model, geometry, tolerance)
         if out is not None:
             check_result_target(out)
         if plot is not None:
@@ -109,7 +107,7 @@ def solve(
             check_fields_target(fields)
         from rollnip.solve import solve as solve_nip
 
-        with _named(problem.source):
+        with named(problem.source):
             solution = solve_nip(problem.nip, model, on_failure="return")
         along = _along_the_face(problem, model)
         if out is not None:
@@ -119,13 +117,12 @@ def solve(
         if plot is not None:
             save_figure(plot_overview(solution), plot)
         if json:
-            _print(result_text(solution, _face_part(along)))
+            write(result_text(solution, _face_part(along)))
         elif not quiet:
             from rollnip.cli.summary import print_summary
 
             print_summary(solution)
             _print_face(along)
-        _flush()
     if not solution.converged or (along is not None and not along.converged):
         raise typer.Exit(1)
 
@@ -136,7 +133,7 @@ def _along_the_face(problem: Case, model: Model) -> FaceSolution | None:
         return None
     from rollnip.face import solve_face
 
-    with _named(problem.source):
+    with named(problem.source):
         return solve_face(problem.nip, problem.face, model)
 
 
@@ -152,90 +149,24 @@ def _print_face(along: FaceSolution | None) -> None:
     if along is not None:
         from rollnip.face.report import face_lines
 
-        _print("\n" + "\n".join(face_lines(along)) + "\n")
+        write("\n" + "\n".join(face_lines(along)) + "\n")
 
 
 @app.command()
 def schema() -> None:
     """Print the JSON schema of the case file, for editors and other programs."""
-    with _clear_failures():
+    with clear_failures():
         from json import dumps
 
         from rollnip.io import case_schema
 
-        _print(dumps(case_schema(), indent=2) + "\n")
-        _flush()
+        write(dumps(case_schema(), indent=2) + "\n")
 
 
 @app.command()
 def version() -> None:
     """Print the version."""
-    with _clear_failures():
-        _print_version()
+    with clear_failures():
+        from importlib.metadata import version as version_of
 
-
-def _overridden(model: Model, geometry: str | None, tolerance: str | None) -> Model:
-    from dataclasses import replace
-
-    from rollnip._units import parse_quantity
-
-    if tolerance is not None:
-        with _named("--tolerance"):
-            model = replace(model, tolerance=parse_quantity(tolerance, "ratio"))
-    if geometry is not None:
-        with _named("--geometry"):
-            model = replace(model, geometry=cast("Geometry", geometry))
-    return model
-
-
-@contextmanager
-def _named(source: str) -> Iterator[None]:
-    """Put the option or the file before what is said against its value."""
-    try:
-        yield
-    except InvalidInputError as error:
-        raise InvalidInputError(f"{source}: {error}") from None
-
-
-def _print_version() -> None:
-    from importlib.metadata import version
-
-    _print(f"rollnip {version('rollnip')}\n")
-    _flush()
-
-
-def _print(text: str) -> None:
-    sys.stdout.write(text)
-
-
-def _flush() -> None:
-    sys.stdout.flush()
-
-
-@contextmanager
-def _clear_failures() -> Iterator[None]:
-    """Turn what a user can cause into one message on stderr and an exit code."""
-    try:
-        yield
-    except ConvergenceError as error:
-        _leave(str(error), 1)
-    except RollnipError as error:
-        _leave(str(error), 2)
-    except KeyboardInterrupt:
-        _leave("interrupted.", 130)
-    except BrokenPipeError:
-        _silence(sys.stdout)
-        raise typer.Exit(141) from None
-    except OSError as error:
-        _silence(sys.stdout)
-        _leave(f"cannot write to the standard output: {error.strerror or error}.", 2)
-
-
-def _leave(message: str, code: int) -> None:
-    sys.stderr.write(f"rollnip: {message}\n")
-    raise typer.Exit(code) from None
-
-
-def _silence(stream: TextIO) -> None:
-    """Send what is still in the buffer nowhere, so that leaving does not fail on it again."""
-    os.dup2(os.open(os.devnull, os.O_WRONLY), stream.fileno())
+        write(f"rollnip {version_of('rollnip')}\n")

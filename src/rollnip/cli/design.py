@@ -14,6 +14,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip.cli.console import clear_failures, named
 from rollnip.cli.options import WORKERS, Force
 
 if TYPE_CHECKING:
@@ -56,15 +57,13 @@ def find(
     Leaves with 0 where a value was found and confirmed by a fresh solve, 1 where there is none
     between the limits, 2 for wrong input.
     """
-    from rollnip.cli.app import _clear_failures, _named
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip._units import parse_quantity
         from rollnip.design import find as search
         from rollnip.io.document import read_document
 
         quantity, value = _parted(wanted)
-        with _named("--tolerance"):
+        with named("--tolerance"):
             share = parse_quantity(tolerance, "ratio")
         tree = _with_geometry(read_document(case), geometry)
         run.reserve({"--out": out})
@@ -103,9 +102,7 @@ def optimise(
     Leaves with 0 where a case was found that keeps all limits, confirmed by a fresh solve, and
     the search came to rest; 1 where not; 2 for wrong input.
     """
-    from rollnip.cli.app import _clear_failures, _named
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip.cli.progress import progress
         from rollnip.design import optimise as search
         from rollnip.design.files import read_optimise
@@ -118,7 +115,7 @@ def optimise(
         tree = _with_geometry(question.case, geometry)
         paths = [one.path for one in question.parameters]
         with (
-            _named(study),
+            named(study),
             _evaluating(database, tree, paths, workers) as crew,
             progress(question.search.budget(len(paths)) + 1, "solving") as advance,
         ):
@@ -156,9 +153,7 @@ def tolerance(
     force: Force = False,
 ) -> None:
     """Compute how results scatter where parameters do, and how often specifications are met."""
-    from rollnip.cli.app import _clear_failures, _named
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from functools import partial
 
         from rollnip.design import tolerance as scatter
@@ -171,7 +166,7 @@ def tolerance(
         if plot is not None:
             check_figure_target(plot)
         tree = _with_geometry(question.case, geometry)
-        with _named(study):
+        with named(study):
             found = scatter(
                 tree,
                 question.parameters,
@@ -210,9 +205,7 @@ def pareto(
 
     Rows that did not converge, or hold no number there, are left out.
     """
-    from rollnip.cli.app import _clear_failures, _named
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip._files import check_target, write_whole
         from rollnip.design import pareto_front
         from rollnip.design.pareto import Sense, rows_text
@@ -235,7 +228,7 @@ def pareto(
         read = open_results(table)
         run.reserve({"--out": out, "--plot": plot})
         values = read.values(names)
-        with _named(str(table)):
+        with named(str(table)):
             front = pareto_front(values, [sense for _, sense in wanted])
         if plot is not None:
             heads = (read.head(names[0]), read.head(names[1]))

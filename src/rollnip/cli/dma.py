@@ -11,11 +11,11 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip.cli.console import clear_failures, named, read_option
 from rollnip.cli.dma_files import convert, show
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
-    from rollnip._units import Dimension
     from rollnip.dma import DmaData, DmaFit, DmaMethod, TimeData, TimeFit
 
 dma = typer.Typer(
@@ -91,26 +91,24 @@ def fit(
     Prints the material as a table for the case file, with its range and its deviation from the
     data in comments; warnings go to the standard error.
     """
-    from rollnip.cli.app import _clear_failures, _named
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip.dma import DmaMethod, fit_dict, material_toml
 
         _check_targets(out, plot)
         _choose("--modulus", modulus, ("E", "G", None))
-        degrees = _read("--reference", reference, "temperature")
+        degrees = read_option("--reference", reference, "temperature")
         data = _data(
             file,
             modulus=modulus,
             poisson=poisson,
-            temperature=_read("--temperature", temperature, "temperature"),
-            frequency=_read("--frequency", frequency, "frequency"),
+            temperature=read_option("--temperature", temperature, "temperature"),
+            frequency=read_option("--frequency", frequency, "frequency"),
             sheet=sheet,
             tables=tuple(table or ()),
         )
         run.reserve({"--out": out, "--plot": plot})
-        law = _law(shift, c1, _read("--c2", c2, "temperature difference"), energy, degrees)
-        with _named(str(file)):
+        law = _law(shift, c1, read_option("--c2", c2, "temperature difference"), energy, degrees)
+        with named(str(file)):
             method = DmaMethod(
                 model=model,  # type: ignore[arg-type]
                 shift=law,
@@ -176,16 +174,6 @@ def _fitted(data: DmaData | TimeData, method: DmaMethod) -> DmaFit | TimeFit:
     return fit_time(data, method) if isinstance(data, TimeData) else fit_dma(data, method)
 
 
-def _read(option: str, text: str | None, dimension: Dimension) -> float | None:
-    from rollnip._units import parse_quantity
-    from rollnip.cli.app import _named
-
-    if text is None:
-        return None
-    with _named(option):
-        return parse_quantity(text, dimension)
-
-
 def _choose(option: str, value: str | None, known: tuple[str | None, ...]) -> None:
     if value not in known:
         shown = ", ".join(one for one in known if one)
@@ -198,7 +186,7 @@ def _law(
     """The name of a law to fit, or the law that the options give."""
     from rollnip.materials import WLF, Arrhenius
 
-    joules = _read("--energy", energy, "molar energy")
+    joules = read_option("--energy", energy, "molar energy")
     if (c1 is None) != (c2 is None):
         raise InvalidInputError("`--c1` and `--c2` must be given together.")
     if c1 is None and joules is None:
@@ -238,7 +226,6 @@ def _write(found: DmaFit | TimeFit, text: str, out: Path | None, plot: Path | No
 
 def _in_the_nip(found: DmaFit | TimeFit, case: Path, name: str) -> list[str]:
     """Warnings of the nip of a case with the material put into its [materials]."""
-    from rollnip.cli.app import _named
     from rollnip.dma import frequency_warning, material_toml
     from rollnip.io import parse_case
     from rollnip.io.document import parse_document, read_document
@@ -257,7 +244,7 @@ def _in_the_nip(found: DmaFit | TimeFit, case: Path, name: str) -> list[str]:
     if given is not None and "shift" in table:
         table["temperature"] = given
     problem = parse_case({**tree, "materials": {**materials, name: table}}, source=str(case))
-    with _named(str(case)):
+    with named(str(case)):
         solution = solve(problem.nip, problem.model, on_failure="return")
         at = _temperature(table)
         said = [frequency_warning(found, solution, at)]

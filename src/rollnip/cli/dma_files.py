@@ -10,6 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip.cli.console import clear_failures, read_option
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
@@ -27,16 +28,13 @@ def show(
     sheet: Annotated[str | None, typer.Option(help="The only one of a workbook to read.")] = None,
 ) -> None:
     """Say what is understood of a file: tables, columns, units, ranges, and what is left out."""
-    from rollnip.cli.app import _clear_failures
-    from rollnip.cli.dma import _read
-
-    with _clear_failures():
+    with clear_failures():
         from rollnip.dma import read_tables
 
         reading = read_tables(
             file,
-            temperature=_read("--temperature", temperature, "temperature"),
-            frequency=_read("--frequency", frequency, "frequency"),
+            temperature=read_option("--temperature", temperature, "temperature"),
+            frequency=read_option("--frequency", frequency, "frequency"),
             sheet=sheet,
         )
         sys.stdout.write(reading.text())
@@ -63,9 +61,7 @@ def convert(
 
     What another program cannot hold is said in comments; warnings go to the standard error.
     """
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip._files import check_place, write_whole
         from rollnip.dma import material_keys, prony_deck, read_deck
         from rollnip.dma.export import checked_name

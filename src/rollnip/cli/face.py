@@ -10,6 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip.cli.console import clear_failures
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
@@ -34,9 +35,7 @@ def solve(case: CaseFile, json: Json = False, plot: Plot = None, force: Force = 
 
     The exit code is 0 where the solution was verified, 1 where not, 2 for wrong input.
     """
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         nip, along, model = _read(case)
         run.reserve({"--plot": plot})
         from rollnip.face import solve_face
@@ -64,9 +63,7 @@ def crown(
 
     The case's own crown on that roller does not matter.
     """
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         nip, along, model = _read(case)
         run.reserve({"--plot": plot})
         from rollnip.face import even_crown, load_range, with_crown
@@ -94,9 +91,7 @@ def read(
     json: Json = False,
 ) -> None:
     """Read a nip impression: crown, tilt, load or modulus from widths along the face."""
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures():
+    with clear_failures():
         nip, along, model = _read(case)
         from rollnip._units import parse_quantity
         from rollnip.face import Impression, read_impressions

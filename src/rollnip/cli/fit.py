@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Annotated, cast
 import typer
 
 from rollnip._files import make_folder, one_run
+from rollnip.cli.console import clear_failures, named
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
@@ -38,9 +39,7 @@ def fit(
     Leaves with 0 where the nips at the fitted values were verified, 1 where they were not, 2 for
     wrong input.
     """
-    from rollnip.cli.app import _clear_failures, _named
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from dataclasses import replace
         from json import dumps
 
@@ -49,12 +48,12 @@ def fit(
         study = read_fit(file)
         method = study.method
         if geometry is not None:
-            with _named("--geometry"):
+            with named("--geometry"):
                 method = replace(method, geometry=_geometry(geometry))
         if out is not None:
             make_folder(out)
             run.reserve({f"--out ({name})": out / name for name in _FILES})
-        with _progress() as on_solve, _named(file):
+        with _progress() as on_solve, named(file):
             found = identify(study.case, study.unknowns, study.cost, method, on_solve=on_solve)
         if out is not None:
             _write(found, study.title, out)

@@ -10,12 +10,13 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
+from rollnip.cli.console import clear_failures, named, overridden, write
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip._units import Dimension
     from rollnip.io.velocities import Settings
-    from rollnip.lda import Comparison, Instrument, Scan
+    from rollnip.lda import Comparison, Instrument, Scan, VelocityProfile
     from rollnip.solution import Solution
 
 lda = typer.Typer(
@@ -60,15 +61,13 @@ def simulate(
 
     Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
     """
-    from rollnip.cli.app import _clear_failures, _named
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip._units import parse_quantity
         from rollnip.lda import Instrument, Seeding, simulate_scan
 
         known = _settings(wavelength, beam_angle, half_width, sample_rate, shift, None, roller)
         instrument = _instrument(known, Instrument)
-        with _named("--spread"):
+        with named("--spread"):
             fraction = parse_quantity(spread, "ratio")
         seeding = Seeding(bursts=bursts, snr=snr, spread=fraction)
         if seed < 0:
@@ -76,7 +75,7 @@ def simulate(
         solution, source = _solved(case, geometry)
         _make_ready(out)
         run.reserve({f"--out ({one.name})": one for one in _scan_files(out)})
-        with _named(source):
+        with named(source):
             scan = simulate_scan(
                 solution, instrument, seeding, side=_side(known), positions=positions, seed=seed
             )
@@ -91,6 +90,7 @@ def estimate(
         str | None, typer.Option(help='Circumferential speed, such as "100 mm/s": gives strain.')
     ] = None,
     out: Annotated[Path | None, typer.Option(help="Write the table: name.csv.")] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
     confidence: Annotated[str, _CONFIDENCE] = "95 %",
     wavelength: Annotated[str | None, _WAVELENGTH] = None,
@@ -100,9 +100,7 @@ def estimate(
     force: Force = False,
 ) -> None:
     """Velocity and strain at each position, with confidence bands, as CSV."""
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip.io.velocities import profile_csv, read_velocities
 
         known = _settings(wavelength, beam_angle, None, sample_rate, shift, speed, None)
@@ -116,9 +114,10 @@ def estimate(
             text = "# simulated: no measurement\n" + text
         if out is not None:
             _write_text(out, text)
-        else:
-            sys.stdout.write(text)
-            sys.stdout.flush()
+        if json:
+            write(_json(_profile_tree(profile, simulated=readings.simulated)))
+        elif out is None:
+            write(text)
         if plot is not None:
             from rollnip.plots.lda import save_velocity
 
@@ -145,9 +144,7 @@ def compare(
 
     Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
     """
-    from rollnip.cli.app import _clear_failures, _named
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip.io.velocities import read_velocities
         from rollnip.lda import compare as align
 
@@ -159,7 +156,7 @@ def compare(
         known = known.over(readings.settings)
         profile = readings.profile(known, confidence=level)
         solution, _ = _solved(case, geometry)
-        with _named(str(file)):
+        with named(str(file)):
             result = align(
                 profile,
                 solution,
@@ -172,8 +169,7 @@ def compare(
             from rollnip.plots.lda import save_comparison
 
             save_comparison(result, plot, simulated=readings.simulated)
-        sys.stdout.write(_text(result, simulated=readings.simulated, as_json=json))
-        sys.stdout.flush()
+        write(_text(result, simulated=readings.simulated, as_json=json))
     _leave(solution)
 
 
@@ -188,13 +184,12 @@ def _settings(
 ) -> Settings:
     """What the options say; a message names the option."""
     from rollnip._units import parse_quantity
-    from rollnip.cli.app import _named
     from rollnip.io.velocities import Settings
 
     def read(option: str, text: str | None, kind: Dimension) -> float | None:
         if text is None:
             return None
-        with _named(option):
+        with named(option):
             value = parse_quantity(text, kind)
             if value <= 0.0 and option != "--shift":
                 raise InvalidInputError(f"must be positive, got {text}.")
@@ -224,21 +219,19 @@ def _side(known: Settings) -> Literal["upper", "lower"]:
 
 def _confidence(text: str) -> float:
     from rollnip._units import parse_quantity
-    from rollnip.cli.app import _named
 
-    with _named("--confidence"):
+    with named("--confidence"):
         return parse_quantity(text, "ratio")
 
 
 def _solved(case: str, geometry: str | None) -> tuple[Solution, str]:
-    from rollnip.cli.app import _named, _overridden
     from rollnip.io import read_case
 
     problem = read_case(case)
-    model = _overridden(problem.model, geometry, None)
+    model = overridden(problem.model, geometry, None)
     from rollnip.solve import solve
 
-    with _named(problem.source):
+    with named(problem.source):
         return solve(problem.nip, model, on_failure="return"), problem.source
 
 
@@ -294,6 +287,29 @@ def _write_scan(scan: Scan, solution: Solution, out: Path) -> None:
     save_record(scan, picture)
 
 
+def _profile_tree(profile: VelocityProfile, *, simulated: bool) -> dict[str, Any]:
+    """Columns of the table by name, in mm and mm/s; strain is None without the roller's speed."""
+    strain = profile.strain
+    return {
+        "simulated": simulated,
+        "confidence": profile.confidence,
+        "speed": profile.speed,
+        "x": profile.x.tolist(),
+        "velocity": profile.velocity.tolist(),
+        "error": profile.error.tolist(),
+        "band": profile.band.tolist(),
+        "strain": None if strain is None else strain.tolist(),
+        "count": profile.count.tolist(),
+        "rejected": profile.rejected.tolist(),
+    }
+
+
+def _json(tree: dict[str, Any]) -> str:
+    from json import dumps
+
+    return dumps(tree, indent=2, allow_nan=False) + "\n"
+
+
 def _text(result: Comparison, *, simulated: bool, as_json: bool) -> str:
     tree: dict[str, Any] = {
         "simulated": simulated,
@@ -311,9 +327,7 @@ def _text(result: Comparison, *, simulated: bool, as_json: bool) -> str:
         "probability": result.probability,
     }
     if as_json:
-        from json import dumps
-
-        return dumps(tree, indent=2, allow_nan=False) + "\n"
+        return _json(tree)
     level = f"{100.0 * result.confidence:g} %"
     blurred = f"; {result.left_out} more left out: too steep for the volume"
     lines = [

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import sys
+from json import dumps
 from pathlib import Path
 from typing import Annotated
 
 import typer
 
 from rollnip._files import make_folder, one_run
+from rollnip.cli.console import clear_failures, write
 from rollnip.cli.options import Force
 
 
@@ -18,20 +19,19 @@ def paper(
         bool,
         typer.Option("--table", help="Also assumptions.md: what is not said, and how it matters."),
     ] = False,
+    json: Annotated[bool, typer.Option("--json", help="Print the files as JSON.")] = False,
     force: Force = False,
 ) -> None:
     """Compute and draw figures 4 to 8 of Braat & Kalker (1993).
 
     The points in figures 6 to 8 are simulated, not measured, and say so.
     """
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         make_folder(out)
         from rollnip.plots.paper import PICTURES, save_paper
 
-        names = [*PICTURES, "assumptions.md"] if table else PICTURES
-        run.reserve({f"--out ({name})": out / name for name in names})
+        targets = [*PICTURES, "assumptions.md"] if table else PICTURES
+        run.reserve({f"--out ({name})": out / name for name in targets})
 
         written = save_paper(out)
         if table:
@@ -41,5 +41,6 @@ def paper(
             text, path = effects_table(list(effects())), out / "assumptions.md"
             write_whole(path, lambda file: file.write_text(text, "utf-8"))
             written.append(path)
-        sys.stdout.write("".join(f"{path}\n" for path in written))
-        sys.stdout.flush()
+        names = [str(path) for path in written]
+        plain = "".join(f"{name}\n" for name in names)
+        write(f"{dumps({'files': names}, indent=2)}\n" if json else plain)

@@ -6,6 +6,8 @@ from typing import Annotated
 
 import typer
 
+from rollnip.cli.console import clear_failures
+
 
 def serve(
     host: Annotated[
@@ -17,9 +19,7 @@ def serve(
     no_open: Annotated[bool, typer.Option("--no-open", help="Open no browser.")] = False,
 ) -> None:
     """Serve the nip designer, a web page and a JSON API, until Ctrl-C."""
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures():
+    with clear_failures():
         from rollnip.web import serve as serve_page
 
         serve_page(host=host, port=port, open_page=not no_open)

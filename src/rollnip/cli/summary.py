@@ -11,6 +11,7 @@ from rich.text import Text
 
 from rollnip._results.summary import SIGNS, Line, sections, verdict, zones
 from rollnip._units import format_quantity
+from rollnip.cli.console import terminal
 from rollnip.solution import Solution
 
 _WIDTH = 96
@@ -27,7 +28,7 @@ def print_summary(solution: Solution, console: Console | None = None) -> None:
     console :
         where to; the standard output by default, at most 96 columns wide.
     """
-    console = console or Console(highlight=False)
+    console = console or terminal()
     console.width = min(console.width, _WIDTH)
     console.print(Group(*_parts(solution)))
 

@@ -15,6 +15,7 @@ from typer.core import TyperGroup
 
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip._files import one_run
+from rollnip.cli.console import clear_failures
 from rollnip.cli.kept import interrupts_told, kept
 from rollnip.cli.options import WORKERS, Force
 
@@ -85,9 +86,7 @@ def run(
     Each case is kept in the database as it ends: whatever stops the sweep, the same command goes
     on from there. Leaves with 0 once every case has its row, 2 for wrong input, 130 after Ctrl-C.
     """
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip.sweep.merge import take_known
         from rollnip.sweep.profiles import check_profiles_target
         from rollnip.sweep.run import OpenCases
@@ -137,9 +136,7 @@ def merge(
     force: Force = False,
 ) -> None:
     """Join the databases of the shards of one study into one table."""
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip.sweep.merge import merged
         from rollnip.sweep.profiles import check_profiles_target
         from rollnip.sweep.table import check_table_target
@@ -165,9 +162,7 @@ def status(
 
     Leaves with 0 where all cases are there, 1 where some are open, 2 for wrong input.
     """
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures(), one_run(force=force) as run:
+    with clear_failures(), one_run(force=force) as run:
         from rollnip.sweep.connect import is_being_written
         from rollnip.sweep.store import Store
         from rollnip.sweep.table import check_table_target, write_table

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from rollnip._errors import InvalidInputError
+from rollnip.cli.console import clear_failures, terminal
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -33,9 +34,7 @@ def verify(
 
     The exit code is 0 where every figure is within its tolerance, and 1 where one is not.
     """
-    from rollnip.cli.app import _clear_failures
-
-    with _clear_failures():
+    with clear_failures():
         if json and markdown:
             raise InvalidInputError("`--json` and `--markdown` must not be given together.")
         from rollnip.verification import cases_about
@@ -74,12 +73,11 @@ def print_outcomes(outcomes: Sequence[Outcome], console: Console | None = None) 
     console :
         where to; the standard output by default, at most 100 columns wide.
     """
-    from rich.console import Console
     from rich.text import Text
 
     from rollnip.verification import summary
 
-    console = console or Console(highlight=False)
+    console = console or terminal()
     console.width = min(console.width, _WIDTH)
     for name, group in groupby(outcomes, key=lambda outcome: outcome.case.name):
         members = list(group)

@@ -5,6 +5,10 @@ import time
 import numpy as np
 import pytest
 
+from rollnip._memory import keep_freed_memory
+
+keep_freed_memory()  # as in the command's own processes
+
 UNIT = "numpy.linalg.solve of a normal 400 x 400 matrix, one right-hand side, one BLAS thread"
 _rows = []
 

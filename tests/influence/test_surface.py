@@ -1,8 +1,5 @@
 """Kernels of a roller's surface from its layers and its core."""
 
-import platform
-import subprocess
-import sys
 from math import inf, pi
 
 import numpy as np
@@ -191,35 +188,3 @@ def test_stiff_and_soft_layers_together(contrast):
         near, far = kernel.value(np.array([1e-6, 1e-5]))
         slope = 2.0 * (1.0 - 0.3**2) / outer.modulus / pi
         assert (near - far) / np.log(10.0) == pytest.approx(slope, rel=1e-3)
-
-
-@pytest.mark.skipif(platform.libc_ver()[0] != "glibc", reason="other C libraries keep memory")
-def test_memory_of_meshes_is_kept():
-    """After a table is made, arrays of a mesh come without a page from the system.
-
-    In a process of its own: what was freed before in this one counts, too.
-    """
-    code = """
-import resource
-import numpy as np
-from rollnip import Elastic, Roller
-from rollnip.influence import covering_window, surface_kernels
-
-def pages():
-    before = resource.getrusage(resource.RUSAGE_SELF).ru_minflt
-    for _ in range(20):
-        np.ones(100_000) + np.ones(100_000)
-    return resource.getrusage(resource.RUSAGE_SELF).ru_minflt - before
-
-first = pages()
-roller = Roller(radius=10.0, core=Elastic(modulus=2.0, poisson=0.3))
-surface_kernels(roller, None, "linear", covering_window((roller,), None))
-pages()
-print(first, pages())
-"""
-    printed = subprocess.run(
-        [sys.executable, "-c", code], check=True, capture_output=True, text=True
-    ).stdout
-    first, then = (int(number) for number in printed.split())
-    assert first > 1000  # three arrays of 0.8 MB, 4 kB at a time, but for what is kept
-    assert then < 20

@@ -8,6 +8,7 @@ import pytest
 import rollnip as rn
 from rollnip.io import result_dict
 from rollnip.rough.fields import thinned
+from rollnip.solution import Solution
 
 
 @pytest.fixture(scope="module")
@@ -119,3 +120,30 @@ def test_pictures(solution):
     axes = plot_pressure(solution)
     assert len(axes.collections) == 1  # all pieces of contact in one
     plot_gap(solution)
+
+
+def test_everything_that_a_solution_says_is_said_of_a_rough_one(coated, with_profile, rough):
+    solution = rn.solve(with_profile(coated, upper=rough(4000, 0.01)))
+    public = [name for name in dir(Solution) if not name.startswith("_")]
+    assert "profiles" in public
+    for name in public:
+        if name not in ("final", "kernels"):
+            assert getattr(solution, name) is not Ellipsis
+    for name in ("final", "kernels"):
+        with pytest.raises(AttributeError, match="see `rough`"):
+            getattr(solution, name)
+    assert not hasattr(solution, "nothing")
+
+
+@pytest.mark.parametrize("reach", [4.0, 12.0, 40.0])
+def test_a_profile_of_any_length_gives_profiles_and_json(coated, reach):
+    """Also one that reaches farther than a nip width beyond the contact on both sides."""
+    x = np.linspace(-reach, reach, 4001)
+    profile = rn.Profile(x=x, height=1e-3 * np.cos(2.0 * np.pi * x / 0.5))
+    upper = rn.Roller(radius=coated.upper.radius, layers=coated.upper.layers, profile=profile)
+    solution = rn.solve(replace(coated, upper=upper))
+    found = solution.profiles
+    assert found.x[0] <= solution.contact[0][0] - solution.nip_width
+    assert found.x[-1] >= solution.contact[-1][1] + solution.nip_width
+    assert np.all(np.diff(found.x) > 0.0)
+    assert result_dict(solution, interfaces=False)["profiles"]["gap"][0] > 0.0

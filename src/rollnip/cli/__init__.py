@@ -5,6 +5,8 @@ from __future__ import annotations
 import os
 import sys
 
+from rollnip._memory import keep_freed_memory
+
 __all__ = ["main"]
 
 
@@ -19,6 +21,7 @@ def main() -> None:
         os.environ.setdefault(name, "1")
     from rollnip.cli.console import CLOSED_PIPE, open_closed_streams, silence, write_plain_letters
 
+    keep_freed_memory()
     open_closed_streams()
     write_plain_letters()
     try:

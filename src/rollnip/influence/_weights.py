@@ -171,17 +171,6 @@ def transform_matrix(
     return even.reshape(3 * log_x.size, -1), odd.reshape(3 * log_x.size, -1)
 
 
-@lru_cache(maxsize=1)
-def keep_freed_memory() -> None:
-    """Let the C library keep the memory of arrays that are freed, for the next ones.
-
-    That of Linux gives blocks above a threshold back to the system, which hands them out again
-    page by page and zeroed: on meshes beyond 60 nodes it took longer than to compute. The
-    threshold, 128 KiB at first, is the largest block of up to 32 MiB ever freed.
-    """
-    np.empty(31 * 2**20, dtype=np.uint8)
-
-
 def _lowest_panel(octave: int, log_x: Array, nodes: int) -> ComplexArray:
     """Weights (3, points, nodes) of the panel [0, w_0], on which w x stays below 1/4."""
     t, gauss, _ = gauss_legendre(nodes)

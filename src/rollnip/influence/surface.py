@@ -9,7 +9,7 @@ from math import inf, isinf
 import numpy as np
 
 from rollnip.compliance import flat_compliance, half_space_limit, ring_compliance
-from rollnip.influence._weights import ComplexArray, keep_freed_memory
+from rollnip.influence._weights import ComplexArray
 from rollnip.influence.hats import displacement_under
 from rollnip.influence.kernel import Array, Kernel, Window, half_space_kernel, tabulate
 from rollnip.materials import Material
@@ -100,7 +100,6 @@ def surface_kernels(
     tolerance :
         relative accuracy of the inverse transform.
     """
-    keep_freed_memory()  # what comes next evaluates these on meshes
     core = roller.core
     low: tuple[complex, complex, complex] = (0.0, 0.0, 0.0)
     if core is not None:

@@ -59,8 +59,10 @@ def surface_fields(
         for make in (grid_displacements, grid_strains)
         for kernel in (kernels.xz, kernels.zz)
     ]
-    nodes, thin = thinned(contact.x, pressure, 1024)
     away = np.concatenate([trailing, leading])
+    if away.size == 0:  # the profile reaches farther than anything that is asked for
+        return SurfaceFields(*on_grid)
+    nodes, thin = thinned(contact.x, pressure, 1024)
     off_grid = [
         matrix(kernel, away, nodes) @ thin[1:-1]
         for matrix in (displacement_matrix, strain_matrix)

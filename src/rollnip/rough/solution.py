@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import nan
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,6 +48,14 @@ class RoughSolution(Solution):
     final: Round = field(init=False, repr=False, compare=False)
     kernels: PairKernels = field(init=False, repr=False, compare=False)
     rough: RoughContact = field(kw_only=True, repr=False, compare=False)
+
+    def __getattr__(self, name: str) -> Any:
+        if name in ("final", "kernels"):
+            raise AttributeError(
+                f"`{name}` is of smooth rollers; a nip with measured profiles is solved on a "
+                "uniform grid: see `rough`, or `nodes` and `pressure`."
+            )
+        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @property
     def load(self) -> float:

@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from rollnip._memory import keep_freed_memory
 from rollnip.figures import PROFILES
 from rollnip.solution import Solution
 from rollnip.sweep.row import Row, own_kernels, ready, solved, without_solution
@@ -97,6 +98,7 @@ def given_up(task: Task, why: str) -> list[Outcome]:
 
 def stand_alone() -> None:
     """Let a new worker process leave Ctrl-C to its parent, and end when the parent is gone."""
+    keep_freed_memory()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     parent = parent_process()
     if parent is not None:

@@ -19,6 +19,7 @@ import warnings
 from contextlib import suppress
 from typing import BinaryIO
 
+from rollnip._memory import keep_freed_memory
 from rollnip.web.limits import Limits
 from rollnip.web.quiet import keep_quiet
 
@@ -27,6 +28,7 @@ HEAD = struct.Struct(">I")
 
 def main() -> None:
     """Serve tasks until the standard input ends."""
+    keep_freed_memory()
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     replies = os.fdopen(os.dup(1), "wb")
     # Whatever prints must not get between the frames.

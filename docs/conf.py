@@ -56,7 +56,7 @@ nitpicky = True
 nitpick_ignore_regex = [
     (r"py:.*", r"(numpy|np|scipy|matplotlib|pathlib|collections|typing|os|pydantic|io)\..*"),
     (r"py:.*", r"(Path|NDArray|ArrayLike|Array|ComplexArray|Axes|Figure|Any|TypeAliasForwardRef)"),
-    (r"py:.*", r"(enum\.IntEnum|abc\.ABC|concurrent\.futures\..*)"),
+    (r"py:.*", r"(enum\.IntEnum|abc\.ABC|concurrent\.futures\..*|tuple\[.*)"),
     # Types that modules hand to each other and no door offers.
     (r"py:.*", r"rollnip\.\w+\.\w+\.\w+"),
     (r"py:.*", r"rollnip\..*\._\w+"),

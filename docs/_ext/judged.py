@@ -259,6 +259,20 @@ def _covering(case: dict[str, Any]) -> str:
     return "; lower: ".join(parts)
 
 
+def thickness_ratio(case: dict[str, Any]) -> tuple[float, float]:
+    """Return the thickness of all coverings [mm], and the largest over its roller's radius."""
+    rollers = (case["upper"], case["lower"])
+    thick = [sum(one["thickness"] for one in roller.get("layers", [])) for roller in rollers]
+    ratios = [d / roller["radius"] for d, roller in zip(thick, rollers, strict=True)]
+    return sum(thick), max(ratios)
+
+
+def width_angle(case: dict[str, Any]) -> float:
+    """Return half the nip width over the smaller radius."""
+    trailing, leading = case["contact_x"]
+    return float(0.5 * (leading - trailing) / min(case["upper"]["radius"], case["lower"]["radius"]))
+
+
 def at_most(value: float, bound: float, sentence: str) -> None:
     """Fail the build where a bound that a page states does not hold."""
     if not value <= bound:

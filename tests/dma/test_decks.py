@@ -162,3 +162,11 @@ def test_an_unknown_format_is_refused():
 def test_broken_decks_are_refused_in_words(deck, text):
     with pytest.raises(InvalidInputError):
         read_deck(deck(text, "broken.csv"), unit="MPa", poisson=0.4)
+
+
+def test_ratios_that_add_up_to_one_leave_the_slowest_term_as_the_plateau(deck):
+    text = "i,tau_i,alpha_i,E_0,E_i\n-,s,-,MPa,MPa\n1,1e6,0.25,8,2\n2,0.01,0.75,8,6\n"
+    found = read_deck(deck(text, "prony.csv"), poisson=0.5)
+    assert found.material.modulus == pytest.approx(2.0)
+    assert found.material.terms == ((pytest.approx(6.0), 0.01),)
+    assert "of 1e+06 s, is taken for it" in found.notes[0]

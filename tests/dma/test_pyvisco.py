@@ -60,3 +60,39 @@ def test_prony_series_agree_over_the_transition(both):
     # its collocation follows single points and leaves some 10 %
     np.testing.assert_allclose(other["E_stor"][inside], mine.real, rtol=0.2)
     np.testing.assert_allclose(other["E_loss"][inside], mine.imag, rtol=0.3)
+
+
+def test_tables_of_prony_series_are_exchanged(both, tmp_path):
+    from pyvisco import load, out, prony
+
+    from rollnip.dma import prony_deck, read_deck
+
+    _, curve, fit = both
+    series, _ = prony.fit(prony.discretize(curve, "round", 20), curve, opt=False)
+    units = {"tau_i": "s", "alpha_i": "-", "E_0": "MPa", "E_i": "MPa"}
+    path = tmp_path / "prony.csv"
+    path.write_text(out.to_csv(series["df_terms"], units, index_label="i"))
+    found = read_deck(path, poisson=0.5)
+    solid, terms = found.material, series["df_terms"]
+    # its ratios add up to 1: the slowest term is the plateau
+    assert "The ratios add up to 1" in found.notes[0]
+    slowest = int(np.argmax(terms["tau_i"]))
+    others = np.delete(terms["E_i"].to_numpy(), slowest)
+    np.testing.assert_allclose([e for e, _ in solid.terms], others)
+    assert solid.modulus == pytest.approx(terms["E_i"].iloc[slowest])
+    assert solid.glassy_modulus == pytest.approx(series["E_0"], rel=1e-5)
+    data = fit.master.reduced
+    mine = solid.modulus_at(1j * data.omega)
+    theirs = prony.calc_GMaxw(**series)
+    np.testing.assert_allclose(
+        np.interp(
+            np.log(theirs["omega"]), np.log(np.sort(data.omega)), mine.real[np.argsort(data.omega)]
+        )[20:-20],
+        theirs["E_stor"][20:-20],
+        rtol=0.05,
+    )
+    # and ours by its reader
+    table, found = load.prep_csv(prony_deck(fit.material, "pyvisco").encode())
+    assert found == units | {"i": "-"}
+    np.testing.assert_allclose(table["tau_i"], [t for _, t in fit.material.terms])
+    assert float(table["E_0"].iloc[0]) == pytest.approx(fit.material.glassy_modulus)

@@ -304,6 +304,16 @@ def _made(
     if poisson is None:
         raise InvalidInputError(f"{source}: `poisson` must be given: the file has none.")
     left = 1.0 - sum(ratio for ratio, _ in terms)
+    if len(terms) > 1 and instantaneous and abs(left) < _NEARLY:
+        # the table of pyvisco, whose ratios add up to 1: the slowest term is its plateau
+        slowest = max(range(len(terms)), key=lambda k: terms[k][1])
+        left, time = terms[slowest]
+        terms = [term for k, term in enumerate(terms) if k != slowest]
+        bulk = [ratio for k, ratio in enumerate(bulk) if k != slowest]
+        notes.append(
+            "The ratios add up to 1, which leaves no relaxed modulus: that of the slowest term, "
+            f"of {time:.3g} s, is taken for it. Much slower than that the material is too stiff."
+        )
     if not terms or left <= 0.0:
         raise InvalidInputError(
             f"{source}: must hold ratios g_i that add up to less than 1, got {1.0 - left:.6g} of "

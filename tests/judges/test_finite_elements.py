@@ -7,6 +7,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import rollnip as rn
+from finite_elements.__main__ import FACTOR, GRADING, Chain, run
 from finite_elements.case import Layer, Nip, Roller, nip_of
 from finite_elements.edges import meshed, solve
 from finite_elements.figures import checks, figures
@@ -121,3 +123,61 @@ def test_power_in_is_the_heat_of_friction():
     assert found.power_in > 1e-3
     assert found.friction_power == pytest.approx(found.power_in, rel=5e-3)
     assert found.torque_lower == pytest.approx(-0.074 * 25.0, rel=1e-4)
+
+
+@pytest.mark.slow  # some ten seconds
+def test_linear_limit():
+    """Two coverings at strains of 1e-4: what rollnip says with `linear` geometry."""
+    upper = Roller(5000.0, (RUBBER,))
+    lower = Roller(4000.0, (Layer(1.0, 3.0, 0.4), Layer(2.0, 1.0, 0.5)))
+    nip = Nip(upper, lower, load=0.02, friction=0.5, traction=0.002)
+    grading = Grading(edge=0.004).refined(0.7)
+    coarse = solve(nip, grading)
+    limit, _ = figures(coarse).extrapolated(
+        figures(solve(nip, grading.refined(FACTOR), coarse.places)), FACTOR
+    )
+
+    def roller(part):
+        return rn.Roller(
+            radius=part.radius,
+            layers=tuple(
+                rn.Layer(a.thickness, rn.Elastic(modulus=a.modulus, poisson=a.poisson))
+                for a in part.layers
+            ),
+        )
+
+    solution = rn.solve(
+        rn.Nip(
+            upper=roller(upper),
+            lower=roller(lower),
+            normal=rn.LineLoad(nip.load),
+            friction=nip.friction,
+            tangential=rn.Traction(nip.traction),
+        ),
+        rn.Model(geometry="linear"),
+    )
+    # strains of 1e-4 change the creepage by some of its per cent, the rest by much less
+    assert solution.approach == pytest.approx(limit.approach, rel=1e-3)
+    assert solution.contact[0][0] == pytest.approx(limit.trailing, rel=2e-3)
+    assert solution.contact[0][1] == pytest.approx(limit.leading, rel=2e-3)
+    assert solution.peak_pressure == pytest.approx(limit.peak_pressure, rel=2e-3)
+    assert solution.creepage == pytest.approx(limit.creepage, rel=1e-2)
+
+
+@pytest.mark.slow  # half a minute
+@pytest.mark.parametrize(("name", "share"), [("fuser", 0.0), ("I, mu .5", 0.1)])
+def test_stored_values_again(name, share):
+    """On meshes coarser by 0.7 than those the stored values come from."""
+    results = json.loads((DATA / "finite_strain_fe_driven.json").read_text(encoding="utf-8"))
+    case = next(
+        r
+        for r in results["results"]
+        if r["case"] == name and r["traction"] == pytest.approx(share * r["load"])
+    )
+    grading = GRADING.refined(0.7)
+    found, _ = run(case, Chain(grading), Chain(grading.refined(FACTOR)))
+    for key in ("approach", "creepage", "peak_pressure", "torque_upper"):
+        known = found["uncertainty"][key] + 2.0 * case["uncertainty"][key]
+        assert found[key] == pytest.approx(case[key], abs=known), key
+    known = np.add(found["uncertainty"]["contact_x"], case["uncertainty"]["contact_x"])
+    assert np.all(np.abs(np.subtract(found["contact_x"], case["contact_x"])) < 2.0 * known)

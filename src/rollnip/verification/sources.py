@@ -128,7 +128,8 @@ FINITE_ELEMENTS = Source(
     Kind.PROGRAM,
     "Finite elements at finite strain: incompressible neo-Hookean covering on a rigid core "
     "against a rigid roller, tests/data/finite_strain_fe.json; mesh-converged to 0.1 % (approach, "
-    "peak), 0.3 % (edges) and 0.5 % (creepage)",
+    "peak), 0.3 % (edges) and 0.5 % (creepage); such nips are run again by "
+    "tests/judges/finite_elements",
 )
 COLLOCATION = Source(
     Kind.PROGRAM,

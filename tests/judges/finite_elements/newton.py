@@ -307,7 +307,7 @@ class Problem:
         raise NoConvergenceError("every step turns an element inside out")
 
     def solve(
-        self, state: State, free: bool = False, tolerance: float = 1e-8, most: int = 40
+        self, state: State, free: bool = False, tolerance: float = 1e-6, most: int = 40
     ) -> State:
         """Iterate until no end changes and no node moves by more than the tolerance [mm]."""
         step, turns = np.inf, np.zeros(state.slip.size, dtype=int)

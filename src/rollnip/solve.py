@@ -15,7 +15,6 @@ from typing import Literal
 
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.contact import Safeguarded
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip, Torque
@@ -42,7 +41,6 @@ def solve(
     nip: Nip,
     model: Model | None = None,
     *,
-    method: Safeguarded | None = None,
     cache: KernelCache | None = None,
     on_failure: Literal["raise", "return"] = "return",
 ) -> Solution:
@@ -54,9 +52,6 @@ def solve(
         the problem.
     model :
         geometry and accuracy; ``Model()`` by default.
-    method :
-        how zones of stick and slip are found, and every discrete problem with linear elements
-        is solved; ``Safeguarded()`` by default.
     cache :
         influence functions of solves before, to be used again where coverings are the same.
     on_failure :
@@ -81,9 +76,8 @@ def solve(
     _require_kinds(nip, model, on_failure)
     if nip.has_profile:
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
-    method = Safeguarded() if method is None else method
     with one_blas_thread():
-        solution = _solved(nip, model, method, KernelCache() if cache is None else cache, start)
+        solution = _solved(nip, model, KernelCache() if cache is None else cache, start)
     if on_failure == "raise" and not solution.converged:
         raise ConvergenceError(solution.status, solution)
     return solution
@@ -104,15 +98,13 @@ def _require_kinds(nip: object, model: object, on_failure: object) -> None:
         raise InvalidInputError(f'`on_failure` must be "raise" or "return", got {on_failure!r}.')
 
 
-def _solved(
-    nip: Nip, model: Model, method: Safeguarded, cache: KernelCache, start: float
-) -> Solution:
+def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solution:
     """The flow of one solution; ``start``: the clock when it was asked for [s]."""
-    kernels, final = _refined(nip, model, method, cache)
+    kernels, final = _refined(nip, model, cache)
     left: tuple[str, ...] = ()
     if model.geometry == "finite" and (cause := _without_solution(final)):
         model = replace(model, geometry="curved")
-        kernels, final = _refined(nip, model, method, cache)
+        kernels, final = _refined(nip, model, cache)
         left = (
             f'No solution of geometry "finite" was found: {cause}. '
             'All figures are those of geometry "curved".',
@@ -157,14 +149,12 @@ def _without_solution(final: Round) -> str:
     return "" if final.settled else "contact, stick and slip did not settle"
 
 
-def _refined(
-    nip: Nip, model: Model, method: Safeguarded, cache: KernelCache
-) -> tuple[PairKernels, Round]:
+def _refined(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, Round]:
     """Influence functions and the last round of refinement."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    return kernels, refine(nip, model, kernels, half_width, method)
+    return kernels, refine(nip, model, kernels, half_width)
 
 
 def _require_grip(nip: Nip, final: Round) -> None:

@@ -1,6 +1,7 @@
 """The nips of the paper's figures, each solved once."""
 
 import pytest
+from discrete_problems import half_spaces, mesh, random_problem, unit_load, within
 
 import rollnip as rn
 from rollnip.paper import (
@@ -10,6 +11,8 @@ from rollnip.paper import (
     figure_5_elastic,
     figure_5_viscoelastic,
 )
+
+__all__ = ["half_spaces", "mesh", "random_problem", "unit_load", "within"]
 
 GEOMETRIES = ("linear", "corrected", "curved")
 

@@ -1,20 +1,31 @@
-"""The command ``paper``: figures 4 to 8 of Braat & Kalker (1993), computed."""
+"""The command ``paper``: figures 4 to 8 of Braat & Kalker (1993), and its process on a case."""
 
 from __future__ import annotations
 
 from json import dumps
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, cast
 
 import typer
 
+from rollnip._errors import InvalidInputError
 from rollnip._files import make_folder, one_run
 from rollnip.cli.console import clear_failures, write
 from rollnip.cli.options import Force
 
+if TYPE_CHECKING:
+    from rollnip.model import Geometry
+    from rollnip.paper.process import ProcessSolution
 
-def paper(
-    out: Annotated[Path, typer.Option(help="Folder for the pictures; made where there is none.")],
+paper = typer.Typer(name="paper", rich_markup_mode=None)
+
+
+@paper.callback(invoke_without_command=True)
+def figures(
+    context: typer.Context,
+    out: Annotated[
+        Path | None, typer.Option(help="Folder for the pictures; made where there is none.")
+    ] = None,
     table: Annotated[
         bool,
         typer.Option("--table", help="Also assumptions.md: what is not said, and how it matters."),
@@ -26,7 +37,11 @@ def paper(
 
     The points in figures 6 to 8 are simulated, not measured, and say so.
     """
+    if context.invoked_subcommand is not None:
+        return
     with clear_failures(), one_run(force=force) as run:
+        if out is None:
+            raise InvalidInputError("`--out` must name a folder for the pictures, got none.")
         make_folder(out)
         from rollnip.plots.paper import PICTURES, save_paper
 
@@ -44,3 +59,60 @@ def paper(
         names = [str(path) for path in written]
         plain = "".join(f"{name}\n" for name in names)
         write(f"{dumps({'files': names}, indent=2)}\n" if json else plain)
+
+
+@paper.command()
+def process(
+    case: Annotated[str, typer.Argument(help="Case file, TOML or JSON; - is the standard input.")],
+    geometry: Annotated[str, typer.Option(help="linear, corrected or curved.")] = "curved",
+    elements: Annotated[int, typer.Option(help="Linear elements in the nip.", min=16)] = 100,
+    json: Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")] = False,
+) -> None:
+    """Solve one nip by the paper's own process: NORM and TANG in turn, on linear elements.
+
+    `rollnip solve` finds the same faster and says how large its errors are. Leaves with 0 where the
+    turns converged, 1 where they did not, 2 for wrong input.
+    """
+    with clear_failures():
+        from rollnip.io import read_case
+        from rollnip.paper.process import solve_by_process
+
+        nip = read_case(case).nip
+        found = solve_by_process(nip, cast("Geometry", geometry), elements=elements)
+        rows = _figures_of(found)
+        if json:
+            write(f"{dumps({name: value for name, value, _ in rows}, indent=2)}\n")
+        else:
+            write(
+                "".join(
+                    f"{name:16}{_text(value)} {unit}".rstrip() + "\n" for name, value, unit in rows
+                )
+            )
+    if not found.converged:
+        raise typer.Exit(1)
+
+
+_Value = float | int | bool | None
+
+
+def _figures_of(found: ProcessSolution) -> list[tuple[str, _Value, str]]:
+    """Return name, value and unit of the figures of the process."""
+    return [
+        ("approach", found.approach, "mm"),
+        ("load", found.load, "N/mm"),
+        ("traction", found.traction, "N/mm"),
+        ("creepage", found.creepage, ""),
+        ("nip_width", found.nip_width, "mm"),
+        ("peak_pressure", found.peak_pressure, "MPa"),
+        ("elements", int(found.x.size + 1), ""),
+        ("systems", found.systems, ""),
+        ("converged", found.converged, ""),
+    ]
+
+
+def _text(value: _Value) -> str:
+    if value is None:
+        return "not defined"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return f"{value:.6g}"

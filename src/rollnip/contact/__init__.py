@@ -1,9 +1,8 @@
-"""Contact: which nodes touch, stick or slip, by Kalker's algorithms and a coupled active set."""
+"""Contact: which nodes touch, stick or slip, and where zones of them end."""
 
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
 from rollnip.contact.features import Zone, contact_intervals, contact_zones, states_on
 from rollnip.contact.free_ends import GivenStates, HeldContact, Layout
-from rollnip.contact.given import Norm, Tang
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
 from rollnip.contact.mesh import (
@@ -19,7 +18,7 @@ from rollnip.contact.mesh import (
     more_elements,
     subdivided,
 )
-from rollnip.contact.methods import Alternation, Safeguarded
+from rollnip.contact.methods import Safeguarded
 from rollnip.contact.path import CreepagePath
 from rollnip.contact.problem import (
     ContactProblem,
@@ -34,7 +33,6 @@ from rollnip.contact.problem import (
 
 __all__ = [
     "CREEP_TO_EDGE",
-    "Alternation",
     "ContactProblem",
     "ContactState",
     "Control",
@@ -48,12 +46,10 @@ __all__ = [
     "GridState",
     "HeldContact",
     "Layout",
-    "Norm",
     "Safeguarded",
     "State",
     "States",
     "Subdivision",
-    "Tang",
     "Zone",
     "carry",
     "contact_intervals",

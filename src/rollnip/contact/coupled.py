@@ -99,7 +99,7 @@ class LinearSystem:
 
     @classmethod
     def of(cls, problem: ContactProblem, states: States) -> LinearSystem:
-        """That of some states, see `solve_states`."""
+        """Factorise the system for the given states, see `solve_states`."""
         (contact,) = (states != FREE).nonzero()
         stick = (states == STICK).nonzero()[0] if problem.friction > 0.0 else contact[:0]
         signs = shear_signs(states)

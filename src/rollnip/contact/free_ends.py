@@ -51,7 +51,7 @@ class Layout:
 
     @classmethod
     def of(cls, zones: tuple[Zone, ...]) -> Layout | None:
-        """That of some zones; None where they do not touch, or slip both ways without stick."""
+        """Return the layout of zones; None where they do not touch, or slip both ways."""
         if not zones:
             return None
         states = np.array([zone.state for zone in zones], dtype=np.int8)
@@ -64,7 +64,7 @@ class Layout:
     def found(
         cls, x: Array, state: ContactState, friction: float, edges: tuple[float, float]
     ) -> Layout | None:
-        """That of the states of nodes in one contact with known edges; None as above.
+        """Return the layout of the states of nodes in one contact with known edges; None as above.
 
         Beyond these the pressure may be negative, and what sticks there does not count.
         """
@@ -101,7 +101,7 @@ class Layout:
         return all(map(isfinite, breaks)) and all(a < b for a, b in pairwise(breaks))
 
     def distance(self, other: Layout) -> float:
-        """Largest one between the edges of two layouts of the same zones, over the width.
+        """Return the largest distance of the edges of two like layouts, over the width.
 
         Or a tenth of that between transitions: figures of the nip hang on these to second order.
         """

@@ -1,4 +1,4 @@
-"""Ways to solve a whole contact problem: the paper's alternation, and the default."""
+"""How a whole contact problem is solved: the coupled active set and what stands behind it."""
 
 from __future__ import annotations
 
@@ -6,18 +6,19 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from rollnip.contact.coupled import CoupledActiveSet, next_states
-from rollnip.contact.given import Norm, Tang
+from rollnip.contact.coupled import CoupledActiveSet, next_states, solve_states
 from rollnip.contact.path import CreepagePath
 from rollnip.contact.problem import ContactProblem, ContactState, State, States, unsolved
+
+_MOST_OF_A_NODE = 10  # linear systems at most, where one node changes at a time
 
 
 @dataclass(frozen=True, slots=True)
 class Safeguarded:
     """The coupled active set; where it cycles, a slower way that does not (the default).
 
-    With friction that is path following in the creepage, without it NORM, which goes on one node
-    at a time where a contact set comes twice.
+    With friction that is path following in the creepage, without it one node at a time by Murty's
+    rule, which ends on the matrices of elastic contact.
 
     Parameters
     ----------
@@ -47,57 +48,25 @@ class Safeguarded:
         return replace(slow, steps=solution.steps + slow.steps)
 
     def _slow(self, problem: ContactProblem, states: States) -> ContactState:
-        """NORM without friction, path following with it; its result is examined once more."""
+        """Solve one node at a time, or along the creepage; the result is examined once more."""
         if problem.friction == 0.0:
-            normal = Norm().solve(problem, states, np.zeros(states.size))
-            creepage = problem.control.creepage
-            return replace(normal, creepage=np.nan if creepage is None else creepage)
+            return self._one_at_a_time(problem, states)
         slow = CreepagePath().solve(problem, states)
         if not slow.settled:
             return slow
         consistent = np.array_equal(next_states(problem, slow, self.rounding), slow.states)
         return replace(slow, settled=consistent)
 
-
-@dataclass(frozen=True, slots=True)
-class Alternation:
-    """The paper's process: NORM and TANG in turn until neither changes the other.
-
-    Parameters
-    ----------
-    tolerance :
-        largest change of shear in one turn, relative to the largest traction bound.
-    max_turns :
-        turns at most.
-    """
-
-    tolerance: float = 1e-9
-    max_turns: int = 200
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Alternate from zero shear; ``settled`` is False where the turns do not converge."""
-        shear = np.zeros(states.size)
-        tangential = states
-        steps = 0
-        for _ in range(self.max_turns):
-            normal = Norm().solve(problem, states, shear)
-            steps += normal.steps
-            states = normal.states
-            if problem.friction == 0.0:
-                return normal
-            turn = Tang().solve(problem, tangential, np.maximum(normal.pressure, 0.0))
-            steps += turn.steps
-            change = float(np.max(np.abs(turn.shear - shear)))
-            shear, tangential = turn.shear, turn.states
-            if change <= self.tolerance * problem.friction * float(np.max(normal.pressure)):
-                break
-        else:
-            turn = replace(turn, settled=False)
-        touching = np.where(states == State.FREE, State.FREE, tangential).astype(np.int8)
-        return replace(
-            turn,
-            states=touching,
-            approach=normal.approach,
-            steps=steps,
-            settled=turn.settled and normal.settled,
-        )
+    def _one_at_a_time(self, problem: ContactProblem, states: States) -> ContactState:
+        """Solve without friction, changing the first wrong node only (Murty 1974)."""
+        states = np.minimum(states, State.STICK)
+        if not np.any(states):
+            states[np.argmin(problem.clearance)] = State.STICK
+        for step in range(1, _MOST_OF_A_NODE * states.size + 1):
+            solution = solve_states(problem, states, steps=step)
+            wrong = np.flatnonzero(next_states(problem, solution, self.fast.rounding) != states)
+            if wrong.size == 0:
+                return replace(solution, settled=True)
+            states = states.copy()
+            states[wrong[0]] = State.STICK - states[wrong[0]]
+        return solution

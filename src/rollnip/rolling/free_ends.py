@@ -17,10 +17,10 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import CUBIC, Size, estimated_error, zone_excess
 from rollnip.rolling.largest import largest
-from rollnip.rolling.placing import Placing, Standing
+from rollnip.rolling.placing import Placing, SearchState
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import checked, settled
+from rollnip.rolling.turns import converge, with_residual
 
 _FIRST_COUNT = 18
 _FOR_ZONE = 4  # elements more for each zone
@@ -39,7 +39,7 @@ _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square 
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """What came of an attempt with free ends.
+    """Outcome of an attempt with free ends.
 
     Attributes
     ----------
@@ -76,14 +76,14 @@ def with_free_ends(
         if before is None:
             stand = placing.guessed(layout, count)
         else:
-            stand = Standing(layout, before, off=off)
+            stand = SearchState(layout, before, off=off)
             count = max(count, before.problem.x.size // 2)
         return Attempt(None) if stand is None else _refined(placing, stand, count)
     except np.linalg.LinAlgError:
         return Attempt(None)
 
 
-def _refined(placing: Placing, stand: Standing, count: int) -> Attempt:
+def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
     nip, model, too_few = placing.nip, placing.model, 0
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
@@ -103,18 +103,18 @@ def _refined(placing: Placing, stand: Standing, count: int) -> Attempt:
         if roughness * (count / most) ** _ROUGHNESS_ORDER > 1.0:
             break
         if largest(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:
-            final = settled(nip, model, latest, placing.given, latest.zones)
-            final = checked(nip, model, placing.kernels, final)
+            final = converge(nip, model, latest, placing.given, latest.zones)
+            final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
                 return Attempt(final)
             ratio = final.residual / model.tolerance
-            stand = Standing(stand.layout, latest)
+            stand = SearchState(stand.layout, latest)
         count = _next_count(count, ratio, model.tolerance)
     return Attempt(None, True, too_few)
 
 
 def _next_count(count: int, ratio: float, tolerance: float) -> int:
-    """Elements that would bring the error, ``ratio`` times too large now, below the tolerance.
+    """Return how many elements would bring an error ``ratio`` times too large to the tolerance.
 
     On the way to as many as errors below it can be claimed with, in steps that are not too long.
     """
@@ -127,14 +127,14 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
 
 
 def _as_cosines(latest: Round) -> int:
-    """Number of elements of a solution, each zone's as if its nodes lay at cosine places."""
+    """Count the elements of a solution, each zone's as if its nodes lay at cosine places."""
     fine = latest.mesh.fine
     shares = map(more_elements, fine.crowding)
     return round(sum(n / more for n, more in zip(fine.elements, shares, strict=True)))
 
 
 def _roughness(nip: Nip, model: Model, latest: Round) -> float:
-    """How badly cubics follow the tractions, over what is allowed.
+    """Return how badly cubics follow the tractions, over what is allowed.
 
     Where they do not follow, sizes of mesh may agree and all be wrong.
     """

@@ -39,7 +39,7 @@ from rollnip.rolling.assemble import (
 )
 from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
-from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from, turned
+from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from, solve_on_mesh
 
 _LOOKING = HeldContact()
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
@@ -53,7 +53,7 @@ _FAIRLY_PLACED = 0.1  # over the width of the contact: good enough to see what s
 _CONTRACTION = 0.7
 _NEARLY_PLACED = 0.008  # over the width of the contact
 _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
-_LOOSELY = 3.0  # more of it on the first size of mesh
+COARSE_PLACEMENT_FACTOR = 3.0  # more of it on the first size of mesh
 _SLACK = 1e-3  # at most: shear over the bound that may be rounding; more is slip, however coarse
 _TURNS = 2  # of the second-order terms on one mesh, while ends still move, but not far
 # Expected change of these over the tolerance, for which it is not evaluated anew on one size.
@@ -63,8 +63,8 @@ _TINY = float(np.finfo(float).tiny)
 
 
 @dataclass(frozen=True, slots=True)
-class Standing:
-    """Where the search stands.
+class SearchState:
+    """State of the search for zones and their ends.
 
     Attributes
     ----------
@@ -85,15 +85,15 @@ class Standing:
 
 @dataclass(frozen=True)
 class Placing:
-    """Finds the ends of zones of a nip, for one model and its influence functions."""
+    """The search for the zones of a nip and their ends, for one model."""
 
     nip: Nip
     model: Model
     kernels: PairKernels
     given: GivenStates = field(default_factory=GivenStates)
 
-    def guessed(self, layout: Layout, count: int) -> Standing | None:
-        """About where the zones are, and which, from a mesh of some size that a guess has made.
+    def guessed(self, layout: Layout, count: int) -> SearchState | None:
+        """Find about where the zones are, and which, from a mesh of some size on a guess.
 
         Ends that are far off leave singular tractions, and where these slip, terms of second order
         under them mean nothing: zones are looked for without. Where all sticks, the mesh is solved
@@ -108,7 +108,9 @@ class Placing:
         mesh = _mesh(layout, elements_of_zones(layout.breaks, count), even, kernels)
         states, zones = layout.states_on(mesh.inner), layout.zones
         start = states, first_guess(self.nip, mesh), 0
-        latest = self._turned(replace(self.model, geometry="linear"), mesh, start, zones, _TURNS)
+        latest = self._solve_on_mesh(
+            replace(self.model, geometry="linear"), mesh, start, zones, _TURNS
+        )
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         is_near = asked.distance(layout) < _FAIRLY_PLACED
         wanted = self._wanted(latest, layout, whole=False) if is_near else None
@@ -116,12 +118,12 @@ class Placing:
             return self._other(latest, wanted, _proper(asked, layout), "linear")
         if self.kernels.is_linear and not has_no_second_order(self.nip, self.model.geometry):
             second = second_order(self.nip, self.model.geometry, mesh, latest.state)
-            latest = self._turned(self.model, mesh, (states, second, latest.steps), zones, 1)
+            latest = self._solve_on_mesh(self.model, mesh, (states, second, latest.steps), zones, 1)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        return Standing(_proper(asked, layout), latest, off=asked.distance(layout))
+        return SearchState(_proper(asked, layout), latest, off=asked.distance(layout))
 
-    def placed(self, start: Standing, count: int, *, known: bool) -> Standing | None:
-        """The solution on a mesh of some size whose nodes lie at the ends of its zones.
+    def placed(self, start: SearchState, count: int, *, known: bool) -> SearchState | None:
+        """Find the solution on a mesh of some size whose nodes lie at the ends of its zones.
 
         Parameters
         ----------
@@ -136,7 +138,7 @@ class Placing:
         # However still the second order is, it is that of a coarser mesh: a new one on each size.
         stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
         loosely = self.kernels.is_linear and not known
-        placed = _PLACED * self.model.tolerance * (_LOOSELY if loosely else 1.0)
+        placed = _PLACED * self.model.tolerance * (COARSE_PLACEMENT_FACTOR if loosely else 1.0)
         elements: Indices | None = None
         crowding: tuple[float, ...] = ()
         earlier: tuple[Layout, Layout] | None = None
@@ -168,7 +170,7 @@ class Placing:
                 if is_placed and latest.settled:
                     return _standing_at(asked, latest, stand, off)
                 there = _hastened(layout, asked, earlier)
-                stand = self._renewed(Standing(there, latest, stand.change, stand.expected))
+                stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
                 earlier = (layout, asked) if latest.settled else None
                 continue
             changes += 1
@@ -192,8 +194,8 @@ class Placing:
         most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
         return most + (0 if self.kernels.is_linear else _MORE_FOR_SECOND)
 
-    def _renewed(self, stand: Standing) -> Standing:
-        """The second order of the last solution and what follows from it, if it still moves."""
+    def _renewed(self, stand: SearchState) -> SearchState:
+        """Evaluate the second order of the last solution and what follows, if it still moves."""
         before = stand.before
         if self.kernels.is_linear or stand.expected <= _QUIET:
             return stand
@@ -204,11 +206,13 @@ class Placing:
         # Changes shrink by a ratio, and what is left is the sum of their series.
         ratio = min(change / max(stand.change, _TINY), _LARGEST_RATIO)
         expected = inf if stand.change == inf else change * ratio / (1.0 - ratio)
-        return Standing(stand.layout, replace(before, mesh=mesh, second=second), change, expected)
+        return SearchState(
+            stand.layout, replace(before, mesh=mesh, second=second), change, expected
+        )
 
     def _solved_on(
         self,
-        stand: Standing,
+        stand: SearchState,
         shape: tuple[Indices, tuple[float, ...]],
         placed: float,
         most: int,
@@ -222,15 +226,15 @@ class Placing:
         mesh = _mesh(layout, *shape, before.mesh.kernels)
         states, zones = layout.states_on(mesh.inner), layout.zones
         start = states, before.second.carried(before.mesh, mesh), before.steps
-        latest = self._turned(self.model, mesh, start, zones, most)
+        latest = self._solve_on_mesh(self.model, mesh, start, zones, most)
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         if not latest.settled and asked.distance(layout) <= placed:
             start = states, latest.second, latest.steps
-            latest = self._turned(self.model, mesh, start, zones)
+            latest = self._solve_on_mesh(self.model, mesh, start, zones)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         return latest, asked
 
-    def _turned(
+    def _solve_on_mesh(
         self,
         model: Model,
         mesh: Mesh,
@@ -238,10 +242,10 @@ class Placing:
         zones: tuple[Zone, ...],
         most: int = MOST_TURNS,
     ) -> Round:
-        return turned(self.nip, model, mesh, start, self.given, NEARLY_STILL, zones, most)
+        return solve_on_mesh(self.nip, model, mesh, start, self.given, NEARLY_STILL, zones, most)
 
     def _wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
-        """Stick and slip that a solution asks for; None where nodes in contact have their states.
+        """Return the states that a solution asks for; None where nodes in contact have them.
 
         While the edges are not placed, not the ``whole`` is looked at, only stick and slip.
         """
@@ -255,8 +259,8 @@ class Placing:
 
     def _other(
         self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry
-    ) -> Standing | None:
-        """Other zones between some edges, where a solution does not agree with its own.
+    ) -> SearchState | None:
+        """Find other zones between known edges, where a solution does not agree with its own.
 
         None where they are not others, or none that have a layout.
         """
@@ -269,11 +273,11 @@ class Placing:
             return None
         second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
-        return Standing(layout, replace(latest, state=found, second=second, steps=steps))
+        return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 
 
 def _first_interface(roller: Roller) -> float:
-    """Depth at which the material changes first [mm]; a rigid roller: infinite."""
+    """Return the depth at which the material changes first [mm]; infinite for a rigid roller."""
     depth = 0.0
     materials = [*(layer.material for layer in roller.layers), roller.core]
     for layer, below in zip(roller.layers, materials[1:], strict=True):
@@ -286,25 +290,25 @@ def _first_interface(roller: Roller) -> float:
 def _mesh(
     layout: Layout, elements: Indices, crowding: tuple[float, ...], kernels: PairKernels
 ) -> Mesh:
-    """A mesh whose nodes lie at the ends of zones."""
+    """Make a mesh whose nodes lie at the ends of zones."""
     nodes = cosine_nodes(layout.breaks, elements, crowding)
     return mesh_on(nodes, kernels, subdivided(nodes, elements, crowding))
 
 
 def _proper(asked: Layout, layout: Layout) -> Layout:
-    """Where a solution asks the ends to be; where that is no layout, where they are."""
+    """Return where a solution asks the ends to be, or where they are if that is no layout."""
     return asked if asked.is_proper else layout
 
 
-def _standing_at(asked: Layout, latest: Round, stand: Standing, off: float) -> Standing:
-    """A solution whose zones are where it asks them to be."""
+def _standing_at(asked: Layout, latest: Round, stand: SearchState, off: float) -> SearchState:
+    """Return the state of a search that has come to its end."""
     figures = replace(latest.figures, nip_width=asked.width)
     latest = replace(latest, zones=asked.zones, figures=figures)
-    return Standing(asked, latest, stand.change, stand.expected, off)
+    return SearchState(asked, latest, stand.change, stand.expected, off)
 
 
 def _hastened(here: Layout, asked: Layout, earlier: tuple[Layout, Layout] | None) -> Layout:
-    """Where to look next for the breaks: each by the secant through its last two places.
+    """Return the next places of the breaks, each by the secant through its last two.
 
     ``earlier``: where the breaks were on the mesh before, and where they were asked to be. Where
     the surface does not respond as a half-plane over the first elements, say under a stiff skin,

@@ -23,8 +23,16 @@ from rollnip.rolling.estimates import LINEAR, Size, estimated_error, zone_excess
 from rollnip.rolling.free_ends import with_free_ends
 from rollnip.rolling.round import Round, excess, has_grip
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
-from rollnip.rolling.turns import ROUGHLY_STILL, STILL, checked, holding, settled, turned
+from rollnip.rolling.turns import (
+    ROUGHLY_STILL,
+    STILL,
+    converge,
+    holding,
+    solve_on_mesh,
+    with_residual,
+)
 
+_ACTIVE_SET = Safeguarded()
 _FIRST_COUNT = 16
 _LINEAR_FOR_CUBIC = 2  # elements that do what a cubic one does, at least
 _FEWEST_SIZES = 3  # of meshes before an error is believed
@@ -41,9 +49,7 @@ _AGREED = 5e-3  # over the width of the contact: zones of two sizes with which f
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
 
 
-def refine(
-    nip: Nip, model: Model, kernels: PairKernels, half_width: float, method: Safeguarded
-) -> Round:
+def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
     """Solve on ever better meshes until the estimated error is below the tolerance.
 
     Zones with free ends and cubic elements do it as a rule, from a guess of the width alone or,
@@ -54,7 +60,6 @@ def refine(
     Parameters
     ----------
     half_width : first guess [mm].
-    method : how zones are found, and each discrete problem with linear elements is solved.
 
     Returns
     -------
@@ -63,28 +68,26 @@ def refine(
     attempt = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
     if attempt.found is not None:
         return attempt.found
-    located = _located(nip, model, kernels, half_width, method)
+    located = _located(nip, model, kernels, half_width)
     layout = Layout.of(located.zones)
     if located.settled and layout is not None and not attempt.knew_zones:
         attempt = with_free_ends(nip, model, kernels, layout, located)
         if attempt.found is not None:
             return attempt.found
     if _is_hopeless(located):
-        return _finished(nip, model, kernels, located, method)
+        return _finished(nip, model, kernels, located)
     too_few = _LINEAR_FOR_CUBIC * attempt.too_few
-    return _refined(nip, model, kernels, located, method, too_few)
+    return _refined(nip, model, kernels, located, too_few)
 
 
-def _located(
-    nip: Nip, model: Model, kernels: PairKernels, half_width: float, method: Safeguarded
-) -> Round:
+def _located(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
     """A solution on a coarse mesh: about where the edges are, and which zones there are."""
     breaks = np.array([-1.3 * half_width, 1.3 * half_width])
     zones: tuple[Zone, ...] = (Zone(-0.8 * half_width, 0.8 * half_width, State.STICK),)
     latest: Round | None = None
     for _ in range(_MOST_TRIES):
         mesh = mesh_on(graded_nodes(breaks, _FIRST_COUNT), holding(kernels, latest))
-        latest = _solve_on(nip, model, mesh, (zones, latest), method, ROUGHLY_STILL)
+        latest = _solve_on(nip, model, mesh, (zones, latest), ROUGHLY_STILL)
         if _is_hopeless(latest) or Layout.of(latest.zones) is not None:
             break
         breaks, zones = _next_breaks(latest), latest.zones
@@ -97,7 +100,6 @@ def _refined(
     model: Model,
     kernels: PairKernels,
     located: Round,
-    method: Safeguarded,
     too_few: int,
 ) -> Round:
     """The rounds with linear elements, more than ``too_few``.
@@ -113,7 +115,7 @@ def _refined(
     while rounds < _MOST_ROUNDS and work <= _MOST_WORK:
         rounds += 1
         mesh = mesh_on(graded_nodes(breaks, count, demand), holding(kernels, stood))
-        latest = _solve_on(nip, model, mesh, (zones, stood), method, STILL)
+        latest = _solve_on(nip, model, mesh, (zones, stood), STILL)
         work += _work(latest.steps - stood.steps, mesh.inner.size)
         # What does not settle says nothing of the second order: that of the last one that did.
         stood = latest if latest.settled else replace(stood, steps=latest.steps)
@@ -135,7 +137,9 @@ def _refined(
         best = latest if latest.settled or best is None else best
         ratio = _ratio(nip, latest, history, model.tolerance, too_few)
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
-            best = latest = checked(nip, model, kernels, settled(nip, model, latest, method))
+            best = latest = with_residual(
+                nip, model, kernels, converge(nip, model, latest, _ACTIVE_SET)
+            )
             at_rest = latest.geometry_change <= 0.5 * latest.residual
             if latest.residual <= model.tolerance or (at_rest and count >= _MOST_ELEMENTS):
                 return latest
@@ -149,7 +153,7 @@ def _refined(
             if taken := _handed_over(nip, model, kernels, latest, off):
                 return taken
         count, tries = _next_count(count, ratio), 0
-    return _finished(nip, model, kernels, best or latest, method)
+    return _finished(nip, model, kernels, best or latest)
 
 
 def _handed_over(
@@ -185,13 +189,11 @@ def _ratio(nip: Nip, latest: Round, history: list[Size], tolerance: float, too_f
     return max(ratio, 1.01) if count <= too_few else ratio
 
 
-def _finished(
-    nip: Nip, model: Model, kernels: PairKernels, last: Round, method: Safeguarded
-) -> Round:
+def _finished(nip: Nip, model: Model, kernels: PairKernels, last: Round) -> Round:
     """The last round there is, checked where it is a contact at all."""
     if not last.figures.peak_pressure > 0.0:
         return last
-    return checked(nip, model, kernels, settled(nip, model, last, method))
+    return with_residual(nip, model, kernels, converge(nip, model, last, _ACTIVE_SET))
 
 
 def _demand(latest: Round) -> Demand:
@@ -223,7 +225,6 @@ def _solve_on(
     model: Model,
     mesh: Mesh,
     start: tuple[tuple[Zone, ...], Round | None],
-    method: Safeguarded,
     still: float,
 ) -> Round:
     """Solve on one mesh, repeating it until the second-order terms stand still.
@@ -238,7 +239,7 @@ def _solve_on(
     if before is not None:
         second = before.second.carried(before.mesh, mesh)
     steps = 0 if before is None else before.steps
-    return turned(nip, model, mesh, (states, second, steps), method, still)
+    return solve_on_mesh(nip, model, mesh, (states, second, steps), _ACTIVE_SET, still)
 
 
 def _next_breaks(latest: Round) -> Array:

@@ -27,7 +27,7 @@ class Method(Protocol):
     """A way to solve a contact problem from given states."""
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """The solution, or the last iterate; ``settled`` tells which."""
+        """Return the solution, or the last iterate; ``settled`` tells which."""
         ...
 
 
@@ -48,7 +48,7 @@ def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
     return replace(kernels, held=before.mesh.second_fields(before.state))
 
 
-def turned(
+def solve_on_mesh(
     nip: Nip,
     model: Model,
     mesh: Mesh,
@@ -87,7 +87,7 @@ def turned(
 def change_of(
     new: SecondOrder, old: SecondOrder, mesh: Mesh, nip: Nip, state: ContactState
 ) -> float:
-    """Largest change of the second-order terms, relative to the first-order ones."""
+    """Return the largest change of the second-order terms, relative to the first-order ones."""
     half_nip = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
     strain = nip.curvature * half_nip
     approach = max(abs(state.approach), 0.5 * nip.curvature * half_nip**2)
@@ -97,7 +97,7 @@ def change_of(
 
 
 def figures_of(mesh: Mesh, state: ContactState, zones: tuple[Zone, ...], lean: float) -> Figures:
-    """Approach, load, creepage, nip width and peak pressure of a solution on a mesh."""
+    """Return approach, load, creepage, nip width and peak pressure of a solution on a mesh."""
     peak, _ = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
     return Figures(
         approach=state.approach,
@@ -108,26 +108,26 @@ def figures_of(mesh: Mesh, state: ContactState, zones: tuple[Zone, ...], lean: f
     )
 
 
-def settled(
+def converge(
     nip: Nip,
     model: Model,
     latest: Round,
     method: Method,
     zones: tuple[Zone, ...] | None = None,
 ) -> Round:
-    """The round with its second-order terms as still as those of a result must be.
+    """Turn once more until the second-order terms are as still as those of a result must be.
 
     ``zones`` are those of the solution where they are known.
     """
     if not latest.settled or latest.geometry_change <= STILL * model.tolerance:
         return latest
     start = (latest.state.states, latest.second, latest.steps)
-    still = turned(nip, model, latest.mesh, start, method, STILL, zones)
+    still = solve_on_mesh(nip, model, latest.mesh, start, method, STILL, zones)
     return replace(still, error=latest.error)
 
 
-def checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
-    """The round with its residual, from the contact conditions on more points.
+def with_residual(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+    """Add the residual to a solution, from the contact conditions on more points.
 
     Its mesh holds the second order of its own tractions from here on, and what that changes in the
     second-order terms is the last change.

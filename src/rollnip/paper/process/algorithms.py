@@ -1,6 +1,7 @@
-"""Kalker's NORM and TANG: the normal problem for given shear, the tangential for given pressure.
+"""NORM, TANG and their alternation (Kalker 1990, section 4.3).
 
-Both are active-set loops in two nested levels (Kalker 1990, section 4.3): the inner one drops
+NORM solves the normal problem for a given shear, TANG the tangential one for a given pressure. Both
+are active-set loops in two nested levels (Kalker 1990, section 4.3): the inner one drops
 what violates an inequality until nothing does, the outer one takes in what the signs of gap and
 slip ask for. On a positive definite problem no set comes twice; where one does all the same,
 the loop goes on one node at a time (NORM) or along the creepage (TANG).
@@ -12,21 +13,19 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from rollnip.contact.coupled import solve_states
-from rollnip.contact.path import CreepagePath
-from rollnip.contact.problem import (
-    Array,
+from rollnip.contact import (
     ContactProblem,
     ContactState,
     Control,
-    Mask,
+    CreepagePath,
     State,
     States,
     creep,
     gap,
     influence_of,
-    shear_signs,
 )
+from rollnip.contact.coupled import solve_states
+from rollnip.contact.problem import Array, Mask, shear_signs
 
 _ROUNDING = 1e-11
 
@@ -126,6 +125,50 @@ class Tang:
             states = wanted
         followed = CreepagePath().solve(tangential, start)
         return replace(followed, pressure=pressure)
+
+
+@dataclass(frozen=True, slots=True)
+class Alternation:
+    """The paper's process: NORM and TANG in turn until neither changes the other.
+
+    Parameters
+    ----------
+    tolerance :
+        largest change of shear in one turn, relative to the largest traction bound.
+    max_turns :
+        turns at most.
+    """
+
+    tolerance: float = 1e-9
+    max_turns: int = 200
+
+    def solve(self, problem: ContactProblem, states: States) -> ContactState:
+        """Alternate from zero shear; ``settled`` is False where the turns do not converge."""
+        shear = np.zeros(states.size)
+        tangential = states
+        steps = 0
+        for _ in range(self.max_turns):
+            normal = Norm().solve(problem, states, shear)
+            steps += normal.steps
+            states = normal.states
+            if problem.friction == 0.0:
+                return normal
+            turn = Tang().solve(problem, tangential, np.maximum(normal.pressure, 0.0))
+            steps += turn.steps
+            change = float(np.max(np.abs(turn.shear - shear)))
+            shear, tangential = turn.shear, turn.states
+            if change <= self.tolerance * problem.friction * float(np.max(normal.pressure)):
+                break
+        else:
+            turn = replace(turn, settled=False)
+        touching = np.where(states == State.FREE, State.FREE, tangential).astype(np.int8)
+        return replace(
+            turn,
+            states=touching,
+            approach=normal.approach,
+            steps=steps,
+            settled=turn.settled and normal.settled,
+        )
 
 
 def _tension(solution: ContactState) -> Mask:

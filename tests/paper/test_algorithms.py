@@ -1,4 +1,4 @@
-"""NORM and TANG against all the sets there are."""
+"""NORM and TANG against all the sets there are, their alternation against the active set."""
 
 from dataclasses import replace
 from itertools import product
@@ -6,10 +6,11 @@ from itertools import product
 import numpy as np
 import pytest
 
-from rollnip.contact import Control, Norm, State, Tang, creep, gap
+from rollnip.contact import Control, Safeguarded, State, creep, gap
 from rollnip.contact.coupled import solve_states
-from rollnip.contact.given import with_pressure
 from rollnip.contact.problem import shear_signs
+from rollnip.paper.process import Alternation, Norm, Tang
+from rollnip.paper.process.algorithms import with_pressure
 
 SEEDS = range(12)
 
@@ -185,3 +186,60 @@ def test_norm_finds_several_intervals(half_spaces, within, start):
     np.testing.assert_allclose(found.pressure, found.pressure[::-1], atol=1e-9)
     assert np.all(found.pressure >= 0.0)
     assert np.all(gap(problem, found) >= -1e-10)
+
+
+def driven(half_spaces, nodes, load, friction, share, mismatch=0.0):
+    control = Control(load, None, share * friction * load, None)
+    return half_spaces(nodes, control=control, friction=friction, mismatch=mismatch)
+
+
+def assert_alike(problem, one, other, tolerance):
+    assert one.settled
+    assert other.settled
+    peak = np.max(one.pressure)
+    np.testing.assert_allclose(other.pressure, one.pressure, atol=tolerance * peak)
+    bound = problem.friction * peak
+    np.testing.assert_allclose(other.shear, one.shear, atol=tolerance * bound)
+    assert other.creepage == pytest.approx(one.creepage, abs=tolerance * max(1.0, problem.friction))
+    assert other.approach == pytest.approx(one.approach, abs=tolerance)
+
+
+@pytest.mark.parametrize("share", [-0.99, 0.0, 0.1, 0.8])
+@pytest.mark.parametrize("friction", [1e-4, 0.3, 3.0])
+def test_alternation_on_similar_half_spaces(half_spaces, mesh, within, unit_load, friction, share):
+    """Carter's problem: one turn is enough, for pressure and shear do not see each other."""
+    problem = driven(half_spaces, mesh(30, 1.02), unit_load, friction, share)
+    start = within(problem, 0.8)
+    one, other = (way().solve(problem, start) for way in (Safeguarded, Alternation))
+    assert_alike(problem, one, other, 1e-8)
+
+
+@pytest.mark.parametrize("share", [-0.99, 0.0, 0.1, 0.8])
+@pytest.mark.parametrize(
+    ("friction", "mismatch"), [(1e-4, 0.5), (0.1, -0.5), (0.5, 0.3), (3.0, 0.2)]
+)
+def test_alternation_on_unlike_half_spaces(
+    half_spaces, mesh, within, unit_load, friction, mismatch, share
+):
+    """Where it converges, which it need not under much friction."""
+    problem = driven(half_spaces, mesh(30, 1.05), unit_load, friction, share, mismatch)
+    start = within(problem, 0.8)
+    turns = Alternation().solve(problem, start)
+    if turns.settled:
+        assert_alike(problem, Safeguarded().solve(problem, start), turns, 1e-7)
+    else:
+        assert friction * abs(mismatch) > 0.1
+
+
+def test_alternation_says_so_where_it_does_not_converge(half_spaces, mesh, within, unit_load):
+    problem = driven(half_spaces, mesh(30, 1.05), unit_load, 0.3, 0.5, 0.5)
+    found = Alternation(max_turns=1).solve(problem, within(problem, 0.8))
+    assert not found.settled
+
+
+def test_alternation_without_friction_is_norm(half_spaces, mesh, within, unit_load):
+    problem = driven(half_spaces, mesh(30, 1.02), unit_load, 0.0, 0.0)
+    found = Alternation().solve(problem, within(problem, 0.8))
+    assert found.settled
+    assert np.isnan(found.creepage)
+    np.testing.assert_array_equal(found.shear, 0.0)

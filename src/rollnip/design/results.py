@@ -14,7 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._errors import InvalidInputError
+from rollnip._extras import require_extra
 from rollnip._files import reading
 from rollnip.io import read_columns
 from rollnip.io.columns import EXCEL, head_parts
@@ -195,12 +196,9 @@ class _Parquet(ResultTable):
     _AT_ONCE = 50_000  # rows
 
     def __init__(self, path: Path) -> None:
-        try:
-            import polars as pl
-        except ImportError:
-            raise RollnipError(
-                f'{path}: reading Parquet needs an extra; pip install "rollnip[tables]".'
-            ) from None
+        require_extra("tables", f"{path}: reading Parquet", "take a table that ends in .csv")
+        import polars as pl
+
         if not path.is_file():
             raise InvalidInputError(f"{path}: there is no such file.")
         try:

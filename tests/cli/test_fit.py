@@ -8,6 +8,8 @@ from typer.testing import CliRunner
 
 from rollnip.cli.app import app
 from rollnip.io import read_case
+from rollnip.sweep import row as row_module
+from rollnip.sweep.store import Store
 
 FIT = """
 [[unknowns]]
@@ -103,3 +105,35 @@ def test_the_example_finds_what_its_data_were_made_with():
     true = (2.2, 8.6)
     for one, value in zip(json.loads(result.stdout)["unknowns"], true, strict=True):
         assert one["low"] < value < one["high"]
+
+
+def test_processes_and_a_database_change_nothing_in_the_fit(file, tmp_path):
+    alone = json.loads(run(file, "--json", "--workers", "1").stdout)
+    kept = ("--database", tmp_path / "fit.db", "--json")
+    first = run(file, *kept, "--workers", "2")
+    assert json.loads(first.stdout) == alone
+    with Store(tmp_path / "fit.db") as store:
+        held = store.size
+    assert 0 < held <= alone["solves"]
+    assert run(file, *kept, "--workers", "1").stdout == first.stdout
+    with Store(tmp_path / "fit.db") as store:
+        assert store.size == held  # nothing was solved again
+
+
+def test_a_fit_that_was_stopped_goes_on(file, tmp_path, monkeypatch):
+    solved = []
+    solve = row_module.solve
+
+    def stopping(*arguments, **options):
+        if len(solved) == 3:
+            raise KeyboardInterrupt
+        solved.append(1)
+        return solve(*arguments, **options)
+
+    monkeypatch.setattr(row_module, "solve", stopping)
+    given = (file, "--database", tmp_path / "fit.db", "--workers", "1")
+    stopped = run(*given)
+    assert (stopped.exit_code, stopped.stdout) == (130, "")
+    assert stopped.stderr.startswith("rollnip: interrupted; 3 cases are in ")
+    monkeypatch.setattr(row_module, "solve", solve)
+    assert run(*given).stdout == run(file, "--workers", "1").stdout

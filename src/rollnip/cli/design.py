@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from math import isfinite
 from pathlib import Path
@@ -15,11 +15,12 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures, named
+from rollnip.cli.kept import evaluating
 from rollnip.cli.options import WORKERS, Force
 
 if TYPE_CHECKING:
     from rollnip.design import Found
-    from rollnip.sweep import Study, Table, Together
+    from rollnip.sweep import Study, Table
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
 _GEOMETRY = typer.Option(help="linear, corrected, curved or finite; overrides the file.")
@@ -69,7 +70,7 @@ def find(
         run.reserve({"--out": out})
         if out is not None:
             _check_case_target(out)
-        with _option_named(case), _evaluating(database, tree, [path], 1) as crew:
+        with _option_named(case), evaluating(database, tree, [path], 1) as crew:
             found = search(
                 tree,
                 path,
@@ -116,7 +117,7 @@ def optimise(
         paths = [one.path for one in question.parameters]
         with (
             named(study),
-            _evaluating(database, tree, paths, workers) as crew,
+            evaluating(database, tree, paths, workers) as crew,
             progress(question.search.budget(len(paths)) + 1, "solving") as advance,
         ):
 
@@ -257,30 +258,6 @@ def _option_named(case: str) -> Iterator[None]:
     except InvalidInputError as error:
         name = str(error).partition("` ")[0].removeprefix("`")
         raise InvalidInputError(f"{options.get(name, case)}: {error}") from None
-
-
-@contextmanager
-def _evaluating(
-    database: Path | None, tree: Mapping[str, Any], paths: Sequence[str], workers: int | None
-) -> Iterator[Together]:
-    """What solves cases; with a database, what it holds is not solved again."""
-    from rollnip.cli.kept import interrupts_told
-    from rollnip.sweep import recalling, together
-    from rollnip.sweep.crew import available_cores
-    from rollnip.sweep.interrupt import Interrupts
-
-    count = available_cores() if workers is None else workers
-    if database is None:
-        with Interrupts() as interrupts, together(count, interrupts) as crew:
-            yield crew
-        return
-    with (
-        recalling(database, tree, paths) as recall,
-        interrupts_told(recall.store) as interrupts,
-        together(count, interrupts) as crew,
-    ):
-        recall.solve = crew.evaluate
-        yield crew.like(recall)
 
 
 def _solved(study: Study, *, database: Path | None, workers: int | None) -> Table:

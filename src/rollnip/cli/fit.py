@@ -12,6 +12,7 @@ import typer
 
 from rollnip._files import make_folder, one_run
 from rollnip.cli.console import clear_failures, named
+from rollnip.cli.kept import evaluating
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
@@ -31,6 +32,13 @@ def fit(
         str | None, typer.Option(help="linear, corrected, curved or finite; overrides the file.")
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print the fit as JSON.")] = False,
+    workers: Annotated[int, typer.Option(help="Processes that solve nips.", min=1)] = 1,
+    database: Annotated[
+        Path | None,
+        typer.Option(
+            help="Takes each nip as it ends, name.db: the same command goes on from there."
+        ),
+    ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report.")] = False,
     force: Force = False,
 ) -> None:
@@ -53,8 +61,20 @@ def fit(
         if out is not None:
             make_folder(out)
             run.reserve({f"--out ({name})": out / name for name in _FILES})
-        with _progress() as on_solve, named(file):
-            found = identify(study.case, study.unknowns, study.cost, method, on_solve=on_solve)
+        paths = [one.path for one in study.unknowns]
+        with (
+            named(file),
+            evaluating(database, study.case, paths, workers) as workforce,
+            _progress() as on_solve,
+        ):
+            found = identify(
+                study.case,
+                study.unknowns,
+                study.cost,
+                method,
+                on_solve=on_solve,
+                workforce=workforce,
+            )
         if out is not None:
             _write(found, study.title, out)
         if json:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import signal
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import typer
 
 if TYPE_CHECKING:
+    from rollnip.sweep import Together
     from rollnip.sweep.interrupt import Interrupts
     from rollnip.sweep.store import Store
 
@@ -37,3 +39,26 @@ def kept(store: Store, total: int | None = None, before: str = "", after: str = 
         return ""
     count = f"{store.size:,} cases" if total is None else f"{store.size:,} of {total:,} cases"
     return f"{before}{count} are in {store.name}: the same command goes on from there{after}"
+
+
+@contextmanager
+def evaluating(
+    database: Path | None, tree: Mapping[str, Any], paths: Sequence[str], workers: int | None
+) -> Iterator[Together]:
+    """What solves cases; with a database, what it holds is not solved again."""
+    from rollnip.sweep import recalling, together
+    from rollnip.sweep.crew import available_cores
+    from rollnip.sweep.interrupt import Interrupts
+
+    count = available_cores() if workers is None else workers
+    if database is None:
+        with Interrupts() as interrupts, together(count, interrupts) as crew:
+            yield crew
+        return
+    with (
+        recalling(database, tree, paths) as recall,
+        interrupts_told(recall.store) as interrupts,
+        together(count, interrupts) as crew,
+    ):
+        recall.solve = crew.evaluate
+        yield crew.like(recall)

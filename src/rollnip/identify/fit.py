@@ -15,7 +15,7 @@ from scipy.stats import chi2, norm, t
 from rollnip._errors import InvalidInputError
 from rollnip._units import base_unit
 from rollnip.identify.costs import Cost, Measurements
-from rollnip.identify.forward import Forward, Predictor, check_paths, model_of
+from rollnip.identify.forward import Forward, Predictor, Workforce, check_paths, model_of
 from rollnip.identify.intervals import End, covariance, prediction_errors, profile_ends
 from rollnip.identify.judge import (
     at_bounds,
@@ -110,6 +110,7 @@ def identify(
     method: LeastSquares | None = None,
     *,
     on_solve: Callable[[int], None] | None = None,
+    workforce: Workforce | None = None,
 ) -> Fit:
     """Find values of a case that explain measurements.
 
@@ -125,6 +126,9 @@ def identify(
         starts, derivatives, intervals; ``LeastSquares()`` by default.
     on_solve :
         called after each solved nip with their number, to show progress.
+    workforce :
+        who solves nips of which numbers are wanted, such as what `rollnip.sweep.together` yields;
+        None: this process.
 
     Returns
     -------
@@ -145,7 +149,7 @@ def identify(
     first = with_values(tree, {one.path: one.first for one in found})
     model = model_of(first, method.geometry, method.tolerance)
     overrides = {"model.geometry": model.geometry, "solver.tolerance": model.tolerance}
-    forward = Forward(tree, parts, overrides, on_solve)
+    forward = Forward(tree, parts, overrides, on_solve, workforce)
     fit = fitted(forward, found, parts, method, tolerance=model.tolerance)
     return replace(
         fit,

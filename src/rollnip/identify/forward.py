@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any, Protocol
+from typing import Any, Protocol, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, RollnipError
-from rollnip.identify.costs import Measurements
+from rollnip.identify.costs import Measurements, Scalars
 from rollnip.identify.unknowns import Unknown
 from rollnip.io import case_hash, dimension_at, parse_case, with_values
 from rollnip.model import Model
@@ -19,6 +19,8 @@ from rollnip.solve import solve
 
 Array = NDArray[np.float64]
 Predictions = tuple[Array, ...]
+_A = TypeVar("_A")
+_B = TypeVar("_B")
 
 
 class Predictor(Protocol):
@@ -26,6 +28,34 @@ class Predictor(Protocol):
 
     def predict(self, values: Mapping[str, float]) -> Predictions | None:
         """Predictions of each set, None where there are none at these values."""
+
+
+class Workforce(Protocol):
+    """Who solves nips; `rollnip.sweep.Together` is one."""
+
+    @property
+    def evaluate(self) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
+        """Solves one case, as `rollnip.sweep.evaluate` does."""
+        ...
+
+    def each(self, function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
+        """Call a function with every item, perhaps at the same time; results in order."""
+        ...
+
+
+class Numbers:
+    """The numbers of a solution from a row of `rollnip.sweep.evaluate`, as attributes."""
+
+    def __init__(self, row: Mapping[str, Any]) -> None:
+        self._row = row
+        self.converged = bool(row["converged"])
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a number, None where it is not defined."""
+        row: Mapping[str, Any] = self.__dict__["_row"]
+        if name not in row:
+            raise AttributeError(name)
+        return row[name]
 
 
 class Forward:
@@ -41,6 +71,9 @@ class Forward:
         values by path for every nip: geometry and tolerance.
     on_solve :
         called after each nip with the number solved so far.
+    workforce :
+        who solves the nips of which only numbers are wanted, such as several processes or a
+        database; None: this process, one after the other.
     """
 
     def __init__(
@@ -49,6 +82,7 @@ class Forward:
         parts: tuple[Measurements, ...],
         overrides: Mapping[str, Any],
         on_solve: Callable[[int], None] | None = None,
+        workforce: Workforce | None = None,
     ) -> None:
         self.tree = with_values(tree, overrides)
         self.parts = parts
@@ -58,12 +92,15 @@ class Forward:
         self.is_verified = True  # all nips of the last prediction
         self.fallbacks = 0  # of them, solved with another geometry than wanted
         self._on_solve = on_solve
+        self._workforce = workforce
 
     def predict(self, values: Mapping[str, float]) -> Predictions | None:
         """Predictions of each set; None, and why in ``refused``, where a nip has no solution."""
-        known: dict[str, Solution] = {}
+        known: dict[str, Solution | Numbers] = {}
         self.is_verified, self.fallbacks = True, 0
         try:
+            if self._workforce is not None:
+                self._solve_together(self._workforce, values, known)
             predictions = tuple(self._predict(part, values, known) for part in self.parts)
         except RollnipError as problem:
             self.refused = str(problem)
@@ -77,25 +114,59 @@ class Forward:
                 return None
         return predictions
 
+    def _solve_together(
+        self,
+        workforce: Workforce,
+        values: Mapping[str, float],
+        known: dict[str, Solution | Numbers],
+    ) -> None:
+        """Solve the nips of all sets that need numbers only, as many at a time as can be."""
+        trees: dict[str, dict[str, Any]] = {}
+        for part in (one for one in self.parts if isinstance(one, Scalars)):
+            for row in part.conditions:
+                tree = with_values(self.tree, {**values, **row})
+                trees[case_hash(parse_case(tree))] = tree
+        rows = workforce.each(workforce.evaluate, list(trees.values()))
+        for key, found in zip(trees, rows, strict=True):
+            if found["geometry"] is None:
+                raise InvalidInputError(str(found["message"]))
+            known[key] = Numbers(found)
+            self._count(known[key].converged, found["geometry"] != self._geometry)
+
+    @property
+    def _geometry(self) -> str:
+        return model_of(self.tree, None, None).geometry
+
+    def _count(self, converged: bool, is_fallback: bool) -> None:
+        self.solves += 1
+        self.fallbacks += is_fallback
+        if not converged:
+            self.unverified, self.is_verified = self.unverified + 1, False
+        if self._on_solve is not None:
+            self._on_solve(self.solves)
+
     def _predict(
-        self, part: Measurements, values: Mapping[str, float], known: dict[str, Solution]
+        self,
+        part: Measurements,
+        values: Mapping[str, float],
+        known: dict[str, Solution | Numbers],
     ) -> Array:
-        return part.predict([self._solved(values, row, known) for row in part.conditions])
+        found = [self._solved(values, row, known) for row in part.conditions]
+        return part.predict(cast("list[Solution]", found))
 
     def _solved(
-        self, values: Mapping[str, float], row: Mapping[str, Any], known: dict[str, Solution]
-    ) -> Solution:
+        self,
+        values: Mapping[str, float],
+        row: Mapping[str, Any],
+        known: dict[str, Solution | Numbers],
+    ) -> Solution | Numbers:
         """The solution of one nip; those of the same values are solved once."""
         case = parse_case(with_values(self.tree, {**values, **row}))
         key = case_hash(case)
         if key not in known:
-            known[key] = solve(case.nip, case.model, on_failure="return")
-            self.solves += 1
-            self.fallbacks += known[key].model.geometry != case.model.geometry
-            if not known[key].converged:
-                self.unverified, self.is_verified = self.unverified + 1, False
-            if self._on_solve is not None:
-                self._on_solve(self.solves)
+            found = solve(case.nip, case.model, on_failure="return")
+            known[key] = found
+            self._count(found.converged, found.model.geometry != case.model.geometry)
         return known[key]
 
 

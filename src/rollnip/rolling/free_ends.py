@@ -23,6 +23,7 @@ from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import converge, with_residual
 
 _FIRST_COUNT = 18
+_MOST_AT_FIRST = 50
 _FOR_ZONE = 4  # elements more for each zone
 _FEWEST_SIZES = 2  # of meshes before an error is believed
 # With memory the tractions have boundary layers as long as speed times relaxation time. Meshes all
@@ -77,7 +78,7 @@ def with_free_ends(
             stand = placing.guessed(layout, count)
         else:
             stand = SearchState(layout, before, off=off)
-            count = max(count, before.problem.x.size // 2)
+            count = max(count, min(before.problem.x.size // 2, _MOST_AT_FIRST))
         return Attempt(None) if stand is None else _refined(placing, stand, count)
     except np.linalg.LinAlgError:
         return Attempt(None)

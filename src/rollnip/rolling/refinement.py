@@ -45,7 +45,7 @@ _ALIKE = 1.15  # elements of a mesh over those of one too much like it to tell a
 _MOST_WORK = 4000.0  # linear systems of a hundred elements, or what takes as long
 _DIVERGED = 10.0  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
-_AGREED = 5e-3  # over the width of the contact: zones of two sizes with which free ends may begin
+_AGREED = 1e-2  # over the width of the contact: zones of two sizes with which free ends may begin
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, pairwise
-from math import ceil, log2, pi, sqrt
+from math import ceil, inf, log2, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,7 +29,8 @@ _FINER = 8  # places in an element at which the demand is looked at
 # root at the edge leaves there although it is right. Measured on a half-plane (tests).
 CREEP_TO_EDGE = 0.02655
 _BESIDE = 1e-3  # elements: nodes beyond both ends of cosine places, where tractions end
-_PARTS = 2  # of an element
+_PARTS, _MOST_PARTS = 2, 64  # of an element
+_MOST_VALUES = 500_000  # of displacements at nodes per traction of a piece, where parts are many
 _POINTS = 4  # of Gauss in each of these
 _LAYERS = 4.0  # lengths of a boundary layer up to which nodes at the end of a zone crowd
 _MOST_CROWDED = 2.0**-20
@@ -101,7 +102,10 @@ class Subdivision:
 
 
 def subdivided(
-    nodes: Array, elements: Indices, crowding: tuple[float, ...] | None = None
+    nodes: Array,
+    elements: Indices,
+    crowding: tuple[float, ...] | None = None,
+    shortest: float = inf,
 ) -> Subdivision:
     """Cut every element in equal steps of the node's number, but the one beyond either end.
 
@@ -110,11 +114,18 @@ def subdivided(
     nodes : (N+1,) of `cosine_nodes` [mm].
     elements : in each zone, three or more; no cubic reaches from one into another.
     crowding : of each zone, as it was given to `cosine_nodes`.
+    shortest :
+        length of the longest pieces, as far as they do not become too many [mm]. The surface of a
+        thin incompressible layer moves as the second derivative of the pressure, and straight
+        lines longer than the layer is thick have none.
     """
     counts = tuple(elements.tolist())
     crowding = (1.0,) * len(counts) if crowding is None else crowding
-    values, acting, means = _cubics(counts, crowding)
-    finer = _cosine_values(tuple(_PARTS * n for n in counts), crowding)
+    longest = float(np.max(np.diff(nodes)))
+    most = min(_MOST_PARTS, _MOST_VALUES // nodes.size**2)
+    parts = max(min(ceil(longest / shortest), most), _PARTS)
+    values, acting, means = _cubics(counts, crowding, parts)
+    finer = _cosine_values(tuple(parts * n for n in counts), crowding)
     finer = finer @ nodes[[1, *_ends(counts)]]
     finer[0], finer[-1] = nodes[0], nodes[-1]
     return Subdivision(finer, counts, crowding, values, acting, means)
@@ -184,14 +195,16 @@ def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
 
 
 @lru_cache(maxsize=64)
-def _cubics(elements: tuple[int, ...], crowding: tuple[float, ...]) -> tuple[Array, Array, Array]:
+def _cubics(
+    elements: tuple[int, ...], crowding: tuple[float, ...], pieces: int
+) -> tuple[Array, Array, Array]:
     """The matrices values, acting and means of a `Subdivision`."""
     ends = np.concatenate([[0], np.cumsum(elements)])
     interval = np.arange(ends[-1])
     zone = np.searchsorted(ends, interval, side="right") - 1
     first = np.minimum(np.maximum(interval - 1, ends[zone]), ends[zone + 1] - 3)
-    parts = np.arange(_PARTS) / _PARTS
-    columns = 1 + np.repeat(first[:, None] + np.arange(4), _PARTS, axis=0)
+    parts = np.arange(pieces) / pieces
+    columns = 1 + np.repeat(first[:, None] + np.arange(4), pieces, axis=0)
     rows = np.arange(columns.shape[0])[:, None]
 
     values = np.zeros((rows.size + 3, interval.size + 3))
@@ -200,7 +213,7 @@ def _cubics(elements: tuple[int, ...], crowding: tuple[float, ...]) -> tuple[Arr
 
     # Means over x, by Gauss points in the number of the node.
     points, weights = np.polynomial.legendre.leggauss(_POINTS)
-    inside = parts[:, None] + 0.5 * (1.0 + points) / _PARTS
+    inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
     number = (interval - ends[zone])[:, None, None] + inside
     slope = np.empty(number.shape)
     for i, (n, crowd) in enumerate(zip(elements, crowding, strict=True)):
@@ -214,7 +227,7 @@ def _cubics(elements: tuple[int, ...], crowding: tuple[float, ...]) -> tuple[Arr
     lacking = means[:-1] - 0.5 * (values[1:-2] + values[2:-1])
     acting = values.copy()
     added = 0.5 * (lacking[1:] + lacking[:-1])
-    added[_PARTS * ends[1:-1] - 1] = 0.0
+    added[pieces * ends[1:-1] - 1] = 0.0
     acting[2:-2] += added
     for matrix in (values, acting, means):
         matrix.setflags(write=False)

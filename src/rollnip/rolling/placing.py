@@ -59,7 +59,13 @@ _TURNS = 2  # of the second-order terms on one mesh, while ends still move, but 
 # Expected change of these over the tolerance, for which it is not evaluated anew on one size.
 _QUIET = 1.0
 _LARGEST_RATIO = 0.9
+_NEARLY = 0.45  # Poisson ratio
+_PIECES = 6.0  # at least, in which tractions act along a thickness of such a covering
 _TINY = float(np.finfo(float).tiny)
+
+
+# Elements in each zone and how they crowd there.
+Shape = tuple[Indices, tuple[float, ...]]
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +111,8 @@ class Placing:
         """
         kernels = held_from(self.kernels, None)
         even = (1.0,) * layout.states.size
-        mesh = _mesh(layout, elements_of_zones(layout.breaks, count), even, kernels)
+        elements = elements_of_zones(layout.breaks, count)
+        mesh = _mesh(layout, (elements, even), self.thinnest, kernels)
         states, zones = layout.states_on(mesh.inner), layout.zones
         start = states, first_guess(self.nip, mesh), 0
         latest = self._solve_on_mesh(
@@ -189,6 +196,12 @@ class Placing:
         """
         return min(_first_interface(self.nip.upper), _first_interface(self.nip.lower))
 
+    @cached_property
+    def thinnest(self) -> float:
+        """Thickness of the thinnest covering that moves as the second derivative [mm]."""
+        rollers = self.nip.upper, self.nip.lower
+        return min(_incompressible(roller) for roller in rollers if not roller.is_rigid)
+
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
@@ -213,7 +226,7 @@ class Placing:
     def _solved_on(
         self,
         stand: SearchState,
-        shape: tuple[Indices, tuple[float, ...]],
+        shape: Shape,
         placed: float,
         most: int,
     ) -> tuple[Round, Layout]:
@@ -223,7 +236,7 @@ class Placing:
         ``placed``, over the width; then as many as these need.
         """
         layout, before = stand.layout, stand.before
-        mesh = _mesh(layout, *shape, before.mesh.kernels)
+        mesh = _mesh(layout, shape, self.thinnest, before.mesh.kernels)
         states, zones = layout.states_on(mesh.inner), layout.zones
         start = states, before.second.carried(before.mesh, mesh), before.steps
         latest = self._solve_on_mesh(self.model, mesh, start, zones, most)
@@ -276,6 +289,12 @@ class Placing:
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 
 
+def _incompressible(roller: Roller) -> float:
+    """Thickness of a covering on a rigid core if it is nearly incompressible, or infinity [mm]."""
+    nearly = all(layer.material.poisson > _NEARLY for layer in roller.layers)
+    return roller.coating_thickness / _PIECES if nearly and roller.core is None else inf
+
+
 def _first_interface(roller: Roller) -> float:
     """Return the depth at which the material changes first [mm]; infinite for a rigid roller."""
     depth = 0.0
@@ -287,12 +306,10 @@ def _first_interface(roller: Roller) -> float:
     return inf
 
 
-def _mesh(
-    layout: Layout, elements: Indices, crowding: tuple[float, ...], kernels: PairKernels
-) -> Mesh:
-    """Make a mesh whose nodes lie at the ends of zones."""
-    nodes = cosine_nodes(layout.breaks, elements, crowding)
-    return mesh_on(nodes, kernels, subdivided(nodes, elements, crowding))
+def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -> Mesh:
+    """Make a mesh whose nodes lie at the ends of zones; ``shortest``: see `subdivided`."""
+    nodes = cosine_nodes(layout.breaks, *shape)
+    return mesh_on(nodes, kernels, subdivided(nodes, *shape, shortest))
 
 
 def _proper(asked: Layout, layout: Layout) -> Layout:

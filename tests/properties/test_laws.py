@@ -8,6 +8,7 @@ import pytest
 from hypothesis import strategies as st
 
 import rollnip as rn
+from rollnip.rolling import fields_at
 
 TOLERANCE = 1e-3
 
@@ -25,7 +26,7 @@ def check_contact(nip, geometry):
     solution = solve(nip, geometry)
     if not solution.converged:
         assert not solution.status.startswith("Solved")
-        return
+        return False
     assert solution.status.startswith("Solved and verified")
     assert solution.solver.residual <= TOLERANCE
     assert solution.load == pytest.approx(nip.normal.load, rel=1e-9)
@@ -39,9 +40,14 @@ def check_contact(nip, geometry):
     profiles = solution.profiles
     outside = (profiles.x < solution.contact[0][0]) | (profiles.x > solution.contact[-1][1])
     assert np.all(profiles.pressure[outside] < 0.05 * peak)
-    assert np.all(profiles.gap >= 0.0)
+    # `profiles.gap` has no negative values whatever the solution: the gap itself
+    fields = fields_at(profiles.x, nip, geometry, solution.kernels, solution.final)
     depth = 0.125 * nip.curvature * solution.nip_width**2
-    assert np.all(profiles.gap[profiles.pressure > 0.0] <= 1e-12 * depth)
+    if solution.approach is not None:
+        depth = max(depth, solution.approach)  # as `residual` counts it
+    assert np.all(fields.gap >= -3.0 * TOLERANCE * depth)
+    assert np.all(np.abs(fields.gap[fields.pressure > 0.05 * peak]) <= 20.0 * TOLERANCE * depth)
+    return True
 
 
 def test_contact_conditions(for_all, nips, geometries):
@@ -76,7 +82,7 @@ def check_swap(nip, geometry):
     one, other = solve(nip, geometry), solve(swapped, geometry)
     assert one.converged == other.converged
     if not one.converged:
-        return
+        return False
     strain = strain_scale(one)
     # where rounding tips a node over, both are as good as the tolerance says
     same = one.solver.iterations == other.solver.iterations
@@ -89,6 +95,7 @@ def check_swap(nip, geometry):
     if one.torque_upper is not None:
         arm = nip.upper.radius * (strain + nip.friction) * nip.normal.load
         assert other.torque_lower == pytest.approx(one.torque_upper, abs=tolerance * arm)
+    return True
 
 
 def test_swapping_the_rollers(for_all, nips, geometries):
@@ -134,7 +141,7 @@ def check_scaling(nip, geometry, length, modulus):
     exact = not nip.has_half_space
     assert one.converged == other.converged or not exact
     if not (one.converged and other.converged):
-        return
+        return False
     strain, limit = strain_scale(one), 1e-6 if exact else 3.0 * TOLERANCE
     assert other.creepage == pytest.approx(one.creepage, rel=limit, abs=limit * strain)
     assert other.nip_width == pytest.approx(length * one.nip_width, rel=limit)
@@ -142,6 +149,7 @@ def check_scaling(nip, geometry, length, modulus):
     if exact:
         assert other.solver.elements == one.solver.elements
         assert other.approach == pytest.approx(length * one.approach, rel=limit)
+    return True
 
 
 def test_scaling(for_all, nips, geometries):
@@ -161,7 +169,7 @@ def check_energy(nip, geometry):
     """
     solution = solve(nip, geometry)
     if not solution.converged:
-        return
+        return False
     friction, viscous = solution.dissipation_friction, solution.dissipation_viscous
     slope = strain_scale(solution)
     size = nip.speed * (nip.normal.load * slope + abs(solution.traction * solution.creepage))
@@ -172,6 +180,7 @@ def check_energy(nip, geometry):
         assert viscous == 0.0
         assert solution.rolling_resistance == 0.0
     assert solution.power_in == pytest.approx(friction + viscous, abs=2e-3 * size)
+    return True
 
 
 def test_energy(for_all, nips):
@@ -183,7 +192,7 @@ def check_work(nip):
     """Losses are the work of slip and of the pressure's moment about the line of centres."""
     solution = solve(nip)
     if not solution.converged:
-        return
+        return False
     x, p = solution.final.nodes, np.pad(solution.pressure, 1)
     a, b = x[:-1], x[1:]
     moment = np.sum((b - a) * (p[:-1] * (2.0 * a + b) + p[1:] * (a + 2.0 * b)) / 6.0)
@@ -192,6 +201,7 @@ def check_work(nip):
     lost = solution.dissipation_friction + solution.dissipation_viscous
     work = nip.speed * (slip + nip.curvature * moment)
     assert work == pytest.approx(lost, abs=5e-3 * scale)
+    return True
 
 
 def test_work_of_flat_layers(for_all, nips):
@@ -272,7 +282,7 @@ def check_speed(nip, geometry):
         rolling = solve(replace(nip, speed=speed), geometry)
         elastic = solve(with_moduli(nip, name), geometry)
         if not (rolling.converged and elastic.converged):
-            continue
+            return False
         strain = strain_scale(elastic)
         limit = 4.0 * TOLERANCE
         assert rolling.nip_width == pytest.approx(elastic.nip_width, rel=limit)
@@ -282,6 +292,7 @@ def check_speed(nip, geometry):
             elastic.creepage, rel=5.0 * limit, abs=limit * strain
         )
         assert abs(rolling.rolling_resistance) <= limit * strain
+    return True
 
 
 def test_limits_of_speed(for_all, nips, geometries):

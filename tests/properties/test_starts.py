@@ -1,4 +1,7 @@
-"""A nip has one solution: where the search starts does not show in it."""
+"""A nip has one solution: where the search starts and how it goes do not show in it.
+
+Nor which elements are used: zones with free ends and linear elements are compared too.
+"""
 
 import numpy as np
 import pytest
@@ -8,14 +11,15 @@ from hypothesis import strategies as st
 from population import random_case
 
 import rollnip as rn
-from rollnip.rolling import excess, half_width_guess, pair_kernels, refine
+from rollnip.rolling import excess, half_width_guess, pair_kernels, refine, refinement
+from rollnip.rolling.free_ends import Attempt
 
 TOLERANCE = 1e-3
 NUMBERS = st.integers(0, 9999)
 
 
-# name -> share of the first guess of the half-width
-STARTS = {"narrow": 0.6, "wide": 1.6}
+# name -> share of the first guess of the half-width, whether free ends are tried
+STARTS = {"narrow": (0.6, True), "wide": (1.6, True), "linear elements": (1.0, False)}
 
 
 def stands(nip, final):
@@ -23,24 +27,30 @@ def stands(nip, final):
     return final.settled and final.residual <= TOLERANCE and excess(nip, final, TOLERANCE) <= 1.0
 
 
-def refined(case, kernels, start):
+def refined(case, kernels, start, free_ends):
     model = rn.Model(geometry=case.geometry, tolerance=TOLERANCE)
     half_width = start * half_width_guess(case.nip, kernels)
-    return refine(case.nip, model, kernels, half_width)
+    with pytest.MonkeyPatch.context() as patch:
+        if not free_ends:
+            patch.setattr(refinement, "with_free_ends", lambda *_: Attempt(None))
+        return refine(case.nip, model, kernels, half_width)
 
 
 def check_start(case, name):
-    """Two solutions, each at most 3 times its claim from the truth (test_error_claims)."""
+    """Two solutions, each at most 3 times its claim from the truth (test_error_claims).
+
+    Returns whether they were compared, and whether they were reached in different ways.
+    """
     kernels = pair_kernels(case.nip, case.geometry)
-    one = refined(case, kernels, 1.0)
-    other = refined(case, kernels, STARTS[name])
+    one = refined(case, kernels, 1.0, True)
+    other = refined(case, kernels, *STARTS[name])
     if not (stands(case.nip, one) and stands(case.nip, other)):
-        return False
+        return False, False
     for figure, scale in scales(case.nip, one.figures).items():
         claimed = getattr(one.error, figure) + getattr(other.error, figure)
         apart = abs(getattr(one.figures, figure) - getattr(other.figures, figure))
         assert apart <= 3.0 * max(claimed, ROUNDING * scale), (case.number, figure)
-    return True
+    return True, one.figures != other.figures
 
 
 @pytest.mark.parametrize("examples", [5, pytest.param(40, marks=pytest.mark.slow)])
@@ -60,5 +70,8 @@ def test_result_does_not_depend_on_the_start(name, examples):
         compared.append(check_start(random_case(number), name))
 
     examined()
-    # From afar it need not converge.
-    assert np.mean(compared) >= 0.8
+    both, other_way = np.mean(compared, axis=0)
+    # From afar it need not converge, nor linear elements where tractions have boundary layers.
+    # Some nips have no free ends to leave out.
+    assert both >= 0.6
+    assert other_way >= 0.7 * both

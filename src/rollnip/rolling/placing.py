@@ -189,12 +189,8 @@ class Placing:
 
     @cached_property
     def boundary(self) -> float:
-        """Length of the shortest boundary layer at the ends of zones [mm].
-
-        Within the depth of the first interface the surface responds as a half-plane of its top
-        layer, beyond as what lies below lets it: the tractions cross over there.
-        """
-        return min(_first_interface(self.nip.upper), _first_interface(self.nip.lower))
+        """`boundary_layer` of the nip."""
+        return boundary_layer(self.nip)
 
     @cached_property
     def thinnest(self) -> float:
@@ -287,6 +283,15 @@ class Placing:
         second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
+
+
+def boundary_layer(nip: Nip) -> float:
+    """Length of the shortest boundary layer at the ends of zones [mm].
+
+    Within the depth of the first interface the surface responds as a half-plane of its top layer,
+    beyond as what lies below lets it: the tractions cross over there.
+    """
+    return min(_first_interface(nip.upper), _first_interface(nip.lower))
 
 
 def _incompressible(roller: Roller) -> float:

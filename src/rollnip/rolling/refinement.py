@@ -21,7 +21,8 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
 from rollnip.rolling.estimates import LINEAR, Size, estimated_error, zone_excess
 from rollnip.rolling.free_ends import with_free_ends
-from rollnip.rolling.round import Round, excess, has_grip
+from rollnip.rolling.placing import boundary_layer
+from rollnip.rolling.round import Figures, Round, excess, has_grip
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import (
     ROUGHLY_STILL,
@@ -45,6 +46,7 @@ _ALIKE = 1.15  # elements of a mesh over those of one too much like it to tell a
 _MOST_WORK = 4000.0  # linear systems of a hundred elements, or what takes as long
 _DIVERGED = 10.0  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
+_RESOLVED = 0.5  # longest element beside an edge over the length of the boundary layer there
 _AGREED = 1e-2  # over the width of the contact: zones of two sizes with which free ends may begin
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
 
@@ -133,7 +135,7 @@ def _refined(
         if not placed and tries < (1 if history else 2) * _MOST_TRIES:
             continue
         history = _with_size(history, Size(count, latest.figures, found))
-        latest = replace(latest, error=estimated_error(nip, latest, history, LINEAR))
+        latest = replace(latest, error=_with_layer(nip, latest, history))
         best = latest if latest.settled or best is None else best
         ratio = _ratio(nip, latest, history, model.tolerance, too_few)
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
@@ -164,6 +166,18 @@ def _handed_over(
     if layout is None:
         return None
     return with_free_ends(nip, model, kernels, layout, latest, off).found
+
+
+def _with_layer(nip: Nip, latest: Round, history: list[Size]) -> Figures:
+    """The estimated error, with what a boundary layer leaves that no element resolves.
+
+    An edge moves by about the length of the layer where the elements beside it are longer.
+    """
+    error = estimated_error(nip, latest, history, LINEAR)
+    x, length = latest.mesh.inner[latest.state.pressure > 0.0], boundary_layer(nip)
+    if x.size < 2 or max(x[1] - x[0], x[-1] - x[-2]) <= _RESOLVED * length:
+        return error
+    return replace(error, nip_width=error.nip_width + 2.0 * length)
 
 
 def _with_size(history: list[Size], size: Size) -> list[Size]:

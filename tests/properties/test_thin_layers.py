@@ -1,0 +1,113 @@
+"""Thin layers: error claims under thin tops, and thin incompressible coverings that converge."""
+
+import secrets
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+
+
+def solved(nip, tolerance=1e-3):
+    return rn.solve(nip, rn.Model(geometry="linear", tolerance=tolerance))
+
+
+def roller(radius, *layers):
+    """Layers as (thickness, modulus, poisson)."""
+    plies = tuple(rn.Layer(d, rn.Elastic(modulus=e, poisson=nu)) for d, e, nu in layers)
+    return rn.Roller(radius=radius, layers=plies)
+
+
+def over_claim(nip):
+    """Largest error over its claim, against a solution with a twentieth of the tolerance."""
+    coarse, fine = solved(nip), solved(nip, 5e-5)
+    assert coarse.converged
+    assert fine.converged
+    names = ["nip_width", "peak_pressure", "approach"]
+    names += [] if coarse.creepage is None else ["creepage"]
+    apart = [abs(getattr(coarse, name) - getattr(fine, name)) for name in names]
+    return max(
+        distance / (coarse.error[name] + fine.error[name])
+        for name, distance in zip(names, apart, strict=True)
+    )
+
+
+def test_a_soft_top_of_a_thousandth_of_the_nip():
+    """It moves both edges by its own thickness; 38 elements longer than that once agreed."""
+    nip = rn.Nip(
+        upper=roller(40.0, (0.0027, 1.8, 0.49), (1.45, 7.3, 0.5)),
+        lower=rn.Roller(radius=12.5),
+        normal=rn.LineLoad(2.2),
+        friction=0.0,
+    )
+    found = [solved(nip, tolerance) for tolerance in (1e-2, 1e-3, 1e-4, 1e-5)]
+    exact = found[-1].nip_width
+    assert exact == pytest.approx(2.5400, abs=1e-4)
+    for solution in found[:-1]:
+        assert solution.converged
+        assert abs(solution.nip_width - exact) <= 1.5 * solution.error["nip_width"]
+
+
+def thin_top(number):
+    """A softer top of a thousandth to a twentieth of the covering, pressed as wide as it is."""
+    rng = np.random.default_rng([1605, number])
+
+    def power(low, high):
+        return float(10.0 ** rng.uniform(low, high))
+
+    radius, modulus = power(1.0, 2.0), power(0.0, 1.2)
+    depth = radius * power(-1.6, -0.8)
+    top = (
+        depth * power(-3.3, -1.2),
+        modulus * power(-1.0, -0.1),
+        float(rng.choice([0.5, 0.49, 0.3])),
+    )
+    lower = rn.Roller(radius=power(1.0, 2.0))
+    load = modulus * depth**2 * (1.0 / radius + lower.curvature) * power(-0.6, 0.8)
+    friction = float(rng.choice([0.0, power(-1.0, 0.3)]))
+    return rn.Nip(
+        upper=roller(radius, top, (depth, modulus, float(rng.choice([0.5, 0.49, 0.3])))),
+        lower=lower,
+        normal=rn.LineLoad(load),
+        friction=friction,
+        tangential=rn.Traction(float(rng.uniform(-0.8, 0.8)) * friction * load),
+    )
+
+
+@pytest.mark.parametrize("number", range(6))
+def test_claims_under_thin_soft_tops(number):
+    assert over_claim(thin_top(number)) <= 3.0
+
+
+@pytest.mark.slow
+def test_claims_under_thin_soft_tops_never_seen_before():
+    """Other nips in every run; a failure prints their numbers, which `thin_top` replays."""
+    numbers = [secrets.randbelow(2**31) for _ in range(60)]
+    print(f"nips {numbers}")  # noqa: T201
+    worst = {number: over_claim(thin_top(number)) for number in numbers}
+    assert {number: ratio for number, ratio in worst.items() if ratio > 3.0} == {}
+
+
+@pytest.mark.parametrize("ratio", [17.0, 50.0, 100.0])
+def test_thin_incompressible_coverings_converge(ratio):
+    """Their surface moves as the second derivative of the pressure, which straight lines lack.
+
+    To first order in h/a the edges of a thin incompressible layer lie 1.46 h inside those of the
+    limit in which only the second derivative counts.
+    """
+    thickness, modulus = 0.1, 3.7
+    limit = ratio * thickness  # half-width for h -> 0
+    curvature = 6.0 * 0.2 * thickness / limit**2  # pressed in by a fifth of the thickness
+    nip = rn.Nip(
+        upper=roller(2.0 / curvature, (thickness, modulus, 0.5)),
+        lower=rn.Roller(radius=2.0 / curvature),
+        normal=rn.LineLoad(2.0 * modulus * curvature * limit**5 / (45.0 * thickness**3)),
+        friction=0.0,
+    )
+    solution, fine = solved(nip), solved(nip, 2e-4)
+    assert solution.converged, solution.status
+    assert solution.solver.elements < 250
+    assert solution.nip_width == pytest.approx(2.0 * (limit - 1.46 * thickness), rel=5e-3)
+    for name in ("nip_width", "approach", "peak_pressure"):
+        apart = abs(getattr(solution, name) - getattr(fine, name))
+        assert apart <= 3.0 * solution.error[name], name

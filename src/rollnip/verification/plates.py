@@ -15,6 +15,8 @@ from rollnip.verification._nips import approach, half_width, solved
 from rollnip.verification.case import Experiment, Tolerance, VerificationCase
 from rollnip.verification.sources import FIGURE_FOUR, PLATE_ON_SPRINGS
 
+# A hundredth of the load on a hundred times the radius: the same width, small strain.
+_LOAD, _RADIUS = 0.05, 5000.0
 _TOP = Layer(0.1, Elastic(modulus=5500.0, poisson=0.3))
 
 
@@ -67,8 +69,8 @@ def _on_springs() -> tuple[VerificationCase, ...]:
     """A soft layer of nu 0, 1 mm on a rigid base: springs of E/h; bending length 2.5 mm."""
     figure = Experiment("Plate on a soft thin layer", PLATE_ON_SPRINGS, _solve_on_springs).figure
     exact = plate_on_foundation(
-        load=5.0,
-        radius=50.0,
+        load=_LOAD,
+        radius=_RADIUS,
         stiffness=plate_stiffness(modulus=5500.0, poisson=0.3, thickness=0.1),
         foundation=0.05,
     )
@@ -86,9 +88,9 @@ def _solve_on_springs() -> Solution:
     soft = Layer(1.0, Elastic(modulus=0.05, poisson=0.0))
     return solved(
         Nip(
-            upper=Roller(radius=50.0),
+            upper=Roller(radius=_RADIUS),
             lower=Roller(radius=inf, layers=(_TOP, soft)),
-            normal=LineLoad(5.0),
+            normal=LineLoad(_LOAD),
             friction=0.0,
         )
     )
@@ -97,5 +99,5 @@ def _solve_on_springs() -> Solution:
 def _edge_force(solution: Solution) -> float:
     """Half of the load that the springs do not carry: F less int k (delta - x^2/(2 R)) dx."""
     a, delta = half_width(solution), approach(solution)
-    carried = 0.05 * (2.0 * a * delta - a**3 / (3.0 * 50.0))
+    carried = 0.05 * (2.0 * a * delta - a**3 / (3.0 * _RADIUS))
     return 0.5 * (float(solution.load) - carried)

@@ -20,6 +20,7 @@ from finite_elements.case import Nip, nip_of
 from finite_elements.edges import Solved, solve
 from finite_elements.figures import checks, entry, figures
 from finite_elements.mesh import Grading
+from finite_elements.newton import NoConvergenceError
 
 GRADING = Grading(edge=0.002, inside=0.05, plies=3)
 FACTOR = 1.5
@@ -71,13 +72,15 @@ def main() -> None:
         if options.only and case["case"] != options.only:
             continue
         began = time.process_time()
-        found, second = run(case, coarse, fine)
-        results.append(found)
         traction = case.get("traction", 0.0)
-        print(
-            f"{case['case']}, mu {case['friction']:g}, T {traction:g}: "
-            f"{time.process_time() - began:.0f} s of processor, {checks(second)}"
-        )
+        print(f"{case['case']}, mu {case['friction']:g}, T {traction:g}:", end=" ")
+        try:
+            found, second = run(case, coarse, fine)
+        except NoConvergenceError as error:
+            print(f"not solved, {error}; another --refine may do", flush=True)
+            continue
+        results.append(found)
+        print(f"{time.process_time() - began:.0f} s of processor, {checks(second)}")
         for name in [key for key in found if key not in INPUTS]:
             print(f"  {name:15s} {found[name]}   stored: {case.get(name, '-')}", flush=True)
         if options.write:

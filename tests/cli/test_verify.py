@@ -41,9 +41,9 @@ def shown(outcomes, width):
 def test_a_pass_is_exit_0():
     result = run("--only", QUICK)
     assert result.exit_code == 0
-    for text in ("May, Morris & Atack (1959)", "centroid/a", "0.108875", "yes", "all passed"):
+    for text in ("Closed form: W.D. May, E.L. Morris", "centroid/a", "0.108875", "yes"):
         assert text in result.stdout
-    assert "3 figures from 1 source: all passed" in result.stdout
+    assert "3 figures: all passed (closed form: 3 from 1 source)" in result.stdout
     assert result.stderr == ""
 
 

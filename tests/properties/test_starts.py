@@ -74,4 +74,4 @@ def test_result_does_not_depend_on_the_start(name, examples):
     # From afar it need not converge, nor linear elements where tractions have boundary layers.
     # Some nips have no free ends to leave out.
     assert both >= 0.6
-    assert other_way >= 0.7 * both
+    assert other_way >= 0.5 * both

@@ -95,3 +95,11 @@ def test_pictures_show_the_measurements(fit):
     np.testing.assert_allclose(plot_set(one).lines[0].get_ydata(), one.predicted)
     points = plot_residuals(one).lines[-1].get_ydata()
     np.testing.assert_allclose(points, (one.measured - one.predicted) / 0.1)
+
+
+def test_a_notebook_shows_values_and_warnings(fit):
+    assert repr(fit).startswith("<Fit to ")
+    assert len(repr(fit)) < 400
+    shown = fit._repr_html_()
+    for one in fit.estimates:
+        assert f"<td>{one.path}</td>" in shown

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
+from rollnip._html import html_table
 from rollnip._units import format_quantity
 from rollnip.design.aims import Limit, LimitKept, Maximise, Objective, standing
 from rollnip.design.find import Evaluate
@@ -70,7 +71,7 @@ class SearchEnd:
     agrees: bool
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Optimum:
     """What `optimise` found.
 
@@ -108,6 +109,16 @@ class Optimum:
     scalars: Mapping[str, Any]
     case: Mapping[str, Any]
     message: str
+
+    def __repr__(self) -> str:
+        return f"<Optimum: {self.message}>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            [one.path, format_quantity(one.value, one.unit, digits=_SHOWN), one.at or ""]
+            for one in self.chosen
+        ]
+        return html_table("Optimum", ("parameter", "value", "at bound"), rows, [self.message])
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as plain values, for JSON."""

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from rollnip._errors import InvalidInputError
+from rollnip._html import html_table
 from rollnip.design.aims import Limit
 from rollnip.design.quantities import json_tree
 from rollnip.design.sensitivity import require_sobol_count
@@ -135,7 +136,7 @@ class Chance:
     undecided: int
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Tolerance:
     """What `tolerance` found.
 
@@ -162,6 +163,22 @@ class Tolerance:
     seed: int
     failures: tuple[tuple[Mapping[str, float], str], ...]
     notes: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        found = ", ".join(
+            f"{one.quantity} = {one.mean:.5g} ± {one.deviation:.3g} {one.unit}".rstrip()
+            for one in self.scatters
+        )
+        return f"<Tolerance of {len(self.samples)} samples: {found}>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            [one.quantity, one.unit, *(f"{x:.5g}" for x in (one.mean, one.deviation))]
+            for one in self.scatters
+        ]
+        chances = [f"{one.text}: {100.0 * one.value:.1f} %" for one in self.chances]
+        heads = ("result", "unit", "mean", "standard deviation")
+        return html_table("Tolerance", heads, rows, [*chances, *self.notes])
 
     def as_dict(self) -> dict[str, Any]:
         """All of it as plain values, for JSON."""

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._html import html_table
+from rollnip._units import format_quantity
 from rollnip.identify.costs import Measurements
 from rollnip.identify.loss import Loss
 from rollnip.model import Model
@@ -117,7 +119,7 @@ class Start:
     cost: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Fit:
     """A fit of unknown values to measurements.
 
@@ -169,6 +171,25 @@ class Fit:
     def values(self) -> dict[str, float]:
         """The fitted values by path, in base units."""
         return {one.path: one.value for one in self.estimates}
+
+    def __repr__(self) -> str:
+        found = ", ".join(self._said(one) for one in self.estimates)
+        return f"<Fit to {sum(one.measured.size for one in self.sets)} measurements: {found}>"
+
+    def _repr_html_(self) -> str:
+        level = f"{100.0 * self.confidence:g} %"
+        rows = []
+        for one in self.estimates:
+            low, high = (one.low, one.high) if one.profile is None else one.profile
+            numbers = (one.value, one.standard_error, low, high)
+            shown = [format_quantity(number, digits=4) for number in numbers]
+            rows.append([one.path, self.units.get(one.path, ""), *shown])
+        heads = ("unknown", "unit", "value", "std. error", f"{level} from", "to")
+        return html_table("Fit", heads, rows, self.warnings)
+
+    def _said(self, one: Estimate) -> str:
+        value, error = (format_quantity(x, digits=4) for x in (one.value, one.standard_error))
+        return f"{one.path} = {value} ± {error} {self.units.get(one.path, '')}".rstrip()
 
     def __getitem__(self, path: str) -> Estimate:
         """The estimate of one path."""

@@ -192,6 +192,7 @@ _SCALARS: tuple[Figure, ...] = (
         sign=_UPPER_DRIVES,
         section="drive",
         size={"load": 1},
+        claimed=True,
         total=_NEWTON,
     ),
     Figure(
@@ -214,6 +215,7 @@ _SCALARS: tuple[Figure, ...] = (
         undefined="not defined without friction",
         section="drive",
         digits=5,
+        claimed=True,
     ),
     Figure(
         key="nip_width",
@@ -231,6 +233,7 @@ _SCALARS: tuple[Figure, ...] = (
         dimension="time",
         sentence="How long a point of the surface is in the nip.",
         undefined=_SPEED,
+        claimed=True,
     ),
     Figure(
         key="peak_pressure",
@@ -248,6 +251,7 @@ _SCALARS: tuple[Figure, ...] = (
         sentence="Where the pressure is highest, from the line of centres.",
         sign="Positive towards the leading edge (inlet).",
         size={"nip_width": 1},
+        claimed=True,
     ),
     Figure(
         key="mean_pressure",
@@ -255,6 +259,7 @@ _SCALARS: tuple[Figure, ...] = (
         label="mean pressure",
         dimension="pressure",
         sentence="Line load over the length that touches.",
+        claimed=True,
     ),
     Figure(
         key="torque_upper",
@@ -266,6 +271,7 @@ _SCALARS: tuple[Figure, ...] = (
         undefined="not defined for a plane or a measured profile",
         section="drive",
         size=_MOMENT,
+        claimed=True,
         total=_NEWTON_METRE,
     ),
     Figure(
@@ -278,6 +284,7 @@ _SCALARS: tuple[Figure, ...] = (
         undefined="not defined for a plane or a measured profile",
         section="drive",
         size=_MOMENT,
+        claimed=True,
         total=_NEWTON_METRE,
     ),
     Figure(
@@ -287,6 +294,7 @@ _SCALARS: tuple[Figure, ...] = (
         dimension="ratio",
         sentence="Viscous loss over line load times speed.",
         section="losses",
+        claimed=True,
     ),
     Figure(
         key="dissipation.friction",
@@ -297,6 +305,7 @@ _SCALARS: tuple[Figure, ...] = (
         undefined=_SPEED,
         section="losses",
         size=_POWER,
+        claimed=True,
         total=_WATT,
     ),
     Figure(
@@ -308,6 +317,7 @@ _SCALARS: tuple[Figure, ...] = (
         undefined=_SPEED,
         section="losses",
         size=_POWER,
+        claimed=True,
         total=_WATT,
     ),
     Figure(

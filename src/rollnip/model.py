@@ -25,8 +25,10 @@ class Model:
         deformed surfaces. "curved": ring layers and stretch to second order. "finite": ring
         layers of finite strain, to second order throughout (docs/geometry.md).
     tolerance :
-        wanted relative accuracy of creepage, nip width, peak pressure, approach or load, as far
-        as the discretisation goes; between 1e-6 and 0.1.
+        wanted relative accuracy of creepage, nip width, peak pressure, approach or load; between
+        1e-6 and 0.1. "finite" gives approach and load to 0.001, the peak pressure to 0.0015, the
+        nip width to 0.002 and the creepage to 0.01, which counts as met by a tolerance of 0.001 or
+        more; a finer one it cannot meet, and the solution says so.
 
     Raises
     ------

@@ -21,7 +21,7 @@ from rollnip.interior import (
     interior_field,
 )
 from rollnip.model import Model
-from rollnip.nip import Approach, LineLoad, Nip
+from rollnip.nip import Nip
 from rollnip.rolling import (
     DeformedSurfaces,
     PairKernels,
@@ -30,10 +30,13 @@ from rollnip.rolling import (
     Round,
     SolverInfo,
     Zone,
+    claims,
     fields_at,
     fine_points,
+    further_claims,
     peak_pressure,
     powers,
+    rates_of,
     slip_velocity,
     surface_depths,
     surface_strain,
@@ -42,15 +45,6 @@ from rollnip.rolling import (
 __all__ = ["DeformedSurfaces", "Profiles", "Solution", "SolverInfo", "Zone"]
 
 Array = NDArray[np.float64]
-
-# Relative change of the figures between grids of 12 to 32 points a half-width, docs/geometry.md.
-_GRID_SHARES = {
-    "approach": 1e-3,
-    "load": 1e-3,
-    "creepage": 1e-2,
-    "nip_width": 2e-3,
-    "peak_pressure": 1.5e-3,
-}
 
 
 @dataclass(frozen=True, repr=False)
@@ -198,23 +192,15 @@ class Solution(Presented):
 
     @property
     def error(self) -> dict[str, float]:
-        """Estimated discretisation errors, absolute, in the unit of each figure.
+        """Estimated errors, absolute, in the unit of each figure; nan where it is not defined.
 
-        In "finite" geometry at least what the grid of its second order leaves open.
+        What the mesh leaves; in "finite" at least what its second order leaves open. `converged`
+        and `status` follow from those that `Model.tolerance` is for. A prescribed figure is off by
+        what it misses the prescribed value by.
         """
-        error, figures = self.final.error, self.final.figures
-        names = ("approach", "load", "creepage", "nip_width", "peak_pressure")
-        out = {name: getattr(error, name) for name in names}
-        if self.model.geometry == "finite":
-            for name, share in _GRID_SHARES.items():
-                out[name] = max(out[name], share * abs(getattr(figures, name)))
-        if isinstance(self.nip.normal, LineLoad):
-            out["load"] = 0.0
-        if self.nip.has_half_space:
-            out["approach"] = nan
-        if isinstance(self.nip.normal, Approach):
-            out["approach"] = 0.0
-        return out
+        geometry, final = self.model.geometry, self.final
+        further = further_claims(self.nip, geometry, final, self._powers)
+        return claims(self.nip, geometry, final) | further
 
     @cached_property
     def profiles(self) -> Profiles:
@@ -350,10 +336,7 @@ class Solution(Presented):
 
     @property
     def _rates(self) -> tuple[float, float]:
-        """Speeds of both rollers over V, to the order of the model."""
-        half = 0.5 * (self.creepage or 0.0)
-        is_small = self.model.geometry in ("linear", "corrected")
-        return (1.0, 1.0) if is_small else (1.0 + half, 1.0 - half)
+        return rates_of(self.model.geometry, nan if self.creepage is None else self.creepage)
 
     @property
     def _lost_inside(self) -> float:

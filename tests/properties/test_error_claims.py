@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 from population import random_case
 
 import rollnip as rn
+from rollnip.rolling import excess
 
 # Least errors and allowances were set with numbers below 10 000: these have not been seen.
 NUMBERS = st.integers(100_000, 999_999)
@@ -74,5 +75,7 @@ def test_claims_are_kept_where_much_is_of_second_order(tolerance):
 def test_figures_of_linear_elements_converge_with_a_second_order(number):
     """Many zones on few elements; what the terms still move counts where the pressure peaks."""
     solution = solved(random_case(number, "finite"), 1e-4)
-    assert solution.converged
     assert solution.model.geometry == "finite"
+    # of the mesh: the second order itself leaves more
+    assert excess(solution.nip, solution.final, 1e-4) <= 1.0
+    assert solution.solver.residual <= 1e-4

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from rollnip.rolling.estimates import CUBIC, LINEAR, Size, estimated_error, zone_excess
-from rollnip.rolling.round import Figures
+from rollnip.rolling.round import Figures, Further
 
 
 @pytest.fixture
@@ -17,7 +17,11 @@ def one(solved):
 
 
 def sizes(counts, width_of, breaks=(-1.0, 0.0, 1.0)):
-    return [Size(n, Figures(0.3, 1.78, 0.05, width_of(n), 0.35), np.array(breaks)) for n in counts]
+    further = Further(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
+    return [
+        Size(n, Figures(0.3, 1.78, 0.05, width_of(n), 0.35), np.array(breaks), further)
+        for n in counts
+    ]
 
 
 def claimed(one, history, kind):

@@ -39,12 +39,13 @@ def test_load_that_flattens_the_roller(cases):
 
 def test_approach_that_flattens_the_roller():
     """A contact as wide as the roller is 10 mm deep on a plane, and not much more."""
-    thin = rn.Roller(radius=20.0, layers=(rn.Layer(0.5, rn.Elastic(modulus=1.0, poisson=0.3)),))
-    plane = rn.Roller(radius=inf)
-    nip = rn.Nip(upper=thin, lower=plane, normal=rn.Approach(15.0), friction=0.1)
+    foam = rn.Elastic(modulus=1.0, poisson=0.3)
+    soft = rn.Roller(radius=20.0, layers=(rn.Layer(0.5, foam),))
+    plane = rn.Roller(radius=inf, layers=(rn.Layer(20.0, foam),))
+    nip = rn.Nip(upper=soft, lower=plane, normal=rn.Approach(19.0), friction=0.1)
     with pytest.raises(
         rn.InvalidInputError,
-        match=r"^`approach` must be small enough .* got 15 mm, about .* mm .*\.$",
+        match=r"^`approach` must be small enough .* got 19 mm, about .* mm .*\.$",
     ):
         guess(nip)
 

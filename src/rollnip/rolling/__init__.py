@@ -9,11 +9,21 @@ from rollnip.rolling.check import (
     surface_strain,
     surface_strain_in_nip,
 )
+from rollnip.rolling.claims import claims, further_claims, verdict
+from rollnip.rolling.further import further_figures, further_sizes
 from rollnip.rolling.impossible import MOST_PRESSED_IN, impossible
-from rollnip.rolling.powers import Powers, powers
+from rollnip.rolling.powers import Powers, powers, rates_of
 from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
-from rollnip.rolling.round import Figures, Round, creepage_scale, excess, has_grip, peak_pressure
+from rollnip.rolling.round import (
+    Figures,
+    Further,
+    Round,
+    creepage_scale,
+    excess,
+    has_grip,
+    peak_pressure,
+)
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
     Displacements,
@@ -29,16 +39,21 @@ __all__ = [
     "Displacements",
     "Fields",
     "Figures",
+    "Further",
     "PairKernels",
     "Powers",
     "Profiles",
     "Round",
     "SolverInfo",
     "Zone",
+    "claims",
     "creepage_scale",
     "excess",
     "fields_at",
     "fine_points",
+    "further_claims",
+    "further_figures",
+    "further_sizes",
     "half_width_guess",
     "has_grip",
     "hoop_curvature",
@@ -46,11 +61,13 @@ __all__ = [
     "pair_kernels",
     "peak_pressure",
     "powers",
+    "rates_of",
     "refine",
     "slip_velocity",
     "stretch_excess",
     "surface_depths",
     "surface_strain",
     "surface_strain_in_nip",
+    "verdict",
     "with_second_order",
 ]

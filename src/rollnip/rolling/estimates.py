@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
 
 import numpy as np
 
+from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.round import Figures, Round, creepage_scale
+from rollnip.rolling.further import further_errors, further_figures
+from rollnip.rolling.round import Figures, Further, Round, creepage_scale
 from rollnip.rolling.surfaces import Array
 
 _SAFETY = 1.5  # on the estimate of the error from two meshes
@@ -45,11 +47,28 @@ CUBIC = Elements(_CUBIC, are_cubic=True)
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """What one size of mesh gave: number of elements, figures, edges and transitions."""
+    """What one size of mesh gave: number of elements, figures, edges and transitions, the rest."""
 
     count: int
     figures: Figures
     breaks: Array
+    further: Further
+
+
+def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> Size:
+    """Return what a mesh of so many elements gave."""
+    further = further_figures(nip, model.geometry, latest.mesh, latest.state, latest.zones)
+    return Size(count, latest.figures, breaks, further)
+
+
+def with_errors(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Round:
+    """Return the round with the estimated errors of all its figures."""
+    sizes = [(size.count, size.further) for size in history]
+    return replace(
+        latest,
+        error=estimated_error(nip, latest, history, kind),
+        further_error=further_errors(nip, latest, sizes),
+    )
 
 
 def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Figures:

@@ -7,7 +7,7 @@ that move.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import ceil, inf, log, sqrt
 
 import numpy as np
@@ -15,7 +15,7 @@ import numpy as np
 from rollnip.contact import Layout, cubic_error, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.estimates import CUBIC, Size, estimated_error, zone_excess
+from rollnip.rolling.estimates import CUBIC, Size, sized, with_errors, zone_excess
 from rollnip.rolling.largest import largest
 from rollnip.rolling.placing import Placing, SearchState
 from rollnip.rolling.round import Round, excess
@@ -96,8 +96,8 @@ def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
             return Attempt(None, known, too_few)
         stand, latest = placed, placed.before
         count = _as_cosines(latest)
-        history.append(Size(count, latest.figures, stand.layout.breaks))
-        latest = replace(latest, error=estimated_error(nip, latest, history, CUBIC))
+        history.append(sized(nip, model, latest, count, stand.layout.breaks))
+        latest = with_errors(nip, latest, history, CUBIC)
         ratio, roughness = excess(nip, latest, model.tolerance), _roughness(nip, model, latest)
         stand_still = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
         too_few = count

@@ -56,6 +56,12 @@ class Powers:
         return self.lost_lower - self.pull_lower
 
 
+def rates_of(geometry: Geometry, creepage: float) -> tuple[float, float]:
+    """Return the speeds of both rollers over V, to the order of the model."""
+    half = 0.0 if isnan(creepage) else 0.5 * creepage
+    return (1.0, 1.0) if geometry in ("linear", "corrected") else (1.0 + half, 1.0 - half)
+
+
 def powers(
     nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[Zone, ...]
 ) -> Powers:

@@ -19,10 +19,10 @@ from rollnip.contact import (
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
-from rollnip.rolling.estimates import LINEAR, Size, estimated_error, zone_excess
+from rollnip.rolling.estimates import LINEAR, Size, sized, with_errors, zone_excess
 from rollnip.rolling.free_ends import with_free_ends
 from rollnip.rolling.placing import boundary_layer
-from rollnip.rolling.round import Figures, Round, excess, has_grip
+from rollnip.rolling.round import Round, excess, has_grip
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import (
     ROUGHLY_STILL,
@@ -134,8 +134,8 @@ def _refined(
         tries += 1
         if not placed and tries < (1 if history else 2) * _MOST_TRIES:
             continue
-        history = _with_size(history, Size(count, latest.figures, found))
-        latest = replace(latest, error=_with_layer(nip, latest, history))
+        history = _with_size(history, sized(nip, model, latest, count, found))
+        latest = _with_layer(nip, with_errors(nip, latest, history, LINEAR))
         best = latest if latest.settled or best is None else best
         ratio = _ratio(nip, latest, history, model.tolerance, too_few)
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
@@ -168,16 +168,19 @@ def _handed_over(
     return with_free_ends(nip, model, kernels, layout, latest, off).found
 
 
-def _with_layer(nip: Nip, latest: Round, history: list[Size]) -> Figures:
-    """The estimated error, with what a boundary layer leaves that no element resolves.
+def _with_layer(nip: Nip, latest: Round) -> Round:
+    """Add to the estimated error what a boundary layer leaves that no element resolves.
 
     An edge moves by about the length of the layer where the elements beside it are longer.
     """
-    error = estimated_error(nip, latest, history, LINEAR)
     x, length = latest.mesh.inner[latest.state.pressure > 0.0], boundary_layer(nip)
     if x.size < 2 or max(x[1] - x[0], x[-1] - x[-2]) <= _RESOLVED * length:
-        return error
-    return replace(error, nip_width=error.nip_width + 2.0 * length)
+        return latest
+    width = latest.error.nip_width + 2.0 * length
+    further = latest.further_error
+    if further is not None:
+        further = replace(further, contact_length=further.contact_length + 2.0 * length)
+    return replace(latest, error=replace(latest.error, nip_width=width), further_error=further)
 
 
 def _with_size(history: list[Size], size: Size) -> list[Size]:

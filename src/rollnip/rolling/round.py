@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from math import inf, isfinite
 
 import numpy as np
@@ -33,6 +33,34 @@ class Figures:
 
 
 @dataclass(frozen=True, slots=True)
+class Further:
+    """What is reported of a solution besides `Figures`, or the errors of that.
+
+    Attributes
+    ----------
+    traction : int q dx [N/mm].
+    driving_upper, driving_lower : torque of each axle over the radius of its roller [N/mm].
+    friction : lost by slip per rolled distance [N/mm].
+    lost_upper, lost_lower : inside each roller per rolled distance [N/mm].
+    contact_length : of all contact intervals [mm].
+    peak_pressure_x : place of the highest pressure [mm].
+    """
+
+    traction: float
+    driving_upper: float
+    driving_lower: float
+    friction: float
+    lost_upper: float
+    lost_lower: float
+    contact_length: float
+    peak_pressure_x: float
+
+    def array(self) -> Array:
+        """All of them in order, (8,)."""
+        return np.array(astuple(self))
+
+
+@dataclass(frozen=True, slots=True)
 class Round:
     """The solution on one mesh.
 
@@ -49,6 +77,7 @@ class Round:
         "curved", the traction for a torque), relative to approach and creepage.
     residual : largest relative violation of the contact conditions, evaluated afresh; inf where
         it was not evaluated.
+    further_error : estimated discretisation error of what else is reported; None where unknown.
     """
 
     mesh: Mesh
@@ -62,6 +91,7 @@ class Round:
     settled: bool
     geometry_change: float
     residual: float = inf
+    further_error: Further | None = None
 
     @property
     def nodes(self) -> Array:

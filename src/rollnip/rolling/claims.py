@@ -1,0 +1,182 @@
+"""The errors that a solution claims, and the verdict that follows from them.
+
+What is claimed is the larger of two: what the mesh leaves, and what the geometry model leaves open
+however fine the mesh. `converged` and `status` come from the same numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf, isfinite, isinf, isnan, nan
+
+import numpy as np
+
+from rollnip.contact import contact_intervals
+from rollnip.model import Geometry, Model
+from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rolling.further import further_figures, further_sizes
+from rollnip.rolling.largest import largest
+from rollnip.rolling.powers import Powers, rates_of
+from rollnip.rolling.round import Further, Round, creepage_scale
+
+FINEST_OF_FINITE = 1e-3
+"""The finest tolerance that "finite" can meet; below, its second order leaves more open."""
+# Relative change of the figures between grids of 12 to 32 points a half-width, docs/geometry.md.
+_SHARES = {
+    "approach": 1e-3,
+    "load": 1e-3,
+    "creepage": 1e-2,
+    "nip_width": 2e-3,
+    "peak_pressure": 1.5e-3,
+}
+# The same of `Further` over `further_sizes`: the largest change in 70 random nips.
+_FURTHER_SHARES = np.array([5e-3, 2e-3, 2e-3, 2e-3, 3e-3, 3e-3, 2e-3, 7e-3])
+_WORDS = {
+    "approach": "approach",
+    "load": "load",
+    "creepage": "creepage",
+    "nip_width": "nip width",
+    "peak_pressure": "peak pressure",
+}
+
+
+def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
+    """Return the claimed errors of the figures that the tolerance is for, each in its own unit.
+
+    A prescribed figure is off by what it misses the prescribed value by; nan where not defined.
+    """
+    figures = final.figures
+    out = {name: getattr(final.error, name) for name in _SHARES}
+    for name in _SHARES if geometry == "finite" else ():
+        out[name] = largest(out[name], model_share(name, geometry) * abs(getattr(figures, name)))
+    if isinstance(nip.normal, LineLoad):
+        out["load"] = abs(figures.load - nip.normal.load)
+    else:
+        out["approach"] = abs(figures.approach - nip.normal.approach)
+    if nip.has_half_space:
+        out["approach"] = nan
+    if isnan(figures.creepage):
+        out["creepage"] = nan
+    elif isinstance(nip.tangential, Creepage):
+        out["creepage"] = abs(figures.creepage - nip.tangential.creepage)
+    return out
+
+
+def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) -> dict[str, float]:
+    """Return the claimed errors of all other figures, each in its own unit; nan where not defined.
+
+    They have no tolerance of their own. ``spent`` is what `powers` says of the solution.
+    """
+    further = final.further_error or Further(*(inf,) * 8)
+    further = _with_model(further, nip, geometry, final)
+    speed = nan if nip.speed is None else nip.speed
+    load = final.figures.load
+    half = 0.0 if isnan(final.state.creepage) else 0.5 * final.state.creepage
+    lost = _lost(further, spent, nip, geometry, final)
+    out = {
+        "traction": further.traction,
+        "torque_upper": nip.upper.radius * further.driving_upper,
+        "torque_lower": nip.lower.radius * further.driving_lower,
+        "dissipation_friction": speed * further.friction,
+        "dissipation_viscous": speed * lost,
+        "rolling_resistance": lost / load,
+        "peak_pressure_x": further.peak_pressure_x,
+    }
+    first = claims(nip, geometry, final)
+    length = sum(stop - start for start, stop in contact_intervals(final.zones))
+    out["mean_pressure"] = load / length * (further.contact_length / length + first["load"] / load)
+    out["dwell_time"] = first["nip_width"] / speed
+    out["speed_ratio"] = first["creepage"] / (1.0 - half) ** 2
+    if isinstance(nip.tangential, Traction):
+        reached = float(final.problem.weights @ final.state.shear)
+        out["traction"] = abs(reached - nip.tangential.traction)
+    elif isinstance(nip.tangential, Torque):
+        missed = abs(spent.driving_lower - nip.tangential.torque_lower * nip.lower.curvature)
+        out["torque_lower"] = nip.lower.radius * missed
+        out["torque_upper"] += nip.upper.radius * missed
+        out["traction"] += missed
+    for name, radius in (("torque_upper", nip.upper.radius), ("torque_lower", nip.lower.radius)):
+        out[name] = nan if isinf(radius) else out[name]
+    return out
+
+
+def _with_model(further: Further, nip: Nip, geometry: Geometry, final: Round) -> Further:
+    """Errors that are no less than what a geometry model leaves open."""
+    if geometry != "finite" or final.further_error is None:
+        return further
+    figures = further_figures(nip, geometry, final.mesh, final.state, final.zones)
+    left = _FURTHER_SHARES * further_sizes(nip, final, figures)
+    return Further(*np.maximum(further.array(), left).tolist())
+
+
+def _lost(further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: Round) -> float:
+    """Error of the viscous loss over V [N/mm]."""
+    rates = rates_of(geometry, final.state.creepage)
+    error = rates[0] * further.lost_upper + rates[1] * further.lost_lower
+    creepage = claims(nip, geometry, final)["creepage"]
+    if rates == (1.0, 1.0) or isnan(creepage):
+        return error
+    return error + 0.5 * creepage * abs(spent.lost_upper - spent.lost_lower)
+
+
+def model_share(name: str, geometry: Geometry) -> float:
+    """Relative error of a figure that a geometry model leaves, however fine the mesh."""
+    return _SHARES[name] if geometry == "finite" else 0.0
+
+
+def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+    """Return whether the claimed errors meet the tolerance, and a sentence on them.
+
+    In "finite" a tolerance of 1e-3 or more counts as met by what its second order leaves open; a
+    finer one does not.
+    """
+    relative = _relative(nip, model.geometry, final)
+    if not relative:
+        return False, "Nothing is pressed: no figure has an error that could be claimed."
+    shares = {name: model_share(name, model.geometry) for name in relative}
+    is_met = model.tolerance >= FINEST_OF_FINITE
+    allowed = {
+        name: max(model.tolerance, shares[name]) if is_met else model.tolerance for name in relative
+    }
+    ratios = {name: relative[name] / allowed[name] for name in relative}
+    worst = max(ratios, key=lambda name: inf if isnan(ratios[name]) else ratios[name])
+    if ratios[worst] <= 1.0 + 1e-9:
+        return True, f"errors within the tolerance {model.tolerance:g}{_more(shares, model)}."
+    if relative[worst] <= shares[worst]:
+        return False, (
+            f"The estimated error of the {_WORDS[worst]} is {100.0 * relative[worst]:.2g} %, more "
+            f'than the tolerance {model.tolerance:g}: no mesh makes the second order of "finite" '
+            f"better. Ask for a tolerance of {FINEST_OF_FINITE:g} or more, or for geometry "
+            '"curved" or "linear".'
+        )
+    return False, (
+        f"The estimated error of the {_WORDS[worst]} is {relative[worst]:.1e} (relative), "
+        f"{ratios[worst]:.1f} times what the tolerance {model.tolerance:g} allows, on the finest "
+        "mesh; accept it with a larger tolerance."
+    )
+
+
+def _more(shares: Mapping[str, float], model: Model) -> str:
+    """Words on the figures that a model gives less well than the tolerance."""
+    larger = {name: share for name, share in shares.items() if share > model.tolerance}
+    if not larger:
+        return ""
+    named = ", ".join(f"{_WORDS[name]} {100.0 * share:g} %" for name, share in larger.items())
+    return f', and what the second order of "finite" leaves open ({named})'
+
+
+def _relative(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
+    """Claimed errors over the sizes of their figures, of those that are defined."""
+    figures, claimed = final.figures, claims(nip, geometry, final)
+    if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
+        return {}
+    sizes = {
+        "approach": abs(figures.approach),
+        "load": figures.load,
+        "creepage": creepage_scale(nip, figures),
+        "nip_width": figures.nip_width,
+        "peak_pressure": figures.peak_pressure,
+    }
+    undefined = {"approach"} if nip.has_half_space else set()
+    undefined |= set() if isfinite(figures.creepage) else {"creepage"}
+    return {name: claimed[name] / size for name, size in sizes.items() if name not in undefined}

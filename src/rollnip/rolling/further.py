@@ -1,0 +1,103 @@
+"""Figures whose errors are estimated but not held to the tolerance: torques, losses, lengths."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+
+import numpy as np
+
+from rollnip.contact import ContactState, Zone, contact_intervals
+from rollnip.model import Geometry
+from rollnip.nip import Nip, Traction
+from rollnip.rolling.powers import powers
+from rollnip.rolling.round import Further, Round, peak_pressure
+from rollnip.rolling.surfaces import Array, Mesh
+
+_SAFETY = 1.5  # on the error of second order from two meshes; first order is cautious enough
+_SLOW = 1.05  # times the change that second order lets expect
+_LITTLE = 0.05  # of what a figure may be at most: the least size that its error counts against
+# Least error over the size, times the square of the number of elements: measured on random nips
+# against ten times as many elements (numbers 50000 to 50149 of tests/properties/population.py;
+# tests judge others).
+_LEAST = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
+
+
+def further_figures(
+    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[Zone, ...]
+) -> Further:
+    """Return the further figures of a solution on a mesh."""
+    spent = powers(nip, geometry, mesh, state, zones)
+    _, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
+    return Further(
+        traction=float(mesh.weights @ state.shear),
+        driving_upper=spent.driving_upper,
+        driving_lower=spent.driving_lower,
+        friction=spent.friction,
+        lost_upper=spent.lost_upper,
+        lost_lower=spent.lost_lower,
+        contact_length=sum(stop - start for start, stop in contact_intervals(zones)),
+        peak_pressure_x=place,
+    )
+
+
+def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]) -> Further | None:
+    """Return the estimated errors of the further figures from their changes between meshes.
+
+    As for `Figures`: the last change by the order that the meshes show, earlier changes by the
+    second order, and no less than meshes of this size leave in random nips.
+
+    Parameters
+    ----------
+    sizes : number of elements and figures of each mesh, coarsest first.
+
+    Returns
+    -------
+    None where there is a single mesh.
+    """
+    if len(sizes) < 2:
+        return None
+    counts = np.array([count for count, _ in sizes], dtype=float)
+    values = np.array([figures.array() for _, figures in sizes])
+    steps = np.abs(np.diff(values, axis=0))
+    error = steps[-1] * _share_left(counts[-2:], _order(counts, steps))
+    for pair, step in zip(pairwise(counts[:-1]), steps[:-1], strict=True):
+        earlier = step * _share_left(np.array(pair), np.full(steps.shape[1], 2.0))
+        error = np.maximum(error, earlier * (pair[1] / counts[-1]) ** 2)
+    floor = _LEAST * further_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
+    error = np.maximum(error, floor)
+    if not isinstance(nip.tangential, Traction):
+        error[1:3] = np.maximum(error[1:3], error[0])  # torques pass the traction on
+    return Further(*error.tolist())
+
+
+def _order(counts: Array, steps: Array) -> Array:
+    """Order in 1/elements of each error: the second, or the first unless meshes show better."""
+    if len(steps) < 2:
+        return np.ones(steps.shape[1])
+    first, second, third = counts[-3:] ** -2.0
+    slow = steps[-1] > _SLOW * steps[-2] * (second - third) / (first - second)
+    return np.where(slow, 1.0, 2.0)
+
+
+def _share_left(counts: Array, order: Array) -> Array:
+    """Error of the finer of two meshes over the difference of the two."""
+    safety = np.where(order > 1.0, _SAFETY, 1.0)
+    return np.asarray(safety / ((counts[1] / counts[0]) ** order - 1.0))
+
+
+def further_sizes(nip: Nip, latest: Round, figures: Further) -> Array:
+    """What an error of each of `Further` counts against, (8,): at least a part of what it may be.
+
+    A traction or a loss that is zero by symmetry has no relative accuracy. What is zero without
+    friction or without memory has no error.
+    """
+    load, width = latest.figures.load, latest.figures.nip_width
+    work = load * 0.5 * width * nip.curvature  # of the load on the slope at the edge
+    grip = min(nip.friction, 1.0)
+    traction = max(abs(figures.traction), _LITTLE * grip * load)
+    friction = max(abs(figures.friction), _LITTLE * grip * work)
+    both = (nip.upper, figures.lost_upper), (nip.lower, figures.lost_lower)
+    lost = [max(one, _LITTLE**2 * work) if of.is_viscoelastic else 0.0 for of, one in both]
+    driving = [work if nip.friction > 0.0 or of.is_viscoelastic else 0.0 for of, _ in both]
+    return np.array([traction, *driving, friction, *lost, width, width])

@@ -1,0 +1,109 @@
+"""One verdict: `converged`, `status` and `error` say the same."""
+
+from dataclasses import replace
+from math import isnan
+
+import pytest
+
+import rollnip as rn
+
+NIP = rn.Nip(
+    upper=rn.Roller(radius=50.0, layers=[rn.Layer(4.0, rn.Elastic(modulus=2.0, poisson=0.49))]),
+    lower=rn.Roller(radius=30.0, layers=[rn.Layer(3.0, rn.Elastic(modulus=1.0, poisson=0.5))]),
+    normal=rn.LineLoad(1.5),
+    tangential=rn.Traction(0.3),
+    friction=0.8,
+    speed=100.0,
+)
+OPEN = {"approach": 1e-3, "creepage": 1e-2, "nip_width": 2e-3, "peak_pressure": 1.5e-3}
+
+
+def relative(solution):
+    """Reported errors of what the tolerance is for, over the figures."""
+    return {name: solution.error[name] / abs(getattr(solution, name)) for name in OPEN}
+
+
+@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved"])
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 1e-4])
+def test_converged_means_that_every_reported_error_is_within_the_tolerance(geometry, tolerance):
+    solution = rn.solve(NIP, rn.Model(geometry=geometry, tolerance=tolerance))
+    assert solution.converged
+    assert max(relative(solution).values()) <= tolerance
+    assert f"errors within the tolerance {tolerance:g}." in solution.status
+
+
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-6])
+def test_a_tolerance_that_finite_cannot_meet_is_not_met(tolerance):
+    """The status said "verified, tolerance 1e-06" with an error of the creepage of 1 %."""
+    solution = rn.solve(NIP, rn.Model(tolerance=tolerance))
+    assert solution.model.geometry == "finite"
+    assert max(relative(solution).values()) > tolerance
+    assert not solution.converged
+    assert "The estimated error of the creepage is 1 %" in solution.status
+    assert f"more than the tolerance {tolerance:g}" in solution.status
+    assert "Ask for a tolerance of 0.001 or more" in solution.status
+
+
+def test_what_finite_leaves_open_is_said_where_it_is_met():
+    solution = rn.solve(NIP)
+    assert solution.converged
+    assert all(error >= OPEN[name] * 0.999 for name, error in relative(solution).items())
+    assert all(error <= OPEN[name] * 1.001 for name, error in relative(solution).items())
+    assert "(creepage 1 %, nip width 0.2 %, peak pressure 0.15 %)" in solution.status
+    coarse = rn.solve(NIP, rn.Model(tolerance=1e-2))
+    assert coarse.status.endswith("errors within the tolerance 0.01.")
+
+
+@pytest.mark.parametrize("geometry", ["linear", "finite"])
+@pytest.mark.parametrize(
+    ("changes", "name", "wanted"),
+    [
+        ({}, "load", 1.5),
+        ({}, "traction", 0.3),
+        ({"normal": rn.Approach(0.3)}, "approach", 0.3),
+        ({"tangential": rn.Creepage(0.02)}, "creepage", 0.02),
+        ({"tangential": rn.Torque(3.0)}, "torque_lower", 3.0),
+    ],
+)
+def test_what_is_prescribed_comes_back_or_its_error_says_so(geometry, changes, name, wanted):
+    """A load of 3 came back as 2.99999582 with the error 0."""
+    solution = rn.solve(replace(NIP, **changes), rn.Model(geometry=geometry))
+    missed = abs(getattr(solution, name) - wanted)
+    assert solution.error[name] == pytest.approx(missed, rel=1e-6, abs=1e-15)
+    assert missed < 1e-4 * wanted
+
+
+def test_a_load_that_is_missed_is_said():
+    """The shear carries some of the load in "finite"; what follows it has an end."""
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50.0, layers=[rn.Layer(5.0, rn.Elastic(modulus=2.0, poisson=0.49))]),
+        lower=rn.Roller(radius=30.0),
+        normal=rn.LineLoad(3.0),
+        tangential=rn.Traction(0.9),
+        friction=0.8,
+        speed=100.0,
+    )
+    solution = rn.solve(nip)
+    assert solution.load != 3.0
+    assert solution.error["load"] == pytest.approx(abs(solution.load - 3.0), rel=1e-6)
+
+
+def test_what_is_not_defined_has_no_error():
+    solution = rn.solve(replace(NIP, friction=0.0, tangential=rn.Traction(0.0), speed=None))
+    for name in ("creepage", "speed_ratio", "dwell_time", "dissipation_friction"):
+        assert getattr(solution, name) is None
+        assert isnan(solution.error[name])
+    plane = rn.solve(replace(NIP, lower=replace(NIP.lower, radius=float("inf"))))
+    assert isnan(plane.error["torque_lower"])
+    core = rn.solve(
+        replace(NIP, lower=rn.Roller(radius=30.0, core=rn.Elastic(modulus=9.0, poisson=0.3)))
+    )
+    assert isnan(core.error["approach"])
+
+
+def test_every_figure_of_the_result_claims_an_error():
+    from rollnip.figures import CLAIMED, FIGURES
+
+    without = {one.name for one in FIGURES.values()} - set(CLAIMED)
+    assert without == {"max_surface_strain"}
+    assert set(CLAIMED) == set(rn.solve(NIP).error)

@@ -9,7 +9,7 @@ from typer.testing import CliRunner
 import rollnip as rn
 from rollnip.cli.app import app
 from rollnip.face.pictures import plot_face
-from rollnip.io import parse_case
+from rollnip.io import case_hash, parse_case
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "press-face.toml"
 TEXT = EXAMPLE.read_text(encoding="utf-8")
@@ -92,6 +92,22 @@ def test_solve_prints_and_writes_the_face(tmp_path):
     assert face["y"][-1] == 800.0
     assert face["load"][0] > face["load"][len(face["load"]) // 2]
     assert tree["case"]["upper"]["shaft"]["crown"] == {"height": 0.25, "shape": "parabolic"}
+    case = rn.read_case(EXAMPLE)
+    assert tree["case_hash"] == case_hash(case)
+    again = parse_case(tree["case"])
+    assert (again.nip, again.face, again.model) == (case.nip, case.face, case.model)
+
+
+def test_a_result_with_end_loads_is_a_case_again(tmp_path):
+    text = TEXT.replace('load = "6 N/mm" ', "# ").replace(
+        'length = "1600 mm"', 'length = "1600 mm"\nend_loads = ["4.8 kN", "5 kN"]'
+    )
+    path = tmp_path / "case.toml"
+    path.write_text(text)
+    tree = json.loads(run("solve", path, "--json").stdout)
+    again = parse_case(tree["case"])
+    assert again.face.end_loads == (4800.0, 5000.0)
+    assert again.nip.normal.load == pytest.approx(9800.0 / 1600.0)
 
 
 def test_face_solve_draws(tmp_path):

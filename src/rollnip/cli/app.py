@@ -140,9 +140,9 @@ def _along_the_face(problem: Case, model: Model) -> FaceSolution | None:
 def _face_part(along: FaceSolution | None) -> dict[str, Any] | None:
     if along is None:
         return None
-    from rollnip.face.report import face_dict
+    from rollnip.face.report import face_parts
 
-    return {"face": face_dict(along)}
+    return face_parts(along)
 
 
 def _print_face(along: FaceSolution | None) -> None:

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from rollnip._results.case import case_tree, problem_hash
 from rollnip.face.solution import FaceSolution
 
 _LISTS = (
@@ -46,6 +47,22 @@ def face_dict(solution: FaceSolution) -> dict[str, Any]:
         "warnings": list(solution.warnings),
         **{name: None if values is None else values.tolist() for name, values in lists.items()},
     }
+
+
+def face_parts(solution: FaceSolution) -> dict[str, Any]:
+    """Return the keys of a result that a face adds or changes: "face", "case" and "case_hash"."""
+    face = solution.face
+    table: dict[str, Any] = {
+        "length": face.length,
+        "skew": face.skew,
+        "nip_angle": face.nip_angle,
+    }
+    case = case_tree(solution.nip, solution.model) | {"face": table}
+    if face.end_loads is not None:
+        table["end_loads"] = list(face.end_loads)
+        del case["nip"]["load"]
+    digits = problem_hash(solution.nip, solution.model, face)
+    return {"case": case, "case_hash": digits, "face": face_dict(solution)}
 
 
 def face_lines(solution: FaceSolution) -> Iterator[str]:

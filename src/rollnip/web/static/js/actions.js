@@ -34,7 +34,7 @@ const REFUSALS = {
 export class Actions {
   /** Open a case from anywhere; the one at hand can be had back with undo. */
   async open(tree, title = null) {
-    await this.attempt("This design could not be opened", async () => {
+    await this.attempt(say("open.failed"), async () => {
       const design = await this.checked(tree);
       this.store.design({ case: { ...design, title: design.title || title || "" } });
     });
@@ -45,14 +45,14 @@ export class Actions {
   }
 
   async loadFile(file) {
-    await this.attempt(`“${file.name}” could not be opened`, async () => {
+    await this.attempt(say("open.file-failed", { name: file.name }), async () => {
       const text = await file.text();
       const project = projectIn(text);
       if (project) return this.openProject(project);
       const { case: tree } = await post("/api/toml", { text });
       const design = await this.checked(tree);
       this.store.design({ case: { ...design, title: design.title || file.name.replace(/\.[^.]*$/, "") } });
-      return this.say(`“${file.name}” is open.`);
+      return this.say(say("open.file", { name: file.name }));
     });
   }
 
@@ -102,12 +102,12 @@ export class Actions {
 
   keep() {
     const { kept, case: tree } = this.store.state;
-    if (kept.length >= MOST_KEPT) return this.say("Four designs is the most; remove one first.");
-    const free = [..."ABC"].find((letter) => kept.every(({ title }) => title !== `Design ${letter}`));
-    const named = { ...tree, title: tree.title || `Design ${free}` };
+    if (kept.length >= MOST_KEPT) return this.say(say("keep.full"));
+    const free = [..."ABC"].find((letter) => kept.every(({ title }) => title !== say("keep.name", { letter })));
+    const named = { ...tree, title: tree.title || say("keep.name", { letter: free }) };
     this.store.design({ kept: [...kept, named] });
     this.store.view({ tab: "compare" });
-    return this.say(`“${nameOf(named)}” is kept. Change something now, and compare.`);
+    return this.say(say("keep.done", { name: nameOf(named) }));
   }
 
   openKept(i) {
@@ -119,27 +119,27 @@ export class Actions {
   }
 
   async copyLink() {
-    await this.copy(await this.link(), "The link");
+    await this.copy(await this.link(), say("copy.link"));
   }
 
   async copyCode(language) {
-    await this.attempt("This design cannot be written down", async () => {
+    await this.attempt(say("write.failed"), async () => {
       const written = await this.written();
-      await this.copy(written[language], language === "toml" ? "The TOML" : "The Python script");
+      await this.copy(written[language], language === "toml" ? say("copy.toml") : say("copy.python"));
     });
   }
 
   async copy(text, what) {
     try {
       await navigator.clipboard.writeText(text);
-      this.say(`${what} is copied.`);
+      this.say(say("copy.done", { what }));
     } catch {
       textDialog(what, text);
     }
   }
 
   async saveToml() {
-    await this.attempt("This design cannot be written down", async () => {
+    await this.attempt(say("write.failed"), async () => {
       const { toml } = await this.written();
       download(fileName(this.store.state.case, "toml"), toml, "application/toml");
     });
@@ -159,7 +159,7 @@ export class Actions {
   }
 
   async saveCsv(what) {
-    await this.attempt("The figures could not be saved", () => {
+    await this.attempt(say("csv.failed"), () => {
       const { tree, result } = this.answer;
       const units = this.units();
       const text = what === "curves" ? profilesCsv(result, units) : figuresCsv(this.answer, units);
@@ -178,7 +178,7 @@ export class Actions {
   }
 
   async saveDrawing(format) {
-    await this.attempt("The drawing could not be saved", async () => {
+    await this.attempt(say("drawing.failed"), async () => {
       const { tree } = this.drawnAnswer;
       const text = drawingSvg(this.drawnAnswer, { palette: paletteOf(LIGHT), units: this.units() });
       const content = format === "svg" ? new Blob([text], { type: "image/svg+xml" }) : await rasterOf(text);
@@ -188,7 +188,7 @@ export class Actions {
 
   /** The open chart as PNG, SVG or CSV. */
   async exportChart(format) {
-    await this.attempt("The chart could not be saved", async () => {
+    await this.attempt(say("chart.failed"), async () => {
       const view = this.tabs.open;
       const figure = view.isOld?.() ? null : view.figure(this.answer, paletteOf(LIGHT));
       const name = fileName(this.answer.tree, `${view.id}.${format.toLowerCase()}`);
@@ -199,7 +199,7 @@ export class Actions {
   }
 
   async report() {
-    await this.attempt("The report could not be made", async () => {
+    await this.attempt(say("report.failed"), async () => {
       const answer = this.drawnAnswer;
       const { hash } = await post("/api/case", answer.tree);
       const date = new Date().toISOString().slice(0, 10);

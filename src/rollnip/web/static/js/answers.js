@@ -67,10 +67,10 @@ function showMini(result, units) {
   const text = (key, dimension) => el("b", { text: units.text(result[key], dimension) });
   if (result.converged)
     bar.replaceChildren(
-      el("span", {}, "Nip ", text("nip_width", "length")),
-      el("span", {}, "Peak ", text("peak_pressure", "pressure")),
+      el("span", {}, say("mini.nip"), text("nip_width", "length")),
+      el("span", {}, say("mini.peak"), text("peak_pressure", "pressure")),
     );
-  else bar.replaceChildren(el("span", { class: "alarm", text: "NOT CONVERGED" }));
+  else bar.replaceChildren(el("span", { class: "alarm", text: say("mini.unsound") }));
 }
 
 function showFigures(all, units, known) {
@@ -110,9 +110,13 @@ function showWarnings(result) {
 }
 
 function showSolver({ solver, geometry }) {
-  const change = `${number(1000 * solver.seconds, 2)} ms, ${solver.elements} elements, residual ${number(solver.residual, 2)}`;
+  const change = say("solver.change", {
+    time: number(1000 * solver.seconds, 2),
+    elements: solver.elements,
+    residual: number(solver.residual, 2),
+  });
   byId("solver-line").textContent =
-    `Computed with rollnip ${solver.version}, geometry “${geometry}”: ${change}. `;
+    say("solver.line", { version: solver.version, geometry, change });
 }
 
 /** An alarm above everything: a title, sentences, and elements below them. */
@@ -143,10 +147,15 @@ export function unsoundAlarm({ solver }) {
 
 /** What a screen reader hears when an answer settles. */
 export function announce(result, units) {
-  const sound = result.converged ? "" : "Not converged. ";
+  const sound = result.converged ? "" : say("live.unsound");
   const warned = result.warnings.length
-    ? ` ${result.warnings.length} warning${result.warnings.length > 1 ? "s" : ""}.`
+    ? say(result.warnings.length > 1 ? "live.warnings" : "live.warning", { count: result.warnings.length })
     : "";
   byId("live").textContent =
-    `${sound}Nip width ${units.text(result.nip_width, "length")}, peak pressure ${units.text(result.peak_pressure, "pressure")}.${warned}`;
+    sound +
+    say("live.answer", {
+      nip: units.text(result.nip_width, "length"),
+      peak: units.text(result.peak_pressure, "pressure"),
+    }) +
+    warned;
 }

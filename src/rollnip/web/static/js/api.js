@@ -1,6 +1,7 @@
 // The server's answers; every failure becomes one ApiError with a sentence for people.
 
 import { placeInWords } from "./paths.js";
+import { say } from "./texts.js";
 
 /** What went wrong, with the places in the case it belongs to. */
 export class ApiError extends Error {
@@ -93,7 +94,7 @@ function pause(time, signal) {
 async function answer(response) {
   const tree = await response.json().catch(() => null);
   if (response.ok && tree !== null) return tree;
-  const said = tree?.error ?? `The server answered ${response.status}.`;
+  const said = tree?.error ?? say("server.status", { status: response.status });
   throw new ApiError(said, response.status, tree?.details ?? []);
 }
 

@@ -70,10 +70,10 @@ export class App extends Actions {
 
   views() {
     return [
-      new CurveView("pressure", "Pressure", this),
-      new CurveView("gap", "Gap", this),
-      new CurveView("strain", "Surface strain", this),
-      new CurveView("speed", "Surface speed", this),
+      new CurveView("pressure", say("tab.pressure"), this),
+      new CurveView("gap", say("tab.gap"), this),
+      new CurveView("strain", say("tab.strain"), this),
+      new CurveView("speed", say("tab.speed"), this),
       new InsideView(this),
       new WhatIfView(this),
       new FindView(this),
@@ -91,8 +91,8 @@ export class App extends Actions {
       byId(system).addEventListener("click", () => this.measure(system));
     byId("theme").addEventListener("click", () => this.theme.toggle());
     byId("open-examples").addEventListener("click", () => this.examples.showModal());
-    menu("open-share", "Save and share", shareItems(this));
-    menu("open-designs", "Designs", designItems(this));
+    menu("open-share", say("menu.share"), shareItems(this));
+    menu("open-designs", say("menu.designs"), designItems(this));
     const title = byId("design-title");
     title.addEventListener("change", () =>
       this.store.design({ case: setAt(this.store.state.case, "title", title.value.trim()) }),
@@ -160,7 +160,7 @@ export class App extends Actions {
   /** A state from outside: every case goes through the server's check first. */
   async restore(state) {
     const { case: tree, kept: others = [] } = state ?? {};
-    if (!tree || !Array.isArray(others)) throw new Error("it holds no design.");
+    if (!tree || !Array.isArray(others)) throw new Error(say("link.empty"));
     const first = await this.checked(tree);
     const read = await Promise.allSettled(others.slice(0, MOST_KEPT).map((one) => this.checked(one)));
     const kept = read.filter(({ status }) => status === "fulfilled").map(({ value }) => value);

@@ -1,5 +1,7 @@
 // Plotly: loaded once from the server itself, drawn in the colours of the theme.
 
+import { say } from "./texts.js";
+
 const SOURCE = "/static/plotly.min.js";
 const TYPE = "Inter, 'Segoe UI', system-ui, -apple-system, Roboto, sans-serif";
 const NARROW = 520; // px
@@ -13,7 +15,7 @@ export function plotly() {
     const script = document.createElement("script");
     script.src = SOURCE;
     script.addEventListener("load", () => resolve(globalThis.Plotly));
-    script.addEventListener("error", () => reject(new Error("The charts could not be loaded.")));
+    script.addEventListener("error", () => reject(new Error(say("chart.unloaded"))));
     document.head.append(script);
   });
   return loading;
@@ -24,7 +26,7 @@ export class Chart {
   constructor(node) {
     this.node = node;
     this.node.setAttribute("role", "img");
-    this.node.setAttribute("aria-label", "A chart that is not drawn yet");
+    this.node.setAttribute("aria-label", say("chart.undrawn"));
     this.figure = null;
     this.drawn = Promise.resolve();
     new ResizeObserver(() => this.fit()).observe(node);

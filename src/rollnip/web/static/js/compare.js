@@ -7,27 +7,28 @@ import { button, el, select } from "./dom.js";
 import { letter, overlay } from "./plots.js";
 import { ANSWERS, flat } from "./quantities.js";
 import { number } from "./units.js";
+import { say } from "./texts.js";
 
 export const MOST_KEPT = 3; // beside the design at hand
 const REFUSED = 422; // by the server: asking again would not help
 const SOUND = new Map([
-  [true, "yes"],
-  [false, "NO"],
-  [undefined, "no answer"],
+  [true, say("compare.yes")],
+  [false, say("compare.no")],
+  [undefined, say("compare.no-answer")],
 ]);
 const PROFILES = [
-  { key: "pressure", title: "Pressure", dimension: "pressure" },
-  { key: "shear", title: "Shear", dimension: "pressure" },
-  { key: "gap", title: "Gap", dimension: "length" },
-  { key: "strain_upper", title: "Strain of the upper surface", dimension: "share" },
-  { key: "strain_lower", title: "Strain of the lower surface", dimension: "share" },
+  { key: "pressure", title: say("tab.pressure"), dimension: "pressure" },
+  { key: "shear", title: say("compare.shear"), dimension: "pressure" },
+  { key: "gap", title: say("tab.gap"), dimension: "length" },
+  { key: "strain_upper", title: say("compare.strain-upper"), dimension: "share" },
+  { key: "strain_lower", title: say("compare.strain-lower"), dimension: "share" },
 ];
 
-/** The view "Compare". */
+/** The view say("tab.compare"). */
 export class CompareView {
   constructor(app) {
     this.id = "compare";
-    this.title = "Compare";
+    this.title = say("tab.compare");
     this.app = app;
     this.results = new Map();
     this.turn = 0;
@@ -38,11 +39,11 @@ export class CompareView {
       class: "scroll",
       tabindex: "0",
       role: "region",
-      "aria-label": "Table of the designs",
+      "aria-label": say("compare.table"),
     });
     this.empty = el("p", {
       class: "empty",
-      text: "Keep the design at hand, change it, and both stand here side by side. Up to four designs.",
+      text: say("compare.empty"),
     });
     this.node = el("div", {}, this.bar, this.empty, place, this.table);
   }
@@ -73,7 +74,7 @@ export class CompareView {
         this.results.set(key, await post(SOLVE, one));
       } catch (error) {
         if (error.status === REFUSED) this.results.set(key, null);
-        this.app.complain(`“${nameOf(one)}” cannot be solved: ${error.message}`);
+        this.app.complain(say("compare.unsolved", { name: nameOf(one), why: error.message }));
       }
     }
   }
@@ -91,17 +92,17 @@ export class CompareView {
       button(format, () => this.app.exportChart(format), {
         kind: "small",
         id: `compare-${format.toLowerCase()}`,
-        label: `Save this chart as ${format}`,
+        label: say("chart.save", { format }),
       }),
     );
     this.bar.replaceChildren(
-      button(full ? "Four designs is the most" : "Keep this design for comparison", () => this.app.keep(), {
+      button(full ? say("compare.full") : say("compare.keep"), () => this.app.keep(), {
         kind: "main",
         id: "keep",
         disabled: full,
       }),
       ...(kept.length
-        ? [select({ id: "compare-profile", label: "Curve", options, value: view.profile, act }), ...exports]
+        ? [select({ id: "compare-profile", label: say("compare.curve"), options, value: view.profile, act }), ...exports]
         : []),
     );
     if (focused) document.getElementById(focused)?.focus();
@@ -140,7 +141,7 @@ export class CompareView {
     const sound = el(
       "tr",
       {},
-      el("th", { scope: "row", text: "Converged" }),
+      el("th", { scope: "row", text: say("compare.converged") }),
       ...all.map((one) =>
         el("td", { class: one.converged ? null : "bad", text: SOUND.get(one.converged) }),
       ),
@@ -148,7 +149,7 @@ export class CompareView {
     return el(
       "table",
       { class: "compare" },
-      el("thead", {}, el("tr", {}, el("th", { scope: "col", text: "Figure" }), ...heads)),
+      el("thead", {}, el("tr", {}, el("th", { scope: "col", text: say("compare.figure") }), ...heads)),
       el("tbody", {}, ...body, sound),
     );
   }
@@ -158,15 +159,15 @@ export class CompareView {
     key.style.background = palette.designs[i];
     const isNow = i === this.designs.length - 1;
     const name = isNow ? `${nameOf(tree)} (at hand)` : nameOf(tree);
-    const open = button("Open", () => this.app.openKept(i), {
+    const open = button(say("compare.open"), () => this.app.openKept(i), {
       kind: "small",
       id: `kept-open-${i}`,
-      label: `Open ${name}`,
+      label: say("compare.open-one", { name }),
     });
-    const drop = button("Remove", () => this.app.dropKept(i), {
+    const drop = button(say("action.remove"), () => this.app.dropKept(i), {
       kind: "small",
       id: `kept-drop-${i}`,
-      label: `Remove ${name}`,
+      label: say("action.remove-one", { name }),
     });
     return el(
       "th",
@@ -194,9 +195,9 @@ function difference(value, first, dimension, units) {
   if (value === null || value === undefined || first === null || first === undefined) return "";
   const by = value - first;
   const sign = by > 0 ? "+" : "";
-  if (dimension === "share") return `${sign}${number(units.shown(by, dimension), 3)} points`;
+  if (dimension === "share") return say("compare.points", { change: `${sign}${number(units.shown(by, dimension), 3)}` });
   if (Math.abs(first) < 1e-9) return "";
   const percent = (100 * by) / Math.abs(first);
-  if (percent > 1000) return `${number(value / first, 3)} times`;
-  return Math.abs(percent) < 0.005 ? "same" : `${sign}${number(percent, 3)} %`;
+  if (percent > 1000) return say("compare.times", { factor: number(value / first, 3) });
+  return Math.abs(percent) < 0.005 ? say("compare.same") : `${sign}${number(percent, 3)} %`;
 }

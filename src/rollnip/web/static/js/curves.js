@@ -3,14 +3,15 @@
 import { Chart } from "./charts.js";
 import { button, el } from "./dom.js";
 import { PLOTS } from "./plots.js";
+import { say } from "./texts.js";
 
 const FEET = {
   pressure:
-    "Shear is the force along the surface. Where it reaches the traction bound, the surfaces slip; elsewhere they stick.",
-  gap: "Distance of the deformed surfaces; zero in the nip.",
+    say("foot.pressure"),
+  gap: say("foot.gap"),
   strain:
-    "How much each surface is stretched (positive) or squeezed along the nip. Steep peaks stand beside slipping edges.",
-  speed: "Speed of a point of each surface as it passes the nip. Where the surfaces stick, both are equal.",
+    say("foot.strain"),
+  speed: say("foot.speed"),
 };
 
 /** The view of a curve: "pressure", "gap", "strain" or "speed". */
@@ -21,13 +22,13 @@ export class CurveView {
     this.app = app;
     const place = el("div", { class: "chart", id: `chart-${id}` });
     this.chart = new Chart(place);
-    this.none = el("p", { class: "empty", text: "Speeds of the surfaces need a speed and friction." });
+    this.none = el("p", { class: "empty", text: say("foot.no-speed") });
     this.none.hidden = true;
     const exports = ["PNG", "SVG", "CSV"].map((format) =>
       button(format, () => app.exportChart(format), {
         kind: "small",
         id: `${id}-${format.toLowerCase()}`,
-        label: `Save this chart as ${format}`,
+        label: say("chart.save", { format }),
       }),
     );
     const foot = el(

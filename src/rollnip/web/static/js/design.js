@@ -1,6 +1,7 @@
 // What a design is: the tree of a case file with plain numbers (mm, N, MPa, s). Pure functions.
 
 import { getAt, setAt, steps } from "./paths.js";
+import { say } from "./texts.js";
 
 export const RIGID = "rigid";
 export const PLANE = "inf";
@@ -170,7 +171,7 @@ export function withLayers(tree, side, act) {
 
 /** A name for a design nobody named. */
 export function nameOf(tree) {
-  return tree.title || "Untitled design";
+  return tree.title || say("design.untitled");
 }
 
 /** A viscoelastic material needs a speed; so does a loss. */

@@ -2,6 +2,7 @@
 
 import { svg } from "./dom.js";
 import { toneOf } from "./palette.js";
+import { say } from "./texts.js";
 
 const TYPE = "Inter, 'Segoe UI', system-ui, sans-serif";
 const MARGIN = 16;
@@ -49,11 +50,15 @@ export function pairPicture(tree, nip, zoom, { width, height, palette, units }) 
 function describe(tree, units) {
   const one = (side) => {
     const { radius, layers } = tree[side];
-    const size = radius === "inf" ? "a plane" : `${units.text(2 * radius, "length")} in diameter`;
+    const size = radius === "inf" ? say("body.plane") : say("drawing.diameter", { size: units.text(2 * radius, "length") });
     const covers = layers.map((layer) => units.text(layer.thickness, "length"));
-    return `${side} roller ${size}, ${covers.length ? `layers of ${covers.join(", ")}` : "bare"}`;
+    return say("drawing.roller", {
+      side: say(`side.${side}`),
+      size,
+      covers: covers.length ? say("drawing.layers", { layers: covers.join(", ") }) : say("drawing.bare"),
+    });
   };
-  return `Drawing to scale: ${one("upper")}; ${one("lower")}.`;
+  return say("drawing.label", { upper: one("upper"), lower: one("lower") });
 }
 
 /** Scale [px/mm] and the place of the nip in the picture. */
@@ -121,7 +126,7 @@ function turns(tree, nip, frame, palette) {
         : Math.max(0.15, 1 - tree[side].layers.reduce((sum, layer) => sum + layer.thickness, 0) / radius);
     const r = 0.62 * bare * size * frame.scale;
     if (r > 15) found.push(arc(frame.x, cy, r, up, palette));
-    if (r > 22) found.push(words(frame.x, cy + 4, side, { fill: palette.ink, size: r > 30 ? 12.5 : 11 }));
+    if (r > 22) found.push(words(frame.x, cy + 4, say(`place.${side}`), { fill: palette.ink, size: r > 30 ? 12.5 : 11 }));
   }
   return found;
 }

@@ -3,6 +3,7 @@
 import { el } from "./dom.js";
 import { pairPicture } from "./drawing.js";
 import { sectionPicture, windowOf } from "./section.js";
+import { say } from "./texts.js";
 
 const SHAPES = { pair: 1.6, nip: 0.9 }; // height over width
 const TALLEST = 300;
@@ -14,12 +15,12 @@ export class Drawings {
     this.pair = el("div");
     this.nip = el("div");
     place.replaceChildren(
-      el("figure", { class: "whole" }, this.pair, el("figcaption", { text: "The pair, to scale" })),
+      el("figure", { class: "whole" }, this.pair, el("figcaption", { text: say("drawing.pair") })),
       el(
         "figure",
         { class: "zoom" },
         this.nip,
-        el("figcaption", { text: "The nip, to scale; surfaces as computed" }),
+        el("figcaption", { text: say("drawing.nip") }),
       ),
     );
     new ResizeObserver(() => this.shown && this.show(this.shown)).observe(place);

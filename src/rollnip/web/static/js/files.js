@@ -8,17 +8,18 @@ import { bandOf } from "./known.js";
 import { getAt } from "./paths.js";
 import { ANSWERS, flat, inputsOf, totalsOf } from "./quantities.js";
 import { sectionPicture, windowOf } from "./section.js";
+import { say } from "./texts.js";
 
 const PROFILES = [
   ["x", "x", "length"],
-  ["pressure", "pressure", "pressure"],
-  ["shear", "shear", "pressure"],
-  ["gap", "gap", "length"],
-  ["slip velocity", "slip_velocity", "speed"],
-  ["strain upper", "strain_upper", "share"],
-  ["strain lower", "strain_lower", "share"],
-  ["speed upper", "speed_upper", "speed"],
-  ["speed lower", "speed_lower", "speed"],
+  [say("curve.pressure"), "pressure", "pressure"],
+  [say("curve.shear"), "shear", "pressure"],
+  [say("curve.gap"), "gap", "length"],
+  [say("csv.slip"), "slip_velocity", "speed"],
+  [say("csv.strain-upper"), "strain_upper", "share"],
+  [say("csv.strain-lower"), "strain_lower", "share"],
+  [say("csv.speed-upper"), "speed_upper", "speed"],
+  [say("csv.speed-lower"), "speed_lower", "speed"],
 ];
 
 /** Give a text or blob to the user as a file. */
@@ -63,17 +64,17 @@ export function figuresCsv({ tree, result, known }, units) {
   const totals = totalsOf(all, units.system).map(({ label, text, unit }) => [label, text, unit]);
   const inputs = inputsOf(tree).map(({ path, label, dimension, factor }) => {
     const value = units.shown(getAt(tree, path) * factor, dimension);
-    return [`Input: ${label}`, plainNumber(value), units.of(dimension).name];
+    return [say("csv.input", { label }), plainNumber(value), units.of(dimension).name];
   });
-  const warnings = result.warnings.map((text, i) => [`Warning ${i + 1}`, text]);
+  const warnings = result.warnings.map((text, i) => [say("csv.warning", { number: i + 1 }), text]);
   return table(
     [
-      ["figure", "value", "unit", "estimated numerical error", "low (material)", "high (material)"],
+      [say("csv.figure"), say("csv.value"), say("csv.unit"), say("csv.error"), say("csv.low"), say("csv.high")],
       ...rows,
       ...totals,
-      ["converged", String(result.converged)],
-      ["Geometry", result.geometry],
-      ["Design", nameOf(tree)],
+      [say("csv.converged"), String(result.converged)],
+      [say("csv.geometry"), result.geometry],
+      [say("csv.design"), nameOf(tree)],
       ...inputs,
       ...warnings,
     ].map((row) => [...row, ...Array(6 - row.length).fill("")]),
@@ -86,7 +87,7 @@ export function chartCsv(figure) {
   const rows = lines.flatMap((one) =>
     one.x.map((x, i) => [one.name, plainNumber(x), plainNumber(one.y[i])]),
   );
-  return table([["curve", figure.layout.xaxis.title.text, figure.layout.yaxis.title.text], ...rows]);
+  return table([[say("csv.curve"), figure.layout.xaxis.title.text, figure.layout.yaxis.title.text], ...rows]);
 }
 
 /** Rows of numbers and texts as CSV. */
@@ -133,7 +134,7 @@ export function drawingSvg({ tree, result, surfaces }, look) {
     "font-family": "sans-serif",
   });
   whole.append(svg("rect", { width, height, fill: look.palette.ground }));
-  const sound = result.converged ? "" : "NOT CONVERGED: ";
+  const sound = result.converged ? "" : say("drawing.unsound");
   whole.append(
     words(12, 23, sound + nameOf(tree), {
       anchor: "start",

@@ -8,18 +8,19 @@ import { flat, inputsOf } from "./quantities.js";
 import { RangeBoxes } from "./ranges.js";
 import { typable } from "./units.js";
 import { answersOf } from "./whatif.js";
+import { inText, say } from "./texts.js";
 
-const CHANGED = "The design has changed meanwhile; find the value again.";
+const CHANGED = say("find.changed");
 const SPAN = 30; // the search reaches from a thirtieth to thirty times the present value
 
-/** The view "Find". */
+/** The view say("find.go"). */
 export class FindView {
   constructor(app) {
     this.id = "find";
-    this.title = "Find a value";
+    this.title = say("tab.find");
     this.app = app;
     this.told = null; // {tree, input} of the question that was answered
-    this.asks = el("form", { class: "ask", "aria-label": "Find a value" });
+    this.asks = el("form", { class: "ask", "aria-label": say("tab.find") });
     this.asks.addEventListener("submit", (event) => {
       event.preventDefault();
       this.search();
@@ -74,14 +75,14 @@ export class FindView {
     this.asks.replaceChildren(
       select({
         id: "find-path",
-        label: "Which value of",
+        label: say("find.which"),
         options: inputs.map((one) => [one.path, one.label]),
         value: this.input.path,
         act: (value) => put({ path: value }),
       }),
       select({
         id: "find-answer",
-        label: "gives",
+        label: say("find.gives"),
         options: answers.map((one) => [one.key, one.label]),
         value: this.asked.key,
         act: (value) => put({ answer: value }),
@@ -89,11 +90,11 @@ export class FindView {
       el(
         "div",
         { class: "field" },
-        el("label", { for: "find-wanted", text: unit ? `of [${unit}]` : "of" }),
+        el("label", { for: "find-wanted", text: say("find.of") + (unit ? ` [${unit}]` : "") }),
         this.wanted,
       ),
       ...this.within.nodes,
-      el("button", { type: "submit", class: "button main", id: "find-go", text: "Find" }),
+      el("button", { type: "submit", class: "button main", id: "find-go", text: say("find.go") }),
     );
     this.said.replaceChildren();
     if (focused) document.getElementById(focused)?.focus();
@@ -105,7 +106,7 @@ export class FindView {
     this.abort?.abort();
     const abort = new AbortController();
     this.abort = abort;
-    this.said.replaceChildren(el("p", { class: "hint", text: "Searching …" }));
+    this.said.replaceChildren(el("p", { class: "hint", text: say("find.busy") }));
     try {
       const wanted = await this.read();
       const found = await post(
@@ -142,7 +143,7 @@ export class FindView {
     const units = this.app.units();
     const { name } = units.of(dimension);
     const isRead = units.isRead(dimension);
-    if (!isRead && !bare) throw new Error(`Must be a plain number, of ${name}.`);
+    if (!isRead && !bare) throw new Error(say("find.plain", { unit: name }));
     const question = isRead ? questionOf(text, dimension, units) : { text, dimension: "ratio" };
     const { value } = await post("/api/quantity", question);
     return isRead ? value : units.base(value, dimension);
@@ -163,16 +164,19 @@ export class FindView {
       return;
     }
     const place = (value) => units.text(value * input.factor, input.dimension);
-    const others = found.others.length ? ` So does ${found.others.map(place).join(", and ")}.` : "";
+    const others = found.others.length ? say("find.others", { others: found.others.map(place).join(say("find.and")) }) : "";
     this.said.replaceChildren(
       el(
         "div",
         { class: "found" },
         el("b", { text: `${input.label}: ${place(found.value)}` }),
         el("p", {
-          text: `gives ${asked.label.toLowerCase()} ${units.text(found.result[asked.key] ?? wanted, asked.dimension)}.${others}`,
+          text: say("find.found", {
+            answer: inText(asked.label),
+            value: units.text(found.result[asked.key] ?? wanted, asked.dimension),
+          }) + others,
         }),
-        button("Use this value", () => this.use(found.value), { kind: "main", id: "find-use" }),
+        button(say("find.use"), () => this.use(found.value), { kind: "main", id: "find-use" }),
       ),
     );
   }
@@ -188,10 +192,10 @@ function outOfReach({ points, wanted }, input, asked, units) {
   );
   const [low, high, aim] = [least, most, wanted].map((y) => units.text(y, asked.dimension));
   if (low === high)
-    return `${input.label}: has no influence; from ${from} to ${to} the ${asked.label.toLowerCase()} is ${low}.`;
+    return say("find.flat", { input: input.label, from, to, answer: inText(asked.label), low });
   const lost = points.length - solved.length;
-  const unsolved = lost ? ` ${lost} of ${points.length} values tried have no answer.` : "";
-  return `${input.label}: nothing from ${from} to ${to} gives ${asked.label.toLowerCase()} ${aim}; it goes from ${low} to ${high} there.${unsolved}`;
+  const unsolved = lost ? say("find.unsolved", { lost, count: points.length }) : "";
+  return say("find.out", { input: input.label, from, to, answer: inText(asked.label), aim, low, high }) + unsolved;
 }
 
 function range({ low, high, log, factor }, now) {

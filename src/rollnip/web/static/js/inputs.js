@@ -6,19 +6,20 @@ import { Control } from "./control.js";
 import { idOf, setAt } from "./paths.js";
 import { choosePress, pressControls, pressKind, pressKinds } from "./press.js";
 import { coreEditor, rollerGroup, swapper } from "./rollers.js";
+import { say } from "./texts.js";
 
 const GEOMETRIES = [
-  ["finite", "Finite strain (most exact)"],
-  ["curved", "Curved layers"],
-  ["corrected", "Flat layers, true gap"],
-  ["linear", "Linear theory"],
+  ["finite", say("geometries.finite")],
+  ["curved", say("geometry.curved")],
+  ["corrected", say("geometry.corrected")],
+  ["linear", say("geometry.linear")],
 ];
 const DRIVES = [
-  ["free", "Rolls free (no traction)"],
-  ["idler", "Lower roller is an idler"],
-  ["traction", "Given traction"],
-  ["creepage", "Given creepage (gears)"],
-  ["torque", "Given torque on the lower roller"],
+  ["free", say("drives.free")],
+  ["idler", say("drives.idler")],
+  ["traction", say("drives.traction")],
+  ["creepage", say("drives.creepage")],
+  ["torque", say("drives.torque")],
 ];
 
 /** The panel of inputs inside `place`. */
@@ -99,8 +100,8 @@ export class Inputs {
   pressingGroup() {
     const kind = pressKind(this.app);
     return group(
-      "Pressed together",
-      choices("press", "Pressed by", pressKinds(), kind, (value) => choosePress(this.app, value)),
+      say("group.press"),
+      choices("press", say("press.by"), pressKinds(), kind, (value) => choosePress(this.app, value)),
       ...pressControls(kind, this),
     );
   }
@@ -111,9 +112,9 @@ export class Inputs {
     const options = DRIVES.filter(([value]) => value !== "torque" || kind === "torque");
     const choose = (value) => this.change(driveBy(this.app.store.state.case, value, this.app.result()));
     return group(
-      "Running",
+      say("group.run"),
       tree.nip.speed === undefined ? this.addSpeed() : this.control("nip.speed"),
-      select({ id: "in-drive", label: "Drive", options, value: kind, act: choose }),
+      select({ id: "in-drive", label: say("drive.label"), options, value: kind, act: choose }),
       own ? this.control(own) : null,
       this.control("nip.friction"),
     );
@@ -125,7 +126,7 @@ export class Inputs {
       type: "button",
       class: "button",
       id: "add-speed",
-      text: "Give a speed",
+      text: say("speed.give"),
       on: { click: act },
     });
   }
@@ -137,20 +138,20 @@ export class Inputs {
     const hasWidth = tree.nip.face_width !== undefined;
     const isWhole = ["force", "cylinders"].includes(pressKind(this.app));
     const note =
-      "How exactly strains and the shape of the gap are taken. While a slider moves, finite strain gives way to the faster curved layers.";
+      say("geometry.note");
     return this.fold(
       "advanced",
-      "Advanced",
+      say("group.advanced"),
       [
         select({
           id: "in-geometry",
-          label: "Model of the geometry",
+          label: say("geometry.label"),
           options: GEOMETRIES,
           value: tree.model.geometry,
           act: geometry,
         }),
         el("p", { class: "note", text: note }),
-        isWhole ? null : checkbox("in-has-width", "Totals over the face width", hasWidth, width),
+        isWhole ? null : checkbox("in-has-width", say("face.totals"), hasWidth, width),
         hasWidth && !isWhole ? this.control("nip.face_width") : null,
         ...["upper", "lower"].flatMap((side) => [coreEditor(side, tree, this), this.planeBox(side, tree)]),
       ],
@@ -164,7 +165,7 @@ export class Inputs {
     if (tree[other].radius === "inf") return null;
     return checkbox(
       `in-${side}-plane`,
-      `The ${side} body is a plane, not a roller`,
+      say("body.is-plane", { side: say(`side.${side}`) }),
       tree[side].radius === "inf",
       act,
     );

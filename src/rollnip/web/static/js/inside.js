@@ -9,21 +9,21 @@ import { say } from "./texts.js";
 
 const POINTS = { nx: 120, nz: 40 };
 const FIELDS = [
-  { key: "mises", title: "von Mises stress", dimension: "pressure" },
-  { key: "max_shear", title: "largest shear stress", dimension: "pressure" },
-  { key: "s_zz", title: "stress across (radial)", dimension: "pressure", signed: true },
-  { key: "s_xx", title: "stress along (hoop)", dimension: "pressure", signed: true },
-  { key: "s_xz", title: "shear stress", dimension: "pressure", signed: true },
-  { key: "u_x", title: "displacement along", dimension: "length", signed: true },
-  { key: "u_z", title: "displacement inwards", dimension: "length", signed: true },
-  { key: "loss", title: "heat made", dimension: null },
+  { key: "mises", title: say("field.mises"), dimension: "pressure" },
+  { key: "max_shear", title: say("field.max-shear"), dimension: "pressure" },
+  { key: "s_zz", title: say("field.s-zz"), dimension: "pressure", signed: true },
+  { key: "s_xx", title: say("field.s-xx"), dimension: "pressure", signed: true },
+  { key: "s_xz", title: say("field.s-xz"), dimension: "pressure", signed: true },
+  { key: "u_x", title: say("field.u-x"), dimension: "length", signed: true },
+  { key: "u_z", title: say("field.u-z"), dimension: "length", signed: true },
+  { key: "loss", title: say("field.loss"), dimension: null },
 ];
 
-/** The view "Inside". */
+/** The view say("tab.inside"). */
 export class InsideView {
   constructor(app) {
     this.id = "inside";
-    this.title = "Inside";
+    this.title = say("tab.inside");
     this.app = app;
     const place = el("div", { class: "chart", id: "chart-inside" });
     this.chart = new Chart(place);
@@ -33,11 +33,11 @@ export class InsideView {
       button(format, () => app.exportChart(format), {
         kind: "small",
         id: `inside-${format.toLowerCase()}`,
-        label: `Save this chart as ${format}`,
+        label: say("chart.save", { format }),
       }),
     );
     const hint =
-      "Colours show the inside of one covering, stretched to fill the picture; thin lines are interfaces, the thick one is the nip.";
+      say("inside.hint");
     const foot = el(
       "div",
       { class: "chart-foot" },
@@ -74,7 +74,7 @@ export class InsideView {
   /** Asks for the field of a settled design, once; draws it in the units and colours of now. */
   async show({ tree, result, state }) {
     const sides = ["upper", "lower"].filter((side) => tree[side].layers.length || tree[side].core);
-    if (sides.length === 0) return this.say("Both bodies are rigid: there is nothing inside to show.");
+    if (sides.length === 0) return this.say(say("inside.rigid"));
     const view = this.app.store.state.view.inside;
     const roller = sides.includes(view.roller) ? view.roller : sides[0];
     if (state === "preview") return undefined;
@@ -129,15 +129,15 @@ export class InsideView {
     this.asks.replaceChildren(
       select({
         id: "inside-field",
-        label: "Show",
+        label: say("inside.show"),
         options: there.map((one) => [one.key, one.title]),
         value: chosen.key,
         act: (value) => put({ field: value }),
       }),
       select({
         id: "inside-roller",
-        label: "Inside of",
-        options: sides.map((side) => [side, `${side} roller`]),
+        label: say("inside.of"),
+        options: sides.map((side) => [side, say(`roller.${side}`)]),
         value: roller,
         act: (value) => put({ roller: value }),
       }),
@@ -175,14 +175,14 @@ function contours({ field, chosen, roller, result }, units, palette) {
     contours: { coloring: "fill", showlines: true },
     line: { width: 0.5, color: `${palette.ink}55` },
     colorbar: bar,
-    hovertemplate: `at %{x:.3~g} ${length}, depth %{y:.3~g} ${length}: %{z:.3~g} ${unit}<extra></extra>`,
+    hovertemplate: say("inside.hover", { length, unit }),
   };
   const edges = units.list([result.contact[0][0], result.contact[result.contact.length - 1][1]], "length");
-  const nip = line("nip", edges, [0, 0], palette.ink, { width: 5, showlegend: false, hoverinfo: "skip" });
+  const nip = line(say("inside.nip"), edges, [0, 0], palette.ink, { width: 5, showlegend: false, hoverinfo: "skip" });
   const layout = layoutOf(
     palette,
-    `${titled("Place along the nip", length)}, outlet left, inlet right`,
-    titled("Depth", length),
+    `${titled(say("axis.along"), length)}, outlet left, inlet right`,
+    titled(say("inside.depth"), length),
     {
       yaxis: { autorange: roller === "lower" ? "reversed" : true, zeroline: false },
       shapes: (field.interfaces ?? []).map((depth) => interfaceLine(units.shown(depth, "length"), palette)),
@@ -192,7 +192,7 @@ function contours({ field, chosen, roller, result }, units, palette) {
   return {
     data: [map, nip],
     layout,
-    label: `Contours of the ${chosen.title} inside the ${roller} roller.`,
+    label: say("inside.label", { field: chosen.title, side: say(`side.${roller}`) }),
   };
 }
 

@@ -4,11 +4,18 @@ import { get, onOutage } from "./api.js";
 import { App } from "./app.js";
 import { byId, el } from "./dom.js";
 import { alarm, clearAlarm } from "./answers.js";
-import { say } from "./texts.js";
+import { remember } from "./saved.js";
+import { LANGUAGE, fillPage, say } from "./texts.js";
 
 const PICKED = ".toml,.json,application/toml,application/json,text/plain";
 
 async function start() {
+  fillPage();
+  document.title = say("app.page");
+  byId("language").addEventListener("click", () => {
+    remember("language", LANGUAGE === "de" ? "en" : "de");
+    location.reload();
+  });
   onOutage((yes) => (yes ? alarm(say("outage.title"), [say("outage.text")]) : clearAlarm()));
   const [units, materials, hardness, examples] = await Promise.all([
     get("/api/units"),
@@ -22,7 +29,7 @@ async function start() {
     id: "file",
     accept: PICKED,
     hidden: true,
-    "aria-label": "Case file",
+    "aria-label": say("file.case"),
   });
   file.addEventListener("change", () => {
     if (file.files[0]) app.loadFile(file.files[0]);
@@ -35,5 +42,5 @@ async function start() {
 
 start().catch((error) => {
   byId("big").textContent = "–";
-  alarm("The page could not start", [error.message]);
+  alarm(say("start.failed"), [error.message]);
 });

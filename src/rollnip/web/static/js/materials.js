@@ -8,12 +8,12 @@ import { getAt, idOf, setAt } from "./paths.js";
 import { say } from "./texts.js";
 
 const MODELS = [
-  ["shore", "Rubber by hardness (Shore A)"],
-  ["elastic", "Elastic, by modulus"],
-  ["standard-linear-solid", "Viscoelastic: one relaxation time"],
-  ["prony", "Viscoelastic: Prony series"],
-  ["fractional-zener", "Viscoelastic: broad (fractional Zener)"],
-  ["loss-factor", "Constant loss factor"],
+  ["shore", say("material.shore")],
+  ["elastic", say("material.elastic")],
+  ["standard-linear-solid", say("material.sls")],
+  ["prony", say("material.prony")],
+  ["fractional-zener", say("material.zener")],
+  ["loss-factor", say("material.loss-factor")],
 ];
 const NUMBERS = {
   shore: ["shore_a"],
@@ -41,7 +41,7 @@ export function materialEditor(path, panel) {
     choice.node,
     ...numbers(kind, material).map((name) => panel.control(`${path}.${name}`)),
     kind === "prony" ? terms(path, material, panel) : null,
-    panel.fold(`${idOf(path)}-more`, "More about this material", [
+    panel.fold(`${idOf(path)}-more`, say("material.more"), [
       choice.note,
       ...more(path, material, panel),
     ]),
@@ -65,8 +65,8 @@ class Choice {
     const families = this.app.families.map(({ name, title }) => [FAMILY + name, title]);
     const groups = [
       { group: say("material.coverings"), options: families },
-      { group: "Own material", options: MODELS },
-      { group: "Library", options: library },
+      { group: say("material.own"), options: MODELS },
+      { group: say("material.library"), options: library },
     ];
     const act = (value) => {
       const { store } = this.app;
@@ -75,7 +75,7 @@ class Choice {
       store.state = { ...store.state, view: { ...store.state.view, families } };
       put(panel, path, this.chosen(value));
     };
-    this.node = select({ id: `${idOf(path)}-kind`, label: "Material", options: groups, value: "", act });
+    this.node = select({ id: `${idOf(path)}-kind`, label: say("material.label"), options: groups, value: "", act });
     this.note = el("p", { class: "note" });
     this.refresh(this.app.store.state.case);
   }
@@ -140,10 +140,10 @@ function terms(path, material, panel) {
         `${path}.terms`,
         material.terms.filter((_one, j) => j !== i),
       );
-    const label = `Remove term ${i + 1}`;
+    const label = say("material.remove-term", { number: i + 1 });
     return el(
       "div",
-      { class: "term", role: "group", "aria-label": `Term ${i + 1}` },
+      { class: "term", role: "group", "aria-label": say("material.term", { number: i + 1 }) },
       panel.control(`${path}.terms[${i}].modulus`),
       button(icon("remove"), drop, {
         kind: "icon",
@@ -160,7 +160,7 @@ function terms(path, material, panel) {
     "div",
     { class: "inner" },
     ...rows,
-    button("Add a term", add, { kind: "small", id: `${idOf(path)}-add-term` }),
+    button(say("material.add-term"), add, { kind: "small", id: `${idOf(path)}-add-term` }),
   );
 }
 
@@ -176,9 +176,9 @@ function more(path, material, panel) {
 
 function shiftEditor(path, material, panel) {
   const options = [
-    ["none", "Data hold as they are"],
-    ["wlf", "Shift with temperature: WLF"],
-    ["arrhenius", "Shift with temperature: Arrhenius"],
+    ["none", say("shift.none")],
+    ["wlf", say("shift.wlf")],
+    ["arrhenius", say("shift.arrhenius")],
   ];
   const act = (kind) => {
     const shift = SHIFTS[kind];
@@ -187,7 +187,7 @@ function shiftEditor(path, material, panel) {
   };
   return select({
     id: `${idOf(path)}-shift`,
-    label: "Temperature",
+    label: say("input.temperature"),
     options,
     value: material.shift?.model ?? "none",
     act,

@@ -7,8 +7,8 @@ import { removeDesign, savedDesigns } from "./saved.js";
 import { say } from "./texts.js";
 
 const GROUPS = [
-  ["typical", "Typical nips"],
-  ["paper", "From the literature: Braat and Kalker (1993)"],
+  ["typical", say("examples.typical")],
+  ["paper", say("examples.paper")],
 ];
 
 /** A button of the header that opens a menu; `items` gives its elements anew each time. */
@@ -60,45 +60,45 @@ export function item(text, act, close, id = null) {
 /** What the menu "Save & share" holds. */
 export function shareItems(app) {
   return (close) => [
-    el("h3", { text: "Share" }),
-    item("Copy a link to this page", () => app.copyLink(), close, "copy-link"),
-    item("Print a one-page report", () => app.report(), close, "print-report"),
-    el("h3", { text: "Case file" }),
-    item("Save as TOML", () => app.saveToml(), close, "save-toml"),
-    item("Open a TOML file …", () => byId("file").click(), close, "load-toml"),
-    item("Copy as TOML", () => app.copyCode("toml"), close, "copy-toml"),
-    item("Copy as Python", () => app.copyCode("python"), close, "copy-python"),
-    el("h3", { text: "Data and pictures" }),
-    item("Curves as CSV", () => app.saveCsv("curves"), close, "csv-curves"),
-    item("Key figures as CSV", () => app.saveCsv("figures"), close, "csv-figures"),
+    el("h3", { text: say("share.title") }),
+    item(say("share.link"), () => app.copyLink(), close, "copy-link"),
+    item(say("share.report"), () => app.report(), close, "print-report"),
+    el("h3", { text: say("file.case") }),
+    item(say("share.save-toml"), () => app.saveToml(), close, "save-toml"),
+    item(say("share.load-toml"), () => byId("file").click(), close, "load-toml"),
+    item(say("share.copy-toml"), () => app.copyCode("toml"), close, "copy-toml"),
+    item(say("share.copy-python"), () => app.copyCode("python"), close, "copy-python"),
+    el("h3", { text: say("share.data") }),
+    item(say("share.curves"), () => app.saveCsv("curves"), close, "csv-curves"),
+    item(say("share.figures"), () => app.saveCsv("figures"), close, "csv-figures"),
     item(say("json.item"), () => app.saveJson(), close, "save-json"),
-    item("Drawing as SVG", () => app.saveDrawing("svg"), close, "drawing-svg"),
-    item("Drawing as PNG", () => app.saveDrawing("png"), close, "drawing-png"),
+    item(say("share.svg"), () => app.saveDrawing("svg"), close, "drawing-svg"),
+    item(say("share.png"), () => app.saveDrawing("png"), close, "drawing-png"),
   ];
 }
 
-/** What the menu "Designs" holds. */
+/** What the menu say("menu.designs") holds. */
 export function designItems(app) {
   return (close) => {
     const rows = savedDesigns().map(({ name, case: tree }, i) => {
       const forget = () => {
         removeDesign(name);
         close();
-        app.say(`“${name}” was removed.`);
+        app.say(say("designs.removed", { name }));
       };
       return el(
         "div",
         { class: "saved" },
         item(name, () => app.open(tree), close, `saved-${i}`),
-        button(icon("remove"), forget, { kind: "icon", label: `Remove ${name}`, id: `forget-${i}` }),
+        button(icon("remove"), forget, { kind: "icon", label: say("action.remove-one", { name }), id: `forget-${i}` }),
       );
     });
-    const none = el("p", { class: "hint", text: "Nothing saved in this browser yet." });
+    const none = el("p", { class: "hint", text: say("designs.none") });
     return [
-      item(`Save “${nameOf(app.store.state.case)}”`, () => app.save(), close, "save-design"),
-      item("Keep for comparison", () => app.keep(), close, "keep-design"),
-      item("Start anew", () => app.startAnew(), close, "start-anew"),
-      el("h3", { text: "Saved in this browser" }),
+      item(say("designs.save", { name: nameOf(app.store.state.case) }), () => app.save(), close, "save-design"),
+      item(say("designs.keep"), () => app.keep(), close, "keep-design"),
+      item(say("designs.anew"), () => app.startAnew(), close, "start-anew"),
+      el("h3", { text: say("designs.saved") }),
       ...(rows.length ? rows : [none]),
       el("h3", { text: say("project.title") }),
       item(say("project.save"), () => app.saveProject(), close, "save-project"),
@@ -110,7 +110,7 @@ export function designItems(app) {
 /** The dialog of examples; a click opens one. */
 export function examplesDialog(examples, choose) {
   const dialog = el("dialog", { id: "examples", "aria-labelledby": "examples-title" });
-  const close = button("Close", () => dialog.close(), { id: "examples-close" });
+  const close = button(say("action.close"), () => dialog.close(), { id: "examples-close" });
   const pick = (example) => () => {
     dialog.close();
     choose(example);
@@ -131,7 +131,7 @@ export function examplesDialog(examples, choose) {
     el("div", { class: "tiles" }, ...list.map(tile)),
   ]);
   dialog.append(
-    el("header", {}, el("h2", { id: "examples-title", text: "Examples" }), close),
+    el("header", {}, el("h2", { id: "examples-title", text: say("menu.examples") }), close),
     el("div", { class: "body" }, ...body),
   );
   document.body.append(dialog);
@@ -143,7 +143,7 @@ export function textDialog(title, text) {
   const area = el("textarea", { rows: 18, readonly: true, "aria-label": title });
   area.value = text;
   const dialog = el("dialog", { "aria-label": title });
-  const close = button("Close", () => dialog.close());
+  const close = button(say("action.close"), () => dialog.close());
   dialog.append(el("header", {}, el("h2", { text: title }), close), el("div", { class: "body" }, area));
   dialog.addEventListener("close", () => dialog.remove());
   document.body.append(dialog);

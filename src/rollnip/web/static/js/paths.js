@@ -1,5 +1,7 @@
 // Places in a case: "upper.layers[0].material.shore_a". Trees are never changed, only copied.
 
+import { say } from "./texts.js";
+
 /** The steps of a path: ["upper", "layers", 0, "material", "shore_a"]. */
 export function steps(path) {
   const found = path.match(/[^.[\]]+/g) ?? [];
@@ -38,10 +40,11 @@ export function placeInWords(path) {
   const parts = steps(path ?? "").filter((step) => step !== "nip" && step !== "model");
   const words = parts.map((step, i) => {
     if (typeof step === "number") return null;
-    if (step === "upper" || step === "lower") return `${step} roller`;
-    if (step === "radius") return "diameter";
+    if (step === "upper" || step === "lower") return say(`roller.${step}`);
+    if (step === "radius") return say("path.diameter");
     const next = parts[i + 1];
-    return typeof next === "number" ? `${step.replace(/s$/, "")} ${next + 1}` : step.replace(/_/g, " ");
+    if (typeof next === "number") return say("path.numbered", { name: step.replace(/s$/, ""), number: next + 1 });
+    return step.replace(/_/g, " ");
   });
   const text = words.filter(Boolean).join(", ");
   return text ? `${text.charAt(0).toUpperCase()}${text.slice(1)}: ` : "";

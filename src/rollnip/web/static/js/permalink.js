@@ -1,5 +1,7 @@
 // The whole state in the part of the address after #, packed.
 
+import { say } from "./texts.js";
+
 const KEY = "s=";
 
 /** The state as an address of this page. */
@@ -14,7 +16,7 @@ export async function stateIn(hash) {
   try {
     return JSON.parse(await unpack(text.slice(KEY.length)));
   } catch {
-    throw new Error("it is cut short or damaged; ask for the whole link.");
+    throw new Error(say("link.damaged"));
   }
 }
 

@@ -2,9 +2,10 @@
 
 import { layoutOf, line, titled } from "./charts.js";
 import { nameOf } from "./design.js";
+import { say } from "./texts.js";
 
-const ALONG = "Place along the nip";
-const ENDS = ", outlet left, inlet right";
+const ALONG = say("axis.along");
+const ENDS = say("axis.ends");
 const SIDE = 0.75; // nip widths shown outside the contact
 
 /** The charts by tab: each (result, units, palette, tree) -> {data, layout, label}. */
@@ -18,17 +19,17 @@ function pressurePlot(result, units, palette, tree) {
   const shear = units.list(profiles.shear, "pressure");
   const bound = pressure.map((value) => tree.nip.friction * value);
   data.push(
-    line("pressure", x, pressure, palette.pressure, {
+    line(say("curve.pressure"), x, pressure, palette.pressure, {
       width: 2.6,
       fill: "tozeroy",
       fillcolor: `${palette.pressure}14`,
       hovertemplate: `%{y:.4~g} ${name}`,
     }),
   );
-  data.push(line("shear", x, shear, palette.shear, { hovertemplate: `%{y:.4~g} ${name}` }));
+  data.push(line(say("curve.shear"), x, shear, palette.shear, { hovertemplate: `%{y:.4~g} ${name}` }));
   if (tree.nip.friction > 0) {
     const style = { dash: "dash", width: 1.3, hoverinfo: "skip", legendgroup: "bound" };
-    data.push(line("traction bound (friction × pressure)", x, bound, palette.bound, style));
+    data.push(line(say("curve.bound"), x, bound, palette.bound, style));
     data.push(
       line(
         "",
@@ -40,12 +41,16 @@ function pressurePlot(result, units, palette, tree) {
     );
   }
   const [low, high] = span(pressure, shear);
-  const layout = layoutOf(palette, along(units), titled("Pressure and shear", name), {
+  const layout = layoutOf(palette, along(units), titled(say("axis.pressure"), name), {
     xaxis: { range: reach(result, units) },
     yaxis: { range: [low, high] },
     shapes: zonesOf(result, units, palette),
   });
-  const label = `Pressure up to ${units.text(result.peak_pressure, "pressure")} over a nip of ${units.text(result.nip_width, "length")}; ${zoneWords(result)}.`;
+  const label = say("chart.pressure", {
+    peak: units.text(result.peak_pressure, "pressure"),
+    nip: units.text(result.nip_width, "length"),
+    zones: zoneWords(result),
+  });
   return { data, layout, label };
 }
 
@@ -53,8 +58,8 @@ function gapPlot(result, units, palette) {
   const { x, data } = begin(result, units);
   const unit = units.name("length");
   const gap = units.list(result.profiles.gap, "length");
-  data.push(line("gap", x, gap, palette.upper, { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` }));
-  const layout = layoutOf(palette, along(units), titled("Gap between the surfaces", unit), {
+  data.push(line(say("curve.gap"), x, gap, palette.upper, { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` }));
+  const layout = layoutOf(palette, along(units), titled(say("axis.gap"), unit), {
     xaxis: { range: reach(result, units) },
     yaxis: { rangemode: "tozero", range: upTo(x, gap, reach(result, units)) },
     shapes: contactShape(result, units, palette),
@@ -62,7 +67,7 @@ function gapPlot(result, units, palette) {
   return {
     data,
     layout,
-    label: `Gap between the deformed surfaces; closed over ${units.text(result.nip_width, "length")}.`,
+    label: say("chart.gap", { nip: units.text(result.nip_width, "length") }),
   };
 }
 
@@ -71,17 +76,17 @@ function strainPlot(result, units, palette) {
   for (const side of ["upper", "lower"]) {
     const values = units.list(result.profiles[`strain_${side}`], "share");
     data.push(
-      line(`${side} surface`, x, values, palette[side], {
+      line(say(`surface.${side}`), x, values, palette[side], {
         hovertemplate: "%{y:.3~g} %",
         dash: side === "lower" ? "longdash" : "solid",
       }),
     );
   }
-  const layout = layoutOf(palette, along(units), "Strain of the surface [%]", {
+  const layout = layoutOf(palette, along(units), say("axis.strain"), {
     xaxis: { range: reach(result, units) },
     shapes: zonesOf(result, units, palette),
   });
-  return { data, layout, label: "Strain of both surfaces along the nip: positive where stretched." };
+  return { data, layout, label: say("chart.strain") };
 }
 
 function speedPlot(result, units, palette) {
@@ -92,17 +97,17 @@ function speedPlot(result, units, palette) {
   for (const side of ["upper", "lower"]) {
     const values = units.list(profiles[`speed_${side}`], "speed");
     data.push(
-      line(`${side} surface`, x, values, palette[side], {
+      line(say(`surface.${side}`), x, values, palette[side], {
         hovertemplate: `%{y:.5~g} ${unit}`,
         dash: side === "lower" ? "longdash" : "solid",
       }),
     );
   }
-  const layout = layoutOf(palette, along(units), titled("Speed of the surface", unit), {
+  const layout = layoutOf(palette, along(units), titled(say("axis.speed"), unit), {
     xaxis: { range: reach(result, units) },
     shapes: zonesOf(result, units, palette),
   });
-  return { data, layout, label: "Speed of both surfaces along the nip; equal where they stick." };
+  return { data, layout, label: say("chart.speed") };
 }
 
 function begin({ profiles }, units) {
@@ -150,22 +155,22 @@ function zonesOf(result, units, palette) {
 }
 
 function zoneName({ state, direction }) {
-  if (state === "stick") return "stick";
-  return direction === -1 ? "slip, upper faster" : "slip, lower faster";
+  if (state === "stick") return say("zone.stick-band");
+  return direction === -1 ? say("zone.upper") : say("zone.lower");
 }
 
 function zoneWords({ zones }) {
-  if (zones.length === 0) return "no friction";
+  if (zones.length === 0) return say("zone.none");
   const slips = zones.filter(({ state }) => state === "slip").length;
-  if (slips === 0) return "the surfaces stick everywhere";
+  if (slips === 0) return say("zone.stick");
   return slips === zones.length
-    ? "the surfaces slip everywhere"
-    : `${slips} slip zone${slips > 1 ? "s" : ""}, else stick`;
+    ? say("zone.slip")
+    : say(slips > 1 ? "zone.slips" : "zone.one-slip", { slips });
 }
 
 function contactShape({ contact }, units, palette) {
   return contact.map(([from, to], i) =>
-    band(units.shown(from, "length"), units.shown(to, "length"), palette.stick, "contact", i === 0),
+    band(units.shown(from, "length"), units.shown(to, "length"), palette.stick, say("zone.contact"), i === 0),
   );
 }
 
@@ -206,7 +211,7 @@ export function overlay(designs, { key, title, dimension }, units, palette) {
     xaxis: { range },
     showlegend: true,
   });
-  return { data, layout, label: `${title} of ${designs.length} designs.` };
+  return { data, layout, label: say("compare.label", { title, count: designs.length }) };
 }
 
 /** "A: name". */

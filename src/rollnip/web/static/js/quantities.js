@@ -3,66 +3,78 @@
 import { FIGURES, ROUNDING, TOTALS } from "./figures.js";
 import { getAt } from "./paths.js";
 import { number } from "./units.js";
+import { firstInText, say, sayOr } from "./texts.js";
 
 const TINY = 2e-5; // relative errors below it say nothing to anybody
 
 const MATERIAL = {
   shore_a: {
-    label: "Hardness (Shore A)",
+    label: say("input.shore"),
     dimension: "ratio",
     low: 20,
     high: 95,
-    hint: "From the data sheet or a durometer. Its stiffness is an estimate: easily half or twice.",
+    hint: say("hint.shore"),
   },
   modulus: {
-    label: "Modulus",
+    label: say("input.modulus"),
     dimension: "pressure",
     low: 0.05,
     high: 500,
     log: true,
-    hint: "Young's modulus; of a viscoelastic rubber the slow (relaxed) one.",
+    hint: say("hint.modulus"),
   },
-  shear_modulus: { label: "Shear modulus", dimension: "pressure", low: 0.02, high: 200, log: true },
+  shear_modulus: { label: say("input.shear-modulus"), dimension: "pressure", low: 0.02, high: 200, log: true },
   stiffening: {
-    label: "Stiffening",
+    label: say("input.stiffening"),
     dimension: "pressure",
     low: 0.05,
     high: 500,
     log: true,
-    hint: "How much stiffer the rubber is when pressed very fast.",
+    hint: say("hint.stiffening"),
   },
   relaxation_time: {
-    label: "Relaxation time",
+    label: say("input.relaxation"),
     dimension: "time",
     low: 1e-5,
     high: 10,
     log: true,
-    hint: "How long the rubber takes to settle.",
+    hint: say("hint.relaxation"),
   },
   order: {
-    label: "Order",
+    label: say("input.order"),
     dimension: "ratio",
     low: 0.05,
     high: 1,
-    hint: "1: one relaxation time; less: spread over many.",
+    hint: say("hint.order"),
   },
-  loss_factor: { label: "Loss factor", dimension: "ratio", low: 0.01, high: 0.6 },
+  loss_factor: { label: say("input.loss-factor"), dimension: "ratio", low: 0.01, high: 0.6 },
   poisson: {
-    label: "Poisson's ratio",
+    label: say("input.poisson"),
     dimension: "ratio",
     low: 0,
     high: 0.5,
-    hint: "0.5 for solid rubber; less for foam.",
+    hint: say("hint.poisson"),
   },
-  temperature: { label: "Temperature", dimension: "temperature", low: -40, high: 150 },
-  "shift.reference": { label: "Reference temperature", dimension: "temperature", low: -40, high: 150 },
-  "shift.c1": { label: "Shift c1", dimension: "ratio", low: 1, high: 40 },
-  "shift.c2": { label: "Shift c2", dimension: "temperature difference", low: 10, high: 300 },
-  "shift.activation_energy": { label: "Activation energy", dimension: "molar energy", low: 10, high: 400 },
+  temperature: { label: say("input.temperature"), dimension: "temperature", low: -40, high: 150 },
+  "shift.reference": { label: say("input.reference"), dimension: "temperature", low: -40, high: 150 },
+  "shift.c1": { label: say("input.c1"), dimension: "ratio", low: 1, high: 40 },
+  "shift.c2": { label: say("input.c2"), dimension: "temperature difference", low: 10, high: 300 },
+  "shift.activation_energy": { label: say("input.energy"), dimension: "molar energy", low: 10, high: 400 },
 };
 
+/** A figure of the registry in the language of the page. */
+function said(figure) {
+  const hint = sayOr(`figure.${figure.key}.hint`, figure.hint);
+  return { ...figure, label: sayOr(`figure.${figure.key}`, figure.label), hint };
+}
+
+function totalLabel(key, label) {
+  const figure = sayOr(`figure.${key}`, null);
+  return figure === null ? label : say("figure.whole", { figure });
+}
+
 function labelOf(key) {
-  return FIGURES.find((figure) => figure.key === key).label;
+  return said(FIGURES.find((figure) => figure.key === key)).label;
 }
 
 const NIP = {
@@ -72,7 +84,7 @@ const NIP = {
     low: 0.05,
     high: 200,
     log: true,
-    hint: "Force of both sides together over the width of the face.",
+    hint: say("hint.load"),
   },
   approach: {
     label: labelOf("approach"),
@@ -80,52 +92,52 @@ const NIP = {
     low: 0.005,
     high: 8,
     log: true,
-    hint: "How far the axles move together after first touch.",
+    hint: say("hint.approach"),
   },
   friction: {
-    label: "Friction coefficient",
+    label: say("input.friction"),
     dimension: "ratio",
     low: 0,
     high: 2,
-    hint: "Dry rubber 0.5 and more, wet or oily 0.1.",
+    hint: say("hint.friction"),
   },
-  speed: { label: "Speed", dimension: "speed", low: 5, high: 50000, log: true },
+  speed: { label: say("input.speed"), dimension: "speed", low: 5, high: 50000, log: true },
   traction: {
     label: labelOf("traction"),
     dimension: "line load",
-    hint: "Force the upper roller drives the lower one with; negative: it is driven.",
+    hint: say("hint.traction"),
   },
   creepage: {
     label: labelOf("creepage"),
     dimension: "share",
     low: -0.06,
     high: 0.06,
-    hint: "Surface speed of the upper roller over the lower one's, set by gears or drives.",
+    hint: say("hint.creepage"),
   },
   torque_lower: {
     label: labelOf("torque_lower"),
     dimension: "force",
     low: -200,
     high: 200,
-    hint: "Per width; positive drives it, negative brakes it.",
+    hint: say("hint.torque"),
   },
   face_width: {
-    label: "Face width",
+    label: say("input.face"),
     dimension: "length",
     low: 10,
     high: 10000,
     log: true,
-    hint: "Gives forces, torques and power of the whole roller.",
+    hint: say("hint.face"),
   },
 };
 
 const SIZES = {
-  radius: { label: "Diameter", dimension: "length", low: 10, high: 1500, log: true, factor: 2 },
-  thickness: { label: "Thickness", dimension: "length", low: 0.05, high: 50, log: true },
+  radius: { label: say("input.diameter"), dimension: "length", low: 10, high: 1500, log: true, factor: 2 },
+  thickness: { label: say("input.thickness"), dimension: "length", low: 0.05, high: 50, log: true },
 };
 
 const TERMS = {
-  modulus: { ...MATERIAL.modulus, label: "Stiffness that relaxes", hint: null },
+  modulus: { ...MATERIAL.modulus, label: say("input.term"), hint: null },
   relaxation_time: { ...MATERIAL.relaxation_time, hint: null },
 };
 
@@ -135,7 +147,7 @@ export function inputAt(path, tree) {
   const start = { path, factor: 1 };
   if (path.startsWith("nip.")) return { ...start, ...NIP[last], ...tractionRange(last, tree) };
   if (path.includes(".terms[")) return { ...start, ...TERMS[last] };
-  const hint = path === "upper.radius" ? "Over the covering, as on the drawing." : null;
+  const hint = path === "upper.radius" ? say("hint.diameter") : null;
   return { ...start, hint, ...(SIZES[last] ?? MATERIAL[last]) };
 }
 
@@ -153,11 +165,11 @@ export function inputsOf(tree) {
     .map((name) => `nip.${name}`);
   const found = paths.map((path) => inputAt(path, tree));
   for (const side of ["upper", "lower"]) {
-    const name = side === "upper" ? "Upper" : "Lower";
     if (typeof tree[side].radius === "number")
-      found.push(named(`${name} roller`, inputAt(`${side}.radius`, tree)));
+      found.push(named(say(`roller.${side}`), inputAt(`${side}.radius`, tree)));
     tree[side].layers.forEach((layer, i) => {
-      const where = tree[side].layers.length > 1 ? `${name} layer ${i + 1}` : `${name} covering`;
+      const several = tree[side].layers.length > 1;
+      const where = say(`${several ? "layer" : "covering"}.${side}`, { number: i + 1 });
       found.push(named(where, inputAt(`${side}.layers[${i}].thickness`, tree)));
       for (const key of Object.keys(MATERIAL)) {
         const path = `${side}.layers[${i}].material.${key}`;
@@ -171,26 +183,24 @@ export function inputsOf(tree) {
 function named(where, input) {
   return {
     ...input,
-    label: `${where}: ${input.label.charAt(0).toLowerCase()}${input.label.slice(1)}`
-      .replace("shore", "Shore")
-      .replace("poisson", "Poisson"),
+    label: `${where}: ${input.label.startsWith("Poisson") ? input.label : firstInText(input.label)}`,
   };
 }
 
 const positive = (value) =>
-  value > 0 ? "the upper roller's surface runs faster" : "the lower roller's surface runs faster";
+  value > 0 ? say("faster.upper") : say("faster.lower");
 
 // What a figure means at the size it has.
 const MEANINGS = {
-  nip_width: () => " An ink print of the nip at rest shows it.",
-  speed_ratio: (value) => (value ? ` Here ${number(1000 * Math.abs(value - 1))} m in 1000 m.` : ""),
-  creepage: (value) => (value ? ` Here ${positive(value)}.` : ""),
+  nip_width: () => say("meaning.nip"),
+  speed_ratio: (value) => (value ? say("meaning.ratio", { length: number(1000 * Math.abs(value - 1)) }) : ""),
+  creepage: (value) => (value ? say("meaning.creepage", { which: positive(value) }) : ""),
 };
 
 /** The answers: key in the flat result, label, dimension, digits, and a hint in plain words. */
 export const ANSWERS = FIGURES.map((figure) => ({
-  ...figure,
-  hint: ({ [figure.key]: value }) => figure.hint + (MEANINGS[figure.key]?.(value) ?? ""),
+  ...said(figure),
+  hint: ({ [figure.key]: value }) => said(figure).hint + (MEANINGS[figure.key]?.(value) ?? ""),
 }));
 
 /** The result with every scalar on its first level, as sweeps give it; what is rounding only is zero. */
@@ -219,6 +229,6 @@ export function totalsOf(result, system) {
   if (!result.totals) return [];
   return TOTALS.filter(({ key }) => result.totals[key] !== null).map(({ key, label, units }) => {
     const [unit, scale] = units[system];
-    return { label, text: number(result.totals[key] / scale), unit };
+    return { label: totalLabel(key, label), text: number(result.totals[key] / scale), unit };
   });
 }

@@ -12,32 +12,32 @@ import { joined } from "./units.js";
 import { getAt } from "./paths.js";
 
 const DRIVES = {
-  free: "rolls free, no traction",
-  idler: "lower roller is an idler",
-  traction: "given traction",
-  creepage: "given creepage",
-  torque: "given torque on the lower roller",
+  free: say("report.free"),
+  idler: say("report.idler"),
+  traction: say("report.traction"),
+  creepage: say("report.creepage"),
+  torque: say("report.torque"),
 };
 const MODELS = {
-  shore: "rubber by hardness",
-  elastic: "elastic",
-  "standard-linear-solid": "standard linear solid",
-  prony: "Prony series",
-  "fractional-zener": "fractional Zener",
-  "loss-factor": "constant loss factor",
+  shore: say("report.shore"),
+  elastic: say("report.elastic"),
+  "standard-linear-solid": say("report.sls"),
+  prony: say("report.prony"),
+  "fractional-zener": say("report.zener"),
+  "loss-factor": say("report.loss-factor"),
 };
 const GEOMETRIES = {
-  finite: "Finite strain: ring layers, to second order in the strain.",
-  curved: "Curved: ring layers, stretch to second order.",
-  corrected: "Flat layers, true distance of the deformed surfaces.",
-  linear: "Linear theory: flat layers, parabolic gap.",
+  finite: say("assume.finite"),
+  curved: say("assume.curved"),
+  corrected: say("assume.corrected"),
+  linear: say("assume.linear"),
 };
 const HARDNESS =
-  "Moduli estimated from Shore A (Gent 1958): easily half or twice; calibrate on a measured nip width.";
+  say("assume.hardness");
 const ASSUMPTIONS = [
-  "Plane strain: long rollers, straight axles; no bending, crown or ends of the face.",
-  "Steady rolling; Coulomb friction with one coefficient.",
-  "Linear materials: no softening with strain (Payne effect), no heating by the losses.",
+  say("assume.plane"),
+  say("assume.steady"),
+  say("assume.material"),
 ];
 
 /** Fill the page that is printed. `answer` is {tree, result, surfaces}, `about` {hash, link, date}. */
@@ -49,36 +49,36 @@ export async function fillReport(answer, units, palette, about) {
   });
   const drawing = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(drawingSvg(answer, { palette, units }))}`;
   const pictures = [
-    picture(drawing, "Drawing of the rollers"),
-    picture(chart, "Pressure and shear in the nip"),
+    picture(drawing, say("report.drawing")),
+    picture(chart, say("report.chart")),
   ];
   byId("report").replaceChildren(
     el("h1", { text: nameOf(tree) }),
     el("p", {
       class: "meta",
-      text: `Nip report, rollnip ${result.solver.version}, ${about.date}. Case ${about.hash}`,
+      text: say("report.head", { version: result.solver.version, date: about.date, hash: about.hash }),
     }),
     result.converged
       ? el("span")
       : el("p", {
           class: "alarm",
-          text: `NOT CONVERGED: do not use these numbers. ${result.solver.status}`,
+          text: `${say("alarm.unsound")}. ${result.solver.status}`,
         }),
     el(
       "div",
       { class: "two" },
-      el("div", {}, el("h2", { text: "Inputs" }), inputs(tree, units)),
+      el("div", {}, el("h2", { text: say("report.inputs") }), inputs(tree, units)),
       el(
         "div",
         {},
-        el("h2", { text: "Figures" }),
+        el("h2", { text: say("report.figures") }),
         figures(answer, units),
         el("h2", { text: say("known.title") }),
         table(partsOf(answer, units)),
       ),
     ),
     el("div", { class: "two" }, ...pictures),
-    el("h2", { text: "Assumptions" }),
+    el("h2", { text: say("report.assumptions") }),
     el("ul", {}, ...assumptionsOf(tree, result).map((text) => el("li", { text }))),
     ...warnings(result),
   );
@@ -97,7 +97,7 @@ function picture(source, alt) {
 
 function warnings({ warnings: list }) {
   if (list.length === 0) return [];
-  return [el("h2", { text: "Keep in mind" }), el("ul", {}, ...list.map((text) => el("li", { text })))];
+  return [el("h2", { text: say("warnings.title") }), el("ul", {}, ...list.map((text) => el("li", { text })))];
 }
 
 function figures({ result, known }, units) {
@@ -119,21 +119,21 @@ function figures({ result, known }, units) {
 
 function inputs(tree, units) {
   const rows = Object.keys(tree.nip).map((name) => row(tree, `nip.${name}`, units));
-  rows.push(["Drive", DRIVES[driving(tree)]]);
+  rows.push([say("drive.label"), DRIVES[driving(tree)]]);
   for (const side of ["upper", "lower"]) rows.push(...roller(tree, side, units));
   return table(rows);
 }
 
 function roller(tree, side, units) {
   const { radius, layers, core } = tree[side];
-  const title = `${side === "upper" ? "Upper" : "Lower"} roller`;
-  const rows = [[title], radius === "inf" ? ["Shape", "a plane"] : row(tree, `${side}.radius`, units)];
+  const title = say(`roller.${side}`);
+  const rows = [[title], radius === "inf" ? [say("report.shape"), say("body.plane")] : row(tree, `${side}.radius`, units)];
   layers.forEach((layer, i) => {
-    rows.push(row(tree, `${side}.layers[${i}].thickness`, units, `Layer ${i + 1}: thickness`));
+    rows.push(row(tree, `${side}.layers[${i}].thickness`, units, say("report.layer", { number: i + 1 })));
     rows.push(...material(tree, `${side}.layers[${i}].material`, units));
   });
-  if (core) rows.push(["Core", "half-space"], ...material(tree, `${side}.core`, units));
-  else rows.push(["Core", layers.length ? "rigid" : "bare, rigid"]);
+  if (core) rows.push([say("report.core"), say("report.half-space")], ...material(tree, `${side}.core`, units));
+  else rows.push([say("report.core"), say(layers.length ? "report.rigid" : "report.bare")]);
   return rows;
 }
 
@@ -146,10 +146,10 @@ function material(tree, path, units) {
     .filter((name) => name !== "model")
     .map((name) => row(tree, `${path}.shift.${name}`, units));
   const terms = (table.terms ?? []).map((term, i) => [
-    `Term ${i + 1}`,
+    say("material.term", { number: i + 1 }),
     `${units.text(term.modulus, "pressure")}, ${units.text(term.relaxation_time, "time")}`,
   ]);
-  return [["Material", MODELS[kindOf(table)]], ...numbers, ...terms, ...shift];
+  return [[say("material.label"), MODELS[kindOf(table)]], ...numbers, ...terms, ...shift];
 }
 
 function row(tree, path, units, label = null) {

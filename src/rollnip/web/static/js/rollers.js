@@ -13,12 +13,12 @@ const MOST_LAYERS = 20;
 /** The group of a roller; `panel` is the Inputs it stands in. */
 export function rollerGroup(side, tree, panel) {
   const { layers } = tree[side];
-  const title = side === "upper" ? "Upper roller" : "Lower roller";
+  const title = side === "upper" ? say("roller.upper") : say("roller.lower");
   const isPlane = tree[side].radius === "inf";
   return el(
     "fieldset",
     { class: "group", id: `group-${side}` },
-    el("legend", { text: isPlane ? title.replace("roller", "body (a plane)") : title }),
+    el("legend", { text: isPlane ? say(`body.${side}-plane`) : title }),
     isPlane ? null : panel.control(`${side}.radius`),
     ...layers.map((layer, i) => layerCard(side, i, tree, panel)),
     layers.length && !isPlane ? keeper(side, panel) : null,
@@ -66,12 +66,12 @@ function adder(side, layers, panel) {
     const layer = like ? structuredClone(like) : { thickness: 10, material: { ...RUBBER } };
     change(panel, side, (list) => list.push(layer));
   };
-  const text = layers.length ? "Add a layer below" : "Add a covering";
+  const text = layers.length ? say("roller.add-layer") : say("roller.add");
   const disabled = layers.length >= MOST_LAYERS;
   return el(
     "div",
     { class: layers.length ? "row" : "row bare" },
-    layers.length ? null : el("span", { text: "Bare steel, no covering." }),
+    layers.length ? null : el("span", { text: say("roller.bare") }),
     button(text, add, { kind: "small", id: `add-${side}`, disabled }),
   );
 }
@@ -79,12 +79,12 @@ function adder(side, layers, panel) {
 function layerCard(side, i, tree, panel) {
   const { layers } = tree[side];
   const path = `${side}.layers[${i}]`;
-  const called = layers.length === 1 ? "Covering" : `Layer ${i + 1}${i === 0 ? " (surface)" : ""}`;
+  const called = layers.length === 1 ? say("roller.covering") : say(i === 0 ? "roller.first-layer" : "roller.layer", { number: i + 1 });
   const swatch = el("span", { class: "swatch", "data-tone": `${side} ${i}` });
   swatch.style.background = toneOf(side, i, panel.app.palette());
   return el(
     "div",
-    { class: "layer", role: "group", "aria-label": `${called} of the ${side} roller` },
+    { class: "layer", role: "group", "aria-label": say("roller.of", { what: called, side: say(`side.${side}`) }) },
     el("div", { class: "head row" }, el("h3", {}, swatch, called), moves(side, i, layers, panel)),
     panel.control(`${path}.thickness`),
     ...materialEditor(`${path}.material`, panel),
@@ -92,7 +92,7 @@ function layerCard(side, i, tree, panel) {
 }
 
 function moves(side, i, layers, panel) {
-  const called = `layer ${i + 1} of the ${side} roller`;
+  const called = say("roller.one-layer", { number: i + 1, side: say(`side.${side}`) });
   const act = (work) => () => change(panel, side, work);
   const swap = (j) =>
     act((list) => {
@@ -100,8 +100,8 @@ function moves(side, i, layers, panel) {
     });
   const option = (what, extra = {}) => ({
     kind: "icon",
-    label: `${what} ${called}`,
-    id: `${what.split(" ")[0].toLowerCase()}-${side}-${i}`,
+    label: `${say(`action.${what}`)} ${called}`,
+    id: `${what}-${side}-${i}`,
     ...extra,
   });
   const remove = act((list) => list.splice(i, 1));
@@ -113,16 +113,16 @@ function moves(side, i, layers, panel) {
   return el(
     "div",
     { class: "moves" },
-    several ? button(icon("up"), swap(i - 1), option("Raise", { disabled: i === 0 })) : null,
+    several ? button(icon("up"), swap(i - 1), option("raise", { disabled: i === 0 })) : null,
     several
-      ? button(icon("down"), swap(i + 1), option("Lower", { disabled: i === layers.length - 1 }))
+      ? button(icon("down"), swap(i + 1), option("lower", { disabled: i === layers.length - 1 }))
       : null,
     button(
       icon("copy"),
       act((list) => list.splice(i, 0, structuredClone(list[i]))),
-      option("Duplicate", { disabled: layers.length >= MOST_LAYERS }),
+      option("duplicate", { disabled: layers.length >= MOST_LAYERS }),
     ),
-    button(icon("remove"), drop, option("Remove")),
+    button(icon("remove"), drop, option("remove")),
   );
 }
 
@@ -133,15 +133,15 @@ export function coreEditor(side, tree, panel) {
   const choose = (kind) =>
     put(kind === RIGID ? undefined : { model: "elastic", modulus: 70000, poisson: 0.33 });
   const options = [
-    [RIGID, "Rigid (steel under rubber)"],
-    ["soft", "Elastic or viscoelastic body"],
+    [RIGID, say("core.rigid")],
+    ["soft", say("core.soft")],
   ];
   return el(
     "div",
     { class: "inner" },
     select({
       id: `in-${side}-core`,
-      label: `Core of the ${side} roller`,
+      label: say("core.label", { side: say(`side.${side}`) }),
       options,
       value: core ? "soft" : RIGID,
       act: choose,

@@ -3,6 +3,7 @@
 import { svg } from "./dom.js";
 import { picture, words } from "./drawing.js";
 import { toneOf } from "./palette.js";
+import { say } from "./texts.js";
 
 const STRIP = 30; // px below the picture for the dimension
 const HALF = 0.95; // half the window, in nip widths
@@ -15,7 +16,7 @@ export function windowOf(result) {
 /** The nip and its neighbourhood, to scale, from the surfaces the server computed. */
 export function sectionPicture(tree, result, surfaces, { width, height, palette, units }) {
   const text = units.text(result.nip_width, "length");
-  const node = picture(width, height, `The nip to scale: the surfaces touch over ${text}.`, palette);
+  const node = picture(width, height, say("section.label", { text }), palette);
   const frame = frameOf(result, surfaces, width, height - STRIP);
   const clip = `clip-${width}-${height}-${palette.name}`;
   node.append(svg("clipPath", { id: clip }, svg("rect", { width, height: height - STRIP })));
@@ -121,7 +122,7 @@ function strip({ contact }, text, frame, palette, { width, height }) {
     ...edges,
     svg("path", { d: arrow, ...line }),
     words((left + right) / 2, y + 16, text, { fill: palette.ink, size: 12.5, weight: 600 }),
-    words(2, y + 16, "← outlet", { anchor: "start", fill: palette.muted }),
-    words(width - 2, y + 16, "inlet ←", { anchor: "end", fill: palette.muted }),
+    words(2, y + 16, say("section.outlet"), { anchor: "start", fill: palette.muted }),
+    words(width - 2, y + 16, say("section.inlet"), { anchor: "end", fill: palette.muted }),
   );
 }

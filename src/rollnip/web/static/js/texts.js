@@ -2,30 +2,51 @@
 
 import { DE } from "./texts/de.js";
 import { EN } from "./texts/en.js";
-
-/** The languages and their names. */
-export const LANGUAGES = { en: "English", de: "Deutsch" };
+import { remembered } from "./saved.js";
 
 const MESSAGES = { en: EN, de: DE };
 const HOLE = /\{(\w+)\}/g;
 
-let chosen = "en";
+/** The language of the page: as chosen in this browser, else German where the browser is German. */
+export const LANGUAGE = choose();
 
-/** Choose the language of the page; an unknown one is English. */
-export function speak(language) {
-  chosen = language in MESSAGES ? language : "en";
-  document.documentElement.lang = chosen;
-  return chosen;
-}
-
-/** The language that is spoken. */
-export function language() {
-  return chosen;
+function choose() {
+  const own = navigator.language?.startsWith("de") ? "de" : "en";
+  const wanted = remembered("language") ?? own;
+  const language = wanted in MESSAGES ? wanted : "en";
+  document.documentElement.lang = language;
+  return language;
 }
 
 /** The message of a key, its {holes} filled; a key without a message is an error of the page. */
 export function say(key, values = {}) {
-  const message = MESSAGES[chosen][key];
+  const message = MESSAGES[LANGUAGE][key];
   if (message === undefined) throw new Error(`There is no message "${key}".`);
-  return message.replace(HOLE, (_hole, name) => String(values[name]));
+  return message.replace(HOLE, (hole, name) => (name in values ? String(values[name]) : hole));
+}
+
+/** The message of a key, or a text of the server where the language has none of its own. */
+export function sayOr(key, text) {
+  return MESSAGES[LANGUAGE][key] ?? text;
+}
+
+/** A label within a sentence: German nouns keep their capital. */
+export function inText(label) {
+  return LANGUAGE === "de" ? label : label.toLowerCase();
+}
+
+/** The same where only the first letter is a capital for standing first. */
+export function firstInText(label) {
+  return LANGUAGE === "de" ? label : label.charAt(0).toLowerCase() + label.slice(1);
+}
+
+/** Put the messages into the elements of the page that name one. */
+export function fillPage() {
+  for (const node of document.querySelectorAll("[data-say]")) node.textContent = say(node.dataset.say);
+  for (const node of document.querySelectorAll("[data-say-label]"))
+    node.setAttribute("aria-label", say(node.dataset.sayLabel));
+  for (const node of document.querySelectorAll("[data-say-title]"))
+    node.title = say(node.dataset.sayTitle);
+  for (const node of document.querySelectorAll("[data-say-placeholder]"))
+    node.placeholder = say(node.dataset.sayPlaceholder);
 }

@@ -19,11 +19,11 @@ export function answersOf(result) {
   return ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined);
 }
 
-/** The view "What if". */
+/** The view say("tab.whatif"). */
 export class WhatIfView {
   constructor(app) {
     this.id = "whatif";
-    this.title = "What if";
+    this.title = say("tab.whatif");
     this.app = app;
     const place = el("div", { class: "chart", id: "chart-whatif" });
     this.chart = new Chart(place);
@@ -39,7 +39,7 @@ export class WhatIfView {
       button(format, () => app.exportChart(format), {
         kind: "small",
         id: `whatif-${format.toLowerCase()}`,
-        label: `Save this chart as ${format}`,
+        label: say("chart.save", { format }),
       }),
     );
     this.node = el(
@@ -147,14 +147,14 @@ export class WhatIfView {
     this.asks.replaceChildren(
       select({
         id: "whatif-answer",
-        label: "How does",
+        label: say("whatif.how"),
         options: answers.map((one) => [one.key, one.label]),
         value: asked.key,
         act: (value) => put({ answer: value }),
       }),
       select({
         id: "whatif-path",
-        label: "change with",
+        label: say("whatif.with"),
         options: inputs.map((one) => [one.path, one.label]),
         value: input.path,
         act: (value) => put({ path: value }),
@@ -180,7 +180,7 @@ export class WhatIfView {
     this.abort?.abort();
     const abort = new AbortController();
     this.abort = abort;
-    this.said.textContent = "Computing …";
+    this.said.textContent = say("whatif.computing");
     this.chart.node.classList.add("old");
     const found = new Map();
     const isFirst = (i) => i % COARSE === 0;
@@ -202,11 +202,11 @@ export class WhatIfView {
     if (this.sweep.key !== this.asking.key || this.asking.second) return;
     const { results } = this.sweep;
     const lost = results.filter((one) => !isSound(one)).length;
-    if (results.length < POINTS) this.said.textContent = "Computing …";
+    if (results.length < POINTS) this.said.textContent = say("whatif.computing");
     else
       this.said.textContent = lost
-        ? `${lost} of ${results.length} values have no sound answer and are left out.`
-        : "The dot is your design; each point of the curve is a full solution.";
+        ? say("whatif.lost", { lost, count: results.length })
+        : say("whatif.said");
     this.chart.node.classList.remove("old");
     this.shown = { ...this.asking, sweep: this.sweep };
     this.chart.show(curve(this.shown, this.app.units(), this.app.palette()));
@@ -256,7 +256,7 @@ function curve({ sweep, input, asked, now }, units, palette) {
     {
       type: "scatter",
       mode: "markers",
-      name: "your design",
+      name: say("whatif.design"),
       x: [units.shown(now.value * factor, dimension)],
       y: units.list([now.result[asked.key]], asked.dimension),
       marker: { size: 13, color: palette.shear, line: { color: palette.ground, width: 2 } },
@@ -265,5 +265,5 @@ function curve({ sweep, input, asked, now }, units, palette) {
     },
   ];
   const layout = layoutOf(palette, titled(label, own), titled(asked.label, unit), { hovermode: "closest" });
-  return { data, layout, label: `${asked.label} over ${label}.` };
+  return { data, layout, label: say("whatif.label", { answer: asked.label, input: label }) };
 }

@@ -1,0 +1,65 @@
+"""German as a second language: chosen, remembered, and nothing of the page left in English."""
+
+import re
+
+import pytest
+from tests.browser.conftest import Designer, Watch, new_context
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def german(browser, base):
+    context = new_context(browser)
+    page = context.new_page()
+    watch = Watch(page, base)
+    designer = Designer(page, base).open()
+    page.click("#language")
+    page.wait_for_selector('html[lang="de"][data-ready]')
+    designer.rest()
+    yield designer
+    watch.check()
+    context.close()
+
+
+def test_german_is_chosen_remembered_and_given_back(german):
+    page = german.page
+    assert page.inner_text("#hero-title") == "Spaltbreite"
+    assert page.inner_text("h1") == "Walzenspalt-Rechner"
+    assert "Linienlast" in page.inner_text("#inputs")
+    page.goto("about:blank")
+    german.open()
+    assert page.inner_text("#hero-title") == "Spaltbreite"
+    page.click("#language")
+    page.wait_for_selector('html[lang="en"][data-ready]')
+    assert page.inner_text("#hero-title") == "Nip width"
+
+
+def test_a_german_browser_is_answered_in_german(browser, base):
+    context = new_context(browser, locale="de-DE")
+    designer = Designer(context.new_page(), base).open()
+    assert designer.page.inner_text("#hero-title") == "Spaltbreite"
+    context.close()
+
+
+def test_every_view_and_menu_is_there_in_german(german):
+    page = german.page
+    for tab in ("gap", "strain", "speed", "inside", "whatif", "find", "measured", "compare"):
+        german.tab(tab)
+        page.wait_for_timeout(200)
+        words = set(re.findall(r"[a-z]{3,}", page.inner_text("#panel").lower()))
+        assert not words & {"the", "and", "with", "which"}, tab
+    words = set(re.findall(r"[a-z]{3,}", page.inner_text("#inputs").lower()))
+    assert not words & {"the", "and", "with", "which"}
+    for opener in ("#open-share", "#open-designs"):
+        page.click(opener)
+        words = set(re.findall(r"[a-z]{3,}", page.inner_text(f"{opener}-menu").lower()))
+        assert not words & {"the", "and", "save", "copy"}, opener
+        page.keyboard.press("Escape")
+
+
+def test_what_is_known_is_said_in_german(german):
+    german.until("document.querySelectorAll('#known dt').length === 3", timeout=60_000)
+    assert "innerhalb der Spanne des Werkstoffs" in german.page.inner_text("#big")
+    german.enter("in-upper-layers-0-thickness", "0,5 in")
+    assert german.page.input_value("#in-upper-layers-0-thickness") == "12.7"

@@ -181,7 +181,7 @@ function contours({ field, chosen, roller, result }, units, palette) {
   const nip = line(say("inside.nip"), edges, [0, 0], palette.ink, { width: 5, showlegend: false, hoverinfo: "skip" });
   const layout = layoutOf(
     palette,
-    `${titled(say("axis.along"), length)}, outlet left, inlet right`,
+    titled(say("axis.along"), length) + say("axis.ends"),
     titled(say("inside.depth"), length),
     {
       yaxis: { autorange: roller === "lower" ? "reversed" : true, zeroline: false },

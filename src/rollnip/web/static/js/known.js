@@ -5,9 +5,12 @@ import { errorOf } from "./quantities.js";
 import { say } from "./texts.js";
 import { number } from "./units.js";
 
+const SAME = 1e-3; // of a figure: a band that is no wider says nothing
+
 /** [lowest, highest] of a figure within the bands of the materials, or null. */
 export function bandOf(known, key) {
-  return known?.figures?.[key] ?? null;
+  const band = known?.figures?.[key];
+  return band && band[1] - band[0] > SAME * Math.abs(band[1]) ? band : null;
 }
 
 /** "3.1 to 7.3 MPa" of two values. */

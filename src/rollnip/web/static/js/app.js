@@ -211,8 +211,22 @@ export class App extends Actions {
       byId(system).setAttribute("aria-pressed", String(state.view.system === system));
     this.tabs.refresh();
     if (why === "view") this.showAll();
-    else this.ask(state.case, why);
+    else if (why !== "design" || !this.isRenamed(state.case)) this.ask(state.case, why);
     this.stand();
+  }
+
+  /** Whether only the name is another: the answer is the same one then, and is kept. */
+  isRenamed(tree) {
+    const before = this.snapshot;
+    if (!before?.isPlaced || this.standing() !== "computing" || this.reading > 0 || this.runner.exact)
+      return false;
+    if (before.state !== "settled" || !same(setAt(tree, "title", ""), setAt(before.tree, "title", "")))
+      return false;
+    this.snapshot = { ...before, tree, result: { ...before.result, title: tree.title } };
+    this.tabs.open.show(this.snapshot);
+    this.remember();
+    if (!this.snapshot.known) this.learn(tree);
+    return true;
   }
 
   ask(tree, why) {
@@ -220,7 +234,7 @@ export class App extends Actions {
     document.documentElement.dataset.state = "waiting";
     document.documentElement.classList.toggle("moving", why === "live");
     this.broken = null;
-    if (why === "design") this.failure = null;
+    if (why === "design" || why === "opened") this.failure = null;
     if (this.snapshot?.tree !== tree) this.learning?.abort();
     if (why === "live") this.move(tree);
     else this.runner.settle(tree, why === "rest");

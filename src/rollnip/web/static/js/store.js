@@ -15,7 +15,7 @@ export class Store {
     this.listeners = [];
   }
 
-  /** Call `listener(state, why)` after every change; why is "design", "view" or "live". */
+  /** Call `listener(state, why)` after every change; why is "design", "opened", "view", "live" or "rest". */
   listen(listener) {
     this.listeners.push(listener);
   }
@@ -37,7 +37,7 @@ export class Store {
     this.future = [];
     this.gesture = null;
     this.state = state;
-    this.tell("design");
+    this.tell("opened");
   }
 
   /** The movement is over. */

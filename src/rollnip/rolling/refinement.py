@@ -137,6 +137,13 @@ def _refined(
         history = _with_size(history, sized(nip, model, latest, count, found))
         latest = _with_layer(nip, with_errors(nip, latest, history, LINEAR))
         best = latest if latest.settled or best is None else best
+        off = _apart(history)
+        if off < _AGREED and offered < _MOST_TRIES:
+            # Before linear elements are believed: where surfaces stick up to an edge they converge
+            # slowly, and two sizes may agree on a creepage that neither has.
+            offered += 1
+            if taken := _handed_over(nip, model, kernels, latest, off):
+                return taken
         ratio = _ratio(nip, latest, history, model.tolerance, too_few)
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
             best = latest = with_residual(
@@ -149,11 +156,6 @@ def _refined(
                 tries = 0  # no finer mesh helps: the second order of this one still moves
                 continue
             ratio = latest.residual / model.tolerance
-        off = _apart(history)
-        if off < _AGREED and offered < _MOST_TRIES:
-            offered += 1
-            if taken := _handed_over(nip, model, kernels, latest, off):
-                return taken
         count, tries = _next_count(count, ratio), 0
     return _finished(nip, model, kernels, best or latest)
 
@@ -201,8 +203,10 @@ def _apart(history: list[Size]) -> float:
 def _ratio(nip: Nip, latest: Round, history: list[Size], tolerance: float, too_few: int) -> float:
     """Largest estimated error over what is allowed; above 1 on ``too_few`` elements."""
     count, ratio = history[-1].count, excess(nip, latest, tolerance)
-    if count < _ENOUGH_FOR_ZONES:
+    if len(history) > 1 and count < _ENOUGH_FOR_ZONES:
         ratio = max(ratio, zone_excess(history, tolerance))
+        if history[-1].breaks.size != history[-2].breaks.size:
+            ratio = max(ratio, 1.01)  # zones that have just appeared: no two sizes tell their error
     return max(ratio, 1.01) if count <= too_few else ratio
 
 

@@ -48,7 +48,7 @@ def test_the_headline_says_within_what_the_width_is_known(designer):
 
 def test_what_is_beyond_the_comparison_is_said_so(designer):
     designer.enter("in-nip-load", "60")
-    assert "outside what was compared" in learned(designer)
+    assert "were not compared with finite elements" in learned(designer)
 
 
 def test_the_figures_are_saved_with_inputs_geometry_and_warnings(designer):

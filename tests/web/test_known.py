@@ -8,8 +8,9 @@ import pytest
 
 import rollnip as rn
 from rollnip.materials import shore_a_band
-from rollnip.web.known import JUDGED, Band, at_end, bands
+from rollnip.web.known import JUDGED, Band, at_end, bands, is_judged
 
+SOFT, STIFF = (rn.Elastic(modulus=e, poisson=0.45) for e in (3.0, 300.0))
 HARD = {"model": "elastic", "shore_a": 60, "poisson": 0.5}
 NIP = {
     "nip": {"load": 4.0, "friction": 0.5, "speed": 1000.0},
@@ -85,6 +86,26 @@ def test_a_material_of_the_library_has_the_band_of_its_source():
     tree = deepcopy(NIP)
     tree["upper"]["layers"][0]["material"] = {**material, "conductivity": 0.2}
     assert bands(tree, library, {}) == [Band("upper.layers[0].material", 4.0, 5.0, 7.0)]
+
+
+@pytest.mark.parametrize(
+    ("layers", "traction", "expected"),
+    [
+        ((rn.Layer(5.0, SOFT),), 0.1, True),
+        ((rn.Layer(0.1, STIFF), rn.Layer(5.0, SOFT)), 0.0, False),
+        ((rn.Layer(5.0, SOFT),), 0.6, False),
+    ],
+)
+def test_the_accuracy_is_stated_for_nips_like_those_compared(layers, traction, expected):
+    """No stiff skin, and a traction of up to a tenth of the load: docs/geometry.md, first group."""
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50.0, layers=layers),
+        lower=rn.Roller(radius=40.0),
+        normal=rn.LineLoad(1.5),
+        tangential=rn.Traction(traction),
+        friction=0.8,
+    )
+    assert is_judged(rn.solve(nip)) is expected
 
 
 @pytest.mark.slow

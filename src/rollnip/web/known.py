@@ -1,7 +1,8 @@
 """What is known about a figure besides its numerical error: the model, and the material.
 
-The model: how far the figures of a geometry were from finite elements at finite strain, wherever
-no warning says that a nip lies outside that comparison (docs/validity.md). The material: Young's
+The model: how far the figures of a geometry were from finite elements at finite strain, on nips of
+the kind that was compared (docs/geometry.md): coverings without a stiff skin, rolling freely or
+driven with up to a tenth of the load, and no warning (docs/validity.md). The material: Young's
 moduli known only within a band are put to their soft ends all together, and to their stiff ends;
 nip width, approach and pressures of an elastic nip lie between, as they go one way with every
 modulus.
@@ -14,6 +15,8 @@ from typing import Any, NamedTuple
 
 from rollnip.materials import shore_a_band
 from rollnip.model import Geometry
+from rollnip.rollers import Roller
+from rollnip.solution import Solution
 
 JUDGED: Mapping[Geometry, Mapping[str, float]] = {
     "finite": {"nip_width": 0.011, "approach": 0.01, "peak_pressure": 0.01},
@@ -24,6 +27,8 @@ JUDGED: Mapping[Geometry, Mapping[str, float]] = {
 """Largest relative deviation from finite elements of a geometry, by figure."""
 BANDED = ("nip_width", "approach", "load", "peak_pressure", "mean_pressure", "dwell_time")
 """Figures that are given a band: those that go one way with every modulus."""
+_GENTLE = 0.1  # traction over load up to which JUDGED holds
+_STIFF = 10.0  # modulus of a top layer over the next from which it is a stiff skin
 _LIBRARY_KEYS = {"model", "modulus", "poisson"}
 
 
@@ -34,6 +39,18 @@ class Band(NamedTuple):
     low: float
     likely: float
     high: float
+
+
+def is_judged(solution: Solution) -> bool:
+    """Return whether a nip is of the kind that `JUDGED` speaks of."""
+    rollers = (solution.nip.upper, solution.nip.lower)
+    gentle = abs(solution.traction) <= _GENTLE * solution.load
+    return gentle and not solution.warnings and not any(_has_stiff_skin(one) for one in rollers)
+
+
+def _has_stiff_skin(roller: Roller) -> bool:
+    moduli = [layer.material.glassy_modulus for layer in roller.layers[:2]]
+    return len(moduli) == 2 and moduli[0] >= _STIFF * moduli[1]
 
 
 def bands(

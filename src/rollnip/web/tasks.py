@@ -36,7 +36,7 @@ from rollnip.solution import Solution
 from rollnip.solve import solve
 from rollnip.sweep import scalars
 from rollnip.web.answers import SOURCE, Reply, error_tree, json_bytes, refusal
-from rollnip.web.known import JUDGED, at_end, bands, spread
+from rollnip.web.known import JUDGED, at_end, bands, is_judged, spread
 from rollnip.web.library import Library
 from rollnip.web.limits import Limits
 
@@ -184,7 +184,7 @@ class Tasks:
         answer: dict[str, Any] = {
             "geometry": solution.model.geometry,
             "accuracy": JUDGED[solution.model.geometry],
-            "is_judged": not solution.warnings,
+            "is_judged": is_judged(solution),
             "materials": [band._asdict() for band in found],
             "figures": {},
             "message": "",

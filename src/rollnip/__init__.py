@@ -118,7 +118,7 @@ class _Door(ModuleType):
 
     @identify.setter
     def identify(self, module: ModuleType) -> None:
-        """As below."""
+        """Ignore that the import system sets the submodule as an attribute here."""
 
     @property
     def solve(self) -> Any:
@@ -126,7 +126,7 @@ class _Door(ModuleType):
 
     @solve.setter
     def solve(self, module: ModuleType) -> None:
-        """Ignore that the import system hangs the submodule here."""
+        """Ignore that the import system sets the submodule as an attribute here, as above."""
 
     @property
     def sweep(self) -> Any:
@@ -134,7 +134,7 @@ class _Door(ModuleType):
 
     @sweep.setter
     def sweep(self, module: ModuleType) -> None:
-        """As above."""
+        """Ignore that the import system sets the submodule as an attribute here, likewise."""
 
 
 sys.modules[__name__].__class__ = _Door

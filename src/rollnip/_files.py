@@ -38,7 +38,7 @@ class Run:
     _targets: dict[str, str] = field(default_factory=dict)
 
     def reserve(self, targets: Mapping[str, Path | None]) -> None:
-        """Claim files to be written, by the option that names them; None: not asked for.
+        """Claim files to be written, each under its option; None: the option was not given.
 
         Raises
         ------
@@ -71,7 +71,7 @@ class Run:
             )
 
     def note(self, path: Path) -> None:
-        """Take down a file that is read; RollnipError where it was to be written."""
+        """Record a file that is read; raise RollnipError if it is to be written."""
         for key in _keys(path):
             self._read[key] = str(path)
         for place, option in self._targets.items():
@@ -82,20 +82,21 @@ class Run:
                 )
 
     def note_input(self) -> None:
-        """Take down the file that the standard input comes from, where it is one."""
+        """Record the file that the standard input comes from, if it comes from a file."""
         with suppress(OSError, ValueError):
             found = os.fstat(sys.stdin.fileno())
             self._read[(found.st_dev, found.st_ino)] = "the standard input"
 
 
-# The run of this thread of control. Readers stand floors below the commands and are called by
-# Python programs too, which open no run: a context variable reaches them without an argument.
+# The run that is open in this context. The functions that read files lie several layers below the
+# commands, and Python programs, which open no run, call them too: a context variable reaches them
+# without an argument.
 _RUN: ContextVar[Run | None] = ContextVar("run", default=None)
 
 
 @contextmanager
 def one_run(*, force: bool = False) -> Iterator[Run]:
-    """Protect what is read meanwhile; within another run its rules go on."""
+    """Open a run, in which no file that is read is written over; keep a run that is open."""
     outer = _RUN.get()
     if outer is not None:
         yield outer
@@ -110,7 +111,7 @@ def one_run(*, force: bool = False) -> Iterator[Run]:
 
 
 def reading(path: str | Path) -> None:
-    """Tell the run, where there is one, that a file is read; ``-`` is the standard input.
+    """Record with the open run, if any, that a file is read; ``-`` is the standard input.
 
     Raises RollnipError where the run is to write that file.
     """
@@ -178,7 +179,7 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
 
 
 def _keys(path: Path) -> list[str | _Identity]:
-    """What tells a file from others: its true name, and where it is there what a hard link has."""
+    """Return what identifies a file: its true path and, where it exists, its device and inode."""
     keys: list[str | _Identity] = []
     with suppress(OSError, ValueError):
         keys.append(os.path.realpath(path))
@@ -188,7 +189,7 @@ def _keys(path: Path) -> list[str | _Identity]:
 
 
 def _is_own(path: Path) -> bool:
-    """Whether a file is as a run of rollnip wrote it last."""
+    """Return whether a file is as a run of rollnip last wrote it."""
     try:
         mark = _mark(Path(os.path.realpath(path)))
         return mark is not None and mark.exists()
@@ -197,9 +198,9 @@ def _is_own(path: Path) -> bool:
 
 
 def _remember(target: Path, old: Path | None) -> None:
-    """Keep the mark of what stands at ``target`` now in place of an old one.
+    """Store the mark of the present content of ``target``, in place of an old mark.
 
-    Where it cannot be kept, the file counts as another's from then on.
+    Where the mark cannot be stored, the file counts as written by another program.
     """
     with suppress(OSError):
         mark = _mark(target)
@@ -212,7 +213,7 @@ def _remember(target: Path, old: Path | None) -> None:
 
 
 def _mark(target: Path) -> Path | None:
-    """The empty file whose name says: rollnip wrote ``target`` as it stands; None: no file."""
+    """Return the path of the mark that rollnip wrote ``target`` as it is; None: no file there."""
     if not target.is_file():
         return None
     name = sha256(str(target).encode("utf-8", "surrogateescape")).hexdigest()[:_DIGITS]
@@ -222,7 +223,7 @@ def _mark(target: Path) -> Path | None:
 
 
 def _memory() -> Path:
-    """The folder of the marks, for this user."""
+    """Return the folder of this user's marks."""
     state = os.environ.get("XDG_STATE_HOME") or os.environ.get("LOCALAPPDATA")
     try:
         folder = Path(state) if state else Path.home() / ".local" / "state"

@@ -119,7 +119,7 @@ class Figure:
 
     @property
     def factor(self) -> float:
-        """From the base unit to the unit shown."""
+        """Factor from the base unit to the unit shown."""
         return _UNITS[self.dimension].factor
 
     def value(self, solution: Any) -> float | None:
@@ -127,7 +127,7 @@ class Figure:
         return _finite(getattr(solution, self.name))
 
     def cleaned(self, solution: Any) -> float | None:
-        """The same, 0 where it is a rounding error."""
+        """Return the value of the figure, but 0 where it is a rounding error."""
         value = self.value(solution)
         return value if value is None or abs(value) > self.noise(solution) else 0.0
 

@@ -136,7 +136,7 @@ class CrownTable:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Shaft:
-    """What carries a roller: a core over the face, journals to two bearings.
+    """Shaft of a roller: a core over the face, journals to two bearings.
 
     The core is what is under the coverings: its diameter is 2 (radius - coverings).
 

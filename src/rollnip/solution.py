@@ -109,7 +109,7 @@ class Solution(Presented):
 
     @property
     def nip_width(self) -> float:
-        """From the outermost trailing to the outermost leading edge [mm]."""
+        """Nip width, from the outermost trailing to the outermost leading edge [mm]."""
         return self.final.figures.nip_width
 
     @property
@@ -124,7 +124,7 @@ class Solution(Presented):
 
     @property
     def peak_pressure_x(self) -> float:
-        """Where the pressure is highest [mm]."""
+        """Place of the highest pressure [mm]."""
         return peak_pressure(self.final.x, self.final.pressure)[1]
 
     @property

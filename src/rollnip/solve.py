@@ -135,9 +135,10 @@ def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solutio
 
 
 def _without_solution(final: Round) -> str:
-    """Why the iteration for the second order of "finite" has no solution; "" where it has one.
+    """Return why the iteration for the second order of "finite" has no solution; "" if it has one.
 
-    A solution that misses the tolerance is one: the model never depends on an error estimate.
+    A solution that misses the tolerance counts as one: the model never depends on an error
+    estimate.
     """
     if not final.zones or not final.figures.peak_pressure > 0.0:
         return "its surfaces do not touch"
@@ -176,14 +177,14 @@ def _require_grip(nip: Nip, final: Round) -> None:
 
 
 def _may_spin(nip: Nip, final: Round) -> bool:
-    """Whether a round that did not settle takes more traction than friction carries."""
+    """Return whether an unsettled round takes at least the traction that friction can carry."""
     wanted = final.problem.control.traction
     load = final.figures.load
     return wanted is not None and load > 0.0 and abs(wanted) >= nip.friction * load > 0.0
 
 
 def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
-    """Whether the solution stands, and a sentence that says so or what to do."""
+    """Return whether the solution is valid, and a sentence that says so or what to do."""
     if not final.settled and _may_spin(nip, final):
         return False, (
             "Contact, stick and slip did not settle: a traction of about "

@@ -1,4 +1,4 @@
-"""Where the model is used outside the range it was judged in: a fixed list of warnings.
+"""A fixed list of warnings where the model is used outside the range it was judged in.
 
 The thresholds come from the comparison with finite-strain finite elements (docs/geometry.md); the
 list with its reasons is in docs/validity.md. A warning never changes a result.
@@ -38,7 +38,7 @@ TIME_SPAN = 10.0
 
 @dataclass(frozen=True, slots=True)
 class Strains:
-    """How large strains are in a solution.
+    """Sizes of the strains in a solution.
 
     Attributes
     ----------
@@ -52,7 +52,7 @@ class Strains:
 
     @classmethod
     def of(cls, nip: Nip, model: Model, final: Round) -> Strains:
-        """Those of a solution."""
+        """Return the strains of a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
         return cls(surface, _second_share(nip, final))
 
@@ -124,7 +124,7 @@ def _surface_strain(largest: float) -> str:
 
 
 def _second_share(nip: Nip, final: Round) -> float:
-    """`Strains.second`."""
+    """Return `Strains.second` of a solution."""
     if final.mesh.kernels.is_linear:
         return 0.0
     inside = final.mesh.inner[final.state.pressure > 0.0]

@@ -1,4 +1,4 @@
-"""What a solution says of itself: its case, its tree of values, its dataset, its summary.
+"""Output of a solution: its case, its tree of values, its dataset, its summary.
 
 These read the attributes of a solution alone, so that `Solution` can stand on them.
 """

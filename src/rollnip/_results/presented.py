@@ -1,4 +1,4 @@
-"""How a solution presents itself: in one line, as a summary, in a notebook, as a dataset."""
+"""Presentation of a solution: in one line, as a summary, in a notebook, as a dataset."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from rollnip.nip import Nip
 
 
 class Presented:
-    """What every solution says of its case and of itself."""
+    """Base class of solutions: their case, summary and dataset."""
 
     nip: Nip
     model: Model
 
     @property
     def case(self) -> dict[str, Any]:
-        """What was solved, as the tree of a case file: base units, defaults written out."""
+        """Problem and model as the tree of a case file: base units, defaults written out."""
         return case_tree(self.nip, self.model)
 
     @property

@@ -62,7 +62,7 @@ def sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
 
 
 def verdict(solution: Any) -> tuple[str, str]:
-    """Whether the solution converged, and how it was reached, in words."""
+    """Return whether the solution converged, and how it was reached, in words."""
     solver = solution.solver
     how = (
         f"geometry {solution.model.geometry}, {solver.elements} elements, "
@@ -74,7 +74,7 @@ def verdict(solution: Any) -> tuple[str, str]:
 
 
 def brief(solution: Any) -> str:
-    """One line: the title, whether it converged, and the main figures."""
+    """Return one line: the title, whether the solution converged, and the main figures."""
     name = f'"{solution.nip.title}", ' if solution.nip.title else ""
     state = "converged" if solution.converged else "NOT CONVERGED"
     figures = (line(FIGURES[key], solution) for key in _BRIEF)
@@ -116,7 +116,7 @@ def zones(solution: Any) -> Iterator[Line]:
 
 
 def _contact(solution: Any) -> Iterator[Line]:
-    """Where it touches: each interval, or the outermost edges and the length of many."""
+    """Yield the edges of each contact interval, or the outermost edges and the length of many."""
     intervals = solution.contact
     if len(intervals) > _MOST_INTERVALS:
         length = sum(leading - trailing for trailing, leading in intervals)

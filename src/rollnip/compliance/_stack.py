@@ -92,5 +92,5 @@ def _require_poisson(name: str, poisson: FloatArray) -> None:
 
 
 def _is_finite_from(least: float, values: Array) -> bool:
-    """Whether no value is below ``least``, infinite or nan."""
+    """Return whether all values are finite and at least ``least``."""
     return values.size == 0 or bool(values.min() >= least and values.max() < inf)

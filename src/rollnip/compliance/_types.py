@@ -1,4 +1,4 @@
-"""What the compliance functions take and return."""
+"""Types that the compliance functions take and return."""
 
 from __future__ import annotations
 

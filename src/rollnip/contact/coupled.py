@@ -181,7 +181,7 @@ def _matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Ar
 
 
 def _right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Array:
-    """What the rows of `_matrix` are equal to."""
+    """Return the right-hand sides of the rows of `_matrix`."""
     n_c = contact.size
     right = np.empty(n_c + stick.size + 2)
     right[:n_c] = -problem.clearance[contact]

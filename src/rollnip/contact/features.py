@@ -124,7 +124,11 @@ def transition(x: Array, slack: Array, states: States, i: int) -> float:
 
 
 def _crossing(x: Array, values: Array, i: int, step: int, *, power: float = _ROOT) -> float:
-    """Where values^power, extrapolated from nodes i - step and i, is zero, up to i + step."""
+    """Return the place where values^power, extrapolated from nodes i - step and i, vanishes [mm].
+
+    It lies between node i and the place of node i + step, and is their midpoint where no zero can
+    be extrapolated.
+    """
     beyond = i + step
     limit = x[beyond] if 0 <= beyond < x.size else x[i] + step * abs(x[i] - x[i - step])
     if not 0 <= i - step < x.size:

@@ -86,17 +86,17 @@ class Layout:
 
     @property
     def edges(self) -> tuple[float, float]:
-        """Of the contact, trailing and leading [mm]."""
+        """Trailing and leading edge of the contact [mm]."""
         return float(self.breaks[0]), float(self.breaks[-1])
 
     @property
     def width(self) -> float:
-        """Of the contact [mm]."""
+        """Width of the contact [mm]."""
         return float(self.breaks[-1] - self.breaks[0])
 
     @property
     def is_proper(self) -> bool:
-        """Whether every zone has a length."""
+        """Return whether all breaks are finite and every zone has a positive length."""
         breaks = self.breaks.tolist()
         return all(map(isfinite, breaks)) and all(a < b for a, b in pairwise(breaks))
 
@@ -164,10 +164,11 @@ _Three = Sequence[float]
 
 
 def _outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
-    """How far outwards the end of a zone ought to be, from values at three distances inwards.
+    """Return how far outwards a zone's end should move, from values at three distances inwards.
 
-    They are fitted by s, s^3 and a third pattern, s the root of the distance: what a misplaced end
-    leaves, or s^5 at a smooth one. nan where they do not rise inwards as they ought to.
+    The values are fitted by s, s^3 and a third pattern, where s is the square root of the
+    distance: the pattern that a misplaced end leaves, or s^5 at a smooth end. Return nan where
+    the values do not rise inwards as they should.
     """
     first = (1.0, 1.0, 1.0)
     third = [d * d for d in distance] if smooth else _RESPONSE
@@ -182,7 +183,7 @@ def _outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
 
 
 def _determinant(a: _Three, b: _Three, c: _Three) -> float:
-    """Of a matrix with three columns."""
+    """Return the determinant of the matrix with these three columns."""
     return (
         a[0] * (b[1] * c[2] - b[2] * c[1])
         + a[1] * (b[2] * c[0] - b[0] * c[2])
@@ -192,7 +193,7 @@ def _determinant(a: _Three, b: _Three, c: _Three) -> float:
 
 @dataclass(slots=True)
 class GivenStates:
-    """Solves a contact problem on states that it is given.
+    """Solver of a contact problem whose states are given and kept.
 
     It keeps its last linear system, for problems on the same mesh with other second-order terms.
     """
@@ -200,7 +201,7 @@ class GivenStates:
     _last: LinearSystem | None = None
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """The solution; that pressure is negative, gaps overlap, or what sticks, is seen later."""
+        """Return the solution for these states; whether they are right is checked later."""
         last = self._last
         if (
             last is None
@@ -213,7 +214,7 @@ class GivenStates:
 
 @dataclass(frozen=True, slots=True)
 class HeldContact:
-    """Solves a contact problem on a contact set that it is given, stick and slip as they come.
+    """Solver of a contact problem whose contact set is given; stick and slip are found.
 
     Parameters
     ----------
@@ -225,7 +226,10 @@ class HeldContact:
     rounding: float = 1e-11
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """From ``states``; pressure may be negative and gaps overlap, which is seen later."""
+        """Return the solution on the contact set of ``states``, with stick and slip iterated.
+
+        Pressure may be negative and surfaces may overlap; this is checked later.
+        """
         for step in range(1, self.max_steps + 1):
             solution = solve_states(problem, states, steps=step, settled=True)
             if step == self.max_steps:

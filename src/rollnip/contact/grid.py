@@ -37,7 +37,7 @@ class Convolution:
 
     @cached_property
     def length(self) -> int:
-        """Of the circle that the values are padded to; at least 2 n - 1, so that none overlap."""
+        """Number of values on the padded circle; at least 2 n - 1, so that none overlap."""
         return int(next_fast_len(self.coefficients.size + self.size // 4 + 2, real=True))
 
     @cached_property

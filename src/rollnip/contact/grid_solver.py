@@ -109,7 +109,7 @@ def _between(pressure: Array, problem: GridProblem) -> Array:
 
 
 def _feasible(problem: GridProblem, pressure: Array) -> Array:
-    """Without tension, and carrying the load where that is prescribed."""
+    """Return the pressure without tension, scaled to the load where that is prescribed."""
     kept = np.maximum(pressure, 0.0)
     if problem.load is None:
         return kept
@@ -205,10 +205,11 @@ def _relative(correction: Array, pressure: Array) -> float:
 
 
 def _growing(problem: GridProblem, most: int) -> GridState:
-    """From the nearest node: what overlaps most joins the contact, what is under tension leaves.
+    """Solve with a contact set that grows from the nearest node.
 
-    Each set is solved by a dense system, and the pressure goes towards that solution as far as it
-    stays without tension (Lawson and Hanson): no set comes twice. Sure, and quick where few nodes
+    The nodes that overlap most join the contact, and nodes under tension leave it. Each set is
+    solved by a dense system, and the pressure goes towards that solution as far as it stays
+    without tension (Lawson and Hanson), so no set comes twice. This is quick where few nodes
     touch, as under a stiff skin.
     """
     count = problem.clearance.size
@@ -258,7 +259,10 @@ def _dense(problem: GridProblem, inside: Indices) -> tuple[Array, float] | None:
 
 
 def _towards(pressure: Array, wanted: Array) -> Array:
-    """As far from one pressure to another as none is below zero; who reaches it is put there."""
+    """Return the pressure moved towards ``wanted`` as far as no value falls below zero.
+
+    Values that reach zero there are set to exactly zero.
+    """
     falling = wanted < 0.0
     shares = pressure[falling] / (pressure[falling] - wanted[falling])
     share = float(np.min(shares))

@@ -39,7 +39,7 @@ _MARGIN = np.array([1.0, 2.0, 4.0, 8.0])  # nodes outside the contact, in edge e
 
 @dataclass(frozen=True, slots=True)
 class Demand:
-    """How many elements tractions ask for: the integral of |f''|^(1/3) over each interval.
+    """Number of elements that tractions need: the integral of |f''|^(1/3) over each interval.
 
     Linear interpolation of f errs by f'' h^2/12 on average; with a given number of elements the
     integral of the error is smallest where h goes as |f''|^(-1/3).
@@ -177,9 +177,10 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
 
 
 def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
-    """Largest error of the cubics of `subdivided` through values at the ends of elements.
+    """Return the largest error of the cubics of `subdivided` through values at element ends.
 
-    Between the inner two of four points it is 3/128 of the fourth difference, taken from five.
+    Between the inner two of four points the error is 3/128 of the fourth difference, which is
+    taken from five points.
 
     Parameters
     ----------
@@ -241,9 +242,9 @@ def _cubic_weights(t: Array) -> Array:
 
 
 def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
-    """How nodes crowd at the ends of each zone so that a boundary layer there gets its share.
+    """Return how strongly nodes crowd at the ends of each zone to resolve boundary layers there.
 
-    A power of two, so that zones that move a little have the same.
+    Each value is a power of two, so that zones that move a little keep theirs.
 
     Parameters
     ----------
@@ -274,7 +275,7 @@ def elements_of_zones(
 
 
 def more_elements(crowd: float) -> float:
-    """How many times the elements of a zone with cosine places one that crowds its nodes gets."""
+    """Return the factor by which crowding nodes raises the number of elements of a zone."""
     return sqrt(float(ellipkm1(crowd * crowd)) / (0.5 * pi))
 
 

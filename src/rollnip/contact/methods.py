@@ -1,4 +1,4 @@
-"""How a whole contact problem is solved: the coupled active set and what stands behind it."""
+"""The solver of a whole contact problem: the coupled active set and the slower ways behind it."""
 
 from __future__ import annotations
 

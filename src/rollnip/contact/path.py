@@ -106,13 +106,13 @@ def _sliding(problem: ContactProblem, states: States, sign: int) -> ContactState
 
 
 def _beyond_sliding(problem: ContactProblem, sliding: ContactState, sign: int) -> bool:
-    """Whether more traction is wanted than full sliding gives."""
+    """Return whether at least the traction of full sliding is prescribed."""
     wanted = problem.control.traction
     return wanted is not None and sign * (wanted - float(problem.weights @ sliding.shear)) >= 0.0
 
 
 def _within_sliding(problem: ContactProblem, sliding: ContactState, sign: int) -> bool:
-    """Whether a creepage is prescribed at which all nodes slide."""
+    """Return whether a creepage is prescribed at which all nodes slide."""
     wanted = problem.control.creepage
     return wanted is not None and sign * (wanted - sliding.creepage) >= 0.0
 
@@ -129,11 +129,10 @@ def _pair(
 
 
 def _margins(problem: ContactProblem, solution: ContactState) -> tuple[Array, Array]:
-    """What must stay positive at each node: shape (2, n), the second for stick alone.
+    """Return two margins (n,) of the nodes that are positive while the states are right.
 
-    Row 0: gap where free, mu p - q in stick, pressure times creep sign in slip is split: row 0 is
-    the pressure of a slipping node, row 1 its creep in the sense of its shear; in stick row 0 is
-    mu p - q and row 1 mu p + q (their sum keeps the pressure positive).
+    A free node has its gap (and inf), a sticking node mu p - q and mu p + q (their sum keeps the
+    pressure positive), a slipping node its pressure and its creep in the sense of its shear.
     """
     states = solution.states
     bound = problem.friction * solution.pressure
@@ -187,7 +186,10 @@ def _changed(
 def _turns(
     problem: ContactProblem, states: States, creepage: float, heading: int, place: tuple[int, int]
 ) -> bool:
-    """Whether the node that changed would at once violate its new condition: turn round."""
+    """Return whether the node that changed would at once violate its new condition.
+
+    The path then turns round.
+    """
     here, ahead = _pair(problem, states, creepage, heading)
     now, then = np.stack(_margins(problem, here)), np.stack(_margins(problem, ahead))
     node = place[1]

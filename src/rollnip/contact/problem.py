@@ -30,7 +30,7 @@ _SHEAR_SIGNS = np.array([0.0, 0.0, 1.0, -1.0])  # of the states in their order
 
 @dataclass(frozen=True, slots=True)
 class Control:
-    """What is prescribed: exactly one of each pair is a number, the other None.
+    """The prescribed quantities: exactly one of each pair is a number, the other None.
 
     load [N/mm] or approach [mm]; traction [N/mm] or creepage.
     """
@@ -153,7 +153,7 @@ def shear_signs(states: States) -> Array:
 
 
 def unsolved(problem: ContactProblem) -> ContactState:
-    """No solution: free surfaces, not settled."""
+    """Return a state that is no solution: all surfaces free, not settled."""
     zero = np.zeros(problem.x.size)
     states = np.full(problem.x.size, State.FREE, dtype=np.int8)
     return ContactState(states, zero, zero, 0.0, np.nan, 0, False)

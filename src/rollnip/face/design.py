@@ -1,4 +1,4 @@
-"""Which crown, which load, which skew: a face that is meant to be even."""
+"""Design of a face that is meant to be even: its crown, its load, its skew."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From the problem of a face to its verified solution: the table grows until it covers the face."""
+"""The verified solution of a face, on a table that grows until it covers the face."""
 
 from __future__ import annotations
 

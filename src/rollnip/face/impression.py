@@ -72,7 +72,7 @@ class Impression:
 
 @dataclass(frozen=True, slots=True)
 class Estimate:
-    """One unknown as the widths tell it.
+    """Estimate of one unknown from the widths.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class Estimate:
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What an impression says.
+    """Result of reading impressions: estimates, fitted faces and warnings.
 
     Attributes
     ----------

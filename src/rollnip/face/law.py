@@ -96,7 +96,7 @@ class NipLaw:
 
     @property
     def solves(self) -> int:
-        """How many nips were solved for it."""
+        """Number of nips that were solved for the law."""
         return int(self.loads.size * (self.s.size + 1)) - 1
 
     @property

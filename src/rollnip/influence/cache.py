@@ -50,7 +50,7 @@ class KernelCache:
         self._pairs: OrderedDict[_Key, object] = OrderedDict()
 
     def __len__(self) -> int:
-        """Tables that are kept, pairs not counted."""
+        """Return the number of tables that are kept, pairs not counted."""
         return len(self._tables) + len(self._second)
 
     def surface(
@@ -81,7 +81,10 @@ class KernelCache:
         geometry: str,
         make: Callable[[], _Table],
     ) -> _Table:
-        """What ``make`` works out from the influence functions of two rollers, always the same."""
+        """Return what ``make`` computes for two rollers, from the cache where it is kept.
+
+        ``make`` must compute the same for the same rollers, speed and geometry.
+        """
         upper, lower = rollers
         key: _Key = (
             (upper.layers, upper.core, upper.radius, _speed_that_counts(upper, speed)),

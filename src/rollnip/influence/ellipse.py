@@ -36,7 +36,7 @@ class Ellipses:
 
     @classmethod
     def under(cls, kernel: Kernel, longest: float) -> Ellipses:
-        """Of an influence function, for half-widths up to the ``longest`` [mm]."""
+        """Tabulate an influence function's displacements for half-widths up to ``longest`` [mm]."""
         half_width = longest * _HALF_WIDTHS
         values = kernel.double_integral(np.multiply.outer(half_width, _DISTANCES))
         centre, edge = (values @ _KINKS).T / half_width

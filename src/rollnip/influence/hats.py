@@ -72,5 +72,5 @@ def _kinks(values: Array, nodes: Array, count: int) -> Array:
 
 
 def _differences(row: Array, distance: int, out: Array) -> None:
-    """What lies ``distance`` ahead less what is here, into the start of ``out``."""
+    """Write the values ``distance`` ahead less those here into the start of ``out``."""
     np.subtract(row[distance:], row[:-distance], out=out[:-distance])

@@ -1,4 +1,4 @@
-"""From a compliance C(k) to a tabulated influence function and its integrals in space."""
+"""Tabulated influence functions and their integrals in space, from compliances C(k)."""
 
 from __future__ import annotations
 

@@ -57,7 +57,7 @@ _SOFT = 36.0  # exponent of the filter at the largest wave number
 
 @dataclass(frozen=True, slots=True)
 class SecondResponse:
-    """What is needed to compute the second-order displacement of one surface.
+    """Table from which the second-order displacement of one surface is computed.
 
     Transforms are Fourier coefficients, whatever the grid; those of tractions are of i t_x and
     t_z. Amplitudes are those of linear fields per unit of both, on the last axis.
@@ -95,7 +95,7 @@ class SecondResponse:
     is_short: bool
 
     def fitted(self, half_width: float) -> SecondResponse:
-        """The same table for another contact, of a half-width [mm] that it resolves."""
+        """Return this table for another contact, of a half-width [mm] that it resolves."""
         impulse, angle, excess = _fit(self.x, self.k, self.curvature, half_width)
         return replace(self, impulse=impulse, angle=angle, excess=excess)
 
@@ -313,7 +313,7 @@ def _spread(roller: Roller, size: float) -> float:
 
 
 def _reach(roller: Roller) -> float:
-    """How far beyond the contact the layers let fields spread, in thicknesses.
+    """Return how far beyond the contact the layers let fields spread, in thicknesses.
 
     A stiff layer on a soft one bends over its thickness times the cube root of the contrast.
     """

@@ -52,7 +52,7 @@ class SurfaceKernels:
 
 
 def is_ring(roller: Roller, geometry: str) -> bool:
-    """Whether the layers are treated as curved: finite radius, rigid core, "curved" or "finite"."""
+    """Return whether layers count as curved: finite radius, rigid core, "curved" or "finite"."""
     curved = geometry in ("curved", "finite")
     return curved and not isinf(roller.radius) and roller.core is None
 

@@ -1,4 +1,4 @@
-"""What interfaces between layers, and the bond to the core, have to carry."""
+"""Stresses that the interfaces between layers, and the bond to the core, have to carry."""
 
 from __future__ import annotations
 

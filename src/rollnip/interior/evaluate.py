@@ -1,4 +1,4 @@
-"""The door's function: from a roller and its surface tractions to the field inside."""
+"""The field inside a roller, from the roller and its surface tractions."""
 
 from __future__ import annotations
 

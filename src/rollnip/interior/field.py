@@ -12,9 +12,10 @@ from rollnip.interior.tractions import Array
 
 @dataclass(frozen=True, slots=True)
 class StressRanges:
-    """Largest less smallest stress as material passes the nip, 0 far from it included.
+    """Ranges of the stresses as material passes the nip: largest less smallest value.
 
-    One such cycle per revolution; each (nz,) [MPa].
+    The stress far from the nip, 0, counts too. Each revolution is one such cycle. Each range is
+    (nz,) [MPa].
 
     Attributes
     ----------
@@ -126,7 +127,7 @@ class InteriorField:
 
     @property
     def _radius(self) -> Array:
-        """Of Mohr's circle in the plane [MPa]."""
+        """Radius of Mohr's circle in the plane [MPa]."""
         return np.hypot(0.5 * (self.s_xx - self.s_zz), self.s_xz)
 
 

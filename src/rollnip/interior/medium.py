@@ -42,7 +42,7 @@ class Medium:
 
     @cached_property
     def is_ring(self) -> bool:
-        """Whether layers are curved."""
+        """Return whether the layers are treated as curved."""
         return is_ring(self.roller, self.geometry)
 
     @property
@@ -52,7 +52,7 @@ class Medium:
 
     @property
     def is_viscoelastic(self) -> bool:
-        """Whether any of its materials is."""
+        """Return whether any material of the roller is viscoelastic."""
         return self.roller.is_viscoelastic
 
     @cached_property

@@ -50,7 +50,7 @@ class Powers:
     two: ComplexArray
 
     def raised(self) -> Powers:
-        """The same times ik: the derivative along x; ``two`` is then not to be used."""
+        """Return the powers times ik, for the derivative along x; its ``two`` must not be used."""
         return Powers(1j * self.zero, 1j * self.one, 1j * self.two, self.two)
 
 

@@ -42,7 +42,7 @@ _STRESS, _STRAIN, _RATE = slice(2, 5), slice(5, 8), slice(8, 11)
 
 @dataclass(frozen=True, slots=True)
 class Rows:
-    """What is wanted at which depths, and how far each depth needs wave numbers.
+    """Depths with their layers, and the wave numbers that each of them needs.
 
     Attributes
     ----------
@@ -183,7 +183,7 @@ class HalfSpace:
         self.curvature = medium.curvature
 
     def fields(self, powers: Powers, depth: Depth) -> ComplexArray:
-        """All quantities, (parts, nz, n); in the Fourier domain without the decay."""
+        """Return all quantities, (parts, nz, n), in the Fourier domain without the decay."""
         nu = self.material.poisson
         stress = half_space_stress(powers, depth)
         parts = [half_space_displacement(powers, depth, self.compliance, nu), stress]

@@ -67,7 +67,7 @@ class Block:
 
     @property
     def is_even(self) -> bool:
-        """Whether all panels are of one width."""
+        """Return whether all panels have the same width."""
         return bool(np.ptp(self.halves) == 0.0)
 
 

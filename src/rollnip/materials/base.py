@@ -1,4 +1,4 @@
-"""What every material offers, and the checks their parameters share."""
+"""The base class of all materials, and the checks that their parameters share."""
 
 from __future__ import annotations
 

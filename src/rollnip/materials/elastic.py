@@ -67,7 +67,7 @@ class Elastic(Material):
 
     @property
     def is_elastic(self) -> bool:
-        """True."""
+        """True: the modulus does not depend on s."""
         return True
 
     @property

@@ -14,7 +14,7 @@ _ROUNDING = 1e-12
 
 
 def is_passive(material: Material, frequencies: ArrayLike | None = None) -> bool:
-    """Whether a material stores and dissipates, but never gives, energy at every frequency tried.
+    """Return whether a material is passive: it stores and dissipates energy, but never gives any.
 
     Storage modulus Re E*(i w) >= 0 and loss modulus sign(w) Im E*(i w) >= 0, to within rounding.
     The materials of this package are passive by their parameters; this is the check for others.

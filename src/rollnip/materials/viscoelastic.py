@@ -30,7 +30,7 @@ _HINTS = with_hints(
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Viscoelastic(Material):
-    """What the viscoelastic materials share: Poisson ratio and temperature.
+    """Base class of the viscoelastic materials, with their Poisson ratio and temperature.
 
     Times and moduli are given at the reference temperature of ``shift``; at ``temperature`` times
     are a_T times as long and moduli b_T times as high. Both or neither must be given. The Poisson
@@ -52,7 +52,7 @@ class Viscoelastic(Material):
 
     @property
     def is_elastic(self) -> bool:
-        """False."""
+        """False: the modulus depends on s."""
         return False
 
     @property

@@ -1,4 +1,4 @@
-"""What the paper does not say, what was assumed, and what another choice would change."""
+"""Assumptions on what the paper does not say, and what another choice would change."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Measure = Callable[[Solution], float]
 
 @dataclass(frozen=True, slots=True)
 class Effect:
-    """One assumption changed.
+    """Effect of one changed assumption on a figure.
 
     Attributes
     ----------

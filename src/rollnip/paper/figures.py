@@ -1,4 +1,4 @@
-"""What figures 4 to 8 show, as numbers."""
+"""Figures 4 to 8 of the paper as numbers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""From a nip, its influence functions and a mesh to a discrete contact problem."""
+"""Assembly of a discrete contact problem from a nip, its influence functions and a mesh."""
 
 from __future__ import annotations
 
@@ -45,7 +45,7 @@ class SecondOrder:
     lean: float = 0.0
 
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
-        """The same terms on another mesh; where both have the same zones, zone by zone."""
+        """Return these terms on another mesh, zone by zone where both have the same zones."""
         matrices = carry(old.fine, new.fine)
         rate, offset = self.creep_length / old.dx, self.creep_offset / old.dx
         if matrices is not None:
@@ -67,9 +67,9 @@ class SecondOrder:
     def change(
         self, before: SecondOrder, creepage: float, dx: Array, scales: tuple[float, float, float]
     ) -> float:
-        """Largest change since ``before``: of the gap, the creep per length, and the traction.
+        """Return the largest change since ``before`` of gap, creep per length and traction.
 
-        That of the creep is a root mean square: strains at the very edge follow each mesh.
+        The change of the creep is a root mean square: strains at the very edge follow each mesh.
 
         Parameters
         ----------
@@ -91,7 +91,7 @@ class SecondOrder:
 
 
 def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem:
-    """Theory sections 5 and 6: gap and creep, linear in the tractions."""
+    """Return the contact problem of theory sections 5 and 6, linear in the tractions."""
     return ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
@@ -105,13 +105,13 @@ def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem
 
 
 def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
-    """No second-order terms yet; free rolling where a torque is wanted."""
+    """Return no second-order terms yet; where a torque is wanted, those of free rolling."""
     zero = np.zeros(mesh.inner.size)
     return SecondOrder(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
 
 
 def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
-    """Whether there are no second-order terms at all: they are those of `first_guess`."""
+    """Return whether there are no second-order terms at all, as in `first_guess`."""
     if isinstance(nip.tangential, Torque):
         return False
     return geometry == "linear" or (geometry == "curved" and nip.friction == 0.0)
@@ -153,7 +153,7 @@ def _control(nip: Nip, second: SecondOrder) -> Control:
 
 
 def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
-    """How far each surface lies from the tangent at first touch, before the approach [mm].
+    """Return how far each surface lies from the tangent at first touch, before the approach [mm].
 
     In "finite" u_z is that of the material that is at x now: the radius there is R - u_z.
     """
@@ -192,7 +192,12 @@ def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
 def _stretch_terms(
     nip: Nip, geometry: Geometry, mesh: Mesh, flat: Displacements, u: Displacements
 ) -> tuple[Array, Array]:
-    """What the creep (1 + xi/2) stretch_u - (1 - xi/2) stretch_l has beyond its linear part."""
+    """Return the terms that the stretch of both surfaces adds to the linear creep [mm].
+
+    The creep is the integral of (1 + xi/2) stretch_u - (1 - xi/2) stretch_l over an interval. The
+    first term is the factor of xi less the length of the interval; the second is the part without
+    xi less its linear part.
+    """
     x, is_flat = mesh.fine.nodes[1:], flat is u
     dx, hoops = x[1:] - x[:-1], np.array(mesh.kernels.hoops)[:, None]
     u = mesh.finer(u)

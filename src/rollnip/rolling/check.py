@@ -27,7 +27,7 @@ _OUTSIDE = np.array([0.02, 0.1, 0.3, 1.0])  # of the nip width, where overlap is
 
 @dataclass(frozen=True, slots=True)
 class Fields:
-    """What both surfaces do at some points, evaluated from the tractions of a solution.
+    """Fields of both surfaces at some points, evaluated from the tractions of a solution.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ class Fields:
 
 
 def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
-    """Evaluate a solution at points ``x``, with nothing taken over but tractions, delta and xi."""
+    """Evaluate a solution at points ``x`` from nothing but its tractions, delta and xi."""
     return _fields(x, nip, geometry, final, _displacements(x, kernels, final))
 
 
@@ -109,11 +109,11 @@ def fine_points(final: Round) -> Array:
 
 
 def residual(nip: Nip, fields: Fields, final: Round) -> float:
-    """Largest violation of the contact conditions, each relative (theory section 5).
+    """Return the largest relative violation of the contact conditions (theory section 5).
 
-    Penetration and p times gap over the approach, tension over the peak pressure, shear beyond
-    the traction bound, drift of sticking surfaces over |xi| times the nip width, slip with its
-    own shear, errors of load and traction.
+    The parts are: penetration and p times gap over the approach, tension over the peak pressure,
+    shear beyond the traction bound, drift of sticking surfaces over |xi| times the nip width, slip
+    with its own shear, errors of load and traction.
     """
     figures = final.figures
     peak = figures.peak_pressure
@@ -183,7 +183,7 @@ def slip_velocity(fields: Fields, zones: tuple[Zone, ...], speed: float) -> Arra
 
 
 def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: Round) -> float:
-    """Largest strain of either surface in the contact, mean over an element."""
+    """Return the largest strain of either surface in the contact, as a mean over an element."""
     x = final.nodes[1:]
     u = final.mesh.finer(final.mesh.displacements(final.state))
     touching = final.pressure > 0.0

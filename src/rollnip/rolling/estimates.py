@@ -29,7 +29,7 @@ _CREEPAGE, _PEAK = 2, 4  # their places among Figures
 
 @dataclass(frozen=True, slots=True)
 class Elements:
-    """What is known of the errors that a kind of elements makes.
+    """Properties of the errors that one kind of elements makes.
 
     Attributes
     ----------
@@ -47,7 +47,7 @@ CUBIC = Elements(_CUBIC, are_cubic=True)
 
 @dataclass(frozen=True, slots=True)
 class Size:
-    """What one size of mesh gave: number of elements, figures, edges and transitions, the rest."""
+    """Results on one size of mesh: elements, figures, edges and transitions, further figures."""
 
     count: int
     figures: Figures
@@ -105,9 +105,10 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
 
 
 def zone_excess(history: list[Size], tolerance: float) -> float:
-    """Largest estimated error of a zone's length, over what is allowed.
+    """Return the largest estimated error of a zone's length, over the allowed one.
 
-    Three times the tolerance of the length, or of a twentieth of the nip for shorter zones.
+    Allowed is three times the tolerance of the length, or of a twentieth of the nip for shorter
+    zones.
     """
     if len(history) < 2 or history[-1].breaks.size != history[-2].breaks.size:
         return 0.0

@@ -87,10 +87,11 @@ def _share_left(counts: Array, order: Array) -> Array:
 
 
 def further_sizes(nip: Nip, latest: Round, figures: Further) -> Array:
-    """What an error of each of `Further` counts against, (8,): at least a part of what it may be.
+    """Return the sizes that errors of `Further` are measured against, (8,).
 
-    A traction or a loss that is zero by symmetry has no relative accuracy. What is zero without
-    friction or without memory has no error.
+    Each is at least a part of the largest value that the figure may have: a traction or a loss that
+    is zero by symmetry has no relative accuracy. A figure that is zero without friction or without
+    memory has no error.
     """
     load, width = latest.figures.load, latest.figures.nip_width
     work = load * 0.5 * width * nip.curvature  # of the load on the slope at the edge

@@ -1,4 +1,4 @@
-"""What no nip can be, however well its equations are solved."""
+"""Checks for results that no nip can have, however well its equations are solved."""
 
 from __future__ import annotations
 

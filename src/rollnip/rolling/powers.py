@@ -1,4 +1,4 @@
-"""Where the power of the axles goes: torques, what slip loses, what viscoelastic layers lose.
+"""The power of the axles: torques, the loss by slip, the losses in viscoelastic layers.
 
 A surface that rolls steadily moves along the interface at V_r lambda, V_r the circumferential
 speed of its roller and lambda its stretch; a pressure does no work on it. The power that an axle
@@ -29,7 +29,7 @@ from rollnip.rolling.surfaces import Array, Displacements, Mesh
 
 @dataclass(frozen=True, slots=True)
 class Powers:
-    """What a rolled distance of 1 mm costs, per axial length; times V [mm/s] it is a power.
+    """Losses and pulls per rolled distance and axial length; times V [mm/s] each is a power.
 
     Attributes
     ----------

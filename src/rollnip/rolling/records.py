@@ -1,4 +1,4 @@
-"""What a solution reports beside its figures: zones, profiles, surfaces, how it was reached."""
+"""Records of a solution beside its figures: zones, profiles, surfaces, solver information."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class DeformedSurfaces:
 
 @dataclass(frozen=True, slots=True)
 class SolverInfo:
-    """How the solution was reached.
+    """Information on how the solution was reached.
 
     Attributes
     ----------

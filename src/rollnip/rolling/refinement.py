@@ -163,7 +163,7 @@ def _refined(
 def _handed_over(
     nip: Nip, model: Model, kernels: PairKernels, latest: Round, off: float
 ) -> Round | None:
-    """What free ends make of zones that linear elements have found; None where they fail."""
+    """Solve with free ends, from zones that linear elements have found; None where that fails."""
     layout = Layout.of(latest.zones)
     if layout is None:
         return None
@@ -193,7 +193,7 @@ def _with_size(history: list[Size], size: Size) -> list[Size]:
 
 
 def _apart(history: list[Size]) -> float:
-    """How far the zones of the last two sizes are apart, over the width; inf for other zones."""
+    """Return how far zone ends of the last two sizes are apart, over the width; inf if unlike."""
     if len(history) < 2 or history[-1].breaks.size != history[-2].breaks.size:
         return inf
     moved = np.abs(history[-1].breaks - history[-2].breaks)
@@ -201,7 +201,7 @@ def _apart(history: list[Size]) -> float:
 
 
 def _ratio(nip: Nip, latest: Round, history: list[Size], tolerance: float, too_few: int) -> float:
-    """Largest estimated error over what is allowed; above 1 on ``too_few`` elements."""
+    """Return the largest estimated error over the allowed; above 1 up to ``too_few`` elements."""
     count, ratio = history[-1].count, excess(nip, latest, tolerance)
     if len(history) > 1 and count < _ENOUGH_FOR_ZONES:
         ratio = max(ratio, zone_excess(history, tolerance))
@@ -222,7 +222,7 @@ def _demand(latest: Round) -> Demand:
 
 
 def _is_hopeless(latest: Round) -> bool:
-    """Whether to give up: unsettled, in pieces, diverging, or for want of friction."""
+    """Return whether an unsettled round is hopeless: in pieces, diverging or short of friction."""
     if latest.settled:
         return False
     spent = len(latest.zones) > _MOST_ZONES or not latest.figures.peak_pressure > 0.0
@@ -231,7 +231,10 @@ def _is_hopeless(latest: Round) -> bool:
 
 
 def _work(systems: int, elements: int) -> float:
-    """What linear systems take, in those of a hundred elements: half of it grows as the cube."""
+    """Return the cost of linear systems, in systems of a hundred elements.
+
+    Half of the cost of such a system grows as the cube of the number of elements.
+    """
     return 0.5 * systems * (1.0 + (elements / 100.0) ** 3)
 
 
@@ -283,6 +286,6 @@ def _next_breaks(latest: Round) -> Array:
 
 
 def _well_placed(breaks: Array, found: Array, count: int) -> bool:
-    """Whether edges and transitions lie where the mesh expected them, to two edge elements."""
+    """Return whether edges and transitions lie within two edge elements of where they should."""
     allowed = 5.0 * (found[-1] - found[0]) / count**2
     return found.size == breaks.size and bool(np.all(np.abs(found - breaks) < allowed))

@@ -26,7 +26,7 @@ class Figures:
     peak_pressure: float
 
     def array(self) -> Array:
-        """All of them in order, (5,)."""
+        """Return all figures in order, (5,)."""
         return np.array(
             [self.approach, self.load, self.creepage, self.nip_width, self.peak_pressure]
         )
@@ -34,7 +34,7 @@ class Figures:
 
 @dataclass(frozen=True, slots=True)
 class Further:
-    """What is reported of a solution besides `Figures`, or the errors of that.
+    """Figures that a solution reports besides `Figures`, or the errors of these.
 
     Attributes
     ----------
@@ -56,7 +56,7 @@ class Further:
     peak_pressure_x: float
 
     def array(self) -> Array:
-        """All of them in order, (8,)."""
+        """Return all figures in order, (8,)."""
         return np.array(astuple(self))
 
 
@@ -138,7 +138,7 @@ def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
 
 
 def excess(nip: Nip, latest: Round, tolerance: float) -> float:
-    """Largest estimated relative error over the tolerance; inf where nothing is pressed."""
+    """Return the largest relative error over the tolerance; inf where nothing is pressed."""
     figures, error = latest.figures, latest.error
     if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
         return inf
@@ -170,7 +170,7 @@ def scale_of_creepage(creepage: float, slope: float) -> float:
 
 
 def has_grip(latest: Round) -> bool:
-    """Whether friction can carry the wanted traction: |T| < mu F."""
+    """Return whether friction can carry the prescribed traction: |T| < mu F."""
     wanted = latest.problem.control.traction
     limit = latest.problem.friction * latest.figures.load
     if not latest.geometry_change < 1.0:  # a diverging geometry says nothing of friction

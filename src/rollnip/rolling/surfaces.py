@@ -70,14 +70,15 @@ class Displacements:
         return Displacements(self.four + other.four)
 
     def but_last(self) -> Displacements:
-        """At all points but the last."""
+        """Return the displacements at all points but the last."""
         return Displacements(self.four[:, :-1])
 
     @classmethod
     def under(cls, made: Array) -> Displacements:
-        """Under the tractions of a solution: (q, p) on the upper surface, (-q, p) on the lower.
+        """Return the displacements under a solution's tractions: (q, p) above and (-q, p) below.
 
-        ``made``, (6, n, 2): what its p and its q make by each function of `pair_displacements`.
+        ``made``, (6, n, 2): the displacements by p and by q, for each function of
+        `pair_displacements`.
         """
         xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = made
         four = np.empty((4, made.shape[1]))
@@ -146,7 +147,7 @@ class PairKernels:
 
     @property
     def is_linear(self) -> bool:
-        """Whether there is no second order."""
+        """Return whether neither surface has a second-order displacement."""
         return self.second_upper is None and self.second_lower is None
 
     def second_fields(self, nodes: Array, pressure: Array, shear: Array) -> SecondFields:
@@ -258,7 +259,7 @@ class Mesh:
         return u if values is None else Displacements(u.four @ values[1:, 1:].T)
 
     def sums(self, pieces: Array) -> Array:
-        """Over the intervals of nodes[1:], of what belongs to those of the finer nodes."""
+        """Return sums over the intervals of nodes[1:] of values on those of the finer nodes."""
         return _sums(self.nodes, self.fine, pieces)
 
     def linear(self, state: ContactState) -> Displacements:
@@ -279,7 +280,7 @@ class Mesh:
         return linear + (self.second(state, self.nodes[1:]) if held is None else held)
 
     def holding(self, kernels: PairKernels) -> Mesh:
-        """The same mesh with the second order that other influence functions hold."""
+        """Return this mesh with the second order that other influence functions hold."""
         return replace(self, kernels=kernels, held=_held_at(self.nodes, kernels))
 
     def second(self, state: ContactState, x: Array) -> Displacements:

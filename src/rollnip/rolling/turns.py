@@ -1,4 +1,4 @@
-"""One mesh: turns of the contact problem and its second-order terms, and the check afterwards."""
+"""The solution on one mesh: turns of contact and its second-order terms, and the check."""
 
 from __future__ import annotations
 

@@ -52,7 +52,7 @@ class RoughContact:
 
     @property
     def pressure(self) -> Array:
-        """At the nodes and linear between them, (n,) [MPa]."""
+        """Pressure at the nodes, linear between them, (n,) [MPa]."""
         return self.state.pressure
 
     @cached_property
@@ -67,9 +67,10 @@ class RoughContact:
 
     @property
     def errors(self) -> tuple[float, float, float, float]:
-        """Of the figures: what they change by where every second node is left out.
+        """Errors of the figures, from their changes where every second node is left out.
 
-        And what the iteration has left; the width is never better known than to half a spacing.
+        The error that the iteration leaves is added. The error of the width is at least half a
+        spacing.
         """
         if self.coarser is None:
             return (np.inf,) * 4
@@ -168,7 +169,7 @@ def _figures(x: Array, state: GridState) -> tuple[float, float, float, float]:
 def _wrong_sums(
     x: Array, pressure: Array, kernel: Kernel, compliance: Convolution, lift: float
 ) -> float:
-    """Largest difference of displacements by transforms and by direct sums, at some nodes [mm]."""
+    """Return the largest difference of displacements by transforms and by direct sums [mm]."""
     touching = np.flatnonzero(pressure > 0.0)
     rows = touching[np.linspace(0, touching.size - 1, _DIRECT).astype(int)]
     first, last = touching[0] - 1, touching[-1] + 1
@@ -179,10 +180,11 @@ def _wrong_sums(
 
 
 def _between(nip: Nip, sampling: Sampling, state: GridState, kernel: Kernel, lift: float) -> float:
-    """Largest violation of the contact conditions between the nodes, at some places [mm].
+    """Return the largest violation of the contact conditions between nodes, at some places [mm].
 
-    Nothing was solved there. Between two nodes that touch, the surfaces must lie on each other; at
-    an edge of the contact and outside they must not cross. Displacements are direct sums.
+    The conditions were not imposed there. Between two nodes that touch, the surfaces must lie on
+    each other; at an edge of the contact and outside they must not cross. Displacements are direct
+    sums.
     """
     x, pressure = sampling.x, state.pressure
     touching = np.flatnonzero(pressure > 0.0)
@@ -200,7 +202,7 @@ def _between(nip: Nip, sampling: Sampling, state: GridState, kernel: Kernel, lif
 
 
 def _depth(nip: Nip, problem: GridProblem, state: GridState) -> float:
-    """What distances are compared with: the approach, or the depth of the gap at the edges [mm]."""
+    """Return the scale of distances: the approach, or the depth of the gap at the edges [mm]."""
     touching = np.flatnonzero(state.pressure > 0.0)
     width = problem.spacing * float(touching[-1] - touching[0])
     depth = 0.125 * nip.curvature * width**2
@@ -213,10 +215,11 @@ def max_or_nan(*values: float) -> float:
 
 
 def _residual(nip: Nip, problem: GridProblem, state: GridState, gap: Array, wrong: float) -> float:
-    """Largest violation of the contact conditions, each relative.
+    """Return the largest relative violation of the contact conditions.
 
-    Penetration, p times gap and wrong sums over the approach (or the depth of the gap at the
-    edges); what the pressure would still change by over its peak; the error of the load.
+    The parts are: penetration, p times gap and wrong sums over the approach (or the depth of the
+    gap at the edges); the remaining correction of the pressure over its peak; the error of the
+    load.
     """
     pressure = state.pressure
     peak, total = float(np.max(pressure)), float(np.sum(pressure)) * problem.spacing

@@ -1,4 +1,4 @@
-"""What the surfaces do under the pressure of a rough contact, on its grid and beyond."""
+"""Fields of the surfaces under the pressure of a rough contact, on its grid and beyond."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class SurfaceFields:
-    """One surface in its own frame, at some places: u_x, u_z [mm], du_x/dx and du_z/dx."""
+    """Fields of one surface in its own frame: u_x, u_z [mm], du_x/dx and du_z/dx."""
 
     u_x: Array
     u_z: Array

@@ -1,4 +1,4 @@
-"""One uniform grid for the profiles of both rollers, and what is to be said of the samples."""
+"""The uniform grid for the profiles of both rollers, and notes on their samples."""
 
 from __future__ import annotations
 
@@ -98,7 +98,7 @@ def _rollers(nip: Nip) -> tuple[Roller, Roller]:
 
 
 def _ends(nip: Nip, profiles: list[Profile], half_width: float) -> tuple[float, float]:
-    """Where the grid begins and ends: in all profiles, near enough for contact."""
+    """Return both ends of the grid [mm]: within all profiles, near enough for contact."""
     rise = sum(float(np.ptp(p.height)) for p in profiles)
     far = sqrt((_FAR * half_width) ** 2 + 2.0 * rise / nip.curvature)
     far = min(far, 0.99 * nip.upper.radius, 0.99 * nip.lower.radius)
@@ -138,7 +138,7 @@ def _notes(name: str, roller: Roller, profile: Profile, half_width: float) -> li
 
 
 def _holds_curvature(roller: Roller, profile: Profile) -> bool:
-    """Whether a parabola as curved as the roller makes up most of the heights."""
+    """Return whether a parabola as curved as the roller makes up most of the heights."""
     if roller.curvature == 0.0 or profile.x.size < 8:
         return False
     x = profile.x - profile.x.mean()

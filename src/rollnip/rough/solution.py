@@ -73,12 +73,12 @@ class RoughSolution(Solution):
 
     @property
     def creepage(self) -> float | None:
-        """Without friction free: None."""
+        """Creepage: None, for it is free without friction."""
         return None
 
     @property
     def traction(self) -> float:
-        """Without friction none: 0 [N/mm]."""
+        """Traction [N/mm]: 0 without friction."""
         return 0.0
 
     @cached_property
@@ -93,7 +93,7 @@ class RoughSolution(Solution):
 
     @property
     def nip_width(self) -> float:
-        """From the outermost trailing to the outermost leading edge [mm]."""
+        """Nip width, from the outermost trailing to the outermost leading edge [mm]."""
         return self.rough.figures[2]
 
     @property
@@ -103,27 +103,27 @@ class RoughSolution(Solution):
 
     @property
     def peak_pressure_x(self) -> float:
-        """Where the pressure is highest [mm]."""
+        """Place of the highest pressure [mm]."""
         return float(self.nodes[np.argmax(self.pressure)])
 
     @cached_property
     def zones(self) -> tuple[Zone, ...]:
-        """Without friction none."""
+        """Stick and slip zones: none without friction."""
         return ()
 
     @property
     def torque_upper(self) -> float | None:
-        """Not defined for a snapshot: None."""
+        """Torque on the upper axle: None, for it is not defined for a snapshot."""
         return None
 
     @property
     def torque_lower(self) -> float | None:
-        """Not defined for a snapshot: None."""
+        """Torque on the lower axle: None, for it is not defined for a snapshot."""
         return None
 
     @property
     def power_in(self) -> float | None:
-        """Not defined for a snapshot: None."""
+        """Power of both axles: None, for it is not defined for a snapshot."""
         return None
 
     @property
@@ -183,7 +183,7 @@ class RoughSolution(Solution):
 
     @property
     def shear(self) -> Array:
-        """Without friction none, (n,) [MPa]."""
+        """Shear at the nodes, (n,) [MPa]: 0 without friction."""
         return np.zeros(self.nodes.size)
 
     @property
@@ -226,7 +226,7 @@ class RoughSolution(Solution):
         return x, upper, surface_fields(both.lower, self.rough, beyond)
 
     def _depths(self, x: Array, upper: SurfaceFields, lower: SurfaceFields) -> tuple[Array, Array]:
-        """How far each surface lies from the tangent at first touch, before the approach [mm]."""
+        """Return the depth of each surface below the tangent at first touch, no approach [mm]."""
         return _depth(x, self.nip.upper, upper.u_z), _depth(x, self.nip.lower, lower.u_z)
 
     def _strain(self, roller: Roller, fields: SurfaceFields) -> Array:

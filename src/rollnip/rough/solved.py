@@ -92,10 +92,10 @@ def _levelled(nip: Nip) -> Nip:
 
 
 def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
-    """Whether the contact on the samples stands, and a sentence that says so.
+    """Return whether the contact on the samples is valid, and a sentence that says so.
 
-    What the samples do not resolve, local pressures above all, is no matter of the solver: it is
-    in ``error`` and the warnings.
+    What the samples do not resolve, local pressures above all, does not count here: ``error`` and
+    the warnings report it.
     """
     if not rough.state.settled:
         return False, (

@@ -1,4 +1,4 @@
-"""The nips the cases are made of, and what is read from their solutions."""
+"""The nips that the cases are made of, and the figures read from their solutions."""
 
 from __future__ import annotations
 
@@ -40,12 +40,12 @@ def half_width(solution: Solution) -> float:
 
 
 def trailing_edge(solution: Solution) -> float:
-    """Where the nip ends [mm]."""
+    """Return the place where the nip ends [mm]."""
     return solution.contact[0][0]
 
 
 def leading_edge(solution: Solution) -> float:
-    """Where the nip begins [mm]."""
+    """Return the place where the nip begins [mm]."""
     return solution.contact[-1][1]
 
 

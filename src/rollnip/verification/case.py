@@ -1,4 +1,4 @@
-"""One figure to verify: what it must be, who says so, how far it may be off and why."""
+"""A figure to verify: its expected value, the source of that, its tolerance with the reason."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from rollnip.verification.sources import Source
 
 
 class Tolerance(NamedTuple):
-    """Largest error allowed, relative, and the reason for its size."""
+    """Relative error that is allowed, and the reason for its size."""
 
     value: float
     reason: str
@@ -28,7 +28,7 @@ ROUNDING = Tolerance(1e-9, "both sides are exact but for rounding")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class VerificationCase:
-    """One figure with its source and its tolerance.
+    """A figure to verify, with its source and its tolerance.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class Experiment:
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of a case.
+    """Outcome of one verification case.
 
     Attributes
     ----------
@@ -135,7 +135,7 @@ class Outcome:
 
     @property
     def passed(self) -> bool:
-        """Whether the error is within the tolerance."""
+        """Return whether the error is within the tolerance."""
         return self.error <= self.case.tolerance
 
 

@@ -35,7 +35,7 @@ class Coating(NamedTuple):
 
 
 class Reference(NamedTuple):
-    """What the finite elements give; creepage and stretch in stick are None without friction."""
+    """Results of finite elements; creepage and stretch in stick are None without friction."""
 
     name: str
     coating: Coating

@@ -148,7 +148,7 @@ def _flamant() -> tuple[float, float]:
 
 
 def _below_hertz() -> tuple[float, float]:
-    """Largest (s_xx - s_zz)/2 on the axis under p = sqrt(1 - x^2), and its depth."""
+    """Return the largest (s_xx - s_zz)/2 on the axis under p = sqrt(1 - x^2), and its depth."""
     k, dk = _wave_numbers(panels=800, width=0.1)
     depth = np.linspace(0.7, 0.9, 41)
     fields = flat_transfer(k, depth, [], [], [], 1.0, 0.3).from_z

@@ -29,7 +29,7 @@ _RUBBER = StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.007
 
 
 def laws() -> tuple[VerificationCase, ...]:
-    """One figure or more for each law."""
+    """Return the figures of each law."""
     return (*_reciprocity(), *_passivity(), *_energy(), *_idler(), *_dimensions(), *_mirror())
 
 

@@ -1,4 +1,4 @@
-"""All verification cases, in the order they are shown in."""
+"""The registry of all verification cases, in the order in which they are shown."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from rollnip.verification.waves import waves
 
 
 def all_cases() -> tuple[VerificationCase, ...]:
-    """Every figure of the registry; nothing is solved yet."""
+    """Return every figure of the registry; nothing is solved yet."""
     return (
         *configuration_two(),
         *half_spaces(),
@@ -34,7 +34,7 @@ def all_cases() -> tuple[VerificationCase, ...]:
 
 
 def cases_about(text: str) -> tuple[VerificationCase, ...]:
-    """Cases whose problem, source or quantity contains ``text``, whatever its capitals."""
+    """Return the cases whose problem, source or quantity contains ``text`` in any capitals."""
     wanted = text.casefold()
     return tuple(
         case

@@ -1,4 +1,4 @@
-"""Where the expected figures come from: each source with its kind and its full citation."""
+"""Sources of the expected figures, each with its kind and its full citation."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from enum import StrEnum
 
 
 class Kind(StrEnum):
-    """What stands behind an expected figure."""
+    """Kind of source of an expected figure."""
 
     CLOSED_FORM = "closed form"
     """A formula, evaluated by `rollnip.closed_forms` or beside the case."""

@@ -98,7 +98,7 @@ def _solve(load: float, poisson: float, thickness: float) -> Solution:
 
 
 def _simplified(share: float) -> tuple[VerificationCase, ...]:
-    """Two alike rollers: normal and tangential springs of both in series."""
+    """Return the figures of two alike rollers, whose springs act in series."""
     poisson, thickness = 0.3, _WIDTH / 200.0
     foundation = 0.5 * _foundation(poisson, thickness)
     load = 2.0 * foundation * _WIDTH**3 / (3.0 * _RADIUS)

@@ -61,7 +61,7 @@ def _solve(profile: Profile) -> Solution:
 
 
 def _amplitude(share: float) -> float:
-    """Of waves that Hertz's peak pressure, as mean over a wave, is ``share`` of flattening."""
+    """Return the amplitude [mm] of waves that Hertz's peak, times 1/``share``, would flatten."""
     hertz = hertz_line(load=_LOAD, radius=25.0, contact_modulus=_MODULUS)
     return hertz.peak_pressure / share * _LENGTH / (pi * _MODULUS)
 
@@ -72,7 +72,7 @@ def _middle(solution: Solution) -> np.ndarray[tuple[int], np.dtype[np.bool_]]:
 
 
 def _closed_form(share: float, solution: Solution) -> WavyContact:
-    """At the mean pressure that the middle wave carries."""
+    """Return the closed form at the mean pressure that the middle wave carries."""
     return wavy_contact(
         mean_pressure=float(np.mean(solution.pressure[_middle(solution)])),
         amplitude=_amplitude(share),

@@ -25,7 +25,7 @@ _ROOM = 1.3  # of the guessed half-width: contact on the first mesh ends somewhe
 
 @dataclass(frozen=True, slots=True)
 class ProcessSolution:
-    """What the process of the paper finds.
+    """Solution of a nip by the process of the paper.
 
     Attributes
     ----------

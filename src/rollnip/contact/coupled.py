@@ -32,7 +32,7 @@ _WELL_AWAY = 0.1  # from zero: what a change of one column may leave of the dete
 
 @dataclass(frozen=True, slots=True)
 class CoupledActiveSet:
-    """Solve a contact problem for all unknowns at once.
+    """Active-set solver of a contact problem for all unknowns at once.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def solve_states(
 ) -> ContactState:
     """Solve the linear system that given states make; no condition is checked.
 
-    ``steps`` and ``settled`` are what the solution shall say of itself.
+    ``steps`` and ``settled`` are copied into the solution.
 
     Raises
     ------
@@ -83,7 +83,7 @@ class LinearSystem:
 
     Attributes
     ----------
-    problem, states : what it was made of.
+    problem, states : the problem and states that make the system.
     contact, stick : numbers of the nodes in contact, and of those whose shear is unknown.
     signs : (n,) of the shear of nodes that slip.
     factors, pivots : of LAPACK's LU decomposition.
@@ -103,8 +103,8 @@ class LinearSystem:
         (contact,) = (states != FREE).nonzero()
         stick = (states == STICK).nonzero()[0] if problem.friction > 0.0 else contact[:0]
         signs = shear_signs(states)
-        # LAPACK wants columns and the matrix lies in rows: the transposed one is factorised where
-        # it lies. For such small systems the ways around LAPACK would cost more than LAPACK.
+        # LAPACK wants columns and the matrix is stored by rows, so its transpose is factorised in
+        # place. For such small systems SciPy's wrappers would cost more than LAPACK itself.
         matrix = _matrix(problem, contact, stick, signs)
         factors, pivots, info = lapack.dgetrf(matrix.T, overwrite_a=1)
         if info != 0:
@@ -114,10 +114,10 @@ class LinearSystem:
     def solved(
         self, problem: ContactProblem, *, steps: int = 1, settled: bool = False
     ) -> ContactState:
-        """The solution for that problem, or one like it.
+        """Solve that problem, or one like it, with the factorised system.
 
-        Clearance, lengths and offsets of the creep and the values prescribed may be others; what
-        is prescribed, influence, weights and friction may not.
+        The clearance, the lengths and offsets of the creep and the prescribed values may differ.
+        Which quantities are prescribed, the influence, weights and friction may not.
         """
         unknowns = self._unknowns(problem)
         n_c, n_s = self.contact.size, self.stick.size
@@ -125,7 +125,7 @@ class LinearSystem:
         pressure[self.contact] = unknowns[:n_c]
         shear = problem.friction * self.signs * pressure
         shear[self.stick] = unknowns[n_c : n_c + n_s]
-        # What is prescribed comes back to rounding; it is taken as it was given.
+        # The solution meets the prescribed values to rounding; the exact values are kept.
         control = problem.control
         approach, creepage = control.approach, control.creepage
         if approach is None:
@@ -138,8 +138,8 @@ class LinearSystem:
         right = _right_side(problem, self.contact, self.stick)
         if problem.creep_length is self.problem.creep_length:
             return self._divided(right)
-        # The lengths are the column of the creepage: other ones change the matrix by one column
-        # (Sherman & Morrison).
+        # The lengths are the column of the creepage, so other lengths change one column of the
+        # matrix (Sherman & Morrison).
         change = np.zeros(right.size)
         longer = problem.creep_length - self.problem.creep_length
         change[self.contact.size : -2] = longer[self.stick]
@@ -156,7 +156,7 @@ class LinearSystem:
 
 
 def _matrix(problem: ContactProblem, contact: Indices, stick: Indices, signs: Array) -> Array:
-    """Rows: gap 0 in contact, creep 0 in stick, load or approach, traction or creepage."""
+    """Return the matrix of gap in contact, creep in stick, and the two prescribed quantities."""
     n_c, size, n = contact.size, contact.size + stick.size, problem.x.size
     rows = np.concatenate([contact, n + stick])
     ratio = problem.friction * signs
@@ -194,7 +194,7 @@ def _right_side(problem: ContactProblem, contact: Indices, stick: Indices) -> Ar
 
 
 def next_states(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
-    """States that the signs of gap, pressure, creep and shear ask for."""
+    """Return the states that follow from the signs of gap, pressure, creep and shear."""
     states, pressure = solution.states, solution.pressure
     depth, drift = gap_and_creep(problem, solution)
     scale = np.abs(problem.clearance).max() + abs(solution.approach)
@@ -212,7 +212,7 @@ def next_states(problem: ContactProblem, solution: ContactState, rounding: float
 
 
 def next_slip(problem: ContactProblem, solution: ContactState, rounding: float) -> States:
-    """States that creep and shear ask for; free nodes and those under tension keep theirs."""
+    """Return the states by creep and shear; free nodes and those under tension keep theirs."""
     states, pressure = solution.states, solution.pressure
     out = states.copy()
     if problem.friction == 0.0:
@@ -238,8 +238,8 @@ def _let_slip(
 
     ``drift`` is the creep of each interval, ``little`` a pressure that counts as rounding.
     """
-    # The shear that would bring the creep to zero, were its own node the only one to change: it
-    # tells a slipping node apart that should stick from one that should slip the other way.
+    # The shear that would bring the creep to zero if its own node were the only one to change. It
+    # tells a slipping node that should stick from one that should slip the other way.
     own = np.minimum(problem.creep_shear.diagonal(), -_TINY)
     sought = solution.shear - drift / own
     bound = problem.friction * np.maximum(solution.pressure, 0.0)
@@ -252,7 +252,7 @@ def _let_slip(
 
 
 def _nearest_states(states: States, in_contact: Mask, new: Indices) -> States:
-    """States of the nodes in contact that are nearest to some new ones.
+    """Return the states of the nodes in contact that are nearest to some new ones.
 
     A node that comes into contact beside slipping ones slips with them: held in stick it would
     carry a shear out of all proportion and be thrown out again.
@@ -276,7 +276,7 @@ def _ensure_solvable(problem: ContactProblem, states: States) -> States:
 
 
 def _gentler(states: States, wanted: States, solution: ContactState) -> States:
-    """A smaller change than the one that led back to states already seen.
+    """Return a smaller change than the one that led back to states already seen.
 
     A sticking node under tension slips before it parts: beside an edge its tension may come from
     a shear that it cannot carry. Where there is none, only the first node changes.

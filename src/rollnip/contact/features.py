@@ -8,7 +8,7 @@ import numpy as np
 
 from rollnip.contact.problem import FREE, STICK, Array, ContactState, State, States
 
-# Powers of what vanishes at the end of a zone that are linear in the distance to it.
+# Exponents: a quantity that vanishes at the end of a zone is, to this power, linear in distance.
 _ROOT = 2.0  # pressure at an edge, mu p - |q| where stick turns to slip
 _SMOOTH = 2.0 / 3.0  # mu p - |q| where slip turns to stick: material that came to rest
 
@@ -29,7 +29,7 @@ class Zone:
 
 
 def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Zone, ...]:
-    """Zones from trailing to leading edge; without friction each interval is one STICK zone.
+    """Return zones, trailing edge first; without friction each interval is one STICK zone.
 
     Pressure goes to zero as the square root of the distance to an edge, and mu p - |q| as the
     square root of the distance to the trailing end of a stick zone, where stick turns to slip, so
@@ -60,9 +60,9 @@ def contact_intervals(zones: tuple[Zone, ...]) -> tuple[tuple[float, float], ...
 
 
 def states_on(x: Array, zones: tuple[Zone, ...]) -> States:
-    """State of each of the nodes ``x`` that lies in a zone, ends included, FREE elsewhere.
+    """Return the state of each of the nodes ``x``: of its zone, ends included, or FREE.
 
-    A node between two zones belongs to the one that leads.
+    A node between two zones belongs to the leading one.
     """
     out = np.zeros(x.size, dtype=np.int8)
     for zone in zones:
@@ -71,7 +71,7 @@ def states_on(x: Array, zones: tuple[Zone, ...]) -> States:
 
 
 def runs(mask: Array) -> list[tuple[int, int]]:
-    """First and last index of each run of True."""
+    """Return the first and last index of each run of True."""
     padded = np.concatenate([[False], mask, [False]])
     changes = np.flatnonzero(padded[1:] != padded[:-1])
     return [(int(a), int(b) - 1) for a, b in zip(changes[::2], changes[1::2], strict=True)]
@@ -100,7 +100,7 @@ def _split(
 
 
 def _without_slivers(states: States) -> States:
-    """Let single slipping nodes beside sticking ones, with none slipping beside them, stick.
+    """Turn a single slipping node beside a sticking one, with no slip beside it, into stick.
 
     At an edge the pressure of the last node is as large as its error, and whether that node
     alone sticks or slips says nothing about the contact.
@@ -115,7 +115,7 @@ def _without_slivers(states: States) -> States:
 
 
 def transition(x: Array, slack: Array, states: States, i: int) -> float:
-    """Place between nodes i and i + 1 where the state changes; slack is mu p - |q| (n,) [MPa]."""
+    """Return the place between nodes i and i + 1 of a change of state; slack is mu p - |q|."""
     if states[i + 1] == STICK:
         return _crossing(x, slack, i + 1, -1)
     if states[i] == STICK:

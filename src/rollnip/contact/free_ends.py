@@ -1,4 +1,4 @@
-"""Zones with states that are given and ends that are free: where the ends ought to be.
+"""Zones with given states and free ends: where the ends should be.
 
 A zone that is too wide by delta leaves, to first order, delta/2 times an inverse square root in
 the tractions beside its end; one that is too narrow leaves the opposite. On nodes at cosine places
@@ -66,7 +66,7 @@ class Layout:
     ) -> Layout | None:
         """Return the layout of the states of nodes in one contact with known edges; None as above.
 
-        Beyond these the pressure may be negative, and what sticks there does not count.
+        Beyond the edges the pressure may be negative, and sticking nodes there do not count.
         """
         slack = friction * state.pressure - np.abs(state.shear)
         touching = np.flatnonzero((state.states != FREE) & (x > edges[0]) & (x < edges[1]))
@@ -81,7 +81,7 @@ class Layout:
 
     @classmethod
     def sticking(cls, half_width: float) -> Layout:
-        """A single zone of stick of some half-width [mm]."""
+        """Return a single zone of stick of some half-width [mm]."""
         return cls(np.array([-half_width, half_width]), np.array([STICK], dtype=np.int8))
 
     @property
@@ -103,7 +103,8 @@ class Layout:
     def distance(self, other: Layout) -> float:
         """Return the largest distance of the edges of two like layouts, over the width.
 
-        Or a tenth of that between transitions: figures of the nip hang on these to second order.
+        The distance of transitions counts a tenth, for figures of the nip depend on them only to
+        second order.
         """
         moves = np.abs(self.breaks - other.breaks)
         moves[1:-1] *= 0.1
@@ -111,16 +112,16 @@ class Layout:
 
     @property
     def zones(self) -> tuple[Zone, ...]:
-        """The zones, from trailing to leading edge."""
+        """Return the zones, from trailing to leading edge."""
         ends = zip(self.breaks[:-1], self.breaks[1:], self.states, strict=True)
         return tuple(Zone(float(a), float(b), State(int(s))) for a, b, s in ends)
 
     def ends(self, x: Array) -> Indices:
-        """Numbers of the nodes at the breaks."""
+        """Return the indices of the nodes at the breaks."""
         return np.searchsorted(x, self.breaks - 1e-12 * self.width)
 
     def states_on(self, x: Array) -> States:
-        """State of each node: at the breaks the shear is known, zero or that of slip."""
+        """Return the state of each node; at a break it is one with known shear: FREE or slip."""
         ends = self.ends(x)
         out = np.full(x.size, FREE, dtype=np.int8)
         for start, stop, state in zip(ends[:-1], ends[1:], self.states, strict=True):
@@ -130,7 +131,7 @@ class Layout:
         return out
 
     def moved(self, x: Array, state: ContactState, friction: float) -> Layout:
-        """The layout with its breaks where a solution with these states says they ought to be.
+        """Return the layout with its breaks moved to where a solution with these states puts them.
 
         Pressure goes as a square root at an edge, mu p - |q| where stick turns to slip. Where
         slip turns to stick, mu p - |q| is smooth: it goes as y^(3/2) from the place where stick

@@ -32,7 +32,7 @@ class Convolution:
 
     @property
     def size(self) -> int:
-        """Values it takes and gives, n."""
+        """Number of values that it takes and gives, n."""
         return (self.coefficients.size + 1) // 2
 
     @cached_property
@@ -44,8 +44,8 @@ class Convolution:
     def spectrum(self) -> Array:
         """Transform of the coefficients laid out on the circle, complex.
 
-        No two values are as far apart as the distances left over, so anything may stand there. A
-        cubic that joins both ends smoothly keeps the transform of a compliance positive: a jump
+        No two values are as far apart as the unused distances, so the coefficients there are free.
+        A cubic that joins both ends smoothly keeps the transform of a compliance positive: a jump
         would hide the small compliance of a stiff skin for short waves.
         """
         n = self.size
@@ -57,7 +57,7 @@ class Convolution:
         return np.asarray(rfft(circle, workers=1))
 
     def _bridge(self) -> Array:
-        """Values between the last coefficient and, once round, the first."""
+        """Return the values between the last coefficient and, around the circle, the first."""
         c, steps = self.coefficients, self.length - 2 * self.size + 2
         t = np.arange(1.0, steps) / steps
         rise, slopes = c[0] - c[-1], (c[-1] - c[-2], c[1] - c[0]) if c.size > 1 else (0.0, 0.0)
@@ -66,7 +66,7 @@ class Convolution:
         return np.asarray(c[-1] + bend + steps * ends)
 
     def of(self, values: Array) -> Array:
-        """The convolution with some values, (n,)."""
+        """Return the convolution with some values, (n,)."""
         transformed = rfft(values, self.length, workers=1) * self.spectrum
         return np.asarray(irfft(transformed, self.length, workers=1)[: self.size])
 
@@ -131,7 +131,7 @@ class InverseWithHoles:
         self.length = compliance.length
         self.inverse, reach = _inverse_symbol(compliance.spectrum.real)
         self.nodes: Indices = np.flatnonzero(contact)
-        # The circle closes: the last hole ends at the first node, one turn on.
+        # The circle closes: the last hole ends at the first node, one turn further on.
         steps = np.diff(self.nodes, append=self.nodes[0] + self.length)
         holes = np.flatnonzero(steps > 1)
         widths = steps[holes] - 1
@@ -146,7 +146,7 @@ class InverseWithHoles:
         self.share_after = np.maximum(1.0 - (step - distance) / fall, 0.0)
 
     def of(self, values: Array) -> Array:
-        """Pressure on the contact set for gaps on it; (n,) both, values elsewhere are ignored."""
+        """Return the pressure on the contact set for gaps on it, (n,); other values are ignored."""
         inside = values[self.nodes]
         circle = np.zeros(self.length)
         circle[self.nodes] = inside
@@ -165,7 +165,7 @@ class InverseWithHoles:
 
 
 def _inverse_symbol(symbol: Array) -> tuple[Array, float]:
-    """Inverse of a symbol, kept positive, and a quarter of its dominant wavelength in nodes.
+    """Return the inverse of a symbol, kept positive, and a quarter of its dominant wavelength.
 
     An incompressible layer hardly yields to a uniform pressure: its compliance falls to nothing at
     long waves, where the cut of the convolution may even make it negative.
@@ -179,7 +179,7 @@ def _inverse_symbol(symbol: Array) -> tuple[Array, float]:
 
 
 def grid_intervals(x: Array, pressure: Array) -> tuple[tuple[float, float], ...]:
-    """Contact intervals (trailing, leading) of a pressure on a uniform grid [mm].
+    """Return the contact intervals (trailing, leading) of a pressure on a uniform grid [mm].
 
     At an edge the pressure goes to zero as the square root of the distance: its square is
     extrapolated from the last two nodes that touch; where it does not fall, or where one node
@@ -196,7 +196,7 @@ def grid_intervals(x: Array, pressure: Array) -> tuple[tuple[float, float], ...]
 
 
 def _overhang(here: Array, before: Array) -> Array:
-    """Distance of an edge from the last node that touches, in spacings."""
+    """Return the distance of an edge from the last node that touches, in spacings."""
     rise = before**2 - here**2
     falls = rise > 0.0
     return np.where(falls, np.minimum(here**2 / np.where(falls, rise, 1.0), 1.0), 0.5)

@@ -1,8 +1,8 @@
 """Solvers of the frictionless contact on a uniform grid: an active set, from coarse to fine.
 
-The pressure minimises p.(C p)/2 + clearance.p under p >= 0 and a given load. With a contact set
-given that is a linear system, solved by preconditioned conjugate gradients; what is then under
-tension leaves the set, what overlaps joins it. Where that does not settle, as under a stiff skin
+The pressure minimises p.(C p)/2 + clearance.p under p >= 0 and a given load. On a given contact
+set this is a linear system, solved by preconditioned conjugate gradients; nodes under tension then
+leave the set, and nodes that overlap join it. Where that does not settle, as under a stiff skin
 that touches in a few points, the set is grown from a single node.
 
 References
@@ -34,7 +34,7 @@ _DROP = 0.01  # of the correction within one contact set
 
 @dataclass(frozen=True, slots=True)
 class GridActiveSet:
-    """Solve frictionless contact on a uniform grid, starting on grids of half the nodes.
+    """Solver of frictionless contact on a uniform grid, which starts on grids of half the nodes.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ class GridActiveSet:
     def solve(
         self, problem: GridProblem, coarser: Callable[[int], Convolution]
     ) -> tuple[GridState, GridState | None]:
-        """Solve a problem and the same one with every second node.
+        """Solve a problem on its grid and on the grid of every second node.
 
         Parameters
         ----------
@@ -95,7 +95,7 @@ def _every(problem: GridProblem, stride: int, compliance: Convolution) -> GridPr
 
 
 def _first(problem: GridProblem) -> Array:
-    """Pressure to begin with on the coarsest grid: even, where the surfaces are nearest."""
+    """Return a first pressure for the coarsest grid: even, where the surfaces are nearest."""
     limit = float(np.quantile(problem.clearance, _SHARE))
     if problem.approach is not None:
         limit = max(min(problem.approach, limit), float(np.min(problem.clearance)))
@@ -103,7 +103,7 @@ def _first(problem: GridProblem) -> Array:
 
 
 def _between(pressure: Array, problem: GridProblem) -> Array:
-    """Pressure of a grid with half the nodes, linear between them."""
+    """Return the pressure of a grid with half the nodes, interpolated linearly."""
     fine = np.arange(problem.clearance.size)
     return np.interp(fine, 2.0 * np.arange(pressure.size), pressure)
 
@@ -118,12 +118,12 @@ def _feasible(problem: GridProblem, pressure: Array) -> Array:
 
 
 def _depth(problem: GridProblem, contact: Mask, gap: Array) -> float:
-    """The approach: prescribed, or where the surfaces of the contact meet on average."""
+    """Return the approach: prescribed, or where the surfaces in contact meet on average."""
     return float(gap[contact].mean()) if problem.approach is None else problem.approach
 
 
 def _within(problem: GridProblem, contact: Mask, values: Array) -> Array:
-    """Values on the contact set; where the load is given without their mean, so that it stays."""
+    """Return values on the contact set, less their mean where the load is given and must stay."""
     out = np.where(contact, values, 0.0)
     if problem.approach is None:
         out = np.where(contact, out - out[contact].mean(), 0.0)
@@ -142,12 +142,12 @@ class _Descent:
     product: float = 0.0
 
     def correction(self, open_gap: Array) -> tuple[Array, Array]:
-        """Residual and what the preconditioner makes of it, both on the contact set."""
+        """Return the residual, and the preconditioner times it, both on the contact set."""
         residual = _within(self.problem, self.contact, open_gap)
         return residual, _within(self.problem, self.contact, self.inverse(residual))
 
     def step(self, residual: Array, correction: Array) -> tuple[Array, Array]:
-        """Change of the pressure and of the gap."""
+        """Return the change of the pressure and of the gap."""
         product = _product(residual, correction)
         direction = -correction
         if self.direction is not None and self.residual is not None and self.product > 0.0:
@@ -195,7 +195,7 @@ def _active_set(problem: GridProblem, start: Array, wanted: float, most: int) ->
 
 
 def _product(a: Array, b: Array) -> float:
-    """Inner product; not by `@`, whose threads wait for each other on vectors of this length."""
+    """Return the inner product, without `@`, whose threads are slow on vectors of this length."""
     return float(np.sum(a * b))
 
 
@@ -242,7 +242,7 @@ def _growing(problem: GridProblem, most: int) -> GridState:
 
 
 def _dense(problem: GridProblem, inside: Indices) -> tuple[Array, float] | None:
-    """Pressures at which the gap closes at some nodes, and the approach; None where singular."""
+    """Return the pressures that close the gap at some nodes, and the approach; None if singular."""
     middle = problem.compliance.size - 1
     block = problem.compliance.coefficients[middle + np.abs(inside[:, None] - inside)]
     sides = np.stack([-problem.clearance[inside], np.ones(inside.size)], axis=1)

@@ -15,18 +15,18 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 _SMALLEST_ZONE = 6  # elements in a zone, however short
-# Share of the nodes placed by the demand of a former solution. What this many elements at cosine
-# places do not resolve bends inside the zones rather than at their ends.
+# Share of the nodes placed by the demand of a former solution; more of `_MANY` elements and up, for
+# tractions that so many do not resolve bend inside the zones rather than at their ends.
 _ASKED = 0.15
 _ASKED_OF_MANY = 0.4
 _MANY = 150
-# Where a few elements at cosine places are asked to be so many times more: peaks under a stiff
-# skin, a few of its thicknesses wide.
+# Share where the demand on some elements at cosine places is `_PEAKED` times their number or more:
+# peaks under a stiff skin, a few of its thicknesses wide.
 _ASKED_OF_PEAKS = 0.7
 _PEAKED = 2.0
 _FINER = 8  # places in an element at which the demand is looked at
-# Of the creep that the shear at the last node before an edge makes from there to the edge, what its
-# root at the edge leaves there although it is right. Measured on a half-plane (tests).
+# Share taken off the creep from the last node to an edge per shear at that node: the square root of
+# the shear at the edge leaves it there although the shear is right. Half-plane (tests).
 CREEP_TO_EDGE = 0.02655
 _BESIDE = 1e-3  # elements: nodes beyond both ends of cosine places, where tractions end
 _PARTS, _MOST_PARTS = 2, 64  # of an element
@@ -47,7 +47,7 @@ class Demand:
     Attributes
     ----------
     x : (n,) increasing places [mm].
-    total : (n,) elements asked for from x[0] up to each place, in any unit.
+    total : (n,) elements needed from x[0] up to each place, in an arbitrary unit.
     """
 
     x: Array
@@ -55,7 +55,7 @@ class Demand:
 
     @classmethod
     def of(cls, x: Array, *tractions: Array) -> Demand:
-        """Demand of nodal tractions (each (n,)), each counted relative to its largest value."""
+        """Return the demand of nodal tractions (each (n,)), each relative to its largest value."""
         density = np.zeros(x.size)
         for values in tractions:
             largest = np.max(np.abs(values))
@@ -66,31 +66,31 @@ class Demand:
         return cls(x, np.concatenate([[0.0], np.cumsum(steps)]))
 
     def up_to(self, places: Array) -> Array:
-        """Elements asked for up to each place."""
+        """Return the number of elements needed up to each place."""
         return np.interp(places, self.x, self.total)
 
 
 @dataclass(frozen=True, slots=True)
 class Subdivision:
-    """Finer nodes between nodes, and how values go on to them.
+    """Finer nodes between the nodes of a mesh, and the interpolation of values to them.
 
     On nodes at cosine places a traction is smooth in the *number* of the node, right up to an edge
     where it goes as a square root in x. So a cubic in the number, through four nodes of one zone,
     says what it is between them far better than a straight line in x does.
 
-    Tractions act as straight lines between the finer nodes. A line through values of a curve has
-    another mean than the curve, by h^2/12 of its second derivative; tractions that act get the
-    means of their cubics instead (each node half of what the pieces on its two sides lack), which
-    makes all that hangs on them of fourth order rather than second.
+    Tractions act as straight lines between the finer nodes. The mean of such a line differs from
+    the mean of the curve by h^2/12 times the second derivative. So the tractions that act get the
+    means of their cubics (each node half of the difference of the pieces on its two sides), and
+    all that depends on them is of fourth order rather than second.
 
     Attributes
     ----------
     nodes : (M+1,) the finer nodes; those subdivided are among them [mm].
-    elements : in each zone, of the nodes subdivided; none where they are the same nodes.
+    elements : number in each zone before the subdivision; empty where nothing was subdivided.
     crowding : of each zone, see `cosine_nodes`.
-    values : (M+1, N+1) values at them per value at the N+1 nodes subdivided; None: the same nodes.
-    acting : (M+1, N+1) the same of tractions that act.
-    means : (M-1, N) mean values between nodes[1:] per value at the nodes subdivided but the first.
+    values : (M+1, N+1) values at them per value at the N+1 mesh nodes; None: the same nodes.
+    acting : (M+1, N+1) likewise for tractions that act.
+    means : (M-1, N) mean values between nodes[1:] per value at the nodes of the mesh but the first.
     """
 
     nodes: Array
@@ -107,7 +107,7 @@ def subdivided(
     crowding: tuple[float, ...] | None = None,
     shortest: float = inf,
 ) -> Subdivision:
-    """Cut every element in equal steps of the node's number, but the one beyond either end.
+    """Cut every element into equal steps of the node's number, but not those beyond both ends.
 
     Parameters
     ----------
@@ -115,9 +115,9 @@ def subdivided(
     elements : in each zone, three or more; no cubic reaches from one into another.
     crowding : of each zone, as it was given to `cosine_nodes`.
     shortest :
-        length of the longest pieces, as far as they do not become too many [mm]. The surface of a
-        thin incompressible layer moves as the second derivative of the pressure, and straight
-        lines longer than the layer is thick have none.
+        largest length of the pieces [mm], unless they become too many. The surface of a thin
+        incompressible layer moves as the second derivative of the pressure, which straight lines
+        longer than the thickness of the layer do not have.
     """
     counts = tuple(elements.tolist())
     crowding = (1.0,) * len(counts) if crowding is None else crowding
@@ -132,14 +132,14 @@ def subdivided(
 
 
 def _ends(elements: tuple[int, ...]) -> list[int]:
-    """Numbers of the last nodes of zones, where the first node of all lies before the zones."""
+    """Return the indices of the last nodes of zones; node 0 lies before the first zone."""
     return [1 + end for end in accumulate(elements)]
 
 
 def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None:
-    """Matrices from values on cosine places to those on others of the same zones, zone by zone.
+    """Return matrices that carry values to another mesh of the same zones, zone by zone.
 
-    Cubic in the number of the node, so as good as tractions are between nodes.
+    The interpolation is cubic in the node's number, as good as that of tractions between nodes.
 
     Parameters
     ----------
@@ -179,8 +179,7 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
 def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
     """Return the largest error of the cubics of `subdivided` through values at element ends.
 
-    Between the inner two of four points the error is 3/128 of the fourth difference, which is
-    taken from five points.
+    Between the inner two of four points it is 3/128 of the fourth difference, from five points.
 
     Parameters
     ----------
@@ -199,7 +198,7 @@ def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
 def _cubics(
     elements: tuple[int, ...], crowding: tuple[float, ...], pieces: int
 ) -> tuple[Array, Array, Array]:
-    """The matrices values, acting and means of a `Subdivision`."""
+    """Return the matrices values, acting and means of a `Subdivision`."""
     ends = np.concatenate([[0], np.cumsum(elements)])
     interval = np.arange(ends[-1])
     zone = np.searchsorted(ends, interval, side="right") - 1
@@ -236,7 +235,7 @@ def _cubics(
 
 
 def _cubic_weights(t: Array) -> Array:
-    """Weights of the values at 0, 1, 2, 3 in the cubic through them at ``t``; (..., 4)."""
+    """Return the weights of values at 0, 1, 2, 3 in the cubic through them at ``t``; (..., 4)."""
     a, b, c = t - 1.0, t - 2.0, t - 3.0
     return np.stack([-a * b * c / 6.0, t * b * c / 2.0, -t * a * c / 2.0, t * a * b / 6.0], axis=-1)
 
@@ -259,9 +258,9 @@ def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
 def elements_of_zones(
     breaks: Array, count: int, crowding: tuple[float, ...] | None = None
 ) -> Indices:
-    """Elements in each zone between ``breaks`` (m,) [mm]; (m - 1,).
+    """Return the number of elements in each zone between ``breaks`` (m,) [mm]; (m - 1,).
 
-    Some ``count`` in all, and more where they crowd.
+    They are about ``count`` in all, and more where nodes crowd.
     """
     shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
     total = sum(shares)
@@ -282,7 +281,7 @@ def more_elements(crowd: float) -> float:
 def cosine_nodes(
     breaks: Array, elements: Indices, crowding: tuple[float, ...] | None = None
 ) -> Array:
-    """Nodes at cosine places on each zone between ``breaks``, and one beyond either end.
+    """Return nodes at cosine places on each zone between ``breaks``, and one beyond either end.
 
     Where a zone crowds its nodes by r < 1, cosines become elliptic functions: the share y of the
     zone's length that lies before the share s of its elements is, with the modulus k' = r,
@@ -304,7 +303,7 @@ def cosine_nodes(
 
 
 def _places(share: Array, crowd: float) -> tuple[Array, Array]:
-    """Place in a zone of length 1 for a share of its elements, and its derivative."""
+    """Return the place in a zone of length 1 for a share of its elements, and its derivative."""
     if crowd == 1.0:
         return 0.5 * (1.0 - np.cos(pi * share)), 0.5 * pi * np.sin(pi * share)
     quarter = float(ellipkm1(crowd * crowd))
@@ -316,7 +315,7 @@ def _places(share: Array, crowd: float) -> tuple[Array, Array]:
 
 @lru_cache(maxsize=128)
 def _cosine_values(elements: tuple[int, ...], crowding: tuple[float, ...]) -> Array:
-    """`cosine_nodes` per place of a break."""
+    """Return the derivative of `cosine_nodes` by the place of each break."""
     values = np.zeros((sum(elements) + 3, len(elements) + 1))
     first = 1
     for zone, (n, crowd) in enumerate(zip(elements, crowding, strict=True)):
@@ -332,12 +331,12 @@ def _cosine_values(elements: tuple[int, ...], crowding: tuple[float, ...]) -> Ar
 
 
 def graded_nodes(breaks: Array, count: int, demand: Demand | None = None) -> Array:
-    """Nodes on zones between ``breaks``, dense at every break and where tractions bend.
+    """Return nodes on zones between ``breaks``, dense at every break and where tractions bend.
 
     Tractions go to zero as the square root of the distance to an edge or a transition; nodes
     whose distance to it grows as a square (a cosine over the zone) then make the interpolation
     error equal on all elements, and the whole of second order in 1/count. Most nodes are placed
-    so; the others, where a former solution is there to ask, by its demand.
+    so; the others follow the demand of a former solution, where there is one.
 
     Parameters
     ----------
@@ -374,7 +373,7 @@ def _asked_share(count: int) -> float:
 def _zone_nodes(
     start: float, stop: float, count: int, demand: Demand | None, share: float
 ) -> Array:
-    """Nodes of one zone, without its first."""
+    """Return the nodes of one zone, without its first."""
     cosine = 0.5 * (1.0 - np.cos(np.pi * np.arange(count + 1) / count))
     if demand is None:
         return start + (stop - start) * cosine[1:]
@@ -394,7 +393,7 @@ def _zone_nodes(
 
 
 def _bend(x: Array, values: Array) -> Array:
-    """|f''| at the nodes, from differences; 0 at both ends."""
+    """Return |f''| at the nodes, from differences; 0 at both ends."""
     slopes = np.diff(values) / np.diff(x)
     bend = np.zeros(x.size)
     bend[1:-1] = np.abs(np.diff(slopes)) / (0.5 * (x[2:] - x[:-2]))

@@ -48,7 +48,7 @@ class Safeguarded:
         return replace(slow, steps=solution.steps + slow.steps)
 
     def _slow(self, problem: ContactProblem, states: States) -> ContactState:
-        """Solve one node at a time, or along the creepage; the result is examined once more."""
+        """Solve one node at a time, or along the creepage, and check the result afterwards."""
         if problem.friction == 0.0:
             return self._one_at_a_time(problem, states)
         slow = CreepagePath().solve(problem, states)
@@ -58,7 +58,7 @@ class Safeguarded:
         return replace(slow, settled=consistent)
 
     def _one_at_a_time(self, problem: ContactProblem, states: States) -> ContactState:
-        """Solve without friction, changing the first wrong node only (Murty 1974)."""
+        """Solve without friction, changing only the first wrong node in each step (Murty 1974)."""
         states = np.minimum(states, State.STICK)
         if not np.any(states):
             states[np.argmin(problem.clearance)] = State.STICK

@@ -29,7 +29,7 @@ from rollnip.contact.problem import (
 
 @dataclass(frozen=True, slots=True)
 class CreepagePath:
-    """Solve a contact problem with friction by following the creepage from full sliding.
+    """Solver of a contact problem with friction that follows the creepage from full sliding.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ class CreepagePath:
 
 
 def _unit(problem: ContactProblem) -> float:
-    """A step of creepage: the strain that full sliding makes, about."""
+    """Return a step of creepage: about the strain that full sliding makes."""
     largest = np.abs(problem.creep_shear).sum(axis=1) * problem.friction
     weight = np.sum(problem.weights)
     load = problem.control.load
@@ -84,21 +84,21 @@ def _unit(problem: ContactProblem) -> float:
 
 
 def _side(problem: ContactProblem) -> int:
-    """Sign of the sliding that is nearer to what is wanted."""
+    """Return the sign of the sliding that is nearer to the prescribed traction or creepage."""
     control = problem.control
     value = control.creepage if control.traction is None else control.traction
     return -1 if value is not None and value < 0.0 else 1
 
 
 def _sliding(problem: ContactProblem, states: States, sign: int) -> ContactState:
-    """Full sliding, just beyond the creepage at which the first node would stick."""
+    """Return full sliding, just beyond the creepage at which the first node would stick."""
     slip = State.SLIP_PLUS if sign > 0 else State.SLIP_MINUS
     slipping = np.where(states != State.FREE, slip, State.FREE).astype(np.int8)
     offset = np.abs(problem.creep_offset / problem.creep_length).max()
     far = sign * (1e3 * _unit(problem) + 10.0 * offset + 10.0)
     control = replace(problem.control, traction=None, creepage=far)
     sliding = CoupledActiveSet().solve(replace(problem, control=control), slipping)
-    # Sliding tractions do not depend on the creepage: come back as close as sliding lasts.
+    # Sliding tractions do not depend on the creepage: return as far as full sliding lasts.
     touching = sliding.states != State.FREE
     rates = (sign * creep(problem, sliding) / problem.creep_length)[touching]
     nearest = far - sign * (float(rates.min()) - _unit(problem))
@@ -120,7 +120,7 @@ def _within_sliding(problem: ContactProblem, sliding: ContactState, sign: int) -
 def _pair(
     problem: ContactProblem, states: States, creepage: float, heading: int
 ) -> tuple[ContactState, ContactState]:
-    """Solutions at this creepage and one unit ahead, with the states kept."""
+    """Return the solutions at this creepage and one unit ahead, with the states kept."""
     pair = []
     for value in (creepage, creepage + heading * _unit(problem)):
         control = replace(problem.control, traction=None, creepage=value)
@@ -149,7 +149,7 @@ def _margins(problem: ContactProblem, solution: ContactState) -> tuple[Array, Ar
 def _next_event(
     problem: ContactProblem, here: ContactState, ahead: ContactState
 ) -> tuple[float, tuple[int, int]]:
-    """Distance (in units) to the first margin that vanishes, and (row, node) it belongs to."""
+    """Return the distance in units to the first margin that vanishes, and its (row, node)."""
     now, then = np.stack(_margins(problem, here)), np.stack(_margins(problem, ahead))
     with np.errstate(invalid="ignore"):
         falling = now - then
@@ -170,7 +170,7 @@ def _changed(
     event: float,
     place: tuple[int, int],
 ) -> States:
-    """States after the margin at ``place`` has vanished."""
+    """Return the states after the margin at ``place`` has vanished."""
     row, node = place
     out = states.copy()
     if states[node] == State.FREE:
@@ -200,7 +200,7 @@ def _turns(
 def _distance_to_goal(
     problem: ContactProblem, here: ContactState, ahead: ContactState
 ) -> float | None:
-    """Units to go until the wanted traction or creepage is reached; None where it is behind."""
+    """Return the units left to the prescribed traction or creepage; None where it is behind."""
     control = problem.control
     if control.traction is not None:
         now = float(problem.weights @ here.shear)
@@ -211,5 +211,5 @@ def _distance_to_goal(
     if now == then:
         return None
     distance = float((goal - now) / (then - now))
-    # A goal at the very place of an event lies behind by rounding.
+    # A goal exactly at an event may lie behind it by rounding.
     return max(distance, 0.0) if distance >= -1e-9 else None

@@ -23,7 +23,7 @@ class State(IntEnum):
     SLIP_MINUS = 3
 
 
-# Plain integers: comparing arrays with them takes a tenth of the time it takes with the members.
+# Plain integers: comparing an array with these takes a tenth of the time of enum members.
 FREE, STICK, SLIP_PLUS, SLIP_MINUS = (int(state) for state in State)
 _SHEAR_SIGNS = np.array([0.0, 0.0, 1.0, -1.0])  # of the states in their order
 
@@ -99,7 +99,7 @@ class ContactProblem:
 def influence_of(
     *, normal_pressure: Array, normal_shear: Array, creep_pressure: Array, creep_shear: Array
 ) -> Array:
-    """The matrix that a `ContactProblem` holds from its four parts, each (n, n) [mm/MPa]."""
+    """Return the influence matrix of a `ContactProblem` from its parts, each (n, n) [mm/MPa]."""
     n = normal_pressure.shape[0]
     out = np.empty((2 * n, 2 * n))
     out[:n, :n], out[:n, n:] = normal_pressure, normal_shear
@@ -130,7 +130,7 @@ class ContactState:
 
 
 def gap_and_creep(problem: ContactProblem, state: ContactState) -> tuple[Array, Array]:
-    """Gap at each node, and creep of each interval [mm]; the slip velocity is -V creep/length."""
+    """Return gaps at nodes and creeps of intervals [mm]; the slip velocity is -V creep/length."""
     made = problem.influence @ np.concatenate([state.pressure, state.shear])
     n = problem.x.size
     rigid = problem.creep_offset + state.creepage * problem.creep_length
@@ -138,17 +138,17 @@ def gap_and_creep(problem: ContactProblem, state: ContactState) -> tuple[Array, 
 
 
 def gap(problem: ContactProblem, state: ContactState) -> Array:
-    """Gap at each node [mm]."""
+    """Return the gap at each node [mm]."""
     return gap_and_creep(problem, state)[0]
 
 
 def creep(problem: ContactProblem, state: ContactState) -> Array:
-    """Creep of each interval [mm]."""
+    """Return the creep of each interval [mm]."""
     return gap_and_creep(problem, state)[1]
 
 
 def shear_signs(states: States) -> Array:
-    """+1 and -1 where a node slips, 0 elsewhere."""
+    """Return the sign of the shear, +1 or -1, where a node slips, and 0 elsewhere."""
     return np.asarray(_SHEAR_SIGNS.take(states))
 
 

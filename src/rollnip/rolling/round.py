@@ -77,7 +77,7 @@ class Round:
         "curved", the traction for a torque), relative to approach and creepage.
     residual : largest relative violation of the contact conditions, evaluated afresh; inf where
         it was not evaluated.
-    further_error : estimated discretisation error of what else is reported; None where unknown.
+    further_error : estimated discretisation error of the further figures; None where unknown.
     """
 
     mesh: Mesh
@@ -138,7 +138,7 @@ def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
 
 
 def excess(nip: Nip, latest: Round, tolerance: float) -> float:
-    """Return the largest relative error over the tolerance; inf where nothing is pressed."""
+    """Return the largest estimated error over the tolerance; inf where nothing is pressed."""
     figures, error = latest.figures, latest.error
     if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
         return inf
@@ -157,16 +157,16 @@ def excess(nip: Nip, latest: Round, tolerance: float) -> float:
 
 
 def creepage_scale(nip: Nip, figures: Figures) -> float:
-    """Size against which an error of the creepage of a nip is measured."""
+    """Return the size against which an error of the creepage is measured."""
     return scale_of_creepage(figures.creepage, 0.5 * figures.nip_width * nip.curvature)
 
 
 def scale_of_creepage(creepage: float, slope: float) -> float:
-    """The creepage itself, but not less than a twentieth of the slope of the gap at the edge.
+    """Return the size of the creepage, at least a twentieth of the slope of the gap at the edge.
 
     A creepage that is zero by symmetry has no relative accuracy.
     """
-    return max(0.05 * slope, abs(creepage))  # in this order: of nan the first is taken
+    return max(0.05 * slope, abs(creepage))  # in this order: max(a, nan) is a
 
 
 def has_grip(latest: Round) -> bool:

@@ -226,7 +226,7 @@ class RoughSolution(Solution):
         return x, upper, surface_fields(both.lower, self.rough, beyond)
 
     def _depths(self, x: Array, upper: SurfaceFields, lower: SurfaceFields) -> tuple[Array, Array]:
-        """Return the depth of each surface below the tangent at first touch, no approach [mm]."""
+        """Return each surface's distance from the tangent at first touch, without approach [mm]."""
         return _depth(x, self.nip.upper, upper.u_z), _depth(x, self.nip.lower, lower.u_z)
 
     def _strain(self, roller: Roller, fields: SurfaceFields) -> Array:

@@ -27,7 +27,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class SecondOrder:
-    """Terms that depend on the solution itself, taken from the last one.
+    """Terms that depend on the solution itself, taken from the last solution.
 
     Attributes
     ----------
@@ -105,7 +105,7 @@ def contact_problem(nip: Nip, mesh: Mesh, second: SecondOrder) -> ContactProblem
 
 
 def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
-    """Return no second-order terms yet; where a torque is wanted, those of free rolling."""
+    """Return zero second-order terms, and zero traction where a torque is prescribed."""
     zero = np.zeros(mesh.inner.size)
     return SecondOrder(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
 
@@ -118,7 +118,7 @@ def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
 
 
 def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:
-    """Second-order terms of a solution on a mesh."""
+    """Return the second-order terms of a solution on a mesh."""
     if has_no_second_order(nip, geometry):
         return first_guess(nip, mesh)
     flat = mesh.linear(state)
@@ -237,7 +237,7 @@ def arc_ratio(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array
 
 
 def mean_shear(mesh: Mesh, state: ContactState) -> Array:
-    """Mean shear as it acts over the intervals of the finer nodes but the first [MPa]."""
+    """Return the mean shear that acts on the intervals of the finer nodes but the first [MPa]."""
     shear = mesh.acting(state.shear)
     return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
 
@@ -247,7 +247,8 @@ def pulls(
 ) -> tuple[float, float]:
     """Int q lambda ds of the upper and the lower surface [N/mm].
 
-    What the shear hands over per distance of that surface; ``u`` at the finer nodes but the first.
+    This is the power that the shear hands over per speed of that surface; ``u``: at the finer
+    nodes but the first.
     """
     x = mesh.fine.nodes[1:]
     shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, u)
@@ -258,10 +259,10 @@ def pulls(
 def loss_inside(
     side: Literal["upper", "lower"], nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState
 ) -> float:
-    """Heat inside one of the rollers per distance of its surface [N/mm].
+    """Return the heat inside one of the rollers per distance of its surface [N/mm].
 
-    Of the linear fields under the tractions of the solution, in "finite" too: a share as large
-    as the strains is left out there.
+    It is that of the linear fields under the tractions of the solution, in "finite" too, where it
+    leaves out a share as large as the strains.
     """
     roller, sign = (nip.upper, 1.0) if side == "upper" else (nip.lower, -1.0)
     if not roller.is_viscoelastic:
@@ -281,7 +282,7 @@ def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
 def _traction_for_torque(
     nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
 ) -> float:
-    """T at which the lower torque R_l (w_l - int q lambda_l ds) is the wanted one (`powers`)."""
+    """Return T for which the lower torque R_l (w_l - int q lambda_l ds) is as prescribed."""
     assert isinstance(nip.tangential, Torque)
     _, pull = pulls(nip, geometry, mesh, state, mesh.finer(u))
     lost = loss_inside("lower", nip, geometry, mesh, state)

@@ -64,7 +64,7 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
 
 
 def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacements:
-    """Displacements of both surfaces at ``x``, to the order of the model."""
+    """Return the displacements of both surfaces at ``x``, to the order of the model."""
     tractions = np.stack([final.pressure, final.shear], axis=1)
     linear = Displacements.under(pair_displacements(kernels, x, final.nodes, tractions))
     if kernels.is_linear:
@@ -88,13 +88,13 @@ def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacemen
 
 
 def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
-    """Distance of the deformed surfaces, before the approach is taken off."""
+    """Return the distance of the deformed surfaces, before the approach is taken off."""
     upper, lower = surface_depths(x, nip, geometry, u)
     return upper + lower
 
 
 def fine_points(final: Round) -> Array:
-    """Points of the mesh and between, and on to a little more than a nip width outside."""
+    """Return the nodes, points between them, and points to just over a nip width outside."""
     is_cubic = final.mesh.fine.values is not None
     nodes = final.nodes[1:-1] if is_cubic else final.nodes[2:-2]  # from edge to edge
     parts = 1 if is_cubic else _SUBDIVISION
@@ -130,7 +130,7 @@ def residual(nip: Nip, fields: Fields, final: Round) -> float:
 
 
 def _depth(nip: Nip, width: float, approach: float) -> float:
-    """Length against which a penetration counts: the approach, or the gap's depth at the edge."""
+    """Return the scale of a penetration: the approach, or the depth of the gap at the edge."""
     at_edge = 0.125 * nip.curvature * width**2
     return at_edge if nip.has_half_space else max(abs(approach), at_edge)
 
@@ -163,13 +163,13 @@ def _friction_errors(nip: Nip, fields: Fields, final: Round) -> list[float]:
 
 
 def _intervals_in(x: Array, zone: Zone) -> slice:
-    """Intervals between ``x`` that lie wholly in a zone."""
+    """Return the intervals between ``x`` that lie wholly in a zone."""
     first, beyond = x.searchsorted(zone.start), x.searchsorted(zone.stop, side="right")
     return slice(int(first), max(int(beyond) - 1, 0))
 
 
 def slip_velocity(fields: Fields, zones: tuple[Zone, ...], speed: float) -> Array:
-    """Slip velocity of the upper surface relative to the lower at each point, nan outside."""
+    """Return the slip velocity of the upper surface relative to the lower, nan outside."""
     rate = -speed * fields.creep / np.diff(fields.x)
     out = np.full(fields.x.size, np.nan)
     middle = 0.5 * (fields.x[1:] + fields.x[:-1])
@@ -194,7 +194,7 @@ def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: Round) -> float:
 def surface_strain(
     x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round, *, side: str
 ) -> Array:
-    """Strain of one surface at ``x``: du_x/dx, in curved geometry the stretch less 1."""
+    """Return the strain of one surface at ``x``: du_x/dx, in curved geometry stretch less 1."""
     upper = side == "upper"
     roller, surface = (nip.upper, kernels.upper) if upper else (nip.lower, kernels.lower)
     if surface is None:

@@ -1,7 +1,7 @@
 """The errors that a solution claims, and the verdict that follows from them.
 
-What is claimed is the larger of two: what the mesh leaves, and what the geometry model leaves open
-however fine the mesh. `converged` and `status` come from the same numbers.
+The claimed error is the larger of two: the error of the mesh, and the error that the geometry model
+leaves however fine the mesh. `converged` and `status` come from the same numbers.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ _SHARES = {
     "nip_width": 2e-3,
     "peak_pressure": 1.5e-3,
 }
-# The same of `Further` over `further_sizes`: the largest change in 70 random nips.
+# Likewise for `Further`, over `further_sizes`: the largest change in 70 random nips.
 _FURTHER_SHARES = np.array([5e-3, 2e-3, 2e-3, 2e-3, 3e-3, 3e-3, 2e-3, 7e-3])
 _WORDS = {
     "approach": "approach",
@@ -43,7 +43,8 @@ _WORDS = {
 def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
     """Return the claimed errors of the figures that the tolerance is for, each in its own unit.
 
-    A prescribed figure is off by what it misses the prescribed value by; nan where not defined.
+    The error of a prescribed figure is its distance from the prescribed value; nan where not
+    defined.
     """
     figures = final.figures
     out = {name: getattr(final.error, name) for name in _SHARES}
@@ -65,7 +66,7 @@ def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
 def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) -> dict[str, float]:
     """Return the claimed errors of all other figures, each in its own unit; nan where not defined.
 
-    They have no tolerance of their own. ``spent`` is what `powers` says of the solution.
+    These figures have no tolerance of their own. ``spent`` is the `powers` of the solution.
     """
     further = final.further_error or Further(*(inf,) * 8)
     further = _with_model(further, nip, geometry, final)
@@ -101,7 +102,7 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
 
 
 def _with_model(further: Further, nip: Nip, geometry: Geometry, final: Round) -> Further:
-    """Errors that are no less than what a geometry model leaves open."""
+    """Return the errors, none of them less than that of the geometry model."""
     if geometry != "finite" or final.further_error is None:
         return further
     figures = further_figures(nip, geometry, final.mesh, final.state, final.zones)
@@ -110,7 +111,7 @@ def _with_model(further: Further, nip: Nip, geometry: Geometry, final: Round) ->
 
 
 def _lost(further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: Round) -> float:
-    """Error of the viscous loss over V [N/mm]."""
+    """Return the error of the viscous loss over V [N/mm]."""
     rates = rates_of(geometry, final.state.creepage)
     error = rates[0] * further.lost_upper + rates[1] * further.lost_lower
     creepage = claims(nip, geometry, final)["creepage"]
@@ -120,15 +121,15 @@ def _lost(further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: 
 
 
 def model_share(name: str, geometry: Geometry) -> float:
-    """Relative error of a figure that a geometry model leaves, however fine the mesh."""
+    """Return the relative error of a figure that a geometry model leaves, however fine the mesh."""
     return _SHARES[name] if geometry == "finite" else 0.0
 
 
 def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Return whether the claimed errors meet the tolerance, and a sentence on them.
 
-    In "finite" a tolerance of 1e-3 or more counts as met by what its second order leaves open; a
-    finer one does not.
+    In "finite" the error of the second-order model meets a tolerance of 1e-3 or more, and does not
+    meet a finer one.
     """
     relative = _relative(nip, model.geometry, final)
     if not relative:
@@ -157,7 +158,7 @@ def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
 
 
 def _more(shares: Mapping[str, float], model: Model) -> str:
-    """Words on the figures that a model gives less well than the tolerance."""
+    """Return words on the figures that a model gives less well than the tolerance."""
     larger = {name: share for name, share in shares.items() if share > model.tolerance}
     if not larger:
         return ""
@@ -166,7 +167,7 @@ def _more(shares: Mapping[str, float], model: Model) -> str:
 
 
 def _relative(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
-    """Claimed errors over the sizes of their figures, of those that are defined."""
+    """Return the claimed errors over the sizes of their figures, where these are defined."""
     figures, claimed = final.figures, claims(nip, geometry, final)
     if not (figures.peak_pressure > 0.0 and figures.nip_width > 0.0):
         return {}

@@ -16,8 +16,8 @@ from rollnip.rolling.surfaces import Array
 
 _SAFETY = 1.5  # on the estimate of the error from two meshes
 _SECOND = np.full(5, 2.0)  # order of the errors of Figures
-_OF_TWO = np.array([2.0, 2.0, 1.0, 2.0, 2.0])  # the same of cubic elements, from two sizes
-_SLOW = 1.05  # times the change that second order lets expect
+_OF_TWO = np.array([2.0, 2.0, 1.0, 2.0, 2.0])  # order for cubic elements, from two sizes
+_SLOW = 1.05  # times the change that second order predicts
 # Least relative error of each of Figures, times the square of the number of elements: measured on
 # random nips against ten times as many elements; linear elements, and cubic ones. These are of
 # higher order where tractions go as a square root at every end; where unlike surfaces stick up to
@@ -33,8 +33,8 @@ class Elements:
 
     Attributes
     ----------
-    least : (5,) least relative error of each of Figures, times the square of their number.
-    are_cubic : their errors may be of any order, from the first up.
+    least : (5,) least relative error of each of Figures, times the squared number of elements.
+    are_cubic : whether they are cubic; their errors may then be of any order, from the first up.
     """
 
     least: Array
@@ -56,7 +56,7 @@ class Size:
 
 
 def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> Size:
-    """Return what a mesh of so many elements gave."""
+    """Return the results of a round on a mesh of ``count`` elements."""
     further = further_figures(nip, model.geometry, latest.mesh, latest.state, latest.zones)
     return Size(count, latest.figures, breaks, further)
 
@@ -72,11 +72,11 @@ def with_errors(nip: Nip, latest: Round, history: list[Size], kind: Elements) ->
 
 
 def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Figures:
-    """Estimated error of each figure from its changes between meshes (second order).
+    """Return the estimated error of each figure from its changes between meshes (second order).
 
-    Two meshes may agree by chance. So earlier changes count too, shrunk as the order promises; no
-    error is claimed below what meshes of this size leave in random nips, and none of the peak
-    of linear elements below what lies between it and the highest node.
+    Two meshes may agree by chance. So earlier changes count too, reduced by the order; no error is
+    claimed below the least error of meshes of this size in random nips, nor, with linear elements,
+    an error of the peak below its difference from the highest node.
 
     Parameters
     ----------
@@ -121,11 +121,11 @@ def zone_excess(history: list[Size], tolerance: float) -> float:
 
 
 def _order(history: list[Size]) -> Array:
-    """Order in 1/elements of the error of each figure: second, or first if meshes show no better.
+    """Return the order in 1/elements of each figure's error: second, or first if meshes show it.
 
-    As they do where unlike surfaces stick up to an edge: the last change is more than second order
-    lets expect of the one before. The creepage feels that edge most; from two sizes alone, which
-    show no order, its own is taken as first.
+    They show first order where unlike surfaces stick up to an edge: the last change is larger than
+    second order predicts from the one before. The creepage depends most on that edge; from two
+    sizes alone, which show no order, its order is taken as first.
     """
     if len(history) < 3:
         return _OF_TWO
@@ -140,11 +140,11 @@ def _difference(coarse: Size, fine: Size) -> Array:
 
 
 def _error_over(coarse: Size, fine: Size, order: Array) -> Array:
-    """Error of each figure on the finer of two meshes, from their difference."""
+    """Return the error of each figure on the finer of two meshes, from their difference."""
     return np.abs(_difference(coarse, fine)) * _share_left(coarse, fine, order)
 
 
 def _share_left(coarse: Size, fine: Size, order: Array) -> Array:
-    """Error of the finer of two meshes of some order over the difference of the two."""
+    """Return the error of the finer of two meshes over their difference, for some order."""
     safety = np.where(order > 1.0, _SAFETY, 1.0)  # first order is cautious enough
     return np.asarray(safety / ((fine.count / coarse.count) ** order - 1.0))

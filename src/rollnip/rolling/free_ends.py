@@ -1,8 +1,8 @@
 """Zones whose ends are free, on ever finer meshes: few nodes, edges by Newton's method.
 
-Tractions between nodes at cosine places are cubic in the number of the node: with edges and
-transitions at nodes, a dozen nodes a zone give what a hundred do that are linear between edges
-that move.
+Tractions between nodes at cosine places are cubic in the number of the node. With edges and
+transitions at nodes, a dozen such nodes in a zone are as accurate as a hundred nodes with linear
+tractions between them.
 """
 
 from __future__ import annotations
@@ -67,8 +67,8 @@ def with_free_ends(
 
     Parameters
     ----------
-    layout : about where the zones are, and which.
-    before : the solution that says so; None: a guess does.
+    layout : the zones to start with, and about where they are.
+    before : the solution that the layout comes from; None: it is a guess.
     off : how far its zones may be off, over the width of the contact.
     """
     placing = Placing(nip, model, kernels)
@@ -117,7 +117,7 @@ def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
 def _next_count(count: int, ratio: float, tolerance: float) -> int:
     """Return how many elements would bring an error ``ratio`` times too large to the tolerance.
 
-    On the way to as many as errors below it can be claimed with, in steps that are not too long.
+    The number grows in limited steps, up to that for which such an error can be claimed.
     """
     least = _LEAST_GROWTH if count < _MANY else _LEAST_OF_MANY
     growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), least)
@@ -137,7 +137,7 @@ def _as_cosines(latest: Round) -> int:
 def _roughness(nip: Nip, model: Model, latest: Round) -> float:
     """Return how badly cubics follow the tractions, over what is allowed.
 
-    Where they do not follow, sizes of mesh may agree and all be wrong.
+    Where cubics do not follow the tractions, sizes of mesh may agree and all be wrong.
     """
     elements = latest.mesh.fine.elements
     pressure, shear = latest.state.pressure, latest.state.shear

@@ -15,7 +15,7 @@ from rollnip.rolling.round import Further, Round, peak_pressure
 from rollnip.rolling.surfaces import Array, Mesh
 
 _SAFETY = 1.5  # on the error of second order from two meshes; first order is cautious enough
-_SLOW = 1.05  # times the change that second order lets expect
+_SLOW = 1.05  # times the change that second order predicts
 _LITTLE = 0.05  # of what a figure may be at most: the least size that its error counts against
 # Least error over the size, times the square of the number of elements: measured on random nips
 # against ten times as many elements (numbers 50000 to 50149 of tests/properties/population.py;
@@ -44,8 +44,8 @@ def further_figures(
 def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]) -> Further | None:
     """Return the estimated errors of the further figures from their changes between meshes.
 
-    As for `Figures`: the last change by the order that the meshes show, earlier changes by the
-    second order, and no less than meshes of this size leave in random nips.
+    As for `Figures`, the last change counts by the order that the meshes show, earlier changes by
+    the second order, and no error is less than the least of such meshes in random nips.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]
 
 
 def _order(counts: Array, steps: Array) -> Array:
-    """Order in 1/elements of each error: the second, or the first unless meshes show better."""
+    """Return the order in 1/elements of each error: second, or first unless meshes show better."""
     if len(steps) < 2:
         return np.ones(steps.shape[1])
     first, second, third = counts[-3:] ** -2.0
@@ -81,7 +81,7 @@ def _order(counts: Array, steps: Array) -> Array:
 
 
 def _share_left(counts: Array, order: Array) -> Array:
-    """Error of the finer of two meshes over the difference of the two."""
+    """Return the error of the finer of two meshes over the difference of the two."""
     safety = np.where(order > 1.0, _SAFETY, 1.0)
     return np.asarray(safety / ((counts[1] / counts[0]) ** order - 1.0))
 

@@ -56,7 +56,7 @@ def too_deep(side: str, number: int, pressed: Array, roller: Roller) -> str:
 
 
 def _pressed_in(side: str, roller: Roller, nip: Nip, geometry: Geometry, final: Round) -> Array:
-    """Compression of each layer over its thickness, where the surface is pressed in most."""
+    """Return the compression of each layer over its thickness, under the deepest surface point."""
     softest = min((one.material.relaxed_modulus for one in roller.layers), default=np.inf)
     if final.figures.peak_pressure < _SURELY_LESS * MOST_PRESSED_IN * softest:
         return np.zeros(0)

@@ -1,4 +1,4 @@
-"""The largest of some numbers, of which none may be lost."""
+"""The largest of some numbers, nan included."""
 
 from __future__ import annotations
 
@@ -6,8 +6,8 @@ from math import isnan, nan
 
 
 def largest(*values: float) -> float:
-    """The largest value; nan where one of them is, which ``max`` would leave out.
+    """Return the largest value, or nan where one value is nan, which ``max`` would leave out.
 
-    What is no number must not pass for a small error.
+    A nan must not pass for a small error.
     """
     return nan if any(map(isnan, values)) else max(values)

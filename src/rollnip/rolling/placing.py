@@ -1,8 +1,8 @@
-"""The ends of zones on meshes of one size, by Newton's method; and which zones there are.
+"""The search for the zones of a contact and their ends, by Newton's method on meshes of one size.
 
-Edges and transitions are at nodes, and what the first nodes beside them say moves them
-(`contact.Layout.moved`). Once they are about where they belong, a solution tells whether its zones
-are right.
+Edges and transitions are at nodes, and the tractions at the first nodes beside them say where they
+move (`contact.Layout.moved`). Once the ends are about right, a solution tells whether its zones
+are right too.
 """
 
 from __future__ import annotations
@@ -44,19 +44,19 @@ from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from
 _LOOKING = HeldContact()
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
 _MORE_FOR_SECOND = 3  # for the second order of "finite", which is held while a mesh is solved on
-_MOST_CHANGES = 2  # of the zones, on meshes of one size
+_MOST_CHANGES = 2  # changes of the zones, on meshes of one size
 _MORE_FOR_CHANGE = 3  # meshes, to place the new ends
-_SLOPES = 0.5, 3.0  # of what a break is asked to move, over how far it is off
+_SLOPES = 0.5, 3.0  # bounds of the move computed for a break over how far it is off
 _FAIRLY_PLACED = 0.1  # over the width of the contact: good enough to see what slips
-# Of what ends are off, from mesh to mesh, while that is not little: more is no Newton's method.
-# Nearly placed ends may be asked to go further by second-order terms that still move.
+# Largest ratio of how far ends are off, from mesh to mesh: Newton's method does better. It does not
+# apply to nearly placed ends, which second-order terms that still change may move further.
 _CONTRACTION = 0.7
 _NEARLY_PLACED = 0.008  # over the width of the contact
 _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
-COARSE_PLACEMENT_FACTOR = 3.0  # more of it on the first size of mesh
-_SLACK = 1e-3  # at most: shear over the bound that may be rounding; more is slip, however coarse
+COARSE_PLACEMENT_FACTOR = 3.0  # times `_PLACED` on the first size of mesh
+_SLACK = 1e-3  # shear over the bound counts as rounding up to the tolerance, and never beyond this
 _TURNS = 2  # of the second-order terms on one mesh, while ends still move, but not far
-# Expected change of these over the tolerance, for which it is not evaluated anew on one size.
+# Expected change of the second order over the tolerance, up to which it is not evaluated anew.
 _QUIET = 1.0
 _LARGEST_RATIO = 0.9
 _NEARLY = 0.45  # Poisson ratio
@@ -78,7 +78,7 @@ class SearchState:
     before : the last solution.
     change : of the second-order terms when the second order of "finite" was last evaluated, over
         the tolerance.
-    expected : the same of all times to come.
+    expected : the change that all further evaluations would add up to, over the tolerance.
     off : how far the ends of zones may be off, over the width of the contact.
     """
 
@@ -99,15 +99,15 @@ class Placing:
     given: GivenStates = field(default_factory=GivenStates)
 
     def guessed(self, layout: Layout, count: int) -> SearchState | None:
-        """Find about where the zones are, and which, from a mesh of some size on a guess.
+        """Find which zones there are, and about where, from one mesh on a guess.
 
-        Ends that are far off leave singular tractions, and where these slip, terms of second order
-        under them mean nothing: zones are looked for without. Where all sticks, the mesh is solved
-        once more with them.
+        Ends that are far off leave singular tractions. Where these slip, second-order terms under
+        them mean nothing, so zones are sought without these terms. Where all sticks, the mesh is
+        solved once more with them.
 
         Returns
         -------
-        None where zones that the solution asks for are none that have a layout.
+        None where the zones that the solution calls for have no layout.
         """
         kernels = held_from(self.kernels, None)
         even = (1.0,) * layout.states.size
@@ -142,7 +142,7 @@ class Placing:
         -------
         None where there is no such solution.
         """
-        # However still the second order is, it is that of a coarser mesh: a new one on each size.
+        # The second order held so far is that of a coarser mesh: each size evaluates it anew.
         stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
         loosely = self.kernels.is_linear and not known
         placed = _PLACED * self.model.tolerance * (COARSE_PLACEMENT_FACTOR if loosely else 1.0)
@@ -156,11 +156,11 @@ class Placing:
             layout = stand.layout
             crowd = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
             if elements is None or crowd != crowding:
-                # They stay while edges are looked for: a change would move these.
+                # Elements stay as they are while edges are sought: other ones would move the edges.
                 crowding, elements = crowd, elements_of_zones(layout.breaks, count, crowd)
                 earlier, off = None, inf
             hasty = loosely and off > _NEARLY_PLACED
-            # Transitions that a guess has found will move again, whatever the second order.
+            # Transitions that come from a guess will move again, whatever the second order.
             most = 1 if hasty and layout.states.size > 1 else _TURNS
             latest, asked = self._solved_on(stand, (elements, crowding), placed, most)
             off, off_before = asked.distance(layout), off
@@ -189,7 +189,7 @@ class Placing:
 
     @cached_property
     def boundary(self) -> float:
-        """`boundary_layer` of the nip."""
+        """Length of the shortest boundary layer of the nip, see `boundary_layer` [mm]."""
         return boundary_layer(self.nip)
 
     @cached_property
@@ -212,7 +212,7 @@ class Placing:
         second = second_order(self.nip, self.model.geometry, mesh, before.state)
         change = change_of(second, before.second, mesh, self.nip, before.state)
         change /= self.model.tolerance
-        # Changes shrink by a ratio, and what is left is the sum of their series.
+        # Changes shrink by a ratio; those to come add up as a geometric series.
         ratio = min(change / max(stand.change, _TINY), _LARGEST_RATIO)
         expected = inf if stand.change == inf else change * ratio / (1.0 - ratio)
         return SearchState(
@@ -226,7 +226,7 @@ class Placing:
         placed: float,
         most: int,
     ) -> tuple[Round, Layout]:
-        """Solve on one mesh: the solution, and where it asks the ends of zones to be.
+        """Solve on one mesh; return the solution, and where it puts the ends of zones.
 
         At ``most`` so many turns of the second-order terms while ends still move by more than
         ``placed``, over the width; then as many as these need.
@@ -254,14 +254,14 @@ class Placing:
         return solve_on_mesh(self.nip, model, mesh, start, self.given, NEARLY_STILL, zones, most)
 
     def _wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
-        """Return the states that a solution asks for; None where nodes in contact have them.
+        """Return the states that a solution calls for; None where nodes in contact have them.
 
-        While the edges are not placed, not the ``whole`` is looked at, only stick and slip.
+        ``whole``: whether contact is examined too; until the edges are placed, only stick and slip.
         """
         slack, given = min(self.model.tolerance, _SLACK), latest.state.states
         wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
-        differs[layout.ends(latest.problem.x)] = False  # they are as much of one zone as of another
+        differs[layout.ends(latest.problem.x)] = False  # ends belong to two zones alike
         if not differs.any():
             return None
         return next_slip(latest.problem, latest.state, slack) if whole else wanted
@@ -271,7 +271,7 @@ class Placing:
     ) -> SearchState | None:
         """Find other zones between known edges, where a solution does not agree with its own.
 
-        None where they are not others, or none that have a layout.
+        Return None where the zones are the same, or where they have no layout.
         """
         given = latest.state.states
         found = _LOOKING.solve(latest.problem, given if wanted is None else wanted)
@@ -286,16 +286,16 @@ class Placing:
 
 
 def boundary_layer(nip: Nip) -> float:
-    """Length of the shortest boundary layer at the ends of zones [mm].
+    """Return the length of the shortest boundary layer at the ends of zones [mm].
 
-    Within the depth of the first interface the surface responds as a half-plane of its top layer,
-    beyond as what lies below lets it: the tractions cross over there.
+    Over lengths up to the depth of the first interface the surface responds as a half-plane of its
+    top layer; over larger ones the layers below count, and the tractions change between the two.
     """
     return min(_first_interface(nip.upper), _first_interface(nip.lower))
 
 
 def _incompressible(roller: Roller) -> float:
-    """Thickness of a covering on a rigid core if it is nearly incompressible, or infinity [mm]."""
+    """Return the thickness of a nearly incompressible covering on a rigid core, or inf [mm]."""
     nearly = all(layer.material.poisson > _NEARLY for layer in roller.layers)
     return roller.coating_thickness / _PIECES if nearly and roller.core is None else inf
 
@@ -318,7 +318,7 @@ def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -
 
 
 def _proper(asked: Layout, layout: Layout) -> Layout:
-    """Return where a solution asks the ends to be, or where they are if that is no layout."""
+    """Return the ends that a solution calls for, or the present ones if those are no layout."""
     return asked if asked.is_proper else layout
 
 
@@ -332,9 +332,9 @@ def _standing_at(asked: Layout, latest: Round, stand: SearchState, off: float) -
 def _hastened(here: Layout, asked: Layout, earlier: tuple[Layout, Layout] | None) -> Layout:
     """Return the next places of the breaks, each by the secant through its last two.
 
-    ``earlier``: where the breaks were on the mesh before, and where they were asked to be. Where
+    ``earlier``: where the breaks were on the mesh before, and where that solution put them. Where
     the surface does not respond as a half-plane over the first elements, say under a stiff skin,
-    breaks are asked to go too far, or not far enough.
+    a solution moves the breaks too far, or not far enough.
     """
     if earlier is None:
         return asked

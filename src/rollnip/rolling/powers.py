@@ -9,8 +9,8 @@ puts in is what its roller hands on and what it loses inside:
 w the loss inside a roller per rolled distance, ds along the deformed interface. This is exact at
 any strain. The sum of both is the friction loss int q (V_u lambda_u - V_l lambda_l) ds and the
 viscous loss V_u w_u + V_l w_l: the balance closes in every geometry, with the stretch that its
-creep has, and nothing large cancels in a torque. The other way, moments of pressure and shear
-about both axles, must agree to the order of the geometry; tests say that it does.
+creep has, and nothing large cancels in a torque. The moments of pressure and shear about both
+axles must give the same torques to the order of the geometry; tests confirm that they do.
 """
 
 from __future__ import annotations
@@ -85,7 +85,7 @@ def _friction(
     found: tuple[Mesh, ContactState],
     zones: tuple[Zone, ...],
 ) -> float:
-    """Int q (creep) ds over the zones that slip; surfaces that stick lose nothing."""
+    """Return int q (creep) ds over the zones that slip; surfaces that stick lose nothing."""
     (x, u), (mesh, state) = surfaces, found
     if nip.friction == 0.0 or isnan(state.creepage):
         return 0.0

@@ -38,12 +38,12 @@ _FIRST_COUNT = 16
 _LINEAR_FOR_CUBIC = 2  # elements that do what a cubic one does, at least
 _FEWEST_SIZES = 3  # of meshes before an error is believed
 _COARSE = 96  # elements up to which an unsettled mesh may still place edges
-_ENOUGH_FOR_ZONES = 130  # elements; transitions that still move have no square root at them
+_ENOUGH_FOR_ZONES = 130  # elements; with fewer, transitions move and have no square root
 _MOST_FAILURES = 3  # fine meshes that do not settle
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
-_ALIKE = 1.15  # elements of a mesh over those of one too much like it to tell an error from
-_MOST_WORK = 4000.0  # linear systems of a hundred elements, or what takes as long
+_ALIKE = 1.15  # ratio of elements up to which two meshes are too alike to estimate an error from
+_MOST_WORK = 4000.0  # most linear systems of a hundred elements, or others of the same cost
 _DIVERGED = 10.0  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
 _RESOLVED = 0.5  # longest element beside an edge over the length of the boundary layer there
@@ -54,10 +54,10 @@ _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
 def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
     """Solve on ever better meshes until the estimated error is below the tolerance.
 
-    Zones with free ends and cubic elements do it as a rule, from a guess of the width alone or,
-    where that is not enough to find the zones, from a coarse mesh (`with_free_ends`). Where they
-    do not, elements are linear, and each mesh is graded to the edges and transitions that the one
-    before found.
+    As a rule, zones with free ends and cubic elements reach the tolerance, from a guess of the
+    width alone or, where that does not find the zones, from a coarse mesh (`with_free_ends`). Where
+    they fail, elements are linear, and each mesh is graded to the edges and transitions found on
+    the mesh before.
 
     Parameters
     ----------
@@ -83,7 +83,7 @@ def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> R
 
 
 def _located(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
-    """A solution on a coarse mesh: about where the edges are, and which zones there are."""
+    """Return a solution on a coarse mesh: which zones there are, and about where."""
     breaks = np.array([-1.3 * half_width, 1.3 * half_width])
     zones: tuple[Zone, ...] = (Zone(-0.8 * half_width, 0.8 * half_width, State.STICK),)
     latest: Round | None = None
@@ -104,7 +104,7 @@ def _refined(
     located: Round,
     too_few: int,
 ) -> Round:
-    """The rounds with linear elements, more than ``too_few``.
+    """Refine with linear elements, more than ``too_few`` of them.
 
     Their error is of second order in 1/elements, so two meshes give an estimate of it:
     |difference|/(ratio^2 - 1).
@@ -119,12 +119,12 @@ def _refined(
         mesh = mesh_on(graded_nodes(breaks, count, demand), holding(kernels, stood))
         latest = _solve_on(nip, model, mesh, (zones, stood), STILL)
         work += _work(latest.steps - stood.steps, mesh.inner.size)
-        # What does not settle says nothing of the second order: that of the last one that did.
+        # An unsettled round has no meaningful second order: use that of the last settled one.
         stood = latest if latest.settled else replace(stood, steps=latest.steps)
         if failures > _MOST_FAILURES or _is_hopeless(latest):
             break
         if not latest.settled and count > _COARSE:
-            # Another mesh of about this size may settle: what cycles hangs on single nodes.
+            # Another mesh of about this size may settle: cycles depend on single nodes.
             count, failures = min(int(1.06 * count) + 1, _MOST_ELEMENTS), failures + 1
             continue
         zones = latest.zones
@@ -139,8 +139,8 @@ def _refined(
         best = latest if latest.settled or best is None else best
         off = _apart(history)
         if off < _AGREED and offered < _MOST_TRIES:
-            # Before linear elements are believed: where surfaces stick up to an edge they converge
-            # slowly, and two sizes may agree on a creepage that neither has.
+            # Linear elements converge slowly where surfaces stick up to an edge, and two sizes may
+            # agree on a wrong creepage: free ends are tried before their result is accepted.
             offered += 1
             if taken := _handed_over(nip, model, kernels, latest, off):
                 return taken
@@ -171,9 +171,9 @@ def _handed_over(
 
 
 def _with_layer(nip: Nip, latest: Round) -> Round:
-    """Add to the estimated error what a boundary layer leaves that no element resolves.
+    """Add to the estimated error that of a boundary layer which the elements do not resolve.
 
-    An edge moves by about the length of the layer where the elements beside it are longer.
+    The edge is off by about the length of the layer where the elements beside it are longer.
     """
     x, length = latest.mesh.inner[latest.state.pressure > 0.0], boundary_layer(nip)
     if x.size < 2 or max(x[1] - x[0], x[-1] - x[-2]) <= _RESOLVED * length:
@@ -186,7 +186,7 @@ def _with_layer(nip: Nip, latest: Round) -> Round:
 
 
 def _with_size(history: list[Size], size: Size) -> list[Size]:
-    """The sizes of mesh with a further one; one that is much like it gives way."""
+    """Return the sizes of mesh with a further one, which replaces one of nearly the same size."""
     if history and size.count < _ALIKE * history[-1].count:
         history = history[:-1]
     return [*history, size]
@@ -211,7 +211,7 @@ def _ratio(nip: Nip, latest: Round, history: list[Size], tolerance: float, too_f
 
 
 def _finished(nip: Nip, model: Model, kernels: PairKernels, last: Round) -> Round:
-    """The last round there is, checked where it is a contact at all."""
+    """Return the last round, with its residual if it is a contact at all."""
     if not last.figures.peak_pressure > 0.0:
         return last
     return with_residual(nip, model, kernels, converge(nip, model, last, _ACTIVE_SET))
@@ -239,7 +239,7 @@ def _work(systems: int, elements: int) -> float:
 
 
 def _next_count(count: int, ratio: float) -> int:
-    """Elements that would bring the error, ``ratio`` times too large now, below the tolerance."""
+    """Return how many elements bring an error ``ratio`` times too large below the tolerance."""
     growth = min(max(1.1 * sqrt(ratio), 1.35), 2.0)
     return min(int(count * growth) + 1, _MOST_ELEMENTS)
 
@@ -267,7 +267,7 @@ def _solve_on(
 
 
 def _next_breaks(latest: Round) -> Array:
-    """Edges and transitions to grade the next mesh to, merged where they nearly coincide."""
+    """Return edges and transitions to grade the next mesh to, merged where they nearly coincide."""
     zones, x = latest.zones, latest.problem.x
     places = np.unique([z.start for z in zones] + [z.stop for z in zones])
     states = latest.state.states

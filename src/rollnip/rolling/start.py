@@ -1,4 +1,4 @@
-"""A first guess of the half-width of the contact."""
+"""The first guess of the half-width of the contact."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from rollnip.rolling.surfaces import PairKernels
 
 
 def half_width_guess(nip: Nip, kernels: PairKernels) -> float:
-    """Half-width [mm] of an elliptic pressure that closes the gap at its centre and its edge.
+    """Return the half-width [mm] of elliptic pressure that closes the gap at centre and edge.
 
     Exact for half-spaces (Hertz), within some tens of per cent for layers.
 
     Raises
     ------
     InvalidInputError
-        where the load or approach asks for a contact as wide as the smaller roller.
+        where the load or approach leads to a contact as wide as the smaller roller.
     """
     half_widths, centre = kernels.pressed.half_width, kernels.pressed.centre
     drop = np.maximum(centre - kernels.pressed.edge, np.finfo(float).tiny)

@@ -1,4 +1,4 @@
-"""Influence functions of both rollers, and what the surfaces do on a mesh."""
+"""Influence functions of both rollers, and displacements of the surfaces on a mesh."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ class SecondFields:
     ends: tuple[tuple[float, float], ...]
 
     def at(self, x: Array) -> Displacements:
-        """Displacements at some places."""
+        """Return the displacements at some places."""
         four = np.zeros((4, x.size))
         for row, f, ends in zip(four, self.functions, self.ends, strict=True):
             if f is not None:
@@ -142,7 +142,7 @@ class PairKernels:
 
     @property
     def moving(self) -> slice:
-        """Places of the channels of ``together`` among those of both surfaces."""
+        """Return the places of the channels of ``together`` among those of both surfaces."""
         return slice(0 if self.upper else 3, 6 if self.lower else 3)
 
     @property
@@ -192,7 +192,7 @@ def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKerne
 
 
 def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
-    """1/R in the stretch of the surface; 0 where the layers are taken as flat."""
+    """Return 1/R in the stretch of the surface; 0 where the layers are taken as flat."""
     return roller.curvature if is_ring(roller, geometry) else 0.0
 
 
@@ -237,24 +237,24 @@ class Mesh:
     held: Displacements | None
 
     def acting(self, traction: Array) -> Array:
-        """A traction at nodes[1:-1] as it acts: at the finer nodes without both ends."""
+        """Return a traction at nodes[1:-1] as it acts at the finer nodes, without both ends."""
         acting = self.fine.acting
         return traction if acting is None else np.asarray(acting[1:-1, 1:-1] @ traction)
 
     def between(self, traction: Array) -> Array:
-        """Values of a traction at nodes[1:-1] at the finer nodes, without both ends."""
+        """Return a traction at nodes[1:-1] interpolated to the finer nodes, without both ends."""
         values = self.fine.values
         return traction if values is None else np.asarray(values[1:-1, 1:-1] @ traction)
 
     def work(self, traction: Array, displacement: Array) -> float:
-        """Int t du of a traction at nodes[1:-1] and a displacement at nodes[1:]."""
+        """Return int t du of a traction at nodes[1:-1] and a displacement at nodes[1:]."""
         values = self.fine.values
         if values is not None:
             displacement = values[1:, 1:] @ displacement
         return pressure_work(self.acting(traction), displacement)
 
     def finer(self, u: Displacements) -> Displacements:
-        """Displacements at nodes[1:] carried on to the finer nodes but the first."""
+        """Return displacements at nodes[1:] interpolated to the finer nodes but the first."""
         values = self.fine.values
         return u if values is None else Displacements(u.four @ values[1:, 1:].T)
 
@@ -263,17 +263,17 @@ class Mesh:
         return _sums(self.nodes, self.fine, pieces)
 
     def linear(self, state: ContactState) -> Displacements:
-        """Displacements at nodes[1:], linear in the tractions."""
+        """Return the displacements at nodes[1:], linear in the tractions."""
         tractions = np.empty((self.inner.size, 2))
         tractions[:, 0], tractions[:, 1] = state.pressure, state.shear
         return Displacements.under(self.per_traction @ tractions)
 
     def displacements(self, state: ContactState) -> Displacements:
-        """Displacements at nodes[1:], to the order of the model."""
+        """Return the displacements at nodes[1:], to the order of the model."""
         return self.with_second(self.linear(state), state)
 
     def with_second(self, linear: Displacements, state: ContactState) -> Displacements:
-        """The linear displacements of a solution with those of second order, if there are any."""
+        """Return linear displacements of a solution plus those of second order, if any."""
         if self.kernels.is_linear:
             return linear
         held = self.held
@@ -284,12 +284,12 @@ class Mesh:
         return replace(self, kernels=kernels, held=_held_at(self.nodes, kernels))
 
     def second(self, state: ContactState, x: Array) -> Displacements:
-        """Second-order displacements at ``x``: those held, or of the tractions of a solution."""
+        """Return second-order displacements at ``x``: those held, or those of a solution."""
         held = self.kernels.held
         return (self.second_fields(state) if held is None else held).at(x)
 
     def second_fields(self, state: ContactState) -> SecondFields:
-        """Second-order displacements under the tractions of a solution, as functions."""
+        """Return the second-order displacements under a solution's tractions, as functions."""
         p, q = self.acting(state.pressure), self.acting(state.shear)
         return self.kernels.second_fields(self.fine.nodes, p, q)
 
@@ -380,7 +380,7 @@ def _influence(
 
 
 def _integrated(nodes: Array, fine: Subdivision, values: Array) -> Array:
-    """Int f dx over each interval of nodes[1:] of functions with ``values`` there, (N, n)."""
+    """Return int f dx over each interval of nodes[1:] of functions with ``values`` there."""
     if fine.means is None:
         dx = (nodes[2:] - nodes[1:-1])[:, None]
         return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
@@ -389,10 +389,10 @@ def _integrated(nodes: Array, fine: Subdivision, values: Array) -> Array:
 
 
 def _sums(nodes: Array, fine: Subdivision, pieces: Array) -> Array:
-    """Sums over the intervals of nodes[1:] of what belongs to those of the finer nodes."""
+    """Return sums over the intervals of nodes[1:] of values on those of the finer nodes."""
     if fine.values is None:
         return pieces
-    # As many in each interval, but the one beyond the last break has not been cut.
+    # Each interval has as many pieces, but the one beyond the last break has not been cut.
     parts = (fine.nodes.size - 3) // (nodes.size - 3)
     out = pieces[::parts].copy()
     for part in range(1, parts):

@@ -16,8 +16,8 @@ from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepa
 from rollnip.rolling.surfaces import NO_SECOND_ORDER, Mesh, PairKernels
 
 MOST_TURNS = 40
-# Change of the second-order terms in a turn, over the tolerance. A turn shrinks what is left of
-# them at least tenfold; meshes that only place nodes need them less well than the last.
+# Change of the second-order terms in a turn, over the tolerance. A turn reduces their remaining
+# error at least tenfold; meshes that only place nodes need them less accurately than the last mesh.
 STILL = 0.1
 NEARLY_STILL = 1.0
 ROUGHLY_STILL = 30.0
@@ -32,15 +32,16 @@ class Method(Protocol):
 
 
 def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
-    """Influence functions that take the second order from the mesh before; at first none.
+    """Return influence functions with the second order of the mesh before; at first without any.
 
-    It is small and smooth: a few updates are enough, and the last mesh is checked with its own.
+    The second order is small and smooth: a few updates are enough, and the last mesh is checked
+    with its own.
     """
     return held_from(kernels, before if before is not None and before.settled else None)
 
 
 def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
-    """Influence functions with the second order of a solution, if they have one; at first none."""
+    """Return influence functions with the second order of a solution, if they model it."""
     if kernels.is_linear:
         return kernels
     if before is None:
@@ -115,7 +116,7 @@ def converge(
     method: Method,
     zones: tuple[Zone, ...] | None = None,
 ) -> Round:
-    """Turn once more until the second-order terms are as still as those of a result must be.
+    """Repeat turns until the second-order terms change as little as those of a result must.
 
     ``zones`` are those of the solution where they are known.
     """
@@ -129,8 +130,8 @@ def converge(
 def with_residual(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
     """Add the residual to a solution, from the contact conditions on more points.
 
-    Its mesh holds the second order of its own tractions from here on, and what that changes in the
-    second-order terms is the last change.
+    From here on the mesh holds the second order of its own tractions. The change of the
+    second-order terms by that is recorded as the last change.
     """
     if not kernels.is_linear:
         kernels = replace(kernels, held=latest.mesh.second_fields(latest.state))

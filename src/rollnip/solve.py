@@ -99,7 +99,7 @@ def _require_kinds(nip: object, model: object, on_failure: object) -> None:
 
 
 def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solution:
-    """The flow of one solution; ``start``: the clock when it was asked for [s]."""
+    """Solve one nip; ``start``: the clock at the call, from which the solver time counts [s]."""
     kernels, final = _refined(nip, model, cache)
     left: tuple[str, ...] = ()
     if model.geometry == "finite" and (cause := _without_solution(final)):
@@ -151,7 +151,7 @@ def _without_solution(final: Round) -> str:
 
 
 def _refined(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, Round]:
-    """Influence functions and the last round of refinement."""
+    """Return the influence functions and the last round of refinement."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)

@@ -24,7 +24,7 @@ Array = NDArray[np.float64]
 Name = Literal["upper", "lower"]
 
 _PLACES = 65
-_RANGE = 4.0  # loads looked at, over and under the one that the crown is for
+_RANGE = 4.0  # ratio of the largest load examined to the crown's own, and of that to the smallest
 _LOADS = 17
 
 

@@ -18,7 +18,7 @@ _Table = TypeVar("_Table")
 
 
 class KernelCache:
-    """Keeps the influence functions of coverings, for solves that change only what presses them.
+    """Cache of the influence functions of coverings, for solves that change only their loading.
 
     They depend on the layers and the core, on the speed where something is viscoelastic, on the
     radius where the layers are rings, and on the lengths the table covers; not on load, traction,
@@ -91,19 +91,19 @@ class KernelCache:
             (lower.layers, lower.core, lower.radius, _speed_that_counts(lower, speed)),
             geometry,
         )
-        # Each key has what one function made.
+        # The value of a key always comes from the same function.
         return cast(_Table, _kept(self._pairs, key, make, self.most))
 
 
 def _speed_that_counts(roller: Roller, speed: float | None) -> float | None:
-    """The speed where a material of the roller is viscoelastic, else None."""
+    """Return the speed where a material of the roller is viscoelastic, else None."""
     return None if all(material.is_elastic for material in roller.materials) else speed
 
 
 def _kept(
     tables: OrderedDict[_Key, _Table], key: _Key, make: Callable[[], _Table], most: int
 ) -> _Table:
-    """The table of a key, made where it is not kept; the oldest beyond ``most`` go."""
+    """Return the table of a key, made where it is not kept; the oldest beyond ``most`` go."""
     table = tables.pop(key, None)
     if table is None:
         table = make()

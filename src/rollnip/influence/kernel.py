@@ -83,7 +83,7 @@ class Kernel:
 
     @classmethod
     def stacked(cls, kernels: tuple[Kernel, ...]) -> Kernel:
-        """One kernel with the channels of some kernels on the same grid, in their order."""
+        """Return one kernel with the channels of several kernels on the same grid, in order."""
         count = sum(kernel.count for kernel in kernels)
         first = kernels[0]
         out = np.zeros((*first.coefficients.shape[:2], _filled_up(count)))
@@ -97,11 +97,11 @@ class Kernel:
 
     @property
     def channels(self) -> tuple[Kernel, ...]:
-        """Each channel as a kernel of its own."""
+        """Return each channel as a kernel of its own."""
         return tuple(self.channel(i) for i in range(self.count))
 
     def channel(self, number: int) -> Kernel:
-        """One channel as a kernel of its own."""
+        """Return one channel as a kernel of its own."""
         if self.coefficients.ndim == 2:
             return self
         return Kernel(self.points_per_octave, self.first, self.coefficients[:, :, number])

@@ -44,9 +44,9 @@ from rollnip.rollers import Roller
 _SIZES_PER_OCTAVE = 4  # half-widths that have a table
 _PER_HALF_WIDTH = 18.0  # points of the grid on which fields at depth are multiplied
 _FINER = 2  # points for one of that on the grid of the surface, which is interpolated
-_FINEST = 16.5  # largest wave number, in pi per half-width; larger see what is not small any more
+_FINEST = 16.5  # largest wave number, in pi per half-width; beyond, terms are not of second order
 _REACH = 6.0  # of the window beyond the contact, in thicknesses of a single elastic layer
-_FARTHEST = 10.0  # the same of any layers
+_FARTHEST = 10.0  # the largest such reach, for any layers
 _DEEPEST = 8.0  # thickness that counts at most, in half-widths
 _FOLDS = 3.0  # of e in depth, from the surface to twice the half-width or the core
 _PER_FOLD = 3.0  # depths, besides ...
@@ -77,9 +77,9 @@ class SecondResponse:
     impulse : (nk,) transform, at x[0], of a traction of which the second derivative is an impulse
         [mm]; for k = 0 of the impulse itself [1/mm]. What is too short for the contact is left out.
     angle : (n,) x/R near the contact, and as at its border elsewhere.
-    excess : (n,) the same of x^3/(6 R^2), what the arc is longer than the tangent [mm].
-    is_short : whether the layers let more spread than the grid is long. It lacks the longest waves
-        then, which move the contact as a whole.
+    excess : (n,) likewise x^3/(6 R^2), by which the arc is longer than the tangent [mm].
+    is_short : whether fields spread farther in the layers than the grid is long. The grid then
+        lacks the longest waves, which move the contact as a whole.
     """
 
     x: Array

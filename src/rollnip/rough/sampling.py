@@ -15,7 +15,7 @@ from rollnip.rollers import Profile, Roller
 Array = NDArray[np.float64]
 
 _FEWEST = 512  # nodes in the contact of the smooth rollers
-_FAR = 8.0  # half-widths of that contact that are looked at, and what the highest asperity adds
+_FAR = 8.0  # half-widths of that contact within the grid, besides what the highest asperity adds
 _MOST_NODES = 2**19
 _GAP = 10.0  # median distances of samples
 _FEW_SAMPLES = 64  # in the contact of the smooth rollers

@@ -239,7 +239,7 @@ class RoughSolution(Solution):
 
     @cached_property
     def _powers(self) -> Powers:
-        """Elastic, without friction: nothing is lost, and nothing is said of torques."""
+        """Powers of an elastic contact without friction: all zero; torques are not reported."""
         return Powers(0.0, 0.0, 0.0, 0.0, 0.0)
 
 

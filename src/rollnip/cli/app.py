@@ -77,17 +77,19 @@ def solve(
         Path | None, typer.Option(help="Draw an overview on one page: name.png, .svg or .pdf.")
     ] = None,
     geometry: Annotated[
-        str | None, typer.Option(help="linear, corrected, curved or finite; overrides the file.")
+        str | None,
+        typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file."),
     ] = None,
     tolerance: Annotated[
-        str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides too.")
+        str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides the file.")
     ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary.")] = False,
     force: Force = False,
 ) -> None:
     """Solve one nip and print a summary.
 
-    Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
+    The exit code is 0 where the solution was verified, 1 where it did not converge, 2 for wrong
+    input.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip.io import check_result_target, read_case, result_text, write_result

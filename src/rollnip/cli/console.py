@@ -1,4 +1,4 @@
-"""How the commands speak: one message for what a user can cause, exit codes, plain letters."""
+"""Messages of the commands: one for each user error, exit codes, letters that can be encoded."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def clear_failures() -> Iterator[None]:
 
 @contextmanager
 def named(source: str) -> Iterator[None]:
-    """Put the option or the file before what is said against its value."""
+    """Prefix an input error raised inside the block with the name of its option or file."""
     try:
         yield
     except InvalidInputError as error:
@@ -130,7 +130,7 @@ def write_plain_letters() -> None:
 
 
 def _plain(error: UnicodeError) -> tuple[str, int]:
-    """Signs by what is read the same; other letters by their numbers, so that none is lost."""
+    """Replace letters that cannot be encoded: by a plain equivalent, else by their code number."""
     assert isinstance(error, UnicodeEncodeError)
     letters = error.object[error.start : error.end]
     told = (_PLAIN.get(one, one.encode("ascii", "backslashreplace").decode()) for one in letters)

@@ -23,18 +23,18 @@ if TYPE_CHECKING:
     from rollnip.sweep import Study, Table
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
-_GEOMETRY = typer.Option(help="linear, corrected, curved or finite; overrides the file.")
+_GEOMETRY = typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file.")
 _STUDY = typer.Argument(help="Study file, TOML or JSON; - is the standard input.")
 _JSON = typer.Option("--json", help="Print the answer as JSON.")
 _DATABASE = typer.Option(
-    help="Takes each case as it ends, name.db: the same command goes on from there."
+    help="Database, name.db, of the finished cases; the same command resumes from it."
 )
 _CASE_OUT = typer.Option(help="Write the case found: name.toml or name.json.")
 
 
 def find(
     case: Annotated[str, _CASE],
-    path: Annotated[str, typer.Argument(help="Of the parameter, such as nip.load.")],
+    path: Annotated[str, typer.Argument(help="Path of the parameter, such as nip.load.")],
     wanted: Annotated[
         str, typer.Option("--for", help='The wanted result: nip_width="8 mm".', metavar="RESULT")
     ],
@@ -42,10 +42,11 @@ def find(
         tuple[str, str], typer.Option(help='Limits of the parameter: "1 N/mm" "20 N/mm".')
     ],
     tolerance: Annotated[
-        str, typer.Option(help="How near the result must come, as a share of it.")
+        str, typer.Option(help="Largest distance from the wanted result, as a share of it.")
     ] = "0.01 %",
     points: Annotated[
-        int, typer.Option(help="Cases from limit to limit before closing in; more find more bends.")
+        int,
+        typer.Option(help="Cases from limit to limit that are solved first; more show more bends."),
     ] = 5,
     geometry: Annotated[str | None, _GEOMETRY] = None,
     json: Annotated[bool, _JSON] = False,
@@ -55,8 +56,8 @@ def find(
 ) -> None:
     """Find the value of a parameter that gives a wanted result.
 
-    Leaves with 0 where a value was found and confirmed by a fresh solve, 1 where there is none
-    between the limits, 2 for wrong input.
+    The exit code is 0 where a value was found and confirmed by a fresh solve, 1 where there is
+    none between the limits, 2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip._units import parse_quantity
@@ -100,8 +101,8 @@ def optimise(
 ) -> None:
     """Find the values of a few parameters that make one result small or large, within limits.
 
-    Leaves with 0 where a case was found that keeps all limits, confirmed by a fresh solve, and
-    the search came to rest; 1 where not; 2 for wrong input.
+    The exit code is 0 where a fresh solve confirmed a case that keeps all limits and the search
+    came to rest, 1 where it did not, 2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip.cli.progress import progress
@@ -148,7 +149,9 @@ def tolerance(
     study: Annotated[str, _STUDY],
     geometry: Annotated[str | None, _GEOMETRY] = None,
     json: Annotated[bool, _JSON] = False,
-    plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw the answer: name.png, .svg or .pdf.")
+    ] = None,
     workers: Annotated[int | None, WORKERS] = None,
     database: Annotated[Path | None, _DATABASE] = None,
     force: Force = False,
@@ -186,25 +189,25 @@ def tolerance(
 
 
 def pareto(
-    table: Annotated[Path, typer.Argument(help="Table of results, such as of rollnip sweep.")],
+    table: Annotated[Path, typer.Argument(help="Table of results, such as rollnip sweep writes.")],
     minimise: Annotated[
-        list[str] | None, typer.Option(help="Column to be small; may be given more than once.")
+        list[str] | None, typer.Option(help="Column to minimise; may be given more than once.")
     ] = None,
     maximise: Annotated[
-        list[str] | None, typer.Option(help="Column to be large; may be given more than once.")
+        list[str] | None, typer.Option(help="Column to maximise; may be given more than once.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="Write the rows found: name.csv; else they are printed.")
+        Path | None, typer.Option(help="Write the rows found: name.csv; by default, print them.")
     ] = None,
     plot: Annotated[
-        Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf; for two columns.")
+        Path | None, typer.Option(help="Draw the rows, for two columns: name.png, .svg or .pdf.")
     ] = None,
     json: Annotated[bool, _JSON] = False,
     force: Force = False,
 ) -> None:
     """Pick the rows of a table that no other row beats in all wanted columns at once.
 
-    Rows that did not converge, or hold no number there, are left out.
+    Rows that did not converge, or have no number in one of these columns, are left out.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip._files import check_target, write_whole
@@ -251,7 +254,7 @@ def pareto(
 
 @contextmanager
 def _option_named(case: str) -> Iterator[None]:
-    """Put the option, or the file, before what is said against its value."""
+    """Prefix an input error raised inside the block with its option, else with the case file."""
     options = {"wanted": "--for", "low": "--between", "high": "--between", "points": "--points"}
     try:
         yield

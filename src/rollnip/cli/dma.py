@@ -37,39 +37,59 @@ def fit(
     out: Annotated[
         Path | None, typer.Option(help="Write the material: name.toml, for [materials] of a case.")
     ] = None,
-    plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
-    name: Annotated[str, typer.Option(help="Of the material in the case.")] = "rubber",
-    model: Annotated[str, typer.Option(help="prony or fractional-zener.")] = "prony",
-    shift: Annotated[str, typer.Option(help="wlf, arrhenius or none (one temperature).")] = "wlf",
-    c1: Annotated[float | None, typer.Option("--c1", help="Of a known WLF law.")] = None,
-    c2: Annotated[str | None, typer.Option("--c2", help='Of it, such as "51.6 K".')] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw data and material: name.png, .svg or .pdf.")
+    ] = None,
+    name: Annotated[str, typer.Option(help="Name of the material in the case.")] = "rubber",
+    model: Annotated[
+        str, typer.Option(help="Model of the material: prony or fractional-zener.")
+    ] = "prony",
+    shift: Annotated[
+        str, typer.Option(help="Shift law: wlf, arrhenius or none (one temperature).")
+    ] = "wlf",
+    c1: Annotated[
+        float | None, typer.Option("--c1", help="Constant C1 of a known WLF law.")
+    ] = None,
+    c2: Annotated[
+        str | None, typer.Option("--c2", help='Constant C2 of a known WLF law, such as "51.6 K".')
+    ] = None,
     energy: Annotated[
-        str | None, typer.Option(help='Of a known Arrhenius law, such as "60 kJ/mol".')
+        str | None,
+        typer.Option(help='Activation energy of a known Arrhenius law, such as "60 kJ/mol".'),
     ] = None,
     reference: Annotated[
-        str | None, typer.Option(help='Of curve and law, such as "23 degC"; none: middle isotherm.')
+        str | None,
+        typer.Option(
+            help='Reference temperature, such as "23 degC"; by default, the middle isotherm.'
+        ),
     ] = None,
     vertical: Annotated[
         str, typer.Option(help="Shift of moduli: none, entropic (as T in kelvin) or free.")
     ] = "none",
     terms: Annotated[
-        int | None, typer.Option(help="Of the Prony series; none: by cross-validation.")
+        int | None,
+        typer.Option(
+            help="Number of terms of the Prony series; by default, from cross-validation."
+        ),
     ] = None,
     robust: Annotated[
-        bool, typer.Option("--robust", help="Count rows that lie far off less.")
+        bool, typer.Option("--robust", help="Give rows that lie far off less weight.")
     ] = False,
     modulus: Annotated[
-        str | None, typer.Option(help="E or G, where the heads do not say it.")
+        str | None,
+        typer.Option(help="Modulus that was measured, E or G, where the heads do not say it."),
     ] = None,
-    poisson: Annotated[float, typer.Option(help="Turns G into E, and goes into the case.")] = 0.5,
+    poisson: Annotated[
+        float, typer.Option(help="Poisson's ratio, which turns G into E and goes into the case.")
+    ] = 0.5,
     temperature: Annotated[
-        str | None, typer.Option(help="Of all data, where there is no such column.")
+        str | None, typer.Option(help="Temperature of all data, where there is no such column.")
     ] = None,
     frequency: Annotated[
-        str | None, typer.Option(help="Of all data, where there is no such column.")
+        str | None, typer.Option(help="Frequency of all data, where there is no such column.")
     ] = None,
     sheet: Annotated[
-        str | None, typer.Option(help="The only one of a workbook to read; none: all.")
+        str | None, typer.Option(help="Sheet of a workbook to read; by default, all sheets.")
     ] = None,
     table: Annotated[
         list[int] | None,
@@ -77,7 +97,9 @@ def fit(
     ] = None,
     case: Annotated[
         Path | None,
-        typer.Option(help="Case that names the material: is its nip within the data?"),
+        typer.Option(
+            help="Case that names the material; a warning says if its nip lies outside the data."
+        ),
     ] = None,
     json: Annotated[
         bool, typer.Option("--json", help="Print what was found as JSON, in place of the table.")
@@ -225,7 +247,7 @@ def _write(found: DmaFit | TimeFit, text: str, out: Path | None, plot: Path | No
 
 
 def _in_the_nip(found: DmaFit | TimeFit, case: Path, name: str) -> list[str]:
-    """Warnings of the nip of a case with the material put into its [materials]."""
+    """Return the warnings of a case's nip, solved with the fitted material in its [materials]."""
     from rollnip.dma import frequency_warning, material_toml
     from rollnip.io import parse_case
     from rollnip.io.document import parse_document, read_document

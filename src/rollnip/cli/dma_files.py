@@ -20,14 +20,14 @@ if TYPE_CHECKING:
 def show(
     file: Annotated[Path, typer.Argument(help="Text file or workbook of an instrument.")],
     temperature: Annotated[
-        str | None, typer.Option(help="Of all data, where there is no such column.")
+        str | None, typer.Option(help="Temperature of all data, where there is no such column.")
     ] = None,
     frequency: Annotated[
-        str | None, typer.Option(help="Of all data, where there is no such column.")
+        str | None, typer.Option(help="Frequency of all data, where there is no such column.")
     ] = None,
-    sheet: Annotated[str | None, typer.Option(help="The only one of a workbook to read.")] = None,
+    sheet: Annotated[str | None, typer.Option(help="Sheet of a workbook to read.")] = None,
 ) -> None:
-    """Say what is understood of a file: tables, columns, units, ranges, and what is left out."""
+    """Print how a file is understood: tables, columns, units, ranges, and what is left out."""
     with clear_failures():
         from rollnip.dma import read_tables
 
@@ -47,17 +47,24 @@ def convert(
         typer.Argument(help="Abaqus or Ansys deck, table of pyvisco, or a case or material, TOML."),
     ],
     to: Annotated[
-        str, typer.Option(help="toml (for [materials] of a case), abaqus, ansys or pyvisco.")
+        str,
+        typer.Option(help="Format: toml (for [materials] of a case), abaqus, ansys or pyvisco."),
     ] = "toml",
-    out: Annotated[Path | None, typer.Option(help="Write it here; none: print it.")] = None,
-    name: Annotated[str, typer.Option(help="Of the material, in TOML or in the deck.")] = "rubber",
-    unit: Annotated[
-        str | None, typer.Option(help="Of the moduli of a deck, such as MPa; times are in s.")
+    out: Annotated[
+        Path | None, typer.Option(help="Write the result to this file; by default, print it.")
     ] = None,
-    poisson: Annotated[float | None, typer.Option(help="Where the file has none.")] = None,
+    name: Annotated[
+        str, typer.Option(help="Name of the material, in TOML or in the deck.")
+    ] = "rubber",
+    unit: Annotated[
+        str | None, typer.Option(help="Unit of the moduli of a deck, such as MPa; times are in s.")
+    ] = None,
+    poisson: Annotated[
+        float | None, typer.Option(help="Poisson's ratio, where the file has none.")
+    ] = None,
     force: Force = False,
 ) -> None:
-    """Take a Prony series from one program to another.
+    """Convert a Prony series from the format of one program to that of another.
 
     What another program cannot hold is said in comments; warnings go to the standard error.
     """

@@ -26,14 +26,14 @@ face = typer.Typer(
 CaseFile = Annotated[str, typer.Argument(help="Case file with [face] and shafts.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Plot = Annotated[Path | None, typer.Option(help="Draw the face: name.png, .svg or .pdf.")]
-Crowned = Annotated[str, typer.Option(help="Which roller has the crown: upper or lower.")]
+Crowned = Annotated[str, typer.Option(help="Roller that has the crown: upper or lower.")]
 
 
 @face.command("solve")
 def solve(case: CaseFile, json: Json = False, plot: Plot = None, force: Force = False) -> None:
     """Solve a nip along its face and print line load, width and scrub.
 
-    The exit code is 0 where the solution was verified, 1 where not, 2 for wrong input.
+    The exit code is 0 where the solution was verified, 1 where it was not, 2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
         nip, along, model = _read(case)
@@ -53,7 +53,10 @@ def crown(
     case: CaseFile,
     roller: Crowned = "upper",
     within: Annotated[
-        float, typer.Option(help="Departure of the load from its mean that is allowed, over it.")
+        float,
+        typer.Option(
+            help="Largest departure of the line load from its mean, as a share of the mean."
+        ),
     ] = 0.1,
     json: Json = False,
     plot: Plot = None,
@@ -84,7 +87,9 @@ def read(
     widths: Annotated[str, typer.Argument(help="CSV or workbook with the columns y and width.")],
     unknown: Annotated[
         list[str] | None,
-        typer.Option(help="crown, tilt, load or modulus; several times for several."),
+        typer.Option(
+            help="Unknown to read: crown, tilt, load or modulus; may be given more than once."
+        ),
     ] = None,
     scatter: Annotated[str, typer.Option(help="Standard deviation of a width.")] = "0.2 mm",
     roller: Crowned = "upper",

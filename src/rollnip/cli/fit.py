@@ -29,14 +29,15 @@ def fit(
         typer.Option(help="Folder for report.txt, fit.json, fit.png and the fitted case.toml."),
     ] = None,
     geometry: Annotated[
-        str | None, typer.Option(help="linear, corrected, curved or finite; overrides the file.")
+        str | None,
+        typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file."),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print the fit as JSON.")] = False,
-    workers: Annotated[int, typer.Option(help="Processes that solve nips.", min=1)] = 1,
+    workers: Annotated[int, typer.Option(help="Number of processes that solve nips.", min=1)] = 1,
     database: Annotated[
         Path | None,
         typer.Option(
-            help="Takes each nip as it ends, name.db: the same command goes on from there."
+            help="Database, name.db, of the finished nips; the same command resumes from it."
         ),
     ] = None,
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no report.")] = False,
@@ -44,8 +45,8 @@ def fit(
 ) -> None:
     """Find unknown values of a case from measurements, with intervals and warnings.
 
-    Leaves with 0 where the nips at the fitted values were verified, 1 where they were not, 2 for
-    wrong input.
+    The exit code is 0 where the nips at the fitted values were verified, 1 where they were not,
+    2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
         from dataclasses import replace

@@ -1,4 +1,4 @@
-"""What stops a command that keeps its cases in a database: it says how many, and how to go on."""
+"""Counts of kept cases: what a stopped command says of its database, and how to go on."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def interrupts_told(store: Store, total: int | None = None) -> Iterator[Interrup
 
 
 def kept(store: Store, total: int | None = None, before: str = "", after: str = "") -> str:
-    """How many cases a database holds, in words; nothing where none, or where it is in memory."""
+    """Return a sentence on how many cases a database holds; empty where none or in memory."""
     if store.is_in_memory or not store.size:
         return ""
     count = f"{store.size:,} cases" if total is None else f"{store.size:,} of {total:,} cases"
@@ -45,7 +45,7 @@ def kept(store: Store, total: int | None = None, before: str = "", after: str = 
 def evaluating(
     database: Path | None, tree: Mapping[str, Any], paths: Sequence[str], workers: int | None
 ) -> Iterator[Together]:
-    """What solves cases; with a database, what it holds is not solved again."""
+    """Yield the workers that solve cases; with a database, no case in it is solved again."""
     from rollnip.sweep import recalling, together
     from rollnip.sweep.crew import available_cores
     from rollnip.sweep.interrupt import Interrupts

@@ -29,25 +29,31 @@ lda = typer.Typer(
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
 _FILE = typer.Argument(help="CSV: x [mm] and velocity [mm/s] or frequency [Hz], a row per burst.")
-_WAVELENGTH = typer.Option(help='Of the light, such as "632.8 nm".')
+_WAVELENGTH = typer.Option(help='Wavelength of the light, such as "632.8 nm".')
 _ANGLE = typer.Option(help='Full angle between the beams, such as "10 deg".')
 _HALF_WIDTH = typer.Option(help='1/e2 half-width of the volume along x, such as "0.05 mm".')
-_RATE = typer.Option(help='Of the detector, such as "250 kHz".')
+_RATE = typer.Option(help='Sample rate of the detector, such as "250 kHz".')
 _SHIFT = typer.Option(help='Frequency shift of one beam, such as "40 kHz".')
-_ROLLER = typer.Option(help="upper or lower: whose surface is measured.")
-_GEOMETRY = typer.Option(help="linear, corrected, curved or finite; overrides the file.")
-_CONFIDENCE = typer.Option(help='Of bands and intervals, such as "95 %".')
+_ROLLER = typer.Option(help="Roller whose surface is measured: upper or lower.")
+_GEOMETRY = typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file.")
+_CONFIDENCE = typer.Option(help='Confidence of bands and intervals, such as "95 %".')
 
 
 @lda.command()
 def simulate(
     case: Annotated[str, _CASE],
-    out: Annotated[Path, typer.Option(help="name.csv, or a folder for data, truth and picture.")],
+    out: Annotated[
+        Path, typer.Option(help="Table name.csv, or a folder for data, truth and picture.")
+    ],
     positions: Annotated[int, typer.Option(help="Places along the nip.")] = 41,
-    bursts: Annotated[int, typer.Option(help="Mean number at each place.")] = 50,
-    snr: Annotated[float, typer.Option(help="Power of a burst at its peak over noise.")] = 30.0,
-    spread: Annotated[str, typer.Option(help="Of the rollers' speed in time.")] = "0.5 %",
-    seed: Annotated[int, typer.Option(help="Of the random numbers.")] = 0,
+    bursts: Annotated[int, typer.Option(help="Mean number of bursts at each place.")] = 50,
+    snr: Annotated[
+        float, typer.Option(help="Power of a burst at its peak over that of the noise.")
+    ] = 30.0,
+    spread: Annotated[
+        str, typer.Option(help="Standard deviation of the rollers' speed in time, relative.")
+    ] = "0.5 %",
+    seed: Annotated[int, typer.Option(help="Seed of the random numbers.")] = 0,
     wavelength: Annotated[str, _WAVELENGTH] = "632.8 nm",
     beam_angle: Annotated[str, _ANGLE] = "10 deg",
     half_width: Annotated[str, _HALF_WIDTH] = "0.05 mm",
@@ -59,7 +65,8 @@ def simulate(
 ) -> None:
     """Simulate a measurement of a computed nip: bursts, noise, detection, frequencies.
 
-    Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
+    The exit code is 0 where the solution was verified, 1 where it did not converge, 2 for wrong
+    input.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip._units import parse_quantity
@@ -87,11 +94,14 @@ def simulate(
 def estimate(
     file: Annotated[Path, _FILE],
     speed: Annotated[
-        str | None, typer.Option(help='Circumferential speed, such as "100 mm/s": gives strain.')
+        str | None,
+        typer.Option(help='Speed of the roller, such as "100 mm/s", from which strain follows.'),
     ] = None,
     out: Annotated[Path | None, typer.Option(help="Write the table: name.csv.")] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
-    plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw the result: name.png, .svg or .pdf.")
+    ] = None,
     confidence: Annotated[str, _CONFIDENCE] = "95 %",
     wavelength: Annotated[str | None, _WAVELENGTH] = None,
     beam_angle: Annotated[str | None, _ANGLE] = None,
@@ -99,7 +109,7 @@ def estimate(
     sample_rate: Annotated[str | None, _RATE] = None,
     force: Force = False,
 ) -> None:
-    """Velocity and strain at each position, with confidence bands, as CSV."""
+    """Estimate velocity and strain at each position, with confidence bands, as CSV."""
     with clear_failures(), one_run(force=force) as run:
         from rollnip.io.velocities import profile_csv, read_velocities
 
@@ -128,7 +138,9 @@ def estimate(
 def compare(
     case: Annotated[str, _CASE],
     file: Annotated[Path, _FILE],
-    plot: Annotated[Path | None, typer.Option(help="Draw it: name.png, .svg or .pdf.")] = None,
+    plot: Annotated[
+        Path | None, typer.Option(help="Draw the result: name.png, .svg or .pdf.")
+    ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     confidence: Annotated[str, _CONFIDENCE] = "95 %",
     roller: Annotated[str | None, _ROLLER] = None,
@@ -142,7 +154,8 @@ def compare(
 ) -> None:
     """Align measured velocities with the computed ones in x and V, and compare them.
 
-    Leaves with 0 where the solution was verified, 1 where it did not converge, 2 for wrong input.
+    The exit code is 0 where the solution was verified, 1 where it did not converge, 2 for wrong
+    input.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip.io.velocities import read_velocities
@@ -182,7 +195,7 @@ def _settings(
     speed: str | None,
     roller: str | None,
 ) -> Settings:
-    """What the options say; a message names the option."""
+    """Return the instrument settings given by the options; a wrong value is named by its option."""
     from rollnip._units import parse_quantity
     from rollnip.io.velocities import Settings
 

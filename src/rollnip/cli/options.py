@@ -1,4 +1,4 @@
-"""Options that several commands have."""
+"""Options that several commands share."""
 
 from __future__ import annotations
 
@@ -8,7 +8,9 @@ import typer
 
 Force = Annotated[
     bool,
-    typer.Option("--force", help="Write over files that rollnip did not make, or that changed."),
+    typer.Option(
+        "--force", help="Overwrite files that rollnip did not make, or that changed since."
+    ),
 ]
 
-WORKERS = typer.Option(help="Processes; by default one for each core.", min=1)
+WORKERS = typer.Option(help="Number of processes; by default, one for each core.", min=1)

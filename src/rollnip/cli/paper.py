@@ -24,11 +24,14 @@ paper = typer.Typer(name="paper", rich_markup_mode=None)
 def figures(
     context: typer.Context,
     out: Annotated[
-        Path | None, typer.Option(help="Folder for the pictures; made where there is none.")
+        Path | None, typer.Option(help="Folder for the pictures, made if it does not exist.")
     ] = None,
     table: Annotated[
         bool,
-        typer.Option("--table", help="Also assumptions.md: what is not said, and how it matters."),
+        typer.Option(
+            "--table",
+            help="Write assumptions.md too: what the paper leaves open, and how it matters.",
+        ),
     ] = False,
     json: Annotated[bool, typer.Option("--json", help="Print the files as JSON.")] = False,
     force: Force = False,
@@ -64,14 +67,16 @@ def figures(
 @paper.command()
 def process(
     case: Annotated[str, typer.Argument(help="Case file, TOML or JSON; - is the standard input.")],
-    geometry: Annotated[str, typer.Option(help="linear, corrected or curved.")] = "curved",
+    geometry: Annotated[
+        str, typer.Option(help="Geometry: linear, corrected or curved.")
+    ] = "curved",
     elements: Annotated[int, typer.Option(help="Linear elements in the nip.", min=16)] = 100,
     json: Annotated[bool, typer.Option("--json", help="Print the figures as JSON.")] = False,
 ) -> None:
     """Solve one nip by the paper's own process: NORM and TANG in turn, on linear elements.
 
-    `rollnip solve` finds the same faster and says how large its errors are. Leaves with 0 where the
-    turns converged, 1 where they did not, 2 for wrong input.
+    `rollnip solve` finds the same faster and says how large its errors are. The exit code is 0
+    where the turns converged, 1 where they did not, 2 for wrong input.
     """
     with clear_failures():
         from rollnip.io import read_case

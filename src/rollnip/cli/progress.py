@@ -1,4 +1,4 @@
-"""How far a command is: a bar on the standard error, or now and then a line in a log."""
+"""Progress of a command: a bar on the standard error, or now and then a line in a log."""
 
 from __future__ import annotations
 

@@ -32,7 +32,7 @@ class _RunByDefault(TyperGroup):
     """``rollnip sweep study.toml`` is ``rollnip sweep run study.toml``."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Put in the name of the command where it is left out."""
+        """Insert the command name `run` where none is given."""
         if args and args[0] not in (*self.commands, "--help"):
             args = ["run", *args]
         return super().parse_args(ctx, args)
@@ -40,7 +40,7 @@ class _RunByDefault(TyperGroup):
 
 sweep = typer.Typer(
     name="sweep",
-    help="Many cases: rollnip sweep study.toml (the word run may be left out).",
+    help="Many cases: rollnip sweep study.toml, where the word run may be left out.",
     cls=_RunByDefault,
     add_completion=False,
     rich_markup_mode=None,
@@ -60,7 +60,9 @@ def run(
     profiles: Annotated[Path | None, _PROFILES] = None,
     database: Annotated[
         Path | None,
-        typer.Option(help="Takes each case as it ends; by default beside the table, name.db."),
+        typer.Option(
+            help="Database that keeps each finished case; by default name.db, beside the table."
+        ),
     ] = None,
     known: Annotated[
         list[Path] | None,
@@ -68,7 +70,8 @@ def run(
     ] = None,
     workers: Annotated[int | None, WORKERS] = None,
     shard: Annotated[
-        str, typer.Option(help="i/n: only every n-th case, from the i-th; for batch queues.")
+        str,
+        typer.Option(help="Part of the cases, i/n: every n-th from the i-th; for batch queues."),
     ] = "1/1",
     dask: Annotated[
         str | None,
@@ -77,14 +80,15 @@ def run(
     plot: Annotated[Path | None, _PLOT] = None,
     json: Annotated[bool, _JSON] = False,
     yes: Annotated[
-        bool, typer.Option("--yes", help=f"Go on with more than {_MANY:,} cases.")
+        bool, typer.Option("--yes", help=f"Start even with more than {_MANY:,} cases.")
     ] = False,
     force: Force = False,
 ) -> None:
     """Solve every case of a study and write the table of results.
 
     Each case is kept in the database as it ends: whatever stops the sweep, the same command goes
-    on from there. Leaves with 0 once every case has its row, 2 for wrong input, 130 after Ctrl-C.
+    on from there. The exit code is 0 once every case has its row, 2 for wrong input, 130 after
+    Ctrl-C.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip.sweep.merge import take_known
@@ -158,9 +162,9 @@ def status(
     json: Annotated[bool, _JSON] = False,
     force: Force = False,
 ) -> None:
-    """Say how far a sweep is, and write the table of what is there, while it runs or after.
+    """Print the progress of a sweep and write the table of its finished cases, running or not.
 
-    Leaves with 0 where all cases are there, 1 where some are open, 2 for wrong input.
+    The exit code is 0 where all cases are there, 1 where some are open, 2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip.sweep.connect import is_being_written
@@ -225,7 +229,7 @@ def _finish(store: Store, files: tuple[Path, Path | None, Path | None], *, as_js
 
 
 def tally_json(store: Store, is_running: bool | None) -> str:
-    """How many cases became what, as JSON; whether a process writes them, where that is asked."""
+    """Return the number of cases by status as JSON, and whether a process writes them, if asked."""
     from json import dumps
 
     from rollnip.sweep.row import STATUSES

@@ -23,7 +23,7 @@ _NUMBER, _SHARE, _PASS = 12, 9, 4
 
 def verify(
     only: Annotated[
-        str, typer.Option(help="Only cases whose name, source or quantity contains this text.")
+        str, typer.Option(help="Run only cases whose name, source or quantity contains this text.")
     ] = "",
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
     markdown: Annotated[

@@ -1,4 +1,4 @@
-"""What a design is to reach: a result made small or large, and limits that results must keep."""
+"""Aims of a design: a result to make small or large, and limits that results must keep."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ Limit = AtLeast | AtMost
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LimitKept:
-    """How a limit stands in a case.
+    """The state of one limit in a solved case.
 
     Attributes
     ----------
@@ -96,20 +96,20 @@ class LimitKept:
 
 
 def sense_of(limit: Limit) -> Literal["at least", "at most"]:
-    """In words."""
+    """Return the sense of a limit, "at least" or "at most"."""
     return "at least" if isinstance(limit, AtLeast) else "at most"
 
 
 def limit_text(limit: Limit) -> str:
-    """Such as "nip_width at least 8.0000 mm"."""
+    """Return a limit in words, such as "nip_width at least 8.0000 mm"."""
     bound = format_quantity(float(limit.limit), QUANTITIES[limit.quantity], digits=_DIGITS)
     return f"{limit.quantity} {sense_of(limit)} {bound}"
 
 
 def excess_over(limit: Limit, value: float) -> float:
-    """How far a value is beyond a limit and its tolerance, as a share of it; <= 0: it is kept.
+    """Return how far a value is beyond a limit and its tolerance, over the limit; <= 0: kept.
 
-    The share is of 1 where the limit is 0.
+    Where the limit is 0, the excess is not divided.
     """
     bound = float(limit.limit)
     beyond = value - bound if isinstance(limit, AtMost) else bound - value

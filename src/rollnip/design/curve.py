@@ -56,12 +56,12 @@ class Curve:
 
     @property
     def points(self) -> tuple[Point, ...]:
-        """Every case so far, by parameter."""
+        """All cases so far, in the order of the parameter."""
         return tuple(self._points[share] for share in sorted(self._points))
 
     @property
     def solved(self) -> tuple[Point, ...]:
-        """Those with a result."""
+        """The cases that were solved, in the order of the parameter."""
         return tuple(point for point in self.points if point.y is not None)
 
     def scan(self, count: int) -> None:
@@ -164,7 +164,7 @@ class Curve:
         return point.y - wanted
 
     def _place(self, share: float) -> float:
-        """From a share of the interval, 0 to 1, to the parameter."""
+        """Return the parameter at a share, 0 to 1, of the interval."""
         if share in (0.0, 1.0):
             return self._high if share else self._low
         if self._is_geometric:

@@ -23,7 +23,7 @@ _EDGE = 1e-12  # probabilities closer to 0 and 1 than this are not drawn
 
 @dataclass(frozen=True, slots=True)
 class Normal:
-    """Normal: mean and standard deviation; numbers in base units, or texts with their unit.
+    """A normal distribution: numbers in base units, or texts with their unit.
 
     With ``low`` or ``high`` what lies beyond is left out, and the rest is normal in proportion:
     mean and deviation are those before the cut.
@@ -37,7 +37,7 @@ class Normal:
 
 @dataclass(frozen=True, slots=True)
 class Uniform:
-    """Every value between two limits alike; numbers in base units, or texts with their unit."""
+    """A uniform distribution over an interval: numbers in base units, or texts with their unit."""
 
     low: Number
     high: Number
@@ -45,7 +45,7 @@ class Uniform:
 
 @dataclass(frozen=True, slots=True)
 class Triangular:
-    """From low to high, most often the mode; numbers in base units, or texts with their unit."""
+    """A triangular distribution: numbers in base units, or texts with their unit."""
 
     low: Number
     mode: Number
@@ -54,7 +54,7 @@ class Triangular:
 
 @dataclass(frozen=True, slots=True)
 class LogNormal:
-    """The logarithm is normal: median, and the standard deviation of the logarithm (a ratio).
+    """A log-normal distribution: its median, and the standard deviation of the natural logarithm.
 
     With ``low`` or ``high`` what lies beyond is left out, as of `Normal`.
     """
@@ -78,7 +78,7 @@ class Varied:
 
 @dataclass(frozen=True, slots=True)
 class Correlation:
-    """Two parameters, and the correlation of their normal scores (of themselves where normal)."""
+    """The correlation of two parameters' normal scores (of themselves where both are normal)."""
 
     one: str
     other: str
@@ -94,7 +94,7 @@ class Correlation:
 
 
 def frozen(distribution: Distribution, dimension: Dimension) -> Any:
-    """The distribution of scipy, in base units.
+    """Return the distribution as a frozen distribution of scipy, in base units.
 
     Raises
     ------
@@ -126,7 +126,7 @@ def frozen(distribution: Distribution, dimension: Dimension) -> Any:
 
 
 class Truncated:
-    """A distribution without what lies beyond two ends.
+    """A distribution truncated at two ends.
 
     Parameters
     ----------
@@ -150,13 +150,13 @@ class Truncated:
             )
 
     def ppf(self, probability: Any) -> Any:
-        """The value below which lies a share of what is left."""
+        """Return the quantiles of the truncated distribution at some probabilities."""
         found = self.whole.ppf(self._below + np.asarray(probability) * self._share)
         return np.clip(found, self.low, self.high)
 
 
 def _cut(whole: Any, dimension: Dimension, low: Number | None, high: Number | None) -> Any:
-    """The distribution between two ends, of which either may be missing."""
+    """Return the distribution truncated at two ends, of which either may be missing."""
     if low is None and high is None:
         return whole
     a = -np.inf if low is None else read_parameter("low", low, dimension)
@@ -167,7 +167,7 @@ def _cut(whole: Any, dimension: Dimension, low: Number | None, high: Number | No
 
 
 def hypercube(distributions: Sequence[Any], count: int, scores: Array | None, seed: int) -> Array:
-    """A Latin hypercube sample.
+    """Return a Latin hypercube sample.
 
     Parameters
     ----------
@@ -197,13 +197,13 @@ def hypercube(distributions: Sequence[Any], count: int, scores: Array | None, se
 
 
 def placed(distributions: Sequence[Any], shares: Array) -> Array:
-    """From probabilities (n, d) to values (n, d)."""
+    """Return the values (n, d) at which the distributions reach the given probabilities (n, d)."""
     inside = np.clip(shares, _EDGE, 1.0 - _EDGE)
     return np.column_stack([one.ppf(inside[:, i]) for i, one in enumerate(distributions)])
 
 
 def score_matrix(paths: Sequence[str], correlations: Sequence[Correlation]) -> Array | None:
-    """(d, d) correlations of the normal scores; None without any.
+    """Return the (d, d) correlations of the normal scores; None without any.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""From files to questions: optimise.toml and tolerance.toml, every fault one clear line."""
+"""Readers of optimise.toml and tolerance.toml; every fault is one clear line."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ _MAY_MISS = {"normal": ("low", "high"), "lognormal": ("low", "high")}
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class OptimiseStudy:
-    """What `optimise` is asked, as a file says it."""
+    """The question that a file asks of `optimise`."""
 
     title: str
     case: Mapping[str, Any]
@@ -69,7 +69,7 @@ class OptimiseStudy:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ToleranceStudy:
-    """What `tolerance` is asked, as a file says it."""
+    """The question that a file asks of `tolerance`."""
 
     title: str
     case: Mapping[str, Any]
@@ -140,7 +140,7 @@ def read_tolerance(path: str | Path) -> ToleranceStudy:
 def _each(
     entries: Sequence[_Entry], source: str, key: str, read: Callable[[_Entry], _Read]
 ) -> tuple[_Read, ...]:
-    """What each entry of a list says; a fault carries the file and the place in it."""
+    """Read each entry of a list; an error names the file and the entry."""
     found = []
     for index, entry in enumerate(entries):
         with _at(source, f"{key}[{index}]"):
@@ -150,7 +150,7 @@ def _each(
 
 @contextmanager
 def _at(source: str, where: str) -> Iterator[None]:
-    """Put the file and the place in it before what is said against a value."""
+    """Prefix an input error raised inside the block with the file and the place in it."""
     try:
         yield
     except InvalidInputError as error:

@@ -32,7 +32,7 @@ _FLAT = 1e-9  # of the result: that a parameter does not touch it
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Found:
-    """What `find` found, in base units (mm, N, MPa, s).
+    """The answer of `find`, in base units (mm, N, MPa, s).
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ class Found:
     message: str
 
     def as_dict(self) -> dict[str, Any]:
-        """All of it as plain values, for JSON."""
+        """Return all fields as plain values, for JSON."""
         found: dict[str, Any] = json_tree({name: getattr(self, name) for name in self.__slots__})
         return found
 
@@ -106,11 +106,11 @@ class _Question:
         return Point(x, y, row, said)
 
     def said(self, x: float, digits: int = _SHOWN) -> str:
-        """A value of the parameter with its unit."""
+        """Return a value of the parameter as text with its unit."""
         return format_quantity(x, self.unit, digits=digits)
 
     def shown(self, y: float | None) -> str:
-        """A value of the result with its unit."""
+        """Return a value of the result as text with its unit."""
         return format_quantity(y or 0.0, QUANTITIES[self.quantity], digits=_SHOWN)
 
 

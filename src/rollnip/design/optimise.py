@@ -53,7 +53,7 @@ class Chosen:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class SearchEnd:
-    """Where one of the searches from different starts ended.
+    """The end of one of the searches that began at different starts.
 
     Attributes
     ----------
@@ -73,7 +73,7 @@ class SearchEnd:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Optimum:
-    """What `optimise` found.
+    """The answer of `optimise`.
 
     Attributes
     ----------
@@ -121,7 +121,7 @@ class Optimum:
         return html_table("Optimum", ("parameter", "value", "at bound"), rows, [self.message])
 
     def as_dict(self) -> dict[str, Any]:
-        """All of it as plain values, for JSON."""
+        """Return all fields as plain values, for JSON."""
         found: dict[str, Any] = json_tree(asdict(self))
         return found
 
@@ -228,7 +228,7 @@ def _end(problem: Problem, one: Ended, sign: float, best: float) -> SearchEnd:
 def _agreement(
     problem: Problem, ends: Sequence[SearchEnd], is_feasible: bool, is_finished: bool
 ) -> list[str]:
-    """Whether the searches ended, and whether they ended alike."""
+    """Return sentences on whether the searches finished and whether they found the same optimum."""
     said = []
     if not is_finished:
         said.append(

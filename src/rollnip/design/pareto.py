@@ -17,7 +17,7 @@ _BLOCK = 4096  # rows that are compared with a row of the front at once
 
 
 def pareto_front(values: ArrayLike, senses: Sequence[Sense]) -> NDArray[np.intp]:
-    """Which rows are not dominated: none is as good in every column and better in one.
+    """Return the rows that no other row dominates: as good in every column and better in one.
 
     Parameters
     ----------
@@ -60,12 +60,12 @@ def pareto_front(values: ArrayLike, senses: Sequence[Sense]) -> NDArray[np.intp]
 
 
 def _dominates(one: NDArray[np.float64], other: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Where ``one`` is as good as ``other`` in every column and better in one, row by row."""
+    """Return, row by row, whether ``one`` is nowhere worse than ``other`` and somewhere better."""
     return np.asarray(np.all(one <= other, axis=-1) & np.any(one < other, axis=-1))
 
 
 def rows_text(heads: Sequence[str], rows: Iterable[Sequence[object]]) -> str:
-    """Some rows of a table as CSV, under its heads."""
+    """Return rows of a table as CSV text under its heads."""
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(heads)

@@ -1,4 +1,4 @@
-"""What a fit knows of a case, carried on: its unknowns scatter together as their errors do."""
+"""The posterior of a fit as scattering parameters, correlated as the errors of its unknowns."""
 
 from __future__ import annotations
 

@@ -31,7 +31,7 @@ class Bounds:
 
 
 class Problem:
-    """The question in base units."""
+    """An optimisation problem in base units."""
 
     def __init__(
         self,
@@ -59,7 +59,7 @@ class Problem:
 
     @property
     def start(self) -> Array | None:
-        """The values the case has, where they lie within the bounds."""
+        """The case's own values as a place in the unit cube; None where one is out of bounds."""
         try:
             own = [
                 read_parameter(
@@ -73,7 +73,7 @@ class Problem:
         return place if np.all((place >= 0.0) & (place <= 1.0)) else None
 
     def values(self, place: Array) -> dict[str, float]:
-        """From shares of the intervals to values by path, of 8 digits and within the bounds."""
+        """Return values by path at shares of the intervals, of 8 digits and within the bounds."""
         values = self.low + place * (self.high - self.low)
         rounded = (float(f"{value:.{_DIGITS}g}") for value in values)
         inside = np.clip(list(rounded), self.low, self.high)
@@ -84,7 +84,7 @@ class Problem:
         return self.evaluate(with_values(self.case, values))
 
     def fault(self, row: Mapping[str, Any]) -> str:
-        """Why a row is of no use; empty where it is."""
+        """Return why a row cannot be used; empty where it can."""
         if not row["converged"]:
             return str(row["message"])
         names = [self.objective.quantity, *(limit.quantity for limit in self.limits)]
@@ -92,7 +92,7 @@ class Problem:
         return f"`{missing}` is not defined there." if missing else ""
 
     def judge(self, place: Array) -> Trial:
-        """What a place in the unit cube is worth."""
+        """Solve the case at a place in the unit cube and return its cost and limit violations."""
         found = self.values(place)
         row, values = self.solve(found), tuple(found.values())
         fault = self.fault(row)
@@ -118,7 +118,7 @@ class Problem:
         )
 
     def said(self, values: Mapping[str, float]) -> str:
-        """Values by path, in words."""
+        """Return values by path, in words."""
         return ", ".join(
             f"{path} = {format_quantity(values[path], unit, digits=_SHOWN)}"
             for path, unit in zip(self.paths, self.units, strict=True)
@@ -126,7 +126,7 @@ class Problem:
 
 
 def interval(case: Mapping[str, Any], bounds: Bounds) -> tuple[float, float]:
-    """Both bounds in base units. Raises InvalidInputError."""
+    """Return both bounds in base units. Raises InvalidInputError."""
     dimension = parameter_dimension(case, bounds.path)
     low = read_parameter("low", bounds.low, dimension)
     high = read_parameter("high", bounds.high, dimension)

@@ -34,7 +34,7 @@ def require_quantity(name: str, said: str = "quantity") -> None:
 
 
 def parameter_dimension(tree: Mapping[str, Any], path: str) -> Dimension:
-    """What kind of number stands at a path. Raises InvalidInputError where none does."""
+    """Return the dimension of the number at a path. Raises InvalidInputError if there is none."""
     dimension = dimension_at(tree, path)
     if dimension is None:
         raise InvalidInputError(f"`path` must lead to a number of the case, got {path}.")

@@ -26,7 +26,7 @@ _SHOWN = (
 
 
 def optimum_report(found: Optimum, title: str = "") -> str:
-    """What `optimise` found: parameters, limits, results, reservations."""
+    """Return the answer of `optimise` as text: parameters, limits and results."""
     lines = [title, ""] if title else []
     lines += [found.message, "", "Parameters"]
     for one in found.chosen:
@@ -53,7 +53,7 @@ def result_lines(row: Mapping[str, Any]) -> list[str]:
 
 
 def tolerance_report(found: Tolerance, title: str = "") -> str:
-    """What `tolerance` found: distributions, influences, chances, reservations."""
+    """Return the answer of `tolerance` as text: distributions, influences, chances and notes."""
     level = f"{100.0 * found.confidence:g} %"
     lines = [title, ""] if title else []
     lines.append(

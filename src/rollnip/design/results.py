@@ -48,11 +48,11 @@ class ResultTable(ABC):
         ]
 
     def head(self, name: str) -> str:
-        """The head of one column. Raises InvalidInputError where there is none of that name."""
+        """Return the head of one column. Raises InvalidInputError for an unknown name."""
         return self.heads[self.index(name)]
 
     def index(self, name: str) -> int:
-        """The place of a column. Raises InvalidInputError where there is none of that name."""
+        """Return the index of a column. Raises InvalidInputError for an unknown name."""
         if name in self.names:
             return self.names.index(name)
         near = get_close_matches(name, self.names, n=1)
@@ -60,7 +60,7 @@ class ResultTable(ABC):
         raise InvalidInputError(f'{self.source}: has no column "{name}"; {hint}')
 
     def values(self, names: Sequence[str]) -> Array:
-        """Some columns, each in the unit of its head.
+        """Return columns as numbers, each in the unit of its head.
 
         Parameters
         ----------
@@ -90,14 +90,14 @@ class ResultTable(ABC):
         return np.array(found).reshape(-1, len(places))
 
     def rows(self, wanted: Iterable[int]) -> dict[int, list[Cell]]:
-        """Some whole rows by their number, from 0."""
+        """Return whole rows by their number, from 0."""
         left = set(wanted)
         every = list(range(len(self.names)))
         return {n: cells for n, (_, cells) in enumerate(self._cells(every)) if n in left}
 
     @abstractmethod
     def _cells(self, places: Sequence[int]) -> Iterator[tuple[int, list[Cell]]]:
-        """Line, and the cells of some columns, of every row."""
+        """Yield the line number and the cells of the given columns, for every row."""
 
     def _number(self, cell: Cell, where: str) -> float:
         if cell is None or cell == "":

@@ -1,4 +1,4 @@
-"""How tolerances are computed, and what comes out: distributions, quantiles, chances, shares."""
+"""Settings and answer of a tolerance computation: distributions, quantiles, chances, shares."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ FEWEST, MOST = 20, 1_000_000
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sampling:
-    """How tolerances are computed.
+    """The settings of a tolerance computation.
 
     Parameters
     ----------
@@ -72,7 +72,7 @@ class Quantile:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Share:
-    """How much of a result's scatter hangs on one parameter.
+    """The influence of one parameter on the scatter of a result.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ class Share:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Scatter:
-    """How one result is distributed, in its base unit.
+    """The distribution of one result, in its base unit.
 
     Attributes
     ----------
@@ -116,7 +116,7 @@ class Scatter:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Chance:
-    """How probable it is that a specification is met.
+    """The probability that a specification is met.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ class Chance:
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Tolerance:
-    """What `tolerance` found.
+    """The answer of `tolerance`.
 
     Attributes
     ----------
@@ -181,6 +181,6 @@ class Tolerance:
         return html_table("Tolerance", heads, rows, [*chances, *self.notes])
 
     def as_dict(self) -> dict[str, Any]:
-        """All of it as plain values, for JSON."""
+        """Return all fields as plain values, for JSON."""
         found: dict[str, Any] = json_tree(asdict(self))
         return found

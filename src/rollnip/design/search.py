@@ -31,7 +31,7 @@ _SOLVES, _SOLVES_EACH = 150, 100  # by default: these, and so many for each para
 
 
 class Each(Protocol):
-    """Calls a function with every item, in turn or at the same time; results in order."""
+    """A function that calls another with every item, in turn or in parallel; results in order."""
 
     def __call__(self, function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
         """Return the results."""
@@ -45,7 +45,7 @@ def in_turn(function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Search:
-    """How an optimum is searched: differential evolution first, then COBYQA from the best places.
+    """The settings of a search: differential evolution, then COBYQA from the best places.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ class Search:
             raise InvalidInputError(f"`seed` must be zero or positive, got {self.seed}.")
 
     def budget(self, count: int) -> int:
-        """How many cases may be solved, with so many parameters."""
+        """Return the largest number of cases to solve for ``count`` parameters."""
         return _SOLVES + _SOLVES_EACH * count if self.solves is None else self.solves
 
 
@@ -138,7 +138,7 @@ class Ended:
 
 @dataclass(frozen=True, slots=True)
 class Searched:
-    """What `search_cube` found: the best trial, all in a fixed order, and how each search ended."""
+    """The answer of `search_cube`: the best trial, all trials in order, each search's end."""
 
     best: Trial
     trials: tuple[Trial, ...]
@@ -146,7 +146,7 @@ class Searched:
 
     @property
     def is_finished(self) -> bool:
-        """Whether no search ended for want of solves."""
+        """True where no search ended for want of solves."""
         return all(one.is_finished for one in self.ends)
 
 
@@ -155,14 +155,14 @@ class _Spent(Exception):
 
 
 class _Log:
-    """Every trial of one search, each place tried once."""
+    """The log of all trials of one search; each place is tried once."""
 
     def __init__(self, judge: Callable[[Array], Trial], solves: int, each: Each) -> None:
         self.judge, self.solves, self.each = judge, solves, each
         self.trials: dict[bytes, Trial] = {}
 
     def at(self, places: Array) -> list[Trial]:
-        """Trials at places (n, d); raises _Spent where some are new and too few solves are left."""
+        """Return the trials at places (n, d). Raises _Spent where too few solves are left."""
         inside = np.clip(np.asarray(places, dtype=float), 0.0, 1.0)
         keys = [one.tobytes() for one in inside]
         new = dict(zip(keys, inside, strict=True))
@@ -246,7 +246,7 @@ def _globally(log: _Log, start: Array | None, count: int, search: Search) -> Non
 
 
 def _apart(ranked: Sequence[Trial], count: int) -> list[Trial]:
-    """The best solved trials that are apart from each other, the best of all first."""
+    """Return the best solved trials that keep a distance from each other, the best of all first."""
     solved = [trial for trial in ranked if np.isfinite(trial.cost)]
     chosen: list[Trial] = []
     for trial in solved:

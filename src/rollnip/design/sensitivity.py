@@ -1,4 +1,4 @@
-"""Which parameter a result hangs on: Sobol indices and regression. Arrays only, no nips."""
+"""Sobol indices and regression: which parameter a result depends on. Arrays only, no nips."""
 
 from __future__ import annotations
 
@@ -75,7 +75,7 @@ def require_sobol_count(count: int) -> None:
 
 
 def sobol_places(count: int, dimensions: int, seed: int) -> Array:
-    """Where to evaluate for Sobol indices, in the unit cube.
+    """Return the places in the unit cube at which Sobol indices need the results.
 
     Parameters
     ----------
@@ -141,7 +141,7 @@ def regression(samples: Array, values: Array) -> Regression:
 
 
 def _indices(parts: Array) -> tuple[Array, Array]:
-    """First and total indices, (d,) each, of rows f_A, f_B, f_AB..."""
+    """Return first-order and total Sobol indices, (d,) each, from the rows f_A, f_B, f_AB."""
     # twice, for scipy 1.17 cannot take one result of one parameter
     twice = np.stack([parts, parts], axis=1)
     found = sobol_indices(

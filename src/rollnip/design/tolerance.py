@@ -53,7 +53,7 @@ class _Question:
     solve: Solver
 
     def solved(self, samples: Array) -> Table:
-        """Every sample as a case."""
+        """Solve a case for every sample and return the table of results."""
         errors = [f"error.{name}" for name in self.results if f"error.{name}" in SCALARS]
         columns = tuple(np.ascontiguousarray(column) for column in samples.T)
         axis = Axis(self.paths, tuple(unit or "1" for unit in self.units), columns)
@@ -71,7 +71,7 @@ def tolerance(
     sampling: Sampling | None = None,
     solve: Solver | None = None,
 ) -> Tolerance:
-    """How results scatter where parameters do, and how often specifications are met.
+    """Compute how results scatter where parameters do, and how often specifications are met.
 
     Parameters
     ----------
@@ -211,7 +211,7 @@ def _scatter(question: _Question, name: str, samples: Array, values: Array, sobo
 
 
 def quantile(values: Array, probability: float, confidence: float) -> Quantile:
-    """A quantile, and the order statistics between which it lies with some confidence.
+    """Return a quantile, and the order statistics between which it lies with some confidence.
 
     The number of samples below the true quantile is binomial, whatever the distribution; None
     where too few samples lie beyond it. For a Latin hypercube the interval is on the safe side.
@@ -251,7 +251,7 @@ def _chance(question: _Question, table: Table, is_solved: Any, limits: tuple[Lim
 
 
 def _mixed(question: _Question) -> Array:
-    """The samples that Sobol indices need; none where they are not wanted."""
+    """Return the samples that Sobol indices need; none where they are not wanted."""
     plan, dimensions = question.sampling, len(question.paths)
     if not plan.sobol:
         return np.empty((0, dimensions))
@@ -259,7 +259,7 @@ def _mixed(question: _Question) -> Array:
 
 
 def _rows(table: Table, which: slice) -> Table:
-    """Some rows of a table."""
+    """Return a slice of the rows of a table."""
     columns = {name: column[which] for name, column in table.columns.items()}
     return replace(table, columns=columns)
 

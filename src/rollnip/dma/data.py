@@ -69,11 +69,11 @@ class DmaData:
 
     @property
     def kind(self) -> Literal["dynamic"]:
-        """What was measured: moduli over the frequency."""
+        """The kind of measurement: moduli over frequency."""
         return "dynamic"
 
     def row(self, index: int) -> str:
-        """Where a measurement stands in the source."""
+        """Return the place of a measurement in its source, as messages name it."""
         return self.rows[index] if self.rows else f"measurement {index + 1}"
 
     def isotherms(self, width: float = 1.0) -> list[NDArray[np.int64]]:
@@ -151,7 +151,7 @@ def read_dma(
 
 
 def modulus_of(source: str, tables: Sequence[ReadTable], given: Modulus | None) -> Modulus:
-    """Whether E or G was measured, from the heads or as given.
+    """Return which modulus was measured, E or G, from the heads or as given.
 
     Raises
     ------

@@ -254,7 +254,7 @@ def _read_ansys(text: str, source: str, scale: float, poisson: float | None) -> 
 def _table(
     cells: Sequence[str], pairs: dict[str, list[float]], wlf: list[float]
 ) -> list[float] | None:
-    """Where the TBDATA below a TB line go; None where they are of no interest."""
+    """Return the list that takes the TBDATA below a TB line; None for tables that are not read."""
     kind = cells[1].upper() if len(cells) > 1 else ""
     last = cells[5].upper() if len(cells) > 5 else ""
     if kind.startswith("PRON"):

@@ -41,10 +41,10 @@ def checked_name(name: str) -> str:
 
 
 def fit_dict(fit: DmaFit | TimeFit) -> dict[str, Any]:
-    """What a fit found, as plain values for JSON: material, shift law, quality, range, warnings.
+    """Return a fit as plain values for JSON: material, shift law, quality, range, warnings.
 
-    Moduli in MPa, times in s, temperatures in degC, frequencies in Hz; deviations are relative,
-    computed over measured less 1.
+    Moduli are in MPa, times in s, temperatures in degC, frequencies in Hz. Deviations are
+    relative: computed over measured, less 1.
     """
     shift = fit.shift
     errors = zip(shift.names, shift.values, shift.standard_errors, strict=True)
@@ -93,7 +93,7 @@ def nip_frequency(solution: Solution) -> float:
 def frequency_warning(
     fit: DmaFit | TimeFit, solution: Solution, temperature: float | None = None
 ) -> str:
-    """A sentence where a nip works outside the data of its material, else an empty text.
+    """Return a warning where a nip works outside the data of its material, else an empty text.
 
     Parameters
     ----------

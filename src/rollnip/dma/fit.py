@@ -1,4 +1,4 @@
-"""From dynamic-mechanical data to a material: shift, spectrum, warnings."""
+"""The fit of a material to dynamic-mechanical data: shift, spectrum, warnings."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ _REWEIGHED = 2  # times the shifts are searched again with weights of a robust f
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class DmaMethod:
-    """How dynamic-mechanical data are turned into a material.
+    """The settings of a fit of a material to dynamic-mechanical data.
 
     Parameters
     ----------
@@ -191,7 +191,7 @@ def shifted(start: Master, method: DmaMethod) -> ShiftFit:
 
 
 def _moved(law: WLF | Arrhenius, reference: float) -> WLF | Arrhenius:
-    """The same law about another reference: C1 C2 and the pole of WLF stay as they are."""
+    """Return the law about another reference: C1 C2 and the pole of WLF stay as they are."""
     if isinstance(law, Arrhenius):
         return Arrhenius(law.activation_energy, reference)
     c2 = law.c2 + reference - law.reference

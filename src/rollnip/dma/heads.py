@@ -1,4 +1,4 @@
-"""What the heads of a table of measurements mean, in English and German, and their units."""
+"""Heads of tables of measurements, in English and German: their meaning and their units."""
 
 from __future__ import annotations
 
@@ -135,7 +135,7 @@ _UNITS = {
 
 @dataclass(frozen=True, slots=True)
 class Head:
-    """What the head of a column says.
+    """The meaning of a column's head.
 
     Attributes
     ----------
@@ -173,13 +173,13 @@ def read_head(text: str, below: str | None = None) -> Head:
 
 
 def is_unit(text: str) -> bool:
-    """Whether a cell can be one of a row of units: a unit, perhaps in brackets, or empty."""
+    """Return whether a cell may stand in a row of units: a unit, perhaps in brackets, or empty."""
     bare = text.strip().strip("[]()").strip()
     return bare in _UNITS or bare in _RATIOS
 
 
 def bare_unit(text: str) -> str:
-    """A cell of a row of units without its brackets."""
+    """Return a cell of a row of units without its brackets."""
     return text.strip().strip("[]()").strip()
 
 

@@ -78,7 +78,7 @@ class Master:
         return float(np.min(omega)), float(np.max(omega))
 
     def at(self, chosen: NDArray[np.int64]) -> Master:
-        """Only the isotherms of these indices."""
+        """Return the master curve with only the isotherms of these indices."""
         return replace(
             self,
             groups=tuple(self.groups[i] for i in chosen),
@@ -140,7 +140,7 @@ def _thirds(master: Master, values: Array) -> Iterator[float]:
 
 
 def robust_weights(master: Master) -> Master:
-    """The same with measurements that lie far off counted less (Geman & McClure 1987).
+    """Return the master curve with less weight on outlying measurements (Geman & McClure 1987).
 
     The weight of a residual r of the standard deviation s is 1/(1 + (r/(3 s))^2), with s from the
     median of all sizes, so that rows far off do not set it; five rounds of a rich spectrum.

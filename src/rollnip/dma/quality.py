@@ -1,4 +1,4 @@
-"""How far a material lies from its data, and what the data do not tell of it."""
+"""Deviations of a material from its data, and warnings about what the data do not tell."""
 
 from __future__ import annotations
 
@@ -46,14 +46,14 @@ class Quality:
 
 
 def relative_deviations(material: Prony | FractionalZener, data: Reduced) -> tuple[Array, Array]:
-    """Computed over measured less 1, of storage and loss modulus, each (n,)."""
+    """Return the relative deviations of storage and loss modulus from the data, (n,) each."""
     unheated = replace(material, temperature=None, shift=None)
     found = unheated.modulus_at(1j * data.omega)
     return found.real / data.storage - 1.0, found.imag / data.loss - 1.0
 
 
 def judged(material: Prony | FractionalZener, master: Master) -> Quality:
-    """How far the material lies from every row, whatever weight the row had in the fit."""
+    """Return the deviation of the material from every row, whatever its weight in the fit."""
     both = relative_deviations(material, master.reduced)
     where = [int(np.argmax(np.abs(one))) for one in both]
     return Quality(
@@ -77,7 +77,7 @@ def outlying_rows(master: Master, deviations: Sequence[Array]) -> tuple[str, ...
 def quality_warnings(
     quality: Quality, noise: tuple[float, float] | None, *, best: bool, other: str
 ) -> list[str]:
-    """Sentences where the material lies beyond the limits of 5 % rms or 20 % in a row.
+    """Return warnings where the material departs from the data by over 5 % rms or 20 % in a row.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ def quality_warnings(
 
 
 def plateau_warnings(material: Prony | FractionalZener, master: Master) -> list[str]:
-    """A sentence where the data end before the modulus has relaxed.
+    """Return a warning where the data end before the modulus has relaxed.
 
     Where E* goes as a power of the frequency, its phase is 90 degrees times the exponent (Booij &
     Thoone 1982, Rheol. Acta 21, 15-24): at tan delta = 0.3 the storage modulus still falls by a

@@ -1,4 +1,4 @@
-"""What was understood of a file of measurements: each table, its columns, what was left out."""
+"""A file of measurements as it was understood: tables, columns, and what was left out."""
 
 from __future__ import annotations
 
@@ -88,7 +88,7 @@ class Reading:
     passed: tuple[int, ...]
 
     def chosen(self, kind: Kind, numbers: Sequence[int] = ()) -> tuple[ReadTable, ...]:
-        """The tables of a kind; or those of the given numbers, from 1.
+        """Return the tables of a kind, or those of the given numbers, counted from 1.
 
         Raises
         ------
@@ -117,7 +117,7 @@ class Reading:
         raise InvalidInputError(f"{self.source}: {' '.join(dict.fromkeys(why))}")
 
     def text(self) -> str:
-        """What was understood, for people."""
+        """Return a description of the file as it was understood, for people."""
         return "\n".join(_shown(self)) + "\n"
 
 
@@ -213,7 +213,7 @@ def _understood(
 
 
 def _columns(table: RawTable, source: str) -> dict[Quantity, int]:
-    """Column of each quantity; of several, the first, where a name is not there twice."""
+    """Return the column of each quantity; of several, the first whose name is not there twice."""
     found: dict[Quantity, int] = {}
     for index, head in enumerate(table.heads):
         quantity = head.quantity

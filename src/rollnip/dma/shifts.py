@@ -152,7 +152,7 @@ def fit_free(start: Master) -> tuple[Master, Array]:
 
 
 def _moved(master: Master) -> NDArray[np.bool_]:
-    """(m,) all isotherms but that nearest to the reference."""
+    """Return a mask (m,) that is true for all isotherms but the one nearest to the reference."""
     held = int(np.argmin(np.abs(master.temperatures - master.reference)))
     return np.asarray(np.arange(master.temperatures.size) != held)
 
@@ -217,7 +217,7 @@ def _too_far(master: Master) -> InvalidInputError:
 
 
 def _covariance(found: OptimizeResult) -> Array:
-    """Of the searched shifts; residuals are over their standard errors, rescaled by their size."""
+    """Return the covariance of the fitted shifts, enlarged where residuals exceed their errors."""
     jacobian: Array = found.jac
     _, values, right = np.linalg.svd(jacobian, full_matrices=False)
     kept = values > 1e-10 * values[0]

@@ -80,7 +80,7 @@ class Reduced:
         return np.asarray(weights * whole / (self.storage[:, None] * self.errors[0]))
 
     def at(self, chosen: NDArray[np.bool_]) -> Reduced:
-        """Only the measurements where ``chosen`` (n,) is true."""
+        """Return the data at the measurements where ``chosen`` (n,) is true."""
         weights = None if self.weights is None else self.weights[chosen]
         storage, loss = self.storage[chosen], self.loss[chosen]
         return Reduced(self.omega[chosen], storage, loss, self.errors, weights, self.kind)

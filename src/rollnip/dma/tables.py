@@ -167,7 +167,7 @@ def _is_unit_row(row: Sequence[Cell]) -> bool:
 
 
 def _is_data(row: Sequence[Cell], table: RawTable) -> bool:
-    """At least one number under a head that is needed, and numbers or gaps under the others."""
+    """Return whether a row holds data: numbers or gaps under the heads that are needed."""
     under = [
         cell
         for head, cell in zip(table.heads, row, strict=False)
@@ -186,12 +186,12 @@ def _is_number(cell: Cell) -> bool:
 
 
 def is_missing(cell: Cell) -> bool:
-    """Whether a cell holds no value: empty, or one of the marks that stand for that."""
+    """Return whether a cell holds no value: it is empty or holds a mark that stands for that."""
     return cell != cell if isinstance(cell, float) else cell.strip().lower() in _MISSING
 
 
 def column(table: RawTable, index: int, *, comma: bool, source: str) -> Array:
-    """The numbers of a column, nan where there is none, (n,).
+    """Return the numbers of a column (n,), nan where there is none.
 
     Parameters
     ----------
@@ -236,7 +236,7 @@ def _value(cell: Cell, comma: bool, where: str) -> float:
 
 
 def has_decimal_commas(tables: Sequence[RawTable]) -> bool:
-    """Whether numbers of the file hold commas, and none holds a point."""
+    """Return whether numbers of the file hold commas, and none holds a point."""
     texts = list(_texts(tables))
     return any("," in text for text in texts) and not any("." in text for text in texts)
 

@@ -88,7 +88,7 @@ class TimeData:
         return self.values
 
     def row(self, index: int) -> str:
-        """Where a measurement stands in the source."""
+        """Return the place of a measurement in its source, as messages name it."""
         return self.rows[index] if self.rows else f"measurement {index + 1}"
 
     def isotherms(self, width: float = 1.0) -> list[NDArray[np.int64]]:

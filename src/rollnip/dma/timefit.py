@@ -1,4 +1,4 @@
-"""From relaxation or creep data to a Prony series."""
+"""The fit of a Prony series to relaxation or creep data."""
 
 from __future__ import annotations
 
@@ -169,7 +169,7 @@ def _material(master: Master, shift: ShiftFit, method: DmaMethod) -> Prony:
 
 
 def _deviations(material: Prony, master: Master) -> Array:
-    """Computed over measured less 1, (n,): from the material itself, not from the fit."""
+    """Return the relative deviations (n,) of the material itself, not of the fit, from the data."""
     data = master.reduced
     plain = replace(material, temperature=None, shift=None)
     curve = creep_compliance if data.kind == "creep" else relaxation_modulus

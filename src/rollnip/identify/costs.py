@@ -18,7 +18,7 @@ Roller = Literal["upper", "lower"]
 
 
 class Cost(ABC):
-    """Something to be made small: a set of measurements, or several; ``a + 2 * b`` is one too."""
+    """A cost to minimise: one set of measurements or several; ``a + 2 * b`` is one too."""
 
     @property
     @abstractmethod
@@ -26,11 +26,11 @@ class Cost(ABC):
         """The sets of measurements."""
 
     def __add__(self, other: Cost) -> Total:
-        """Both together."""
+        """Return the sum of two costs, to be fitted together."""
         return Total(self.parts + other.parts)
 
     def __rmul__(self, factor: float) -> Total:
-        """The same with other weights."""
+        """Return the cost with every weight multiplied by a factor."""
         require_positive("weight", factor)
         return Total(tuple(replace(one, weight=factor * one.weight) for one in self.parts))
 
@@ -105,36 +105,36 @@ class Measurements(Cost):
 
     @property
     def parts(self) -> tuple[Measurements, ...]:
-        """The set itself."""
+        """The set itself, as the only part."""
         return (self,)
 
     @property
     def values(self) -> Array:
-        """What was measured, (n,)."""
+        """The measured values, (n,)."""
         return np.asarray(self.measured, dtype=float)
 
     @property
     def errors(self) -> Array | None:
-        """Standard error of each value, (n,); None where not known."""
+        """The standard error of each value, (n,); None where they are not known."""
         return None if self.standard_error is None else np.asarray(self.standard_error, dtype=float)
 
     def with_values(self, measured: ArrayLike) -> Self:
-        """The same set with other values measured."""
+        """Return the set with other measured values."""
         return replace(self, measured=measured)
 
     @property
     @abstractmethod
     def conditions(self) -> list[dict[str, Any]]:
-        """Changes of the case, by path, of each nip that must be solved."""
+        """The changes of the case, by path, for each nip that must be solved."""
 
     @property
     @abstractmethod
     def abscissa(self) -> tuple[str, Array]:
-        """What the values are drawn against: a path (or ``x``), and (n,) numbers."""
+        """The path (or ``x``) and the (n,) numbers that the values are drawn against."""
 
     @abstractmethod
     def predict(self, solutions: Sequence[Solution]) -> Array:
-        """What would have been measured, (n,), from the solutions of ``conditions``."""
+        """Return the predicted measurements (n,) from the solutions of ``conditions``."""
 
     def _check_conditions(self) -> None:
         """Raise where an array of conditions has another length than the values."""
@@ -170,7 +170,7 @@ class Scalars(Measurements):
 
     @property
     def conditions(self) -> list[dict[str, Any]]:
-        """One nip for each value."""
+        """The changes of the case for each value: one nip each."""
         return [
             {path: _entry(value, index) for path, value in self.at.items()}
             for index in range(self.values.size)
@@ -185,7 +185,7 @@ class Scalars(Measurements):
         return "measurement", np.arange(1.0, self.values.size + 1.0)
 
     def predict(self, solutions: Sequence[Solution]) -> Array:
-        """The number in each solution; nan where it is not defined."""
+        """Return the number from each solution; nan where it is not defined."""
         found = [getattr(solution, self._result) for solution in solutions]
         return np.array([np.nan if one is None else one for one in found], dtype=float)
 

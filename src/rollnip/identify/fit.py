@@ -51,7 +51,7 @@ _IMPROBABLE = 0.01  # chi-square below this probability: the errors given are to
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class LeastSquares:
-    """How the fit is done.
+    """The settings of a fit.
 
     Parameters
     ----------
@@ -170,7 +170,7 @@ def fitted(
     *,
     tolerance: float,
 ) -> Fit:
-    """Fit whatever predicts the measurements; `identify` does so with nips.
+    """Fit the unknowns with any predictor of the measurements; `identify` does so with nips.
 
     Parameters
     ----------
@@ -241,7 +241,7 @@ def fitted(
 
 @dataclass(frozen=True, slots=True)
 class _Scatter:
-    """Chi-square of a fit, and what follows from it for the intervals."""
+    """The chi-square of a fit, and what follows from it for the intervals."""
 
     chi_square: float
     degrees: float
@@ -302,7 +302,7 @@ def _solver_warnings(forward: Forward, model: Model) -> list[str]:
 
 
 def _with_noise(misfit: Misfit, best: Local, noise: Noise) -> tuple[Misfit, Local, Noise]:
-    """The fit with the noise that it finds itself, where errors were not given."""
+    """Return the fit with the noise estimated from it, where errors were not given."""
     if not any(noise.estimated):
         return misfit, best, noise
     for _ in range(_MOST_TURNS):

@@ -1,4 +1,4 @@
-"""From values of the unknowns to what would have been measured: one solve for each nip."""
+"""Predictions of the measurements from values of the unknowns: one solve for each nip."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ _B = TypeVar("_B")
 
 
 class Predictor(Protocol):
-    """What the search asks: predictions of every set at values of the unknowns, or None."""
+    """A predictor: it returns each set's predictions at values of the unknowns, or None."""
 
     def predict(self, values: Mapping[str, float]) -> Predictions | None:
-        """Predictions of each set, None where there are none at these values."""
+        """Return the predictions of each set, None where there are none at these values."""
 
 
 class Workforce(Protocol):
-    """Who solves nips; `rollnip.sweep.Together` is one."""
+    """The workers that solve nips; `rollnip.sweep.Together` is such a type."""
 
     @property
     def evaluate(self) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
-        """Solves one case, as `rollnip.sweep.evaluate` does."""
+        """The function that solves one case, as `rollnip.sweep.evaluate` does."""
         ...
 
     def each(self, function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
@@ -160,7 +160,7 @@ class Forward:
         row: Mapping[str, Any],
         known: dict[str, Solution | Numbers],
     ) -> Solution | Numbers:
-        """The solution of one nip; those of the same values are solved once."""
+        """Return the solution of one nip; nips of the same values are solved once."""
         case = parse_case(with_values(self.tree, {**values, **row}))
         key = case_hash(case)
         if key not in known:

@@ -1,4 +1,4 @@
-"""How well the unknowns are known: covariance, and profiles of the likelihood."""
+"""Uncertainty of the unknowns: covariance, and profiles of the likelihood."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class End:
 
 
 def covariance(jacobian: Array, weights: Array) -> Array:
-    """Covariance of the unknowns (p, p) from the weighted Jacobian at the best fit.
+    """Return the covariance of the unknowns (p, p) from the weighted Jacobian at the best fit.
 
     With weights other than 1 what the rows were multiplied with does not match their scatter:
     (J'J)^-1 J'WJ (J'J)^-1, W the weights. Directions that the data do not see get 1e300.
@@ -74,7 +74,7 @@ def prediction_errors(misfit: Misfit, jacobian: Array, spread: Array) -> list[Ar
 def profile_ends(
     misfit: Misfit, best: Local, spread: Array, index: int, quantile: float
 ) -> tuple[End, End]:
-    """Both ends of the interval of one unknown from the profile of the likelihood.
+    """Return both ends of the profile-likelihood interval of one unknown.
 
     The interval ends where the sum of squares, least over all other unknowns, is quantile^2
     above its least value. Where the model is linear this is the interval of the covariance.

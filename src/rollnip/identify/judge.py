@@ -1,4 +1,4 @@
-"""What a fit does not tell, in plain words: weak unknowns, twins, bounds, misfit."""
+"""Warnings of a fit in plain words: weak unknowns, twins, bounds, misfit."""
 
 from __future__ import annotations
 
@@ -31,14 +31,14 @@ def singular_values(misfit: Misfit, best: Local) -> Array:
 
 
 def at_bounds(misfit: Misfit, best: Local) -> list[str | None]:
-    """For each unknown "low", "high" or None: the bound that it ended at."""
+    """Return the bound at which each unknown ended, "low" or "high", or None."""
     reach = _AT_BOUND * (misfit.high - misfit.low)
     low, high = best.ended - misfit.low < reach, misfit.high - best.ended < reach
     return ["low" if a else "high" if b else None for a, b in zip(low, high, strict=True)]
 
 
 def bound_warnings(misfit: Misfit, best: Local) -> list[str]:
-    """One for each unknown that ended at a bound."""
+    """Return a warning for each unknown that ended at a bound."""
     said = []
     for one, side in zip(misfit.unknowns, at_bounds(misfit, best), strict=True):
         if side is not None:
@@ -54,7 +54,7 @@ def bound_warnings(misfit: Misfit, best: Local) -> list[str]:
 def identifiability_warnings(
     misfit: Misfit, best: Local, spread: Array, quantile: float, tolerance: float
 ) -> list[str]:
-    """What the data do not depend on, cannot tell apart, or tell only vaguely."""
+    """Return warnings on unknowns that the data do not tell, or tell only in combination."""
     silent = _without_effect(misfit, best, tolerance)
     said = [
         f"No prediction changes with `{misfit.unknowns[i].path}` by more than the solver's own "
@@ -79,7 +79,7 @@ def identifiability_warnings(
 def misfit_warnings(
     chi_square: float, degrees: float, probability: float | None, given: bool
 ) -> list[str]:
-    """Whether the scatter about the fit matches the standard errors given."""
+    """Return a warning where the scatter about the fit contradicts the standard errors given."""
     if not given or probability is None:
         return []
     if probability < _IMPROBABLE:
@@ -99,7 +99,7 @@ def misfit_warnings(
 
 
 def start_warnings(ends: Sequence[Local], misfit: Misfit, spread: Array, rise: float) -> list[str]:
-    """Whether searches from other starts ended elsewhere with nearly the same misfit."""
+    """Return a warning where another start led to other values with nearly the same misfit."""
     best = ends[0]
     errors = np.sqrt(np.diag(spread))
     for other in ends[1:]:
@@ -123,7 +123,7 @@ def _over_ranges(misfit: Misfit, best: Local) -> Array:
 
 
 def _without_effect(misfit: Misfit, best: Local, tolerance: float) -> list[int]:
-    """Unknowns whose step of the derivatives changes every value by next to nothing."""
+    """Return the unknowns whose step of the derivatives hardly changes any value."""
     steps = misfit.steps(best.ended)
     rows = sum(part.values.size for part in misfit.parts)
     floor = np.concatenate(
@@ -139,7 +139,7 @@ def _without_effect(misfit: Misfit, best: Local, tolerance: float) -> list[int]:
 
 
 def _twins(spread: Array, among: Sequence[int]) -> list[tuple[int, int]]:
-    """Pairs of unknowns whose errors are all but one error."""
+    """Return pairs of unknowns whose errors are almost fully correlated."""
     found = []
     scale = np.sqrt(np.diag(spread))
     for a, i in enumerate(among):
@@ -163,7 +163,7 @@ def _twin_words(unknowns: Sequence[Unknown], pair: tuple[int, int], spread: Arra
 def _open_combinations(
     misfit: Misfit, best: Local, among: Sequence[int], quantile: float, *, paired: bool
 ) -> list[str]:
-    """Combinations of three and more unknowns that the data leave as open as the bounds do."""
+    """Return combinations of three or more unknowns that the data leave as open as the bounds."""
     if len(among) < 3 or paired:
         return []
     _, values, right = np.linalg.svd(_over_ranges(misfit, best)[:, among], full_matrices=False)

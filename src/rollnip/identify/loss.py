@@ -1,4 +1,4 @@
-"""How residuals count: their squares, or less than that where they are large (Huber).
+"""The loss of residuals: their squares, or less than that where they are large (Huber).
 
 A residual r, over its standard error, counts rho(r) = r^2 up to k and 2 k |r| - k^2 beyond
 (Huber 1964, Ann. Math. Statist. 35, 73-101), k = 1.345: for normal noise that costs 5 % of the
@@ -20,7 +20,7 @@ BEYOND = 1.345
 
 
 def bent(residuals: Array, loss: Loss) -> Array:
-    """Residuals whose squares are what the residuals count."""
+    """Return the residuals as the loss counts them: the sum of their squares is the loss."""
     if loss == "squares":
         return residuals
     size = np.abs(residuals)
@@ -29,7 +29,7 @@ def bent(residuals: Array, loss: Loss) -> Array:
 
 
 def straight(counted: Array, loss: Loss) -> Array:
-    """Residuals from what `bent` made of them."""
+    """Return the plain residuals from those that `bent` returned."""
     if loss == "squares":
         return counted
     size = np.abs(counted)
@@ -38,7 +38,7 @@ def straight(counted: Array, loss: Loss) -> Array:
 
 
 def slope(residuals: Array, loss: Loss) -> Array:
-    """Derivative of `bent`: 1 within, k / |r*| beyond."""
+    """Return the derivative of `bent`: 1 within, k / |r*| beyond."""
     if loss == "squares":
         return np.ones_like(residuals)
     counted = np.abs(bent(residuals, loss))
@@ -46,7 +46,7 @@ def slope(residuals: Array, loss: Loss) -> Array:
 
 
 def robust_covariance(jacobian: Array, residuals: Array) -> Array:
-    """Covariance (p, p) of a fit with Huber's loss from straight derivatives and residuals.
+    """Return the covariance (p, p) of a fit with Huber's loss.
 
     A^-1 B A^-1 n / (n - p), A = sum psi'(r) J J', B = sum psi(r)^2 J J', psi = rho' / 2
     (Huber & Ronchetti 2009, Robust Statistics, eq. 7.81). Directions that A does not see get 1e300.

@@ -1,4 +1,4 @@
-"""How much the measurements scatter, where their standard errors are not given."""
+"""Estimates of the measurements' scatter, where their standard errors are not given."""
 
 from __future__ import annotations
 

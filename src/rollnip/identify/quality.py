@@ -25,7 +25,7 @@ _FEWEST_RUNS = 8  # values of which residuals are looked through for runs
 def quality_warnings(
     misfit: Misfit, jacobian: Array, residuals: Array, noise: Noise, degrees: float
 ) -> list[str]:
-    """What the residuals say of the fit, whatever the standard errors.
+    """Return what the residuals tell about the fit, whatever the standard errors.
 
     Parameters
     ----------
@@ -67,7 +67,7 @@ def share_of_values(part_values: Array, deviation: Array) -> float:
 
 
 def _size_words(part: Measurements, deviation: Array) -> list[str]:
-    """A misfit that is large against the values, where no standard error says what to expect."""
+    """Return warnings where the misfit is large against the values or against their variance."""
     said = []
     share = share_of_values(part.values, deviation)
     if share > _LARGE:
@@ -87,7 +87,7 @@ def _size_words(part: Measurements, deviation: Array) -> list[str]:
 
 
 def _run_words(part: Measurements, residuals: Array) -> list[str]:
-    """Residuals that keep their sign for too long along what was varied."""
+    """Return a warning where residuals keep their sign too long along the abscissa."""
     path, at = part.abscissa
     signs = np.sign(residuals[np.argsort(at, kind="stable")])
     signs = signs[signs != 0.0]
@@ -125,7 +125,7 @@ def _chance_of_runs(runs: int, above: int, below: int) -> float:
 def _outlier_words(
     part: Measurements, residuals: Array, projected: Array, error: Array, estimated: bool
 ) -> list[str]:
-    """The value that lies farthest from the fit of the others, where that is no chance.
+    """Return a warning on the most outlying value, where chance does not explain it.
 
     Its residual over its own standard deviation, the scatter taken from the other values (deleted
     residuals, Cook & Weisberg 1982); the probability is multiplied by the number of values.

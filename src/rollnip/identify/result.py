@@ -1,4 +1,4 @@
-"""What a fit found: frozen data."""
+"""Frozen data of a fit's result."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ class Estimate:
 
     @property
     def is_told(self) -> bool:
-        """Whether the data tell the value: its standard error is smaller than its range."""
+        """True where the data determine the value: its standard error is smaller than its range."""
         return self.standard_error < self.bounds[1] - self.bounds[0]
 
 

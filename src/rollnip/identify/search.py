@@ -27,7 +27,7 @@ _SHARE_OF_RANGE = 1e-3
 
 @dataclass(frozen=True, slots=True)
 class Local:
-    """Where one search ended.
+    """The end of one search.
 
     Attributes
     ----------
@@ -45,7 +45,7 @@ class Local:
 
 
 class Misfit:
-    """Residuals over standard errors as a function of the coordinates of the search.
+    """Residuals over standard errors, as a function of the coordinates of the search.
 
     Parameters
     ----------
@@ -75,11 +75,11 @@ class Misfit:
         self.low, self.high = inner_bounds(unknowns)
 
     def with_errors(self, errors: Sequence[Array]) -> Misfit:
-        """The same with other standard errors."""
+        """Return the misfit with other standard errors."""
         return Misfit(self.predictor, self.unknowns, self.parts, errors, self.step, self.loss)
 
     def predictions(self, z: Array) -> Predictions | None:
-        """What would have been measured at the coordinates z (p,)."""
+        """Return the predictions at the coordinates z (p,), or None where there are none."""
         return self.predictor.predict(outer_values(self.unknowns, z))
 
     def residuals(self, z: Array) -> Array:
@@ -151,7 +151,7 @@ class Misfit:
 
 
 def straightened(misfit: Misfit, end: Local) -> Local:
-    """The same end with residuals and derivatives as they are, not as the loss counts them."""
+    """Return the end with plain residuals and derivatives, not as the loss counts them."""
     weights = np.sqrt(misfit.row_weights)
     counted = end.residuals / weights
     residuals = _with_priors(misfit, straight(counted, misfit.loss), counted)
@@ -161,7 +161,7 @@ def straightened(misfit: Misfit, end: Local) -> Local:
 
 
 def rescaled(misfit: Misfit, end: Local, factors: Array) -> Local:
-    """An end with every residual and its derivatives multiplied, its cost counted anew.
+    """Return an end with every residual and its derivatives multiplied, its cost counted anew.
 
     Parameters
     ----------
@@ -177,7 +177,7 @@ def rescaled(misfit: Misfit, end: Local, factors: Array) -> Local:
 
 
 def _with_priors(misfit: Misfit, data: Array, priors: Array) -> Array:
-    """Rows of the data from one array, those of the priors, which no loss bends, from another."""
+    """Return the rows of the data from ``data`` and those of the priors from ``priors``."""
     count = sum(part.values.size for part in misfit.parts)
     return np.concatenate([data[:count], priors[count:]])
 

@@ -1,4 +1,4 @@
-"""From a file to the fit: unknowns and measurements, every fault one clear line."""
+"""The reader of a fit's file: unknowns and measurements; every fault is one clear line."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ _SHORT = ("load", "approach", "traction", "creepage", "torque_lower", "friction"
 
 @dataclass(frozen=True, slots=True)
 class FitStudy:
-    """What a file asks for: `identify` takes these as they are.
+    """The question of a fit's file, as `identify` takes it.
 
     Attributes
     ----------
@@ -199,7 +199,7 @@ class _Reader:
             )
 
     def _errors(self, where: str, table: DataTable, columns: Columns, dimension: Dimension) -> Any:
-        """Of every value, from the key or the column; None where there is neither."""
+        """Return the standard errors from the key or the column; None where there is neither."""
         if table.standard_error is not None:
             with self._placed(f"{where}.standard_error"):
                 return _difference(table.standard_error, dimension)
@@ -238,7 +238,7 @@ class _Reader:
 
     @contextmanager
     def _placed(self, where: str) -> Iterator[None]:
-        """Put file and key before what is said against a value."""
+        """Prefix an input error raised inside the block with the file and the key."""
         try:
             yield
         except InvalidInputError as problem:

@@ -40,7 +40,7 @@ class Surface(Measurements):
 
     @property
     def conditions(self) -> list[dict[str, Any]]:
-        """One nip."""
+        """The one nip, without changes."""
         return [dict(self.at)]
 
     def _check_conditions(self) -> None:
@@ -117,7 +117,7 @@ class Velocities(Surface):
         super().__post_init__()
 
     def with_values(self, measured: ArrayLike) -> Self:
-        """The same places with other velocities measured."""
+        """Return the profile's places with other measured velocities."""
         return replace(self, profile=replace(self.profile, velocity=np.asarray(measured, float)))
 
     @property

@@ -1,4 +1,4 @@
-"""What is to be found: values of a case by path, within bounds."""
+"""Unknowns of a fit: values of a case by path, within bounds."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Prior:
-    """What is known of an unknown before: it counts as one more measurement of it.
+    """Prior knowledge of an unknown: it counts as one more measurement of it.
 
     Parameters
     ----------
@@ -92,33 +92,33 @@ class Unknown:
 
     @property
     def first(self) -> float:
-        """Where the search begins."""
+        """The value at which the search begins."""
         if self.start is not None:
             return self.start
         return sqrt(self.low) * sqrt(self.high) if self.log else 0.5 * (self.low + self.high)
 
     def inner(self, value: float) -> float:
-        """The coordinate of the search: the value or its logarithm."""
+        """Return the coordinate of the search: the value or its logarithm."""
         return log(value) if self.log else value
 
     def outer(self, coordinate: float) -> float:
-        """The value at a coordinate of the search, never beyond the bounds by rounding."""
+        """Return the value at a coordinate of the search, within the bounds despite rounding."""
         value = exp(coordinate) if self.log else coordinate
         return min(max(value, self.low), self.high)
 
     def slope(self, value: float) -> float:
-        """How fast the value changes with the coordinate of the search."""
+        """Return the derivative of the value with respect to the coordinate of the search."""
         return value if self.log else 1.0
 
 
 def inner_bounds(unknowns: tuple[Unknown, ...]) -> tuple[Array, Array]:
-    """Bounds of the coordinates of the search, two arrays of shape (p,)."""
+    """Return the bounds of the coordinates of the search, two arrays of shape (p,)."""
     low = np.array([one.inner(one.low) for one in unknowns])
     high = np.array([one.inner(one.high) for one in unknowns])
     return low, high
 
 
 def outer_values(unknowns: tuple[Unknown, ...], coordinates: Array) -> dict[str, float]:
-    """Values by path at coordinates of the search (p,)."""
+    """Return the values by path at coordinates of the search (p,)."""
     pairs = zip(unknowns, coordinates, strict=True)
     return {one.path: one.outer(float(coordinate)) for one, coordinate in pairs}

@@ -1,4 +1,4 @@
-"""From tables whose form is right to the problem; gathers what the constructors refuse."""
+"""The builder of a problem from tables of right form; gathers what the constructors refuse."""
 
 from __future__ import annotations
 
@@ -133,7 +133,7 @@ class Builder:
             return None
 
     def _check_materials(self) -> None:
-        """Also of those that no layer names."""
+        """Check every material, also those that no layer names."""
         for name, table in self.table.materials.items():
             if name == "rigid":
                 self.errors.append('materials.rigid: must have another name; "rigid" is a core.')

@@ -1,4 +1,4 @@
-"""Case files: from a path or a text to the problem."""
+"""Case files: reading one from a path or a text, and what identifies it."""
 
 from __future__ import annotations
 
@@ -81,10 +81,10 @@ def _built(tree: dict[str, Any], source: str, folder: Path | None) -> Case:
 
 
 def case_hash(case: Case) -> str:
-    """What tells two cases apart: 16 hexadecimal digits of the problem and the model.
+    """Return the hash of a case: 16 hexadecimal digits of the problem and the model.
 
-    Of the values in base units, not of how they were written; neither the title nor the name of
-    the file counts. The version of rollnip is not part of it.
+    The hash depends on the values in base units, not on how they were written, and not on the
+    title, the name of the file or the version of rollnip.
     """
     return problem_hash(case.nip, case.model, case.face)
 

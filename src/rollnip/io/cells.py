@@ -153,7 +153,7 @@ def _decode(data: bytes, codec: str, name: str, source: str) -> str:
 
 
 def _separator(lines: Sequence[str]) -> str:
-    """What parts the cells of most lines that hold numbers."""
+    """Return the separator of cells in most of the lines that hold numbers."""
     found: Counter[str] = Counter()
     for line in lines:
         if len(_NUMERIC.findall(line)) < 2:
@@ -170,7 +170,7 @@ def _separator(lines: Sequence[str]) -> str:
 
 
 def _is_blank_separated(line: str) -> bool:
-    """Two numbers or more parted by blanks alone; with decimal commas no point stands in them."""
+    """Return whether blanks separate two numbers or more, and commas and points are not mixed."""
     parts = _BLANKS.split(line.strip())
     numbers = [part for part in parts if _NUMERIC.fullmatch(part) and not part.endswith(",")]
     return len(numbers) >= 2 and 2 * len(numbers) > len(parts) and not ("," in line and "." in line)

@@ -97,7 +97,7 @@ class Columns:
         return np.array(values, dtype=float)
 
     def samples(self, name: str, dimension: Dimension) -> Array:
-        """As `numbers`, for the many readings of an instrument: ten times as fast.
+        """Return a column as `numbers` does, ten times as fast, for many readings.
 
         All plain numbers are converted at once, which rounds each once more.
         """
@@ -308,7 +308,7 @@ def _is_comment(cell: Cell) -> bool:
 
 
 def _is_plain(cell: Cell) -> bool:
-    """Whether a cell holds no unit."""
+    """Return whether a cell holds no unit."""
     return not any(
         (letter.isalpha() and letter not in "eE") or letter in "%°" for letter in str(cell)
     )

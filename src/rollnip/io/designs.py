@@ -20,14 +20,14 @@ class BoundsTable(Table):
 
 
 class ObjectiveTable(Table):
-    """What is to be small or large; exactly one of both."""
+    """The objective of an optimum: a result to minimise or one to maximise."""
 
     minimise: str | None = Field(default=None, description="Name of a result: peak_pressure.")
     maximise: str | None = Field(default=None, description="Name of a result.")
 
 
 class LimitTable(Table):
-    """What a result must keep; at_least, at_most or both."""
+    """The limits of a result: at_least, at_most or both."""
 
     result: str = Field(description="Name of a result: nip_width.")
     at_least: Any = Field(default=None, description="With its unit.")
@@ -38,7 +38,7 @@ class LimitTable(Table):
 
 
 class SearchTable(Table):
-    """How an optimum is searched."""
+    """The settings of the search for an optimum."""
 
     solves: int | None = Field(
         default=None, description="Cases at most; by default 150, and 100 for each parameter."
@@ -84,14 +84,14 @@ class VariedTable(Table):
 
 
 class CorrelationTable(Table):
-    """Two parameters that scatter together."""
+    """The correlation of two parameters."""
 
     between: list[str] = Field(description="The paths of two parameters.")
     coefficient: Ratio = Field(description="Between -1 and 1.")
 
 
 class SamplingPlanTable(Table):
-    """How tolerances are computed."""
+    """The settings of a tolerance computation."""
 
     count: int | None = Field(
         default=None, description="Samples of the Latin hypercube; 200 by default."

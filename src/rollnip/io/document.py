@@ -1,4 +1,4 @@
-"""From a file or a text to a tree of plain values; every fault is one clear line."""
+"""The reader of TOML and JSON files into trees of plain values; every fault is one clear line."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def parse_document(text: str, name: str) -> dict[str, Any]:
 
 
 def _has_deep_key(text: str) -> bool:
-    """Whether a dotted key has too many parts; the reader takes time with their square."""
+    """Return whether a dotted key has too many parts: reading takes time with their square."""
     dots = 0
     for sign in _SIGNS.findall(text):
         dots = dots + 1 if sign.endswith(".") else 0

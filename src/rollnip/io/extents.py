@@ -1,4 +1,4 @@
-"""How far the cells of a workbook lie apart, before anything is built from it.
+"""Extents of the cells of a workbook, found before anything is built from it.
 
 A reader of workbooks makes a rectangle of cells from the first to the last: two cells in opposite
 corners of a sheet are 1.7e10. The files are scanned for the places of their cells alone:
@@ -34,12 +34,12 @@ _XLS_CELLS = {0x203, 0x204, 0x27E, 0xFD, 0x06, 0x205, 0xBD, 0xD6, 0x03, 0x04, 0x
 
 
 class BrokenWorkbookError(Exception):
-    """What is wrong with a workbook, as the end of a sentence."""
+    """An error in a workbook; its text is the end of a sentence."""
 
 
 @dataclass(slots=True)
 class Extent:
-    """Of one sheet: rows and columns up to the last cell, and the number of cells."""
+    """The extent of one sheet: its last row and column, and the number of cells."""
 
     rows: int = 0
     columns: int = 0

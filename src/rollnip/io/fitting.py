@@ -24,7 +24,7 @@ Kind = Literal[
 
 
 class PriorTable(Table):
-    """What is known of an unknown before."""
+    """Prior knowledge of an unknown."""
 
     value: Any
     standard_error: Any
@@ -60,7 +60,7 @@ class DataTable(Table):
 
 
 class MethodTable(Table):
-    """How the fit is done."""
+    """The settings of a fit."""
 
     geometry: Literal["linear", "corrected", "curved", "finite"] | None = None
     tolerance: Ratio | None = None

@@ -1,4 +1,4 @@
-"""What is wrong with the form of a case file, in words: path of the key, rule, value."""
+"""Messages about the form of a case file: path of the key, rule, value."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def form_error(
 
 
 def placed(path: str, message: str, elsewhere: Mapping[str, str] | None = None) -> str:
-    """Put the path of a key before a constructor's message "`name` must ..., got ...".
+    """Return a constructor's message "`name` must ..., got ..." with the path of its key.
 
     ``elsewhere`` gives the whole path of names that do not stand at ``path``.
     """

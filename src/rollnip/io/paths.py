@@ -25,7 +25,7 @@ _MODULI = ("modulus", "shear_modulus", "shore_a")
 
 
 def value_at(tree: Mapping[str, Any], path: str) -> Any:
-    """The value that stands at ``path``, as the file holds it.
+    """Return the value at ``path``, as the file holds it.
 
     Raises
     ------
@@ -41,7 +41,7 @@ def value_at(tree: Mapping[str, Any], path: str) -> Any:
 
 
 def with_values(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """A copy of the tree with other values at some paths.
+    """Return a copy of the tree with other values at some paths.
 
     The last key of a path may be new; the tables above it must be there. Setting one of the keys
     of which [nip] takes exactly one (load or approach; traction, creepage or torque_lower)
@@ -64,7 +64,7 @@ def with_values(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str
 
 
 def with_shared(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str, Any]:
-    """As `with_values`, but what did not change is shared with ``tree``: only to be read."""
+    """Return a read-only copy with other values that shares its unchanged parts with ``tree``."""
     out = dict(tree)
     for path, value in changes.items():
         dimension_at(out, path)
@@ -90,7 +90,7 @@ def with_shared(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str
 
 
 def dimension_at(tree: Mapping[str, Any], path: str) -> Dimension | None:
-    """What kind of quantity stands at ``path``; None for texts, tables and lists.
+    """Return the dimension of the quantity at ``path``; None for texts, tables and lists.
 
     Raises
     ------

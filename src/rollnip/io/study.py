@@ -26,7 +26,7 @@ class ParameterTable(Table):
 
 
 class SamplingTable(Table):
-    """How ranges without a count are sampled together."""
+    """The sampling of ranges that have no count."""
 
     method: Literal["grid", "latin-hypercube", "sobol"] = "grid"
     count: int | None = None

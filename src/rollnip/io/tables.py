@@ -97,7 +97,7 @@ class PointTable(Table):
 
 
 class ShiftTable(Table):
-    """What the shift laws share: the reference, and how moduli go with temperature."""
+    """The keys that all shift laws share: reference, and how moduli go with temperature."""
 
     reference: Temperature
     vertical: Literal["none", "entropic"] | None = Field(
@@ -149,7 +149,7 @@ class ElasticTable(Table):
 
 
 class ViscoelasticTable(Table):
-    """What the viscoelastic materials share."""
+    """The keys that all viscoelastic materials share."""
 
     modulus: Pressure | None = Field(None, description="Relaxed modulus; or shore_a.")
     shore_a: Ratio | None = Field(
@@ -242,7 +242,7 @@ class CrownTableTable(Table):
 
 
 class ShaftTable(Table):
-    """What carries the core of a roller over its face."""
+    """The shaft that carries the core of a roller over its face."""
 
     bearing_distance: Length
     bore: Length = 0.0
@@ -283,7 +283,7 @@ class RollerTable(Table):
 
 
 class NipTable(Table):
-    """What presses and drives the rollers, friction and speed."""
+    """The load or approach, the drive, friction and speed of the nip."""
 
     load: LineLoad | None = None
     approach: Length | None = None
@@ -296,13 +296,13 @@ class NipTable(Table):
 
 
 class ModelTable(Table):
-    """Which model of the geometry is solved."""
+    """The model of the geometry."""
 
     geometry: Literal["linear", "corrected", "curved", "finite"] | None = None
 
 
 class SolverTable(Table):
-    """How accurately."""
+    """The accuracy of the solution."""
 
     tolerance: Ratio | None = None
 

@@ -48,7 +48,7 @@ _NAMES = ("x", "position", "velocity", "frequency", "stay", "error", "snr")
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Settings:
-    """What is known of the instrument and the roller; None where it is not.
+    """The settings of the instrument and the roller; None where one is not known.
 
     Attributes
     ----------
@@ -67,7 +67,7 @@ class Settings:
     roller: str | None = None
 
     def over(self, below: Settings) -> Settings:
-        """These settings, and those of ``below`` where these are not known."""
+        """Return these settings, completed by those of ``below`` where they are not known."""
         known = {f.name: getattr(self, f.name) for f in fields(self)}
         return replace(below, **{name: v for name, v in known.items() if v is not None})
 
@@ -78,7 +78,7 @@ class Settings:
 
     @property
     def largest_blur(self) -> float:
-        """As of `rollnip.lda.Instrument`; inf where wavelength, angle or volume is not known."""
+        """`Instrument.largest_blur`; inf where wavelength, angle or volume is not known."""
         if self.wavelength is None or self.beam_angle is None or self.half_width is None:
             return inf
         return Instrument(
@@ -179,7 +179,7 @@ def read_velocities(path: str | Path) -> Readings:
 
 
 def scan_csv(scan: Scan) -> str:
-    """A simulated scan as such a file; it says in its first line that it was simulated."""
+    """Return a simulated scan as such a file; its first line says that it was simulated."""
     at = scan.instrument
     lines = [
         "# simulated: no measurement; bursts synthesised from a computed solution",
@@ -197,7 +197,7 @@ def scan_csv(scan: Scan) -> str:
 
 
 def truth_csv(scan: Scan, solution: Solution) -> str:
-    """What a simulated scan should find: speed at a point, and averaged over the volume."""
+    """Return the true speeds of a simulated scan as CSV: at a point, averaged over the volume."""
     profile, roller_speed = surface_speed(solution, scan.side)
     x = np.unique(scan.x)
     averaged = profile.averaged(x, scan.instrument.averaging_width)
@@ -248,7 +248,7 @@ _SAID: Mapping[str, Callable[[str], float | str]] = {
 
 
 def _settings(table: Columns) -> Settings:
-    """What comment lines of the form ``key: value`` say; others are only comments."""
+    """Return the settings in comment lines of the form ``key: value``."""
     said: dict[str, float | str] = {}
     for number, line in table.comments:
         key, colon, value = line.partition(":")

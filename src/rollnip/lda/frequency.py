@@ -31,7 +31,7 @@ _PADDING = 4
 
 @dataclass(frozen=True, slots=True)
 class Tone:
-    """What the spectrum of one burst says.
+    """The tone found in the spectrum of one burst.
 
     Attributes
     ----------

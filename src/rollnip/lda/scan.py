@@ -25,7 +25,7 @@ _SHOWN = 0.8  # scanned on either side of the contact, in nip widths
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Seeding:
-    """What the scatterers are like.
+    """The scatterers of a simulated measurement.
 
     Parameters
     ----------

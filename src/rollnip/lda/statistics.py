@@ -1,4 +1,4 @@
-"""From the bursts at each position to velocity and strain with confidence bands."""
+"""Velocity and strain with confidence bands from the bursts at each position."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ class VelocityProfile:
         return np.asarray(self.error**2 * (n - 1.0) / (n - 3.0))
 
     def at(self, chosen: NDArray[np.bool_]) -> VelocityProfile:
-        """Only the positions where ``chosen`` (m,) is true."""
+        """Return the profile at the positions where ``chosen`` (m,) is true."""
         names = ("x", "velocity", "error", "count", "rejected")
         return replace(self, **{name: getattr(self, name)[chosen] for name in names})
 
@@ -182,7 +182,7 @@ def _scale(velocity: Array) -> float:
 
 
 def _kept(velocity: Array, common: float) -> NDArray[np.bool_]:
-    """Which values are no outliers; all, where half of them are equal at most positions.
+    """Return whether each value is kept; all are, where half are equal at most positions.
 
     The scale of few values may come out far too small: it is that of most positions at least.
     """

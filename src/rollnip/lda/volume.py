@@ -64,7 +64,7 @@ class SpeedProfile:
         return np.asarray(line + width * (ramp @ kinks))
 
     def span(self, width: float) -> tuple[float, float]:
-        """Where the volume lies inside the profile altogether [mm]."""
+        """Return the interval of x whose measuring volume lies inside the profile [mm]."""
         return float(self.x[0] + REACH * width), float(self.x[-1] - REACH * width)
 
     def check_inside(self, x: Array, width: float) -> None:

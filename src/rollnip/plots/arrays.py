@@ -1,4 +1,4 @@
-"""What pictures of studies ask of the arrays they are given."""
+"""Checks of the arrays given to pictures of studies."""
 
 from __future__ import annotations
 

@@ -182,13 +182,13 @@ def _colour_bar(ax: Axes, look: Look, drawn: QuadContourSet, shades: _Shades, te
 
 
 def _ticks(levels: Array, most: int) -> list[float]:
-    """Every so many levels, 0 among them where it is one."""
+    """Return at most ``most`` levels at equal steps, 0 among them where it is a level."""
     every = -(-levels.size // most)
     return [float(x) for x in levels[int(np.argmin(np.abs(levels))) % every :: every]]
 
 
 def _bound(pieces: list[Piece]) -> float:
-    """Largest size worth a colour: of all, or of most of the area that has any."""
+    """Return the largest size worth a colour: of all, or of most of the area that has any."""
     sizes, areas = [np.zeros(1)], [np.zeros(1)]
     for piece in pieces:
         if piece.values is not None and piece.values.any():  # not an elastic roller's loss
@@ -311,7 +311,7 @@ def _mark_inlet(ax: Axes, look: Look) -> None:
 
 
 def _name_layers(ax: Axes, look: Look, pieces: list[Piece]) -> None:
-    """What each layer is, on the right; moved apart where layers are thin."""
+    """Write each layer's thickness and moduli at the right, moved apart where layers are thin."""
     low, high = ax.get_ylim()
     # rather too low: texts then stand further apart than they must
     width, height = axes_inches(ax)

@@ -205,7 +205,7 @@ def _table(ax: Axes, look: Look, solution: Solution) -> None:
 
 
 def _remarks(solution: Solution) -> list[str]:
-    """What is wrong and the warnings, as a few lines."""
+    """Return the failure, if any, and the warnings, as a few lines."""
     warnings = [] if solution.converged else [solution.status]
     warnings += [f"Note: {warning}" for warning in solution.warnings]
     return wrap(" ".join(warnings), _LETTERS, max_lines=_REMARKS, placeholder=" ...")

@@ -1,4 +1,4 @@
-"""How a result scatters, and what it hangs on."""
+"""Pictures of a result's scatter and of the parameters it depends on."""
 
 from __future__ import annotations
 

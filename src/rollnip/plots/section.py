@@ -177,7 +177,7 @@ def _plain(value: float) -> str:
 
 @dataclass(frozen=True, slots=True)
 class _Frame:
-    """Where points of a roller are drawn.
+    """The position of a roller in the drawing.
 
     ``sign`` is 1 where its z points upwards; ``round`` bends and deforms; ``lift`` is the height
     of the top of its undeformed surface.

@@ -1,4 +1,4 @@
-"""Light and dark, wide and narrow: what all pictures share. No global setting is touched."""
+"""The style that all pictures share: light or dark, wide or narrow. It sets nothing globally."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ class PageLayout(PlaceHolderLayoutEngine):
 
 @dataclass(frozen=True, slots=True)
 class Look:
-    """How to draw on given axes: colours, and a size of type [pt] that suits their width."""
+    """The colours of a drawing, and a size of type [pt] that suits the width of its axes."""
 
     palette: Palette
     size: float
@@ -204,7 +204,7 @@ def figure_of(ax: Axes) -> Figure:
 
 
 def _palette_on(ax: Axes) -> Palette:
-    """Light or dark, by what shows behind the labels: the figure's ground."""
+    """Return the light or the dark palette, after the background of the figure."""
     figure = ax.figure
     while isinstance(figure, SubFigure) and to_rgba(figure.get_facecolor())[3] == 0.0:
         figure = figure.figure
@@ -275,7 +275,7 @@ def legend(ax: Axes, look: Look, handles: list[Artist]) -> None:
 
 
 def below_axes(look: Look) -> float:
-    """What the numbers and the name of the abscissa take [pt]."""
+    """Return the height that the numbers and the name of the abscissa take [pt]."""
     return 14.0 + 1.2 * (look.small + look.size)
 
 
@@ -367,7 +367,7 @@ def mark_direction(ax: Axes, look: Look, solution: Solution) -> None:
 
 
 def view(solution: Solution, side: float) -> tuple[float, float]:
-    """From the contact to ``side`` nip widths outside it, within the profiles [mm]."""
+    """Return the drawn range of x [mm]: ``side`` nip widths beyond the contact, if computed."""
     x, reach = solution.profiles.x, side * solution.nip_width
     first, last = solution.contact[0][0] - reach, solution.contact[-1][1] + reach
     return max(first, float(x[0])), min(last, float(x[-1]))

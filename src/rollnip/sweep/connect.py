@@ -99,7 +99,7 @@ def log_of(path: Path) -> Path:
 
 
 def is_being_written(path: Path) -> bool:
-    """Whether a process writes the database now."""
+    """Return whether a process writes the database now."""
     if not path.with_name(f"{path.name}-lock").is_file():
         return False
     try:
@@ -110,7 +110,7 @@ def is_being_written(path: Path) -> bool:
 
 
 def plain(error: sqlite3.Error) -> str:
-    """What SQLite says, in one clear sentence without its subject."""
+    """Return an error of SQLite as one clear sentence without its subject."""
     text, code = str(error), getattr(error, "sqlite_errorname", "") or ""
     if code.startswith(("SQLITE_BUSY", "SQLITE_LOCKED")) or "locked" in text:
         return "is in use by another process; wait for it to end."

@@ -1,4 +1,4 @@
-"""Who works on the tasks: processes of this machine, or any executor that is given."""
+"""Crews that work on the tasks: processes of this machine, or any executor that is given."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 class Crew(Protocol):
-    """Runs tasks elsewhere.
+    """A crew of workers that run tasks elsewhere.
 
     Attributes
     ----------
@@ -79,7 +79,7 @@ class Processes:
         self._pool = self._started()
 
     def require_alive(self) -> None:
-        """Processes that die break the pool, which tells so itself."""
+        """Do nothing: a pool reports a process that died by itself."""
 
     def abandon(self) -> None:
         """End the processes in the middle of what they do."""
@@ -135,14 +135,14 @@ class Given:
         return self._executor.submit(perform, task)
 
     def restart(self) -> None:
-        """Not ours to do."""
+        """Refuse: the executor belongs to the caller. Raises RollnipError."""
         raise RollnipError("the executor broke; what was finished is kept: run the same again.")
 
     def require_alive(self) -> None:
-        """An executor cannot say it."""
+        """Do nothing: an executor cannot tell whether its workers are alive."""
 
     def abandon(self) -> None:
-        """What runs belongs to the executor; what waits was cancelled."""
+        """Do nothing: running tasks are the executor's, and waiting ones were cancelled."""
 
 
 @contextmanager

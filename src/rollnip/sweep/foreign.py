@@ -1,4 +1,4 @@
-"""What a database of a sweep must be like, for its file may come from anywhere.
+"""Checks of a sweep's database, whose file may come from anywhere.
 
 The file is checked once, when it is opened, and by SQLite itself: a million rows take a few
 seconds and no memory.

@@ -1,4 +1,4 @@
-"""From database to database: shards of a study become one, known cases are taken over."""
+"""Transfers between databases: shards of a study become one, known cases are taken over."""
 
 from __future__ import annotations
 

@@ -67,7 +67,7 @@ def plot_sweep(store: Store, *, style: Style = "light") -> Figure:
 
 
 def _results(store: Store) -> tuple[str, ...]:
-    """Those the study names where it names few, else the usual ones that are in the table."""
+    """Return the results to draw: those of the study if few, else the usual ones in the table."""
     named = store.about.results
     if len(named) <= _MOST_RESULTS:
         return named
@@ -96,7 +96,7 @@ def _head(store: Store, path: str) -> str:
 
 
 def _is_grid(columns: list[Array]) -> bool:
-    """Whether every value of the one meets every value of the other once."""
+    """Return whether every value of one column meets every value of the other once."""
     one, other = (np.unique(column).size for column in columns)
     pairs = np.unique(np.column_stack(columns), axis=0).shape[0]
     return bool(one * other == pairs == columns[0].size)

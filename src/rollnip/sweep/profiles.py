@@ -83,7 +83,7 @@ def _variable(target: Any, name: str, points: int) -> Any:
 
 
 def _write_parameters(store: Store, target: Any, about: About) -> None:
-    """Each parameter that is a number, over all cases; a name in netCDF holds no slash."""
+    """Write each numeric parameter over all cases."""
     numbers = {path: i for i, path in enumerate(about.paths) if about.units[i]}
     columns: dict[str, NDArray[np.float64]] = {
         path: np.full(about.count, np.nan) for path in numbers

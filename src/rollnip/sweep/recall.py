@@ -71,7 +71,7 @@ class Recall:
         self._next = store.size
 
     def __call__(self, tree: Mapping[str, Any]) -> Row:
-        """As `evaluate`, from any thread. Raises RollnipError where nothing can be written."""
+        """Return a case's row, from the database or by solving; safe to call from any thread."""
         start = perf_counter()
         one = ready(lambda: tree)
         if one.refusal is not None or one.name is None:

@@ -1,4 +1,4 @@
-"""One case to one row of numbers; whatever goes wrong with it is a message in the row."""
+"""The row of numbers of one case; whatever goes wrong with it is a message in the row."""
 
 from __future__ import annotations
 
@@ -62,7 +62,7 @@ def evaluate(tree: Mapping[str, Any]) -> Row:
 
 @cache
 def own_kernels() -> KernelCache:
-    """What this process keeps from case to case, for neighbours share coverings."""
+    """Return this process's cache of kernels, which neighbouring cases share."""
     return KernelCache()
 
 

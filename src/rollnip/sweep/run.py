@@ -34,7 +34,7 @@ _LOOK = 0.2  # s, between two looks at whether an interrupt came
 
 
 class OpenCases:
-    """The cases of a study that a database does not hold yet, made into tasks when asked for.
+    """The cases of a study that a database does not hold yet, made into tasks on demand.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ class OpenCases:
         self._seconds = 0.0  # that a case takes, of late
 
     def learn(self, outcomes: list[Outcome]) -> None:
-        """How long cases take."""
+        """Update the mean time that a case takes."""
         for outcome in outcomes:
             change = 0.1 * (outcome.seconds - self._seconds)
             self._seconds = self._seconds + change if self._seconds else outcome.seconds
@@ -153,7 +153,7 @@ class _Flow:
     def _awaited(
         self, futures: Iterable[Future[list[Outcome]]], until: str
     ) -> set[Future[list[Outcome]]]:
-        """Those that are done once one is, or all are; KeyboardInterrupt where one came."""
+        """Return the futures done once one is, or all are. Raises KeyboardInterrupt."""
         left = set(futures)
         while True:
             self.interrupts.check()
@@ -195,7 +195,7 @@ class _Flow:
     def _tried_singly(
         self, suspects: list[Task], running: dict[Future[list[Outcome]], Task]
     ) -> None:
-        """After a crash: one case at a time, so that the one that kills its worker is known."""
+        """Run the suspects of a crash one case at a time, to find the one that kills its worker."""
         suspects += self._collected(running, self._awaited(running, ALL_COMPLETED))
         for task in (single for suspect in suspects for single in suspect.split()):
             self.keep(self._alone(task))
@@ -217,7 +217,7 @@ class _Flow:
             return given_up(task, f"The worker returned nothing: {type(error).__name__}: {error}")
 
     def _finish(self, running: dict[Future[list[Outcome]], Task]) -> None:
-        """Interrupted: start nothing new, keep what ends soon, give up the rest."""
+        """End after an interrupt: start nothing new, keep what ends soon, give up the rest."""
         left = {future for future in running if not future.cancel()}
         end = monotonic() + _PATIENCE
         done, late = wait(left, timeout=0.0)

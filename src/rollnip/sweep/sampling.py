@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, slots=True)
 class Range:
-    """From start to stop, in base units; by equal steps or by equal ratios ("log")."""
+    """A range from start to stop in base units, by equal steps or by equal ratios ("log")."""
 
     start: float
     stop: float

@@ -54,7 +54,7 @@ _COLUMNS = {"about": ("value",), "cases": _NAMES, "profiles": ("position", "data
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class About:
-    """Whose cases a database holds.
+    """The description of the cases that a database holds.
 
     Attributes
     ----------
@@ -80,7 +80,7 @@ class About:
 
     @classmethod
     def of(cls, study: Study, version: str, shard: tuple[int, int] = (1, 1)) -> About:
-        """What the database of a study says."""
+        """Return the description of a study's database."""
         return cls(
             version=version,
             study=study.digest,
@@ -96,7 +96,7 @@ class About:
 
     @classmethod
     def of_search(cls, case: Mapping[str, Any], paths: Sequence[str], version: str) -> About:
-        """What the database of a search says: whose case, and which of its values change."""
+        """Return the description of a search's database: its case and the values that change."""
         return cls(
             version=version,
             study=case_digest(case, "search", *paths),
@@ -194,7 +194,7 @@ class Store:
                 self._move("PASSIVE")
 
     def held(self, *, with_profiles: bool) -> NDArray[np.bool_]:
-        """Which cases need not be solved again, (count,): one byte a case."""
+        """Return a mask (count,) of the cases that need not be solved again."""
         found = np.zeros(self.about.count, dtype=np.bool_)
         query = "SELECT position FROM cases WHERE status != 'lost'"
         if with_profiles:
@@ -209,11 +209,11 @@ class Store:
 
     @property
     def size(self) -> int:
-        """Number of cases it holds."""
+        """The number of cases in the database."""
         return sum(self.tally().values())
 
     def row(self, position: int) -> Row:
-        """The row of one case, as `rollnip.sweep.evaluate` returned it."""
+        """Return the row of one case, as `rollnip.sweep.evaluate` returned it."""
         names = ("status", "message", "status", "geometry", *SCALARS, "warnings")
         wanted = ", ".join(f'"{name}"' for name in names)
         with self._spoken():
@@ -225,7 +225,7 @@ class Store:
         return row | {"converged": row["status"] == "solved"}
 
     def tally(self) -> dict[str, int]:
-        """Number of cases by status."""
+        """Return the number of cases by status."""
         with self._spoken():
             return dict(self._base.execute("SELECT status, count(*) FROM cases GROUP BY status"))
 
@@ -237,7 +237,7 @@ class Store:
         return found
 
     def rows(self, names: Sequence[str]) -> Iterator[tuple[Any, ...]]:
-        """The cases in the order of the study, as tuples of the columns asked for."""
+        """Yield the cases in the order of the study, as tuples of the columns asked for."""
         wanted = ", ".join(f'"{name}"' for name in names)
         with self._spoken():
             yield from self._base.execute(f"SELECT {wanted} FROM cases ORDER BY position")
@@ -307,7 +307,7 @@ class Store:
         self._moved = monotonic()
 
     def _claimed(self, about: About | None) -> About:
-        """What the database holds; it must be of ``about``."""
+        """Return the description, written where it is new; raises where it is another study's."""
         found = self._said()
         if about is None:
             if found is None:

@@ -50,7 +50,7 @@ class Axis:
         return [one if isinstance(one, str) else float(one) for one in picked]
 
     def feed(self, digest: Any) -> None:
-        """Put everything that tells this axis from another into a hash."""
+        """Update a hash with the paths and values of this axis."""
         digest.update(json.dumps([self.paths, len(self)]).encode())
         for column in self.columns:
             if isinstance(column, tuple):
@@ -112,7 +112,7 @@ class Study:
 
     @cached_property
     def digest(self) -> str:
-        """What tells two studies apart: 16 hexadecimal digits of the case and the axes.
+        """The hash of a study: 16 hexadecimal digits of the case and the axes.
 
         Neither the titles nor which results and profiles are wanted are part of it.
         """
@@ -123,7 +123,7 @@ class Study:
 
 
 def case_digest(case: Mapping[str, Any], *words: str) -> str:
-    """What tells a case, its title aside, and what is done with it from others."""
+    """Return the hash of a case, without its title, and of words that say its purpose."""
     digest = _fed_with(case)
     digest.update(json.dumps(words).encode())
     return str(digest.hexdigest()[:_DIGITS])

@@ -1,4 +1,4 @@
-"""From a study file to the study: paths, values and units checked, every fault one clear line."""
+"""The reader of study files: paths, values and units checked, every fault one clear line."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ class _Reader:
         return given, f"{self.source}: case"
 
     def _axes(self) -> tuple[Axis, ...]:
-        """Sampled ranges are one axis, at the place of the first of them; so with each group."""
+        """Return the axes: one for all sampled ranges, one for each group or other parameter."""
         if not self.table.parameters:
             raise self._wrong("parameters: must hold at least one parameter, holds none.")
         parts: dict[str, list[Axis]] = {}
@@ -102,7 +102,7 @@ class _Reader:
         return tuple(self._joined(name, axes) for name, axes in parts.items())
 
     def _kind(self, where: str, parameter: ParameterTable) -> str:
-        """Which of the four kinds of parameters this is: values, range, sampled, table."""
+        """Return the kind of a parameter: values, start (a range with count), sampled or table."""
         given = [name for name in ("values", "start", "table") if _has(parameter, name)]
         if len(given) != 1:
             got = " and ".join(given) or "none"
@@ -218,7 +218,7 @@ class _Reader:
         )
 
     def _check_paths(self, paths: list[str]) -> None:
-        """No parameter may undo what another one sets."""
+        """Check that no parameter sets the same value as another, or a part of it."""
         for path in paths:
             if paths.count(path) > 1:
                 raise self._wrong(f"parameters: {path} must not be there twice.")
@@ -267,7 +267,7 @@ class _Reader:
 
     @contextmanager
     def _placed(self, where: str) -> Iterator[None]:
-        """Put the file and the path of the key before a message."""
+        """Prefix an input error raised inside the block with the file and the key."""
         try:
             yield
         except InvalidInputError as error:

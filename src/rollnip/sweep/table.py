@@ -225,7 +225,7 @@ def _write_csv(store: Store, file: Path) -> None:
 
 
 def _write_parquet(store: Store, file: Path) -> None:
-    """Through a CSV beside it, so that the rows need never be in memory all at once."""
+    """Write Parquet from a temporary CSV beside it, so that the rows are never all in memory."""
     import polars as pl
 
     kinds = _columns(store.about).values()

@@ -1,4 +1,4 @@
-"""What a worker does: solve one case after the other and hand back what is to be kept."""
+"""Tasks of a worker: solve one case after the other and hand back what is to be kept."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from rollnip.sweep.study import Value, case_with
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """Some cases of a study.
+    """A batch of cases of a study.
 
     Attributes
     ----------
@@ -40,13 +40,13 @@ class Task:
     with_profiles: bool = False
 
     def split(self) -> list[Task]:
-        """The same cases, each a task."""
+        """Return the cases as tasks of one case each."""
         return [Task(self.tree, self.paths, (one,), self.with_profiles) for one in self.cases]
 
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What became of one case.
+    """The outcome of one case.
 
     Attributes
     ----------
@@ -72,10 +72,10 @@ def perform(task: Task) -> list[Outcome]:
 
 
 def performed(task: Task) -> Iterator[Outcome]:
-    """The same, each handed out as it ends.
+    """Solve the cases of a task and yield each outcome as it is ready.
 
-    All are read before the first is solved: what reads them then stays in the core's caches, and
-    reading takes a third of the time.
+    All cases are read before the first is solved: the code that reads then stays in the core's
+    caches, and reading takes a third of the time.
     """
     start = perf_counter()
     read = [ready(partial(case_with, task.tree, task.paths, values)) for _, values in task.cases]
@@ -91,7 +91,7 @@ def performed(task: Task) -> Iterator[Outcome]:
 
 
 def given_up(task: Task, why: str) -> list[Outcome]:
-    """Outcomes of a task whose worker did not live to tell."""
+    """Return the outcomes of a task whose worker died."""
     row = without_solution("lost", why)
     return [Outcome(position, values, None, row, 0.0) for position, values in task.cases]
 

@@ -35,7 +35,7 @@ class Together:
         self._threads, self._interrupts = threads, interrupts
 
     def like(self, evaluate: Evaluate) -> Together:
-        """The same with another ``evaluate``, which may call this one."""
+        """Return these workers with another ``evaluate``, which may call the present one."""
         return Together(evaluate, self._threads, self._interrupts)
 
     def each(self, function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:

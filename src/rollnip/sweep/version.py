@@ -1,4 +1,4 @@
-"""Which code solves: two rows belong together only where the same code made both."""
+"""The version of the code that solves: only rows of the same code belong together."""
 
 from __future__ import annotations
 
@@ -30,9 +30,10 @@ def own_version() -> str:
 
 
 def fingerprint(package: Path) -> str:
-    """Some hexadecimal digits of the sources that decide the numbers; empty where there are none.
+    """Return a hash of the sources that decide the numbers; empty where there are none.
 
-    The same on every system: lines may end as they like. Raises OSError where one cannot be read.
+    The hash is the same on every system, whatever the line endings. Raises OSError where a
+    source cannot be read.
     """
     digest = sha256()
     names = sorted(path.relative_to(package).as_posix() for path in package.rglob("*.py"))

@@ -16,7 +16,7 @@ SOURCE = "case"
 
 @dataclass(frozen=True, slots=True)
 class Reply:
-    """What a worker answers: HTTP status, JSON body, hash of the case where there is one."""
+    """The reply of a worker: HTTP status, JSON body, hash of the case where there is one."""
 
     status: int
     body: bytes

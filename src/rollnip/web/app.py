@@ -59,7 +59,7 @@ def application(limits: Limits, host: str) -> tuple[Guard, Desk]:
 
 
 class _Api(FastAPI):
-    """With the case file's own schema among the schemas of the API."""
+    """The application, with the schema of the case file among the schemas of the API."""
 
     def openapi(self) -> dict[str, Any]:
         """The schema of the API."""

@@ -1,4 +1,4 @@
-"""What the bodies of requests and answers are, for checking and for the schema of the API."""
+"""Bodies of requests and answers, for checking and for the schema of the API."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ class Body(BaseModel):
 
 
 class InteriorBody(Body):
-    """Which field inside which roller."""
+    """A request for one field inside one roller."""
 
     case: Case
     roller: Literal["upper", "lower"]
@@ -35,7 +35,7 @@ class InteriorBody(Body):
 
 
 class SweepBody(Body):
-    """One value of the case in several sizes."""
+    """A request for the results at several sizes of one value of the case."""
 
     case: Case
     path: Path
@@ -43,7 +43,7 @@ class SweepBody(Body):
 
 
 class FindBody(Body):
-    """Which value of the case gives the wanted figure."""
+    """A request for the value of the case that gives a wanted figure."""
 
     case: Case
     path: Path
@@ -54,7 +54,7 @@ class FindBody(Body):
 
 
 class KnownBody(Body):
-    """A case whose figures are asked how well they are known."""
+    """A request for how well the figures of a case are known."""
 
     case: Case
     measured: dict[str, list[float]] = Field(
@@ -100,7 +100,7 @@ class Version(BaseModel):
 
 
 class Detail(BaseModel):
-    """What is wrong with one key."""
+    """The error at one key."""
 
     path: str
     message: str

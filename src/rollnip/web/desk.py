@@ -89,7 +89,7 @@ class Desk:
                 raise _refused(error, seconds) from None
 
     async def known(self, body: KnownBody) -> Reply:
-        """What is known about the figures of a case. Raises RefusedError."""
+        """Return what is known about the figures of a case. Raises RefusedError."""
         async with self._gate:
             seconds = 3.0 * self._limits.solve_seconds  # three solves
             try:

@@ -1,4 +1,4 @@
-"""What stands before every route: who may ask, how much, and the headers of every answer."""
+"""The guard before every route: who may ask, how much, and the headers of every answer."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ class Guard:
         return body
 
     def _check_host(self, host: str) -> None:
-        """Another name that leads here (DNS rebinding) would make a foreign page one of ours."""
+        """Refuse a Host header with a foreign name, so that no site passes for this server."""
         name = _host_name(host)
         if name in self._names or (self._any_address and _is_address(name)):
             return
@@ -131,7 +131,7 @@ class _GoneError(Exception):
 
 
 def is_loopback(host: str) -> bool:
-    """Whether an address is reachable from this machine only."""
+    """Return whether an address is reachable from this machine only."""
     name = host.strip("[]")
     return name == "localhost" or (_is_address(name) and ip_address(name).is_loopback)
 
@@ -157,7 +157,7 @@ def _host_name(host: str) -> str:
 
 
 def _check_origin(headers: dict[str, str], scheme: str) -> None:
-    """A foreign page must not drive the solver; programs that are no browser send no Origin."""
+    """Refuse requests from pages of other sites; programs other than browsers send no Origin."""
     origin = headers.get("origin")
     site = headers.get("sec-fetch-site", "same-origin")
     own = {f"{kind}://{headers.get('host', '')}" for kind in (scheme, "https")}
@@ -174,7 +174,7 @@ def _check_type(content_type: str) -> None:
 
 
 def _check_json(body: bytes, depth: int) -> None:
-    """An object without keys given twice, and not nested beyond reason."""
+    """Refuse a body that is no JSON object, gives a key twice or is nested too deeply."""
     try:
         level: list[Any] = [parse_document(body.decode(), "body.json")]
     except UnicodeDecodeError:

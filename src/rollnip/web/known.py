@@ -1,4 +1,4 @@
-"""What is known about a figure besides its numerical error: the model, and the material.
+"""Uncertainty of a figure besides its numerical error: from the model, and from the material.
 
 The model: how far the figures of a geometry were from finite elements at finite strain, on nips of
 the kind that was compared (docs/geometry.md): coverings without a stiff skin, rolling freely or

@@ -1,4 +1,4 @@
-"""What the page offers to begin with: examples and materials, each with its source; units."""
+"""The library of the page: examples and materials, each with its source, and units."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ def _capital(label: str) -> str:
 
 
 def _names_a_file(case: dict[str, Any]) -> bool:
-    """Whether a roller has a measured profile, which the server does not read."""
+    """Return whether a roller has a measured profile, which the server does not read."""
     return any("profile" in case[roller] for roller in ("upper", "lower"))
 
 

@@ -1,4 +1,4 @@
-"""What a request may ask for: sizes, numbers, times."""
+"""Limits of a request: sizes, numbers, times."""
 
 from __future__ import annotations
 

@@ -31,15 +31,15 @@ _RECENT = 4  # as many keys as a worker keeps solutions
 
 
 class OverloadedError(Exception):
-    """More tasks wait than may."""
+    """The error where more tasks wait than are allowed."""
 
 
 class TimeLimitError(Exception):
-    """A task took longer than it may; its worker was stopped and replaced."""
+    """The error of a task that exceeded its time; its worker was stopped and replaced."""
 
 
 class WorkerError(Exception):
-    """A worker ended by itself or could not be started."""
+    """The error of a worker that ended by itself or could not be started."""
 
 
 class _Worker:
@@ -80,7 +80,7 @@ class _Worker:
         return Reply(body=body, **json.loads(head))
 
     async def receive(self) -> bytes:
-        """The next frame."""
+        """Return the next frame."""
         assert self.process.stdout is not None
         try:
             size = HEAD.unpack(await self.process.stdout.readexactly(HEAD.size))[0]

@@ -1,4 +1,4 @@
-"""A log that stays short whatever is sent: the same line some times a minute, then its number."""
+"""A log that stays short whatever is sent: equal lines are written only a few times a minute."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ _SECONDS = 60.0
 
 
 class Quiet(logging.Filter):
-    """Lets the first few of equal lines through in every minute, and says how many were left out.
+    """A log filter that passes the first few of equal lines each minute and marks the last of them.
 
     Parameters
     ----------
@@ -26,7 +26,7 @@ class Quiet(logging.Filter):
         self._counts: dict[tuple[str, str], int] = {}
 
     def filter(self, record: logging.LogRecord) -> bool:
-        """Whether the line is written."""
+        """Return whether the line is written."""
         if self._clock() - self._begun > _SECONDS:
             self._begun = self._clock()
             self._counts.clear()

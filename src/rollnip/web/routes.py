@@ -76,7 +76,7 @@ async def interior(request: Request, body: InteriorBody) -> Response:
 
 @posts.post("/sweep", response_model=dict[str, Any])
 async def sweep(request: Request, body: SweepBody) -> Response:
-    """Every scalar of the result for several sizes of one value of the case."""
+    """All scalars of the result for several sizes of one value of the case."""
     return await _answer(request, _desk(request).sweep(body))
 
 

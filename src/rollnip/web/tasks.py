@@ -1,4 +1,4 @@
-"""What the workers compute: from the body of a request to the body of the answer."""
+"""The tasks of the workers: from the body of a request to the body of the answer."""
 
 from __future__ import annotations
 
@@ -258,7 +258,7 @@ class Tasks:
 
 
 def _dimension(tree: Body, path: str) -> Dimension:
-    """What kind of quantity stands at a path of a case."""
+    """Return the dimension of the quantity at a path of a case."""
     try:
         dimension = dimension_at(tree, path)
     except InvalidInputError as error:
@@ -274,7 +274,7 @@ def _flat(row: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _beyond(case: Case, limits: Limits) -> list[str]:
-    """Lines about what is more than the server solves."""
+    """Return lines about what exceeds the limits of the server."""
     lines = []
     for name, roller in (("upper", case.nip.upper), ("lower", case.nip.lower)):
         lines += _absurd(name, roller)
@@ -297,7 +297,7 @@ def _beyond(case: Case, limits: Limits) -> list[str]:
 
 
 def _absurd(name: str, roller: Roller) -> list[str]:
-    """Lines about sizes that no roller has; numbers beyond them leave the range of floats."""
+    """Return lines about sizes that no roller has; numbers beyond them overflow."""
     sizes = [(f"{name}.radius", roller.radius)] if isfinite(roller.radius) else []
     sizes += [
         (f"{name}.layers[{i}].thickness", layer.thickness) for i, layer in enumerate(roller.layers)
@@ -325,7 +325,7 @@ def _rows(roller: Roller, width: float, count: int) -> Array:
 
 
 def _rounded(values: Array) -> Array:
-    """To six digits of the largest value: a third of the text."""
+    """Return the numbers rounded to six digits of the largest: a third of the text."""
     largest = float(np.max(np.abs(values), initial=0.0, where=np.isfinite(values)))
     if largest == 0.0:
         return values
@@ -333,7 +333,7 @@ def _rounded(values: Array) -> Array:
 
 
 def _numbers(values: Array) -> Any:
-    """Nested lists; None where a value is not finite."""
+    """Return nested lists; None where a value is not finite."""
     if np.all(np.isfinite(values)):
         return values.tolist()
     out = values.astype(object)
@@ -342,7 +342,7 @@ def _numbers(values: Array) -> Any:
 
 
 def _depth(value: Any) -> int:
-    """How deep tables and lists are nested in a value."""
+    """Return how deep tables and lists are nested in a value."""
     parts = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
     return 1 + max(map(_depth, parts), default=-1) if isinstance(value, dict | list) else 0
 

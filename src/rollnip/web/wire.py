@@ -17,7 +17,7 @@ _FILES = 64  # of the server itself and of the files that it serves
 
 
 def connections_at_once(limits: Limits) -> int:
-    """So many connections that a file descriptor is always left; raises the soft limit of them."""
+    """Return the number of connections allowed, so that a file descriptor is always left."""
     try:
         import resource
     except ImportError:  # no such limit on this system
@@ -82,7 +82,7 @@ class _Connection(H11Protocol):
 
     @property
     def is_waiting(self) -> bool:
-        """Whether no whole head of a request is there that is not answered yet."""
+        """True while no complete head of a request waits for its answer."""
         return self.conn.their_state is h11.IDLE
 
     def drop(self) -> None:

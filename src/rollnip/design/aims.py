@@ -11,7 +11,7 @@ from rollnip._units import format_quantity
 from rollnip.design.quantities import QUANTITIES, read_result, require_quantity
 
 _DIGITS = 5
-_ACTIVE = 1e-3  # of the limit: nearer than this, a limit decides
+_ACTIVE = 1e-3  # relative distance from a limit below which the limit is active
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,7 @@ from typing import Any
 from scipy.optimize import brentq, minimize_scalar
 
 _GEOMETRIC = 10.0  # an interval of positive numbers as wide as this is parted by ratios
-_SHARPEST = 1e-6  # of the interval: a change over less is a jump
+_SHARPEST = 1e-6  # share of the interval; a change over less is a jump
 _MOST_STEPS = 60
 _TURN_STEPS = 8
 _REACH_STEPS = 6
@@ -52,7 +52,7 @@ class Curve:
         self._solve = solve
         self._low, self._high = low, high
         self._is_geometric = low > 0.0 and high >= _GEOMETRIC * low
-        self._points: dict[float, Point] = {}  # by share of the interval, 0 to 1
+        self._points: dict[float, Point] = {}  # keys: share of the interval, 0 to 1
 
     @property
     def points(self) -> tuple[Point, ...]:

@@ -17,7 +17,7 @@ from rollnip.design.quantities import read_parameter
 Array = NDArray[np.float64]
 Number = float | str
 
-_LEAST_SHARE = 1e-6  # of a distribution between its ends
+_LEAST_SHARE = 1e-6  # least probability between the ends of a truncated distribution
 _EDGE = 1e-12  # probabilities closer to 0 and 1 than this are not drawn
 
 
@@ -176,7 +176,7 @@ def hypercube(distributions: Sequence[Any], count: int, scores: Array | None, se
     scores :
         (d, d) correlations of the normal scores, positive definite; None: independent. The
         samples of each parameter stay one to each of n strata: they are only paired otherwise.
-    seed : of the random numbers.
+    seed : seed of the random numbers.
 
     Returns
     -------

@@ -23,11 +23,11 @@ from rollnip.sweep import evaluate as evaluated
 
 Evaluate = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 
-_DIGITS = 8  # of a value found; what follows is far below the error
+_DIGITS = 8  # digits of a value found; further ones are far below the error
 _SHOWN = 5
 _NOISE = 5.0  # errors: results that differ by less say little about a slope
 _LEAST, _MOST = 3, 200
-_FLAT = 1e-9  # of the result: that a parameter does not touch it
+_FLAT = 1e-9  # relative change of the result below which a parameter has no influence
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -36,13 +36,13 @@ class Found:
 
     Attributes
     ----------
-    path, unit : the parameter.
+    path, unit : path and unit of the parameter.
     quantity, quantity_unit, wanted : the result, and its wanted value.
     low, high : limits of the parameter.
     value : the parameter that gives the wanted result (the lowest of them); None where none does.
-    error : of ``value``: the solver's estimate of the error of the result, and its distance from
-        the wanted value, over the slope; None where there is no estimate. The model's own error
-        is not in it: see ``scalars["warnings"]``.
+    error : estimated error of ``value``: the solver's estimate of the error of the result, and
+        the distance of the result from the wanted value, over the slope; None where there is no
+        estimate. The model's own error is not included: see ``scalars["warnings"]``.
     reached : the result at ``value``, by a solve of its own.
     reached_error : its estimated error.
     others : further values within the limits that give the wanted result.
@@ -50,7 +50,7 @@ class Found:
     bracket : the nearest two cases on either side of ``value``; None at a limit.
     points : every case solved on the way, (parameter, result), by parameter; None: not solved.
     failures : (parameter, message) of those that were not solved.
-    solves : how many cases were solved, that at ``value`` included.
+    solves : number of solved cases, the one at ``value`` included.
     scalars : all results at ``value``, as `rollnip.sweep.evaluate` returns them; empty without.
     case : the case with ``value``; the case as it was where there is none.
     message : what was found, in one or a few sentences.
@@ -136,7 +136,7 @@ def find(
     Parameters
     ----------
     case : tree of a case file; stays as it was.
-    path : of the parameter, such as ``nip.load`` or ``upper.layers[0].thickness``.
+    path : path of the parameter, such as ``nip.load`` or ``upper.layers[0].thickness``.
     quantity : name of the result, such as ``nip_width``; see ``QUANTITIES``.
     wanted, low, high : numbers in base units (mm, N, MPa, s) or texts with their unit.
     tolerance : how near the result must come, as a share of the wanted value (where that is 0:

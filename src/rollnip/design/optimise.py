@@ -25,8 +25,8 @@ from rollnip.io import with_values
 from rollnip.sweep import evaluate as evaluated
 
 _SHOWN = 5
-_AT_BOUND = 2e-3  # of the interval
-_AS_GOOD = 0.01  # of the objective
+_AT_BOUND = 2e-3  # share of the interval
+_AS_GOOD = 0.01  # relative change of the objective
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -79,13 +79,13 @@ class Optimum:
     ----------
     is_feasible : whether the case keeps all limits, by a solve of its own.
     is_finished : whether all searches ended by their own tolerance; False: the solves ran out.
-    searches : where each search ended.
+    searches : the end of each search.
     chosen : the parameters.
     quantity, unit, sense : the objective; "minimise" or "maximise".
     value, error : the objective at the optimum, by a solve of its own; the solver's estimate of
         its error, None without one.
     limits : how each limit stands; of an infeasible answer, the case nearest to keeping them.
-    solves : how many cases were solved, the last included.
+    solves : number of solved cases, the last included.
     failures : (values by path, message) of those that could not be.
     trials : (values by path, objective, whether all limits are kept) of every solved case in turn.
     scalars : all results at the optimum, as `rollnip.sweep.evaluate` returns them.

@@ -17,7 +17,7 @@ from rollnip.plots import plot_distribution, plot_shares
 from rollnip.plots.style import FULL, MM, Style, palette_of
 
 _DIGITS = 5
-_ROUNDING = 1e-9  # of a value: an error as small is none
+_ROUNDING = 1e-9  # relative error that counts as none
 _ROW = 78.0  # mm, height of the picture of one result
 _SHOWN = (
     "load", "approach", "nip_width", "peak_pressure", "mean_pressure", "traction", "creepage",
@@ -71,7 +71,7 @@ def tolerance_report(found: Tolerance, title: str = "") -> str:
 
 
 def plot_tolerance(found: Tolerance, *, style: Style = "light") -> Figure:
-    """Draw the distribution of every result, and beside it what it hangs on.
+    """Draw the distribution of every result, and beside it the influence of each parameter.
 
     Raises
     ------

@@ -32,7 +32,7 @@ class ResultTable(ABC):
     Attributes
     ----------
     source : name of the file, for messages.
-    names, units : of the columns, from their heads ``name [unit]``; an empty unit where none.
+    names, units : those of the columns, from their heads ``name [unit]``; an empty unit where none.
     """
 
     source: str

@@ -25,9 +25,9 @@ class Sampling:
     sobol :
         0, or a power of two n from 8 on: Sobol indices too, from n (d + 2) more cases with d
         parameters.
-    probabilities : of the quantiles, each between 0 and 1.
-    confidence : of all intervals.
-    seed : of the random numbers; the same seed gives the same answer.
+    probabilities : probabilities of the quantiles, each between 0 and 1.
+    confidence : confidence level of all intervals.
+    seed : seed of the random numbers; the same seed gives the same answer.
 
     Raises
     ------
@@ -76,7 +76,7 @@ class Share:
 
     Attributes
     ----------
-    path : of the parameter.
+    path : path of the parameter.
     coefficient : standardised regression coefficient; its sign is that of the influence.
     first, total : Sobol indices (value, low, high); None where they were not computed.
     """
@@ -94,9 +94,9 @@ class Scatter:
     Attributes
     ----------
     quantity, unit : the result.
-    mean, deviation, least, most : of the samples.
+    mean, deviation, least, most : mean, standard deviation and extremes of the samples.
     quantiles : with intervals from order statistics, good for any distribution.
-    shares : of each parameter.
+    shares : influence of each parameter.
     linear : share of the variance that the regression explains, R^2: below some 0.9 its
         coefficients do not tell the whole story.
     values : (n,) of the solved samples.
@@ -121,7 +121,7 @@ class Chance:
     Attributes
     ----------
     limits : the specification, one limit or several at once.
-    text : it in words.
+    text : the specification in words.
     value : share of the solved samples that meet it.
     low, high : its interval (Clopper & Pearson); a sample that was not solved counts as a miss
         in ``low`` and as met in ``high``.
@@ -144,7 +144,7 @@ class Tolerance:
     ----------
     scatters : a distribution for each result.
     chances : for each specification.
-    together : that all specifications are met at once; None without any.
+    together : probability that all specifications are met at once; None without any.
     paths, units : the parameters.
     samples : (n, d) solved samples of the parameters, in base units.
     count, confidence, seed : as asked for.

@@ -22,12 +22,12 @@ _B = TypeVar("_B")
 _INSIDE = 1e-5  # share of a limit by which the search stays within it: room for its own last digits
 _UNSOLVED = 1e3  # excess of a case without results: worse than any other
 _GLOBAL = 0.4  # share of the solves for the global part
-_MEMBERS = 6  # of the population, for each parameter
+_MEMBERS = 6  # members of the population for each parameter
 _FEWEST = 12
 _FIRST_RADIUS = 0.1
-_APART = 0.25  # of an interval: how far one start of a search is from the others
+_APART = 0.25  # least distance between the starts, as a share of an interval
 _LEAST_SOLVES, _MOST_SOLVES = 20, 100_000
-_SOLVES, _SOLVES_EACH = 150, 100  # by default: these, and so many for each parameter
+_SOLVES, _SOLVES_EACH = 150, 100  # default: a fixed number, and more for each parameter
 
 
 class Each(Protocol):
@@ -52,7 +52,7 @@ class Search:
     solves : at most so many cases, 20 to 100000; None: 150, and 100 for each parameter.
     starts : searches by COBYQA, 1 to 20, each from a place of its own.
     tolerance : how closely the parameters are found, as a share of their intervals.
-    seed : of the random numbers; the same seed gives the same answer.
+    seed : seed of the random numbers; the same seed gives the same answer.
 
     Raises
     ------
@@ -201,9 +201,9 @@ def search_cube(
 
     Parameters
     ----------
-    judge : what a place in the cube is worth.
+    judge : function that returns the trial at a place in the cube.
     start : (count,) a first place; None: none.
-    count : of the dimensions.
+    count : number of dimensions.
     search : how.
     each : calls a function with several items, perhaps at the same time.
     """

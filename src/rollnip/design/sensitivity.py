@@ -81,7 +81,7 @@ def sobol_places(count: int, dimensions: int, seed: int) -> Array:
     ----------
     count : n, a power of two.
     dimensions : d, parameters.
-    seed : of the scrambling.
+    seed : seed of the scrambling.
 
     Returns
     -------
@@ -110,8 +110,8 @@ def sobol_shares(values: Array, count: int, *, confidence: float, seed: int) -> 
     ----------
     values : (n (d + 2),) results, all finite.
     count : n.
-    confidence : of the intervals, such as 0.95; percentiles of resampled indices.
-    seed : of the resampling.
+    confidence : confidence level of the intervals, such as 0.95; percentiles of resampled indices.
+    seed : seed of the resampling.
     """
     parts = values.reshape(-1, count)
     generator = np.random.default_rng(seed)

@@ -30,7 +30,7 @@ class DmaData:
     temperature : (n,) [degC].
     storage, loss : (n,) real and imaginary part of E* [MPa].
     poisson : with which shear moduli were, or would be, converted.
-    source : where they come from.
+    source : name of the file or other source.
     rows : where each measurement stands in the source, for messages; empty where it is not known.
 
     Raises
@@ -117,7 +117,7 @@ def read_dma(
     Parameters
     ----------
     path :
-        of the file.
+        path of the file.
     modulus :
         "E" or "G", where the heads do not say which was measured.
     poisson :

@@ -30,8 +30,8 @@ class ReadDeck:
     Attributes
     ----------
     material : with its shift law, at the reference temperature, where the deck has one.
-    format : of the deck.
-    notes : what was taken for granted, in plain words.
+    format : format of the deck.
+    notes : assumptions made in reading, in plain words.
     """
 
     material: Prony
@@ -66,9 +66,9 @@ def read_deck(
     Parameters
     ----------
     path :
-        of the file; its content tells the format.
+        path of the file; its content tells the format.
     unit :
-        of moduli in a deck, such as "MPa": decks carry none. Times are in seconds.
+        unit of moduli in a deck, such as "MPa": decks carry none. Times are in seconds.
     poisson :
         where the file has none.
 

@@ -98,11 +98,11 @@ def frequency_warning(
     Parameters
     ----------
     fit :
-        of the material.
+        fit of the material.
     solution :
-        of the nip.
+        solution of the nip.
     temperature :
-        of the material in it [degC]; the reference by default.
+        temperature of the material in it [degC]; the reference by default.
     """
     low, high = valid_range(fit, temperature)
     frequency = nip_frequency(solution)

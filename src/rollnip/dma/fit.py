@@ -26,11 +26,11 @@ from rollnip.materials.shift import checked_temperature
 Array = NDArray[np.float64]
 Kind = Literal["prony", "fractional-zener"]
 
-_DIGITS = 6  # of the numbers of the material
+_DIGITS = 6  # digits of the numbers of the material
 _MOST_ISOTHERMS = 200  # beyond it free shifts take too long to be worth it
 _FAR, _MANY = 0.15, 4.0  # decades, standard errors: a free shift that departs from the law
 _NEAR_POLE = 3.0  # K
-_VAGUE = 0.5  # of a constant: a standard error that says it is not told
+_VAGUE = 0.5  # relative standard error of a constant that is not determined
 _NO_PLATEAU = 1e-3  # of the least storage modulus, where the data bound the relaxed one only
 _SOFTEST = 1e-9  # MPa: the least modulus a material may have
 _REWEIGHED = 2  # times the shifts are searched again with weights of a robust fit
@@ -51,7 +51,7 @@ class DmaMethod:
     vertical :
         "none"; "entropic": moduli in proportion to the absolute temperature; "free".
     terms :
-        of the Prony series; by default one and a half to three a decade and as smooth as
+        number of terms of the Prony series; by default 1.5 to 3 a decade and as smooth as
         cross-validation asks.
     width :
         temperatures this near [K] are one isotherm.
@@ -105,7 +105,7 @@ class DmaFit:
     free_errors : (m,) standard errors of those shifts [decades].
     scatter : relative scatter of storage and loss modulus between neighbouring frequencies; None
         where the isotherms are too short to tell it.
-    quality : how far the material lies from the data.
+    quality : deviations of the material from the data.
     frequency_range : lowest and highest frequency [Hz] of the data at the reference temperature.
     temperature_range : lowest and highest temperature measured [degC].
     crossvalidation : (k,) mean squares of what was left out, for each spectrum tried; or empty.

@@ -139,10 +139,10 @@ class Head:
 
     Attributes
     ----------
-    text : as it stands there.
+    text : the head as it is written.
     quantity : measured; None where it is none that is needed.
     kind : E or G, where the head says which modulus.
-    unit : as written; None where the head says none.
+    unit : the unit as written; None where the head says none.
     angular : whether it is a frequency in radians by its name.
     """
 

@@ -18,7 +18,7 @@ Vertical = Literal["none", "entropic", "free"]
 
 _ZERO = 273.15  # degC in K
 _FLOOR = 0.01  # relative error of a modulus that clamps and dimensions leave to any instrument
-_LEAST_WINDOWS = 8  # of four neighbours, to tell the scatter
+_LEAST_WINDOWS = 8  # windows of four neighbours that an estimate of scatter needs
 _MEAN = 1.2533  # standard deviation over the mean of the sizes, for a normal distribution
 _MAD = 1.4826  # standard deviation over the median of the sizes, for a normal distribution
 _OUTLYING = 3.0  # standard deviations: residuals this large count a quarter

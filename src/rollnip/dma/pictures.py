@@ -16,7 +16,7 @@ from rollnip.materials import creep_compliance, relaxation_modulus
 from rollnip.plots.style import FULL, MM, Look, Style, label, palette_of, prepare
 
 _HEIGHT = 150.0  # mm
-_MARK = 0.32  # of the size of type
+_MARK = 0.32  # size of a mark over the size of type
 
 
 def plot_dma(fit: DmaFit, style: Style = "light") -> Figure:

@@ -33,8 +33,8 @@ class Quality:
 
     Attributes
     ----------
-    rms : of storage and loss modulus, over all rows.
-    largest : of storage and loss modulus, with its sign.
+    rms : rms deviation of storage and loss modulus, over all rows.
+    largest : largest deviation of storage and loss modulus, with its sign.
     rows : in which row of the data each of the largest stands.
     outlying : rows that depart by more than 20 % and five standard deviations, largest first.
     """
@@ -82,7 +82,7 @@ def quality_warnings(
     Parameters
     ----------
     quality :
-        of the material.
+        quality of the material.
     noise :
         relative scatter of neighbouring values of storage and loss; None where it is not told.
     best :

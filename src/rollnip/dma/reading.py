@@ -41,17 +41,17 @@ class ReadTable:
 
     Attributes
     ----------
-    name : of the sheet or step, with its number.
-    line : of its heads.
-    heads : of all columns.
+    name : name of the sheet or step, with its number.
+    line : line of its heads.
+    heads : heads of all columns.
     used : index of the column of each quantity that is used.
     values : (n,) of each quantity in base units: Hz, degC, MPa, rad, s, 1/MPa.
     rows : where each of the n rows stands.
-    kind : of measurement; None where the table cannot be used.
+    kind : kind of measurement; None where the table cannot be used.
     modulus : E or G, where the heads say it.
     notes : what was taken from elsewhere, or left out.
     problem : why the table is none of measurements that are known; empty where it is.
-    fault : what is wrong in a table that otherwise is one.
+    fault : the error in a table that cannot be used.
     """
 
     name: str
@@ -133,7 +133,7 @@ def read_tables(
     Parameters
     ----------
     path :
-        of the file.
+        path of the file.
     temperature, frequency :
         of all measurements [degC, Hz], where there is no such column.
     sheet :

@@ -32,7 +32,7 @@ _ENERGIES = (30.0, 60.0, 100.0, 160.0, 240.0, 400.0)  # kJ/mol tried
 _LARGEST = 30.0  # decades of shift at a start
 _LARGEST_LEVEL = 3.0  # factor on the moduli of an isotherm
 _STEP = 1e-4
-_FOLDS, _LEAST_FOLDS = 10, 4  # of isotherms left out together
+_FOLDS, _LEAST_FOLDS = 10, 4  # groups of isotherms left out together
 _LN10 = log(10.0)
 
 
@@ -43,8 +43,8 @@ class ShiftFit:
     Attributes
     ----------
     law : with its constants; None where there is one temperature only.
-    names : of the constants.
-    values, standard_errors : of the constants (C1 and C2 [K], or the energy [kJ/mol]).
+    names : names of the constants.
+    values, standard_errors : constants and their errors (C1 and C2 [K], or the energy [kJ/mol]).
     master : the data shifted by it.
     """
 

@@ -17,9 +17,9 @@ _TOLD = 1e-6  # size of a column over the largest, below which the data do not t
 # Terms at most, and at least: evenly spaced equal terms ripple in the loss modulus by the part
 # 2/cosh(pi^2/ln spacing), 5 % with one a decade, .6 % with one and a half.
 _PER_DECADE, _LEAST_PER_DECADE = 3.0, 1.5
-_MARGIN = 10.0**0.5  # by which relaxation times reach beyond the data
+_MARGIN = 10.0**0.5  # factor by which relaxation times reach beyond the data
 _MOST_TERMS = 80
-_STRENGTHS = tuple(float(s) for s in np.geomspace(1e-3, 1e3, 10))  # of the smoothing, tried
+_STRENGTHS = tuple(float(s) for s in np.geomspace(1e-3, 1e3, 10))  # smoothing strengths
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -33,7 +33,7 @@ class Reduced:
         where one of these was measured.
     errors : relative standard errors of storage and loss.
     weights : (n,) by which the residuals of a measurement are multiplied; all 1 by default.
-    kind : of measurement.
+    kind : kind of measurement.
     """
 
     omega: Array

@@ -36,9 +36,9 @@ class RawTable:
 
     Attributes
     ----------
-    name : of the sheet or step, empty where it has none.
-    line : of its heads.
-    heads : of all columns.
+    name : name of the sheet or step, empty where it has none.
+    line : line of its heads.
+    heads : heads of all columns.
     rows : cells of each row of numbers.
     lines : line of each.
     temperature, frequency : (value [degC, Hz], line) said above the table; None where none is.
@@ -200,7 +200,7 @@ def column(table: RawTable, index: int, *, comma: bool, source: str) -> Array:
     comma :
         whether a comma is a decimal one in this file.
     source :
-        of the file, for messages.
+        name of the file, for messages.
 
     Raises
     ------

@@ -32,7 +32,7 @@ class TimeData:
     values : (n,) [MPa] of a relaxation modulus, [1/MPa] of a compliance.
     kind : "relaxation" or "creep".
     poisson : with which shear data were, or would be, converted.
-    source : where they come from.
+    source : name of the file or other source.
     rows : where each measurement stands in the source, for messages; empty where it is not known.
 
     Raises

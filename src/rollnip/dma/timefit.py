@@ -19,7 +19,7 @@ from rollnip.materials import Prony, creep_compliance, relaxation_modulus
 
 Array = NDArray[np.float64]
 
-_LEAST_PART = 1e-9  # of the largest, below which a term is none
+_LEAST_PART = 1e-9  # share of the largest term below which a term is dropped
 _SMALLEST = 1e-3  # of the least value measured: a relaxed modulus or instantaneous compliance
 _FLAT = 0.9  # values a decade before the end over those at the end: relaxation has ended
 

@@ -44,7 +44,7 @@ from rollnip.model import Geometry, Model
 
 Array = NDArray[np.float64]
 
-_MOST_TURNS = 8  # of fit and noise
+_MOST_TURNS = 8  # rounds of fitting and estimating the noise
 _STILL = 0.02  # relative change of the noise of the sets against each other
 _IMPROBABLE = 0.01  # chi-square below this probability: the errors given are too small
 
@@ -56,8 +56,8 @@ class LeastSquares:
     Parameters
     ----------
     geometry, tolerance :
-        of every solve; None: as the case says. A fit needs hundreds of solves: "curved" or
-        "linear" take a fraction of the time of "finite".
+        geometry and tolerance of every solve; None: as the case says. A fit needs hundreds of
+        solves: "curved" or "linear" take a fraction of the time of "finite".
     tried :
         starts at which the misfit is computed, besides the one given.
     followed :
@@ -65,7 +65,7 @@ class LeastSquares:
     step :
         relative step of the derivatives, between 1e-3 and 0.1.
     confidence :
-        of the intervals.
+        confidence level of the intervals.
     profile :
         whether intervals are also computed from profiles of the likelihood.
     loss :

@@ -90,7 +90,7 @@ class Forward:
         self.unverified = 0
         self.refused = ""
         self.is_verified = True  # all nips of the last prediction
-        self.fallbacks = 0  # of them, solved with another geometry than wanted
+        self.fallbacks = 0  # solves with another geometry than wanted
         self._on_solve = on_solve
         self._workforce = workforce
 

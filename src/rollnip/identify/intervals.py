@@ -13,9 +13,9 @@ from rollnip.identify.search import Local, Misfit
 Array = NDArray[np.float64]
 
 _MOST_ENDS = 8  # tries for one end of an interval
-_MOST_STEPS = 6  # of the other unknowns, at one value of this one
+_MOST_STEPS = 6  # steps of the other unknowns at one value of this one
 _CLOSE = 0.01  # relative, of the distance at which an end is taken
-_LITTLE = 0.01  # of the wanted rise: a smaller gain ends the search of the others
+_LITTLE = 0.01  # share of the wanted rise; a smaller gain ends the search of the others
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +24,7 @@ class End:
 
     Attributes
     ----------
-    coordinate : of the unknown, in the search's scale.
+    coordinate : coordinate of the unknown, in the search's scale.
     is_bound : whether it is the bound: the data alone do not end the interval.
     gain : by how much the sum of squares fell below that of the fit on the way; 0 as it should.
     """
@@ -82,7 +82,7 @@ def profile_ends(
     Parameters
     ----------
     spread : (p, p) covariance, for the first guess.
-    index : of the unknown.
+    index : index of the unknown.
     """
     return (
         _profile_end(misfit, best, spread, index, -quantile),

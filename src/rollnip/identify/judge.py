@@ -13,9 +13,9 @@ from rollnip.identify.unknowns import Unknown, outer_values
 
 Array = NDArray[np.float64]
 
-_AT_BOUND = 1e-3  # of the range
+_AT_BOUND = 1e-3  # share of the range
 _TWINS = 0.98  # correlation from which two unknowns are said not to be told apart
-_NO_EFFECT = 0.1  # of the tolerance: changes of predictions that may be errors of the solver
+_NO_EFFECT = 0.1  # share of the tolerance; smaller changes may be errors of the solver
 _VAGUE = 0.5  # of the range, or relative: intervals as long as this say little
 _IMPROBABLE = 0.01
 _TOO_GOOD = 1e-4

@@ -15,8 +15,8 @@ from rollnip.identify.search import Local
 
 Array = NDArray[np.float64]
 
-_MEDIAN = 0.6745  # of the sizes of normal deviates
-_GUESS = 0.02  # of the root mean square of the values, before anything is known
+_MEDIAN = 0.6745  # median of the sizes of standard normal deviates
+_GUESS = 0.02  # first guess of the errors over the root mean square of the values
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,7 +27,7 @@ class Noise:
     ----------
     errors : (n,) standard error of each value, for each set.
     estimated : whether they were estimated, for each set.
-    degrees : of freedom that the worst estimate rests on; None where none was estimated.
+    degrees : degrees of freedom that the worst estimate rests on; None where none was estimated.
     """
 
     errors: tuple[Array, ...]

@@ -16,8 +16,8 @@ from rollnip.identify.search import Misfit
 
 Array = NDArray[np.float64]
 
-_LARGE = 0.05  # of the values' root mean square: a misfit that is said
-_LITTLE = 0.5  # of the variance: a fit that explains less is said
+_LARGE = 0.05  # share of the values' root mean square; a larger misfit is reported
+_LITTLE = 0.5  # share of the variance; a fit that explains less is reported
 _IMPROBABLE = 0.01
 _FEWEST_RUNS = 8  # values of which residuals are looked through for runs
 
@@ -31,7 +31,7 @@ def quality_warnings(
     ----------
     jacobian, residuals : (n, p) and (n,), straight, over standard errors, priors last.
     noise : the standard errors.
-    degrees : of freedom.
+    degrees : degrees of freedom.
     """
     said = _no_freedom(degrees)
     first = 0

@@ -24,14 +24,14 @@ class Estimate:
 
     Attributes
     ----------
-    path : where it stands in the case.
+    path : path of the value in the case.
     value : the best fit.
     standard_error : from the covariance.
     low, high : interval from the covariance, in the scale of the search, cut at the bounds.
     log : whether the search, and so the interval, is on a logarithmic scale.
     profile : interval from the profile of the likelihood; None where none was computed.
     open_ends : whether the lower, the upper end of ``profile`` is only the bound.
-    bounds : of the search, lower and upper.
+    bounds : bounds of the search, lower and upper.
     bound : "low" or "high" where the best fit lies at that bound, else None.
     """
 
@@ -58,12 +58,12 @@ class FittedSet:
 
     Attributes
     ----------
-    name, quantity, unit : of what was measured.
+    name, quantity, unit : name of the set, measured quantity and its unit.
     against : path of what the values were measured at, or ``x``.
     at, measured, predicted : (n,).
     standard_error : (n,) given or estimated.
     estimated : whether it was estimated.
-    weight : of the set.
+    weight : weight of the set.
     prediction_error : (n,) standard error of each prediction, from those of the unknowns.
     """
 
@@ -130,10 +130,10 @@ class Fit:
     singular_values : (p,) of the Jacobian scaled with the bounds, largest first.
     sets : measurements beside predictions.
     chi_square : sum of squared residuals over squared standard errors, without weights.
-    degrees : of freedom.
-    probability : of so large a chi-square; None where standard errors were estimated.
+    degrees : degrees of freedom.
+    probability : probability of so large a chi-square; None where standard errors were estimated.
     widened : factor on the intervals where chi-square is improbably large, else 1.
-    confidence : of the intervals.
+    confidence : confidence level of the intervals.
     quantile : standard errors from a value to the end of its interval.
     loss : how deviations counted, "squares" or "huber".
     spread : (p, p) covariance of the unknowns in the scale of the search: of the logarithm where

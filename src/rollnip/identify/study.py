@@ -54,7 +54,7 @@ class FitStudy:
 
     Attributes
     ----------
-    title : of the file.
+    title : title of the file.
     case : the tree of the case.
     unknowns : what is to be found.
     cost : the measurements.

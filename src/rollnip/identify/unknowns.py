@@ -22,7 +22,7 @@ class Prior:
     value :
         in base units.
     standard_error :
-        of that value, in the same unit; positive.
+        standard error of that value, in the same unit; positive.
 
     Raises
     ------

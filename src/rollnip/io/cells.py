@@ -40,7 +40,7 @@ class Sheet:
 
     Attributes
     ----------
-    name : of the sheet; empty for a text file.
+    name : name of the sheet; empty for a text file.
     rows : cells of each row that is not empty; texts without blanks around them, or numbers.
     lines : line of the file, or row of the sheet, of each.
     """
@@ -57,7 +57,7 @@ class Cells:
     Attributes
     ----------
     source : name of the file.
-    sheets : of a workbook; one for a text file.
+    sheets : sheets of a workbook; one for a text file.
     encoding, separator : in words; empty for a workbook.
     """
 

@@ -45,8 +45,8 @@ class Columns:
     Attributes
     ----------
     source : name of the file, for messages.
-    names : as in the head, without the unit.
-    units : as in the head, empty where there is none.
+    names : names in the heads, without the unit.
+    units : units in the heads, empty where there is none.
     rows : (n, len(names)) cells; an empty one is "".
     lines : (n,) line of the file, or row of the sheet, each row stands in.
     comments : (line, text) behind each hash, without it.
@@ -75,7 +75,7 @@ class Columns:
 
         Parameters
         ----------
-        name : of the column.
+        name : name of the column.
         dimension : what its unit must be; without a unit in the head, cells are in base units
             or carry their own.
 
@@ -159,7 +159,7 @@ def read_columns(path: str | Path, *, sheet: str | None = None) -> Columns:
     path :
         the file; .xlsx, .xls, .xlsb, .ods (with the extra ``rollnip[tables]``) or text.
     sheet :
-        of a workbook; the first by default.
+        sheet of a workbook; the first by default.
 
     Raises
     ------

@@ -92,7 +92,7 @@ class Readings:
 
     Attributes
     ----------
-    source : where they come from, for messages.
+    source : name of the file, for messages.
     settings : what the file says of the instrument.
     simulated : whether the file says that it was simulated.
     x : (n,) [mm].

@@ -29,7 +29,7 @@ class Fit:
 
     Attributes
     ----------
-    value : of least squares.
+    value : least-squares value.
     error : its standard error.
     low, high : confidence interval.
     """
@@ -51,14 +51,14 @@ class Comparison:
     strain_error : (m,) its standard error, that of V left out (it moves all points together).
     computed : (m,) averaged strain of the solution there.
     curve : the solution's strain over x, averaged over the volume.
-    shift : by which measured positions are too large [mm].
+    shift : amount by which measured positions are too large [mm].
     speed : circumferential speed of the roller [mm/s].
     rms : root mean square of measured less computed strain.
     noise : root mean square that the standard errors alone explain.
     chi_square : sum of squared deviations over variances.
     degrees : points less 2.
-    probability : of a chi-square this large or larger where the model is right.
-    confidence : of the intervals.
+    probability : probability of a chi-square this large or larger where the model is right.
+    confidence : confidence level of the intervals.
     contact : trailing and leading edge of the solution [mm].
     left_out : positions where the velocity changes too much across the volume, not used.
     """

@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 _BAND = 0.5  # searched about the expected velocity, relative
 _SIDE = 0.75  # middle of either part from the burst's, in envelope times
 _PART = 0.5  # window of either part, in envelope times
-_SIGMAS = 4.0  # by which the parts may differ through noise alone
+_SIGMAS = 4.0  # standard deviations by which the parts may differ through noise alone
 _FAIR = 0.005  # and by their place in a velocity that changes across the volume, relative
 _LEAST_SHARED = 5  # bursts whose median change is that of the velocity across the volume
 
@@ -30,7 +30,7 @@ class Burst:
 
     Attributes
     ----------
-    time : of its middle, from the first sample [s].
+    time : time of its middle, from the first sample [s].
     frequency : [Hz].
     snr : power of the tone over power of the noise, at its peak.
     scatter : standard deviation expected of the frequency from noise [Hz].
@@ -96,7 +96,7 @@ def detect_bursts(
     peaks, _ = find_peaks(smooth, height=threshold * floor, distance=max(1, int(2.0 * width)))
     tried = [_tried(samples, instrument, int(p), speed, band, noise) for p in peaks]
     whole = [attempt for attempt in tried if attempt is not None and attempt.snr >= least_snr]
-    # what all bursts share is the velocity's change across the volume
+    # the median difference of all bursts is the velocity's change across the volume
     change = float(np.median([a.change for a in whole])) if len(whole) >= _LEAST_SHARED else 0.0
     fair = _FAIR * abs(speed) / instrument.fringe_spacing
     return [

@@ -35,10 +35,10 @@ class Instrument:
 
     Parameters
     ----------
-    wavelength : of the light [mm].
+    wavelength : wavelength of the light [mm].
     beam_angle : full angle between the beams [rad], in (0, pi].
-    half_width : of the volume along x, where the light has fallen to 1/e^2 [mm].
-    sample_rate : of the detector [Hz].
+    half_width : half-width of the volume along x, where the light has fallen to 1/e^2 [mm].
+    sample_rate : sample rate of the detector [Hz].
     shift : frequency added to one beam [Hz]; tells the direction. 0: none.
 
     Raises

@@ -54,7 +54,7 @@ class Scan:
 
     Attributes
     ----------
-    instrument, side : what measured which roller.
+    instrument, side : the instrument, and the roller that it measured.
     roller_speed : circumferential speed of that roller [mm/s].
     x : (n,) position of the volume [mm].
     frequency : (n,) [Hz].
@@ -106,7 +106,7 @@ def simulate_scan(
     ----------
     positions :
         (m,) places [mm], or how many, evenly, to 0.8 nip widths outside the contact.
-    seed : of the random numbers; the same seed gives the same bursts.
+    seed : seed of the random numbers; the same seed gives the same bursts.
 
     Raises
     ------

@@ -29,7 +29,7 @@ class VelocityProfile:
     error : (m,) standard error of it [mm/s].
     count : (m,) bursts kept; 0 where the error was given.
     rejected : (m,) outliers left out.
-    confidence : of the bands, in (0, 1).
+    confidence : confidence level of the bands, in (0, 1).
     speed : circumferential speed of the roller [mm/s]; None where not known.
     """
 
@@ -101,7 +101,7 @@ def estimate_profile(
     velocity : (n,) [mm/s].
     weight : (n,) stay [s]; None: 1/velocity, as every scatterer crosses the whole volume.
     speed : circumferential speed of the roller [mm/s].
-    confidence : of the bands.
+    confidence : confidence level of the bands.
     least : bursts needed at each position, 5 or more.
 
     Raises

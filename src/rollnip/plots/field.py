@@ -37,7 +37,7 @@ _LEVELS = 14
 _TAIL = 0.97  # part of the area whose values the colours cover where the rest is far larger
 _FAR = 2.5
 _NOISE = 1e-6
-_LEAST = 0.6  # of the axes is left to them beside names and colour bar
+_LEAST = 0.6  # least share of the axes beside names and colour bar
 _MIXED = 0.02  # a quantity that should be positive and is less than this below zero counts as such
 
 

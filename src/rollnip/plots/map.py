@@ -38,7 +38,7 @@ def plot_map(
     ax :
         axes to draw on; None makes a figure of its own (``ax.figure``).
     names :
-        of x, y and the values, with their units.
+        names of x, y and the values, with their units.
     wanted :
         a value whose contour is drawn heavily.
     style :

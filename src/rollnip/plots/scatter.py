@@ -18,7 +18,7 @@ from rollnip.plots.arrays import Array, finite_row
 from rollnip.plots.style import Look, Style, label, legend, prepare
 
 _LONG = 14  # letters
-_SHARE_GAP = 0.38  # of a row, between the bars of a parameter
+_SHARE_GAP = 0.38  # distance between the bars of a parameter, in rows
 
 
 def plot_shares(
@@ -31,16 +31,16 @@ def plot_shares(
     kinds: tuple[str, str] = ("alone (first order)", "with interactions (total)"),
     style: Style | None = None,
 ) -> Axes:
-    """Draw which share of a result's variance hangs on each parameter: Sobol indices.
+    """Draw each parameter's share of a result's variance: Sobol indices.
 
     Parameters
     ----------
-    names : of the d parameters, drawn from the top.
+    names : names of the d parameters, drawn from the top.
     first : (d, 3) index alone, and the limits of its confidence interval; or (d,) without.
     total : the same with all interactions; None: not drawn.
     ax : axes to draw on; None makes a figure of its own.
-    result : what scatters, for the abscissa.
-    kinds : of ``first`` and ``total``, for the legend.
+    result : name of the scattering result, for the abscissa.
+    kinds : names of ``first`` and ``total``, for the legend.
     style : "light" or "dark"; None: as the figure of ``ax`` is.
 
     Raises
@@ -89,7 +89,7 @@ def plot_distribution(
     ----------
     values : (n,) samples, at least two.
     ax : axes to draw on; None makes a figure of its own.
-    name : of the result, with its unit.
+    name : name of the result, with its unit.
     quantiles : (probability, value) to mark.
     limits : (at least, at most) of a specification; None: no such limit. Outside is shaded.
     style : "light" or "dark"; None: as the figure of ``ax`` is.

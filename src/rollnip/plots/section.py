@@ -20,9 +20,9 @@ Scale = Literal["stretched", "equal"]
 
 _ROWS, _FEWEST = 44, 7  # depths in all layers of a roller, and in each at least
 _COLUMNS, _NODES = 181, 110
-_CORE = 1.0  # of a half-space core is shown, in nip widths
-_BAND = 0.07  # of a rigid core is shown, in heights of the section
-_BARE = 0.16  # of a bare rigid one
+_CORE = 1.0  # shown depth of a half-space core, in nip widths
+_BAND = 0.07  # shown depth of a rigid core, in heights of the section
+_BARE = 0.16  # shown depth of a bare rigid roller, in the same unit
 _LARGEST_ANGLE = 1.4  # shown of the smaller roller to either side [rad]
 
 

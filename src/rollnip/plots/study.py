@@ -34,7 +34,7 @@ def plot_curves(
     x : (n,) values of the parameter; drawn in rising order.
     curves : (n,) results by the name that the legend shows; nan leaves a gap. 12 at most.
     ax : axes to draw on; None makes a figure of its own.
-    names : of the abscissa and the ordinate, with their units.
+    names : names of the abscissa and the ordinate, with their units.
     wanted : a value to mark.
     style : "light" or "dark"; None: as the figure of ``ax`` is.
 
@@ -96,7 +96,7 @@ def plot_pareto(
     x, y : (n,) results; pairs with nan are left out.
     front : numbers of the cases on the front, such as `rollnip.design.pareto_front` gives.
     ax : axes to draw on; None makes a figure of its own.
-    names : of the results, with their units.
+    names : names of the results, with their units.
     style : "light" or "dark"; None: as the figure of ``ax`` is.
 
     Raises

@@ -32,7 +32,7 @@ def dask_crew(address: str, workers: int) -> Iterator[Given]:
     Parameters
     ----------
     address :
-        of the scheduler, such as tcp://host:8786; "local" starts a cluster on this machine.
+        address of the scheduler, such as tcp://host:8786; "local" starts a cluster on this machine.
     workers :
         processes of the local cluster.
 
@@ -69,11 +69,11 @@ class DaskCrew(Given):
     Parameters
     ----------
     client :
-        of the scheduler.
+        client of the scheduler.
     workers :
         threads of all workers.
     name :
-        of the cluster, for messages.
+        name of the cluster, for messages.
     """
 
     def __init__(self, client: Any, workers: int, name: str) -> None:

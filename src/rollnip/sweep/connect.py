@@ -10,8 +10,8 @@ from pathlib import Path
 from rollnip._errors import RollnipError
 from rollnip._files import check_place
 
-_LOCK_SECONDS = 0.5  # for the file that says who writes
-_BUSY_SECONDS = 30.0  # for a reader that is just closing the database
+_LOCK_SECONDS = 0.5  # longest wait for the file that says who writes
+_BUSY_SECONDS = 30.0  # longest wait for a reader that is closing the database
 
 
 class Writer:
@@ -22,7 +22,7 @@ class Writer:
 
     Parameters
     ----------
-    path : of the database.
+    path : path of the database.
 
     Raises
     ------

@@ -56,7 +56,7 @@ class Processes:
     Parameters
     ----------
     count :
-        of the processes.
+        number of processes.
     """
 
     def __init__(self, count: int) -> None:

@@ -47,10 +47,10 @@ def checked_about(name: str, text: Any, form: int, kinds: Mapping[str, type]) ->
 
     Parameters
     ----------
-    name : of the database.
+    name : name of the database.
     text : JSON.
     form : the number of the form that is read; it is left out of what is returned.
-    kinds : of the value of each key; ``tuple`` is a list of texts.
+    kinds : type of the value of each key; ``tuple`` is a list of texts.
 
     Raises
     ------
@@ -105,8 +105,8 @@ def require_sound_rows(base: sqlite3.Connection, name: str, count: int, paramete
     Parameters
     ----------
     base, name : the database and its name.
-    count : of the cases of the study; 0: of a search.
-    parameters : how many each case has.
+    count : number of cases of the study; 0 for a search.
+    parameters : number of parameters of each case.
     """
     for table, rule in (
         ("cases", _case_rule(count, parameters)),

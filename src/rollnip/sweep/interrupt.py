@@ -18,11 +18,11 @@ class Interrupts:
     Parameters
     ----------
     signals :
-        that count; in a thread other than the main one none can be caught.
+        signals to count; none can be caught outside the main thread.
 
     Attributes
     ----------
-    count : how many came.
+    count : number of interrupts so far.
     strikes_at : the one that raises KeyboardInterrupt on the spot; 0: none does.
     """
 

@@ -56,7 +56,7 @@ def take_known(study: Study, store: Store, databases: Sequence[Path]) -> int:
     study, store :
         the study and its database.
     databases :
-        of other sweeps with the same version of rollnip.
+        databases of other sweeps with the same version of rollnip.
 
     Returns
     -------

@@ -38,7 +38,7 @@ def recalling(
     case :
         tree of the case in which the search changes values.
     paths :
-        of what it changes; their limits and the results wanted may change from run to run.
+        paths of what it changes; their limits and the results wanted may change from run to run.
     solve :
         solves what the database does not hold, as `rollnip.sweep.evaluate` does.
 
@@ -58,7 +58,7 @@ class Recall:
     Parameters
     ----------
     store :
-        of a search.
+        store of a search.
     solve :
         solves what it does not hold.
     """

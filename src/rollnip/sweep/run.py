@@ -27,7 +27,7 @@ from rollnip.sweep.task import Outcome, Task, given_up, performed
 Report = Callable[[Outcome], None]
 _DIED = "The worker process ended while it solved this case (out of memory?)."
 _ALL_LOST = "the workers were lost; what was finished is kept: run the same again."
-_MOST_CASES = 256  # of one task
+_MOST_CASES = 256  # cases of one task at most
 _AT_ONCE = 0.25  # s, of cases that are read at once where no other process works
 _PATIENCE = 30.0  # s, for the cases that run when the sweep is interrupted
 _LOOK = 0.2  # s, between two looks at whether an interrupt came
@@ -39,9 +39,9 @@ class OpenCases:
     Parameters
     ----------
     study :
-        what is to be solved.
+        the study to be solved.
     store :
-        of this study.
+        store of this study.
     with_profiles :
         keep the profiles too; cases held without them are open.
     """
@@ -52,7 +52,7 @@ class OpenCases:
         which, shards = store.about.shard
         self.count = len(store.about.positions) - int(np.count_nonzero(held[which - 1 :: shards]))
         self._positions = (one for one in store.about.positions if not held[one])
-        self._seconds = 0.0  # that a case takes, of late
+        self._seconds = 0.0  # recent mean time of a case
 
     def learn(self, outcomes: list[Outcome]) -> None:
         """Update the mean time that a case takes."""
@@ -84,15 +84,15 @@ def run(
     Parameters
     ----------
     cases :
-        what is open.
+        the open cases.
     store :
         takes what is done.
     crew :
-        who solves; None: this process, one case after the other.
+        workers that solve; None: this process, one case after the other.
     report :
         is told every outcome once it is committed.
     interrupts :
-        of the caller; None: this call counts its own.
+        interrupts of the caller; None: this call counts its own.
 
     Raises
     ------

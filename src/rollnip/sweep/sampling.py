@@ -54,9 +54,9 @@ def samples(
     method :
         "latin-hypercube", or "sobol": scrambled, ``count`` must then be a power of 2.
     count :
-        of the samples.
+        number of samples.
     seed :
-        of the random numbers.
+        seed of the random numbers.
 
     Returns
     -------

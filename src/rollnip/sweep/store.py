@@ -30,7 +30,7 @@ from rollnip.sweep.study import Study, case_digest
 from rollnip.sweep.task import Outcome
 
 FORMAT = 2
-_LOG_SECONDS = 10.0  # that cases may stand in the log alone
+_LOG_SECONDS = 10.0  # longest time that cases stand in the log alone
 _APPLICATION = 0x726E6970  # marks the file as one of ours
 _TEXTS = ("hash", "parameters", "status", "message", "geometry", "warnings")
 _NAMES = ("position", *_TEXTS, *SCALARS, "seconds")
@@ -58,13 +58,13 @@ class About:
 
     Attributes
     ----------
-    version : of rollnip and of its code, as `own_version` has it.
+    version : version of rollnip and of its code, as `own_version` has it.
     study : digest of the study.
-    title, count : of the study; 0 cases: of a search, whose cases come as it asks for them.
-    paths, units : of the parameters.
-    results, profiles : that are wanted.
+    title, count : title and number of cases; 0 for a search, whose cases come one by one.
+    paths, units : paths and units of the parameters.
+    results, profiles : wanted results and profiles.
     shard : (which, of how many), counted from 1.
-    case : of the study, as JSON; empty: of a search.
+    case : case of the study, as JSON; empty for a search.
     """
 
     version: str
@@ -128,7 +128,7 @@ class Store:
     Parameters
     ----------
     path :
-        of the file, which is made where it is not there; None: in memory.
+        path of the file, which is made where it is not there; None: in memory.
     about :
         whose cases it is to hold; None: it is only read, whatever study it holds.
 

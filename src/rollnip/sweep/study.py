@@ -32,7 +32,7 @@ class Axis:
 
     Attributes
     ----------
-    paths : of the keys in the case.
+    paths : paths of the keys in the case.
     units : base unit of each, empty where the value is no quantity.
     columns : values of each, all of one length: numbers in base units, or JSON texts.
     """

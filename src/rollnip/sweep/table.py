@@ -46,9 +46,9 @@ class Table:
         Numbers are float arrays in which nan is what is not there, texts are tuples.
         The last are ``tolerance`` and ``version``.
     units :
-        of the columns of numbers, "1" where there is none.
+        units of the columns of numbers, "1" where there is none.
     case :
-        of the study, as the tree of a case file; the parameters change it from row to row.
+        case of the study, as the tree of a case file; the parameters change it from row to row.
     """
 
     columns: Mapping[str, Array | tuple[str, ...]]
@@ -144,7 +144,7 @@ def write_table(store: Store, path: Path) -> None:
     Parameters
     ----------
     store :
-        of the sweep.
+        store of the sweep.
     path :
         ends in .csv, .parquet (with the extra ``rollnip[tables]``) or .xlsx. Heads carry the unit:
         ``nip_width [mm]``; what is not there is empty.

@@ -29,7 +29,7 @@ class Task:
     Attributes
     ----------
     tree : the case of the study.
-    paths : of the parameters.
+    paths : paths of the parameters.
     cases : position and values of the parameters of each case.
     with_profiles : whether profiles are kept.
     """
@@ -50,11 +50,11 @@ class Outcome:
 
     Attributes
     ----------
-    position : of the case in the study.
-    values : of its parameters.
+    position : position of the case in the study.
+    values : values of its parameters.
     case : its hash, as `rollnip.io.case_hash` has it; None where it is no case.
-    row : as `evaluate` returns it.
-    seconds : that it took.
+    row : row as `evaluate` returns it.
+    seconds : time that it took [s].
     profiles : all profiles, 8 bytes a number, one after the other; None where not kept.
     """
 

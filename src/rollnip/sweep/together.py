@@ -60,9 +60,9 @@ def together(workers: int, interrupts: Interrupts) -> Iterator[Together]:
     Parameters
     ----------
     workers :
-        how many.
+        number of workers.
     interrupts :
-        of the caller, entered before and left after.
+        interrupts of the caller, entered before and left after.
 
     Raises
     ------

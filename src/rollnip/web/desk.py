@@ -25,7 +25,7 @@ class Desk:
     Parameters
     ----------
     limits :
-        of the requests.
+        limits of the requests.
     """
 
     def __init__(self, limits: Limits) -> None:

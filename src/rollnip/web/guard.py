@@ -51,7 +51,7 @@ class Guard:
     app :
         the application behind.
     limits :
-        of the body.
+        limits of the body.
     host :
         the address the server is bound to.
     """

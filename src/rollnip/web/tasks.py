@@ -54,14 +54,14 @@ _FIELDS = {
     "mises": "von_mises",
     "max_shear": "max_shear",
 }
-_DIGITS = 6  # of the largest value of an interior field
+_DIGITS = 6  # significant digits, by the largest value of an interior field
 _CORE_DEPTH = 2.0  # nip widths below the layers that are shown of a half-space core
 _TOO_LARGE = (
     "One solve may take {} MB of memory here, and this case needs more; try fewer layers or a "
     "larger tolerance."
 )
 _TOO_FAR = "The numbers of this case lie too far apart to be computed with; check their units."
-_SMALLEST, _LARGEST = 1e-6, 1e9  # of a radius and a thickness that are solved here [mm]
+_SMALLEST, _LARGEST = 1e-6, 1e9  # limits of radius and thickness that are solved here [mm]
 _BELOW = 1e-9  # of a layer: how far below its upper face its first row lies
 
 
@@ -71,7 +71,7 @@ class Tasks:
     Parameters
     ----------
     limits :
-        of layers, terms and accuracy.
+        limits of layers, terms and accuracy.
     """
 
     def __init__(self, limits: Limits) -> None:

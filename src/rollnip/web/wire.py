@@ -13,7 +13,7 @@ from rollnip.web.limits import Limits
 
 BACKLOG = 32
 """Connections that the system accepts at once, before the first of them is looked at."""
-_FILES = 64  # of the server itself and of the files that it serves
+_FILES = 64  # file descriptors of the server itself and of the files that it serves
 
 
 def connections_at_once(limits: Limits) -> int:

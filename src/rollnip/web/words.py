@@ -88,9 +88,9 @@ def read(text: str, dimension: Dimension, unit: str = "", *, is_hardness: bool =
     text :
         such as ``1/2"``, ``8 IN``, ``0.5 in.``, ``40 lb/in``, ``68 F``, ``65A``.
     dimension :
-        what it must be.
+        dimension of the quantity.
     unit :
-        of a number that stands alone.
+        unit of a number that stands alone.
     is_hardness :
         whether it is a Shore A hardness, which is a plain number.
 

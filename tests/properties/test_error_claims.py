@@ -53,11 +53,21 @@ def test_no_error_is_claimed_smaller_than_a_third_of_it(examples):
 
 @pytest.mark.slow
 def test_claims_of_nips_never_seen_before():
-    """Other nips in every run; a failure prints their numbers, which `random_case` replays."""
+    """Other nips in every run; a failure prints their numbers, which `random_case` replays.
+
+    About one random nip in 300 has a figure beyond 3 claims (docs/decisions/0012). So one of 30
+    may; two have a chance of one in 200.
+    """
     numbers = [secrets.randbelow(FRESH[1] - FRESH[0]) + FRESH[0] for _ in range(30)]
     print(f"nips {numbers}")  # noqa: T201
-    judged = [check_claims(random_case(number)) for number in numbers]
-    assert sum(judged) >= 0.8 * len(judged)
+    judged, beyond = 0, []
+    for number in numbers:
+        try:
+            judged += check_claims(random_case(number))
+        except AssertionError as broken:
+            beyond.append(str(broken).splitlines()[0])
+    assert judged >= 0.8 * len(numbers) - len(beyond)
+    assert len(beyond) <= 1, beyond
 
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])

@@ -19,6 +19,7 @@ from rollnip.sweep import Outcome, cluster, read_study
 from rollnip.sweep.run import OpenCases, run
 from rollnip.sweep.store import About, Store
 from rollnip.sweep.table import write_table
+from rollnip.sweep.version import own_version
 
 pytest.importorskip("distributed")
 pytestmark = pytest.mark.slow
@@ -91,7 +92,7 @@ def test_a_worker_killed_half_way_changes_nothing(
         if len(done) == study.count // 2:
             workers[0].send_signal(signal.SIGKILL)
 
-    with Store(None, About.of(study, "1")) as store:
+    with Store(None, About.of(study, own_version())) as store:
         with cluster.dask_crew(machines.address, 0) as crew:
             run(OpenCases(study, store), store, crew, kill)
         assert sorted(done) == list(range(study.count))

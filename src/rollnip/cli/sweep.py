@@ -175,7 +175,7 @@ def status(
             check_table_target(out)
         _check_figure(plot)
         is_running = is_being_written(database)
-        with Store(database) as store:
+        with Store(database) as store, store.snapshot():
             run.reserve({"--out": out, "--plot": plot})
             if not store.about.count:
                 raise InvalidInputError(f"{database}: holds the cases of a search, no sweep.")

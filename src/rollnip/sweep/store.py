@@ -341,6 +341,15 @@ class Store:
         self._base.execute(_INSERT, [values[n] if n in values else row[n] for n in _NAMES])
 
     @contextmanager
+    def snapshot(self) -> Iterator[None]:
+        """Read one state of the database throughout, whatever another process writes meanwhile."""
+        self._base.execute("BEGIN")
+        try:
+            yield
+        finally:
+            self._base.execute("ROLLBACK")
+
+    @contextmanager
     def _transaction(self) -> Iterator[None]:
         self._base.execute("BEGIN IMMEDIATE")
         try:

@@ -10,7 +10,7 @@ from pathlib import Path
 _PACKAGE = Path(__file__).parents[1]
 # These only ask for solutions or show them; all the rest of the package decides the numbers.
 BESIDE = frozenset(
-    {"cli", "web", "plots", "design", "identify", "dma", "lda", "paper", "verification"}
+    {"cli", "web", "plots", "design", "identify", "dma", "lda", "paper", "verification", "face"}
 )
 _DIGITS = 10
 

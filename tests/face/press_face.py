@@ -29,7 +29,7 @@ def foundation_law(stiffness, nip):
     loads = np.geomspace(1e-4, 1e4, 41)
     ones = np.ones((loads.size, 1))
     table = dict.fromkeys(("creepage", "nip_width", "peak_pressure"), ones)
-    table |= dict.fromkeys(("friction_loss", "viscous_loss", "torque_lower"), ones)
+    table |= dict.fromkeys(("friction_loss", "viscous_loss"), ones)
     table["approach"] = (loads / stiffness)[:, None]
     plain = replace(nip, friction=0.0, tangential=rn.Traction(0.0))
     return NipLaw(plain, rn.Model(), loads, np.zeros(1), table, {})

@@ -14,7 +14,7 @@ from rollnip.face.solution import FaceSolution
 from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
 from rollnip.influence import KernelCache
 from rollnip.model import Model
-from rollnip.nip import Approach, LineLoad, Nip, Traction
+from rollnip.nip import Approach, Nip, Traction
 from rollnip.shafts import Face
 from rollnip.solve import solve
 
@@ -94,8 +94,6 @@ def solve_face(
 def _require_plain(nip: Nip, face: Face) -> None:
     if nip.has_profile:
         raise InvalidInputError("`profile` and a face cannot be solved together.")
-    if not isinstance(nip.normal, LineLoad | Approach):
-        raise InvalidInputError("`nip` must have a load or an approach.")
     if face.end_loads is not None and isinstance(nip.normal, Approach):
         raise InvalidInputError("`end_loads` and `approach` exclude each other.")
 

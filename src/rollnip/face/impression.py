@@ -149,7 +149,7 @@ def read_impressions(
         where there are fewer widths than unknowns, a place lies outside the face, an unknown is not
         one of the four, or the loads are not known.
     """
-    _check(nip, face, impressions, unknowns)
+    _check(face, impressions, unknowns)
     first = _loads(nip, impressions)
     one = nip.upper if roller == "upper" else nip.lower
     if one.shaft is None:
@@ -178,9 +178,7 @@ def read_impressions(
     return _reading(unknowns, scales, fit, solved(fit.x), impressions, nip)
 
 
-def _check(
-    nip: Nip, face: Face, impressions: Sequence[Impression], unknowns: Sequence[Unknown]
-) -> None:
+def _check(face: Face, impressions: Sequence[Impression], unknowns: Sequence[Unknown]) -> None:
     if not impressions:
         raise InvalidInputError("`impressions` must hold at least one impression.")
     for unknown in unknowns:
@@ -202,7 +200,6 @@ def _check(
         raise InvalidInputError("`load` can be unknown for one impression alone.")
     if face.end_loads is not None and len(impressions) > 1:
         raise InvalidInputError("several impressions need a `load` each, not `end_loads`.")
-    del nip
 
 
 def _loads(nip: Nip, impressions: Sequence[Impression]) -> list[float]:

@@ -31,7 +31,7 @@ from rollnip.solve import solve
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]
 
-FIGURES = ("nip_width", "peak_pressure", "friction_loss", "viscous_loss", "torque_lower")
+FIGURES = ("nip_width", "peak_pressure", "friction_loss", "viscous_loss")
 """What a law tells beside approach and creepage."""
 _POSITIVE = ("approach", "nip_width", "peak_pressure")
 _STEPS = 40  # of Newton's method for load and traction
@@ -114,7 +114,7 @@ class NipLaw:
         Lengths stay, forces and pressures grow with the moduli, in every geometry: dimensions. The
         nip that the law holds is not changed.
         """
-        forces = ("peak_pressure", "friction_loss", "viscous_loss", "torque_lower")
+        forces = ("peak_pressure", "friction_loss", "viscous_loss")
         table = {
             name: factor * values if name in forces else values
             for name, values in self.table.items()
@@ -345,7 +345,6 @@ def _row(solution: Solution) -> dict[str, float]:
         solution.peak_pressure,
         solution.dissipation_friction,
         solution.dissipation_viscous,
-        solution.torque_lower,
     )
     names = ("approach", "creepage", *FIGURES)
     return {

@@ -57,4 +57,4 @@ def test_only_own_processes_ask_for_it():
         for path in SOURCE.rglob("*.py")
         if "keep_freed_memory()" in path.read_text("utf-8") and path.name != "_memory.py"
     }
-    assert callers == {"cli/__init__.py", "sweep/task.py", "web/worker.py"}
+    assert callers == {"cli/__init__.py", "sweeps/task.py", "web/worker.py"}

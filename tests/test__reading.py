@@ -12,7 +12,7 @@ from rollnip._reading import UnreadableError, read_regular
 from rollnip.dma import read_dma
 from rollnip.io import read_case, read_columns, read_profile
 from rollnip.io.velocities import read_velocities
-from rollnip.sweep.study_file import read_study
+from rollnip.sweeps.study_file import read_study
 
 READERS = (read_case, read_columns, read_profile, read_velocities, read_dma, read_study)
 

@@ -13,7 +13,7 @@ import rollnip as rn
 from rollnip.figures import CLAIMED, FIGURES, PROFILES, ROUNDING, Dimension
 from rollnip.io import result_dict
 from rollnip.solution import Profiles, Solution
-from rollnip.sweep import SCALARS
+from rollnip.sweeps import SCALARS
 
 SOURCE = Path(str(files("rollnip")))
 READERS = (
@@ -21,7 +21,7 @@ READERS = (
     "io/result.py",
     "cli/summary.py",
     "plots/overview.py",
-    "sweep/row.py",
+    "sweeps/row.py",
     "web/static/js/quantities.js",
     "web/static/js/answers.js",
     "web/static/js/units.js",

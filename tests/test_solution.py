@@ -7,7 +7,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.model import Model
-from rollnip.solve import solve
+from rollnip.solver import solve
 
 CLEAR = rn.Elastic(modulus=0.91, poisson=0.5)
 BLACK = rn.Elastic(modulus=2.04, poisson=0.5)

@@ -6,7 +6,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.model import Model
-from rollnip.solve import solve
+from rollnip.solver import solve
 
 RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
 

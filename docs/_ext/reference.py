@@ -222,8 +222,6 @@ def home_of(door: str, name: str, value: Any) -> str:
         return ""
     if door != "rollnip":
         return f"{door}.{name}"
-    if name == "solve":
-        return "rollnip.solve"
     if module == "rollnip._errors":
         return f"rollnip.{name}"
     parts = module.split(".")

@@ -7,9 +7,7 @@ asked for, so that the command line starts without the numerics.
 
 from __future__ import annotations
 
-import sys
 from importlib import import_module
-from types import ModuleType
 from typing import TYPE_CHECKING, Any
 
 from rollnip._errors import (
@@ -22,7 +20,7 @@ from rollnip._errors import (
 
 if TYPE_CHECKING:
     from rollnip.face import solve_face
-    from rollnip.identify import identify
+    from rollnip.identification import identify
     from rollnip.influence import KernelCache
     from rollnip.io import Case, read_case, write_result
     from rollnip.materials import (
@@ -40,19 +38,19 @@ if TYPE_CHECKING:
     from rollnip.rollers import Layer, Profile, Roller
     from rollnip.shafts import Crown, CrownTable, Face, Shaft
     from rollnip.solution import Solution
-    from rollnip.solve import solve
-    from rollnip.sweep import sweep
+    from rollnip.solver import solve
+    from rollnip.sweeps import sweep
 
     __version__: str
 
 _HOMES = {
+    "rollnip.identification": ("identify",),
     "rollnip.influence": ("KernelCache",),
     "rollnip.io": ("Case", "read_case", "write_result"),
     "rollnip.materials": (
         "WLF",
         "Arrhenius",
         "Elastic",
-        "Face",
         "FractionalZener",
         "LossFactor",
         "Prony",
@@ -65,6 +63,8 @@ _HOMES = {
     "rollnip.rollers": ("Layer", "Profile", "Roller"),
     "rollnip.shafts": ("Crown", "CrownTable", "Face", "Shaft"),
     "rollnip.solution": ("Solution",),
+    "rollnip.solver": ("solve",),
+    "rollnip.sweeps": ("sweep",),
 }
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 
@@ -107,37 +107,6 @@ __all__ = [
     "sweep",
     "write_result",
 ]
-
-
-class _Door(ModuleType):
-    """The package as a module whose ``solve`` and ``identify`` are functions, not modules."""
-
-    @property
-    def identify(self) -> Any:
-        return import_module("rollnip.identify").identify
-
-    @identify.setter
-    def identify(self, module: ModuleType) -> None:
-        """Ignore that the import system sets the submodule as an attribute here."""
-
-    @property
-    def solve(self) -> Any:
-        return import_module("rollnip.solve").solve
-
-    @solve.setter
-    def solve(self, module: ModuleType) -> None:
-        """Ignore that the import system sets the submodule as an attribute here, as above."""
-
-    @property
-    def sweep(self) -> Any:
-        return import_module("rollnip.sweep").sweep
-
-    @sweep.setter
-    def sweep(self, module: ModuleType) -> None:
-        """Ignore that the import system sets the submodule as an attribute here, likewise."""
-
-
-sys.modules[__name__].__class__ = _Door
 
 
 def __getattr__(name: str) -> Any:

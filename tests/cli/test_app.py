@@ -38,7 +38,7 @@ def quick(monkeypatch, solution):
         asked.append((nip, model))
         return replace(solution, nip=nip, model=model)
 
-    monkeypatch.setattr(import_module("rollnip.solve"), "solve", solve)
+    monkeypatch.setattr(import_module("rollnip.solver"), "solve", solve)
     return asked
 
 
@@ -103,7 +103,7 @@ def test_not_converged_is_exit_1_and_prints_all_the_same(monkeypatch, case, solu
     def solve(nip, model=None, on_failure="return"):
         return replace(solution, converged=False, status="The mesh ran out.")
 
-    monkeypatch.setattr(import_module("rollnip.solve"), "solve", solve)
+    monkeypatch.setattr(import_module("rollnip.solver"), "solve", solve)
     result = run("solve", case, "--json")
     assert result.exit_code == 1
     assert json.loads(result.stdout)["converged"] is False
@@ -198,7 +198,7 @@ def test_interrupted_is_130(monkeypatch, case):
     def solve(nip, model=None, on_failure="return"):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(import_module("rollnip.solve"), "solve", solve)
+    monkeypatch.setattr(import_module("rollnip.solver"), "solve", solve)
     result = run("solve", case)
     assert (result.exit_code, result.stdout) == (130, "")
     assert result.stderr == "rollnip: interrupted.\n"

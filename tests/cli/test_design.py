@@ -13,8 +13,8 @@ from typer.testing import CliRunner
 import rollnip as rn
 from rollnip.cli.app import app
 from rollnip.closed_forms import contact_modulus, effective_radius
-from rollnip.sweep import row as row_module
-from rollnip.sweep.store import Store
+from rollnip.sweeps import row as row_module
+from rollnip.sweeps.store import Store
 
 # Hertz: a^2 = 4 F R / (pi E*), Johnson (1985), eq. 4.43
 LOAD = pi * contact_modulus(210e3, 0.3, 210e3, 0.3) * 0.2**2 / (4.0 * effective_radius(50.0, 25.0))

@@ -8,8 +8,8 @@ from typer.testing import CliRunner
 
 from rollnip.cli.app import app
 from rollnip.io import read_case
-from rollnip.sweep import row as row_module
-from rollnip.sweep.store import Store
+from rollnip.sweeps import row as row_module
+from rollnip.sweeps.store import Store
 
 FIT = """
 [[unknowns]]

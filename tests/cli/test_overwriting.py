@@ -13,7 +13,7 @@ import pytest
 from typer.testing import CliRunner
 
 from rollnip.cli.app import app
-from rollnip.sweep import sweep
+from rollnip.sweeps import sweep
 
 LAYER = {"thickness": 2.0, "material": {"model": "elastic", "modulus": 0.91, "poisson": 0.45}}
 CASE: dict[str, Any] = {

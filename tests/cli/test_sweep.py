@@ -19,8 +19,8 @@ from typer.testing import CliRunner
 
 from rollnip.cli import progress
 from rollnip.cli.app import app
-from rollnip.sweep import cluster, read_study
-from rollnip.sweep.store import Store
+from rollnip.sweeps import cluster, read_study
+from rollnip.sweeps.store import Store
 
 ROOT = Path(__file__).parents[2]
 COMMAND = [sys.executable, "-c", "from rollnip.cli import main; main()", "sweep"]

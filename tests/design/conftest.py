@@ -3,7 +3,7 @@
 import pytest
 
 from rollnip.io import value_at
-from rollnip.sweep import SCALARS
+from rollnip.sweeps import SCALARS
 
 RUBBER = {"model": "elastic", "modulus": 1.0, "poisson": 0.5}
 

@@ -8,7 +8,7 @@ from rollnip._errors import InvalidInputError
 from rollnip.closed_forms import contact_modulus, effective_radius, hertz_line
 from rollnip.design import QUANTITIES, find
 from rollnip.io import value_at
-from rollnip.sweep import SCALARS
+from rollnip.sweeps import SCALARS
 
 STEEL = {"model": "elastic", "modulus": "210 GPa", "poisson": 0.3}
 HERTZ = {

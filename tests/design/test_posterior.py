@@ -14,7 +14,7 @@ from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip.design import LogNormal, Normal, Sampling, posterior, tolerance
 from rollnip.design.distributions import frozen
 from rollnip.design.files import read_tolerance
-from rollnip.sweep import sweep
+from rollnip.sweeps import sweep
 
 PATHS = ("upper.layers[0].material.modulus", "upper.layers[0].thickness")
 

@@ -18,7 +18,7 @@ from rollnip.design import (
 )
 from rollnip.design.report import optimum_report, plot_tolerance, tolerance_report
 from rollnip.plots import save_figure
-from rollnip.sweep import Table
+from rollnip.sweeps import Table
 
 LOAD = "nip.load"
 THICKNESS = "upper.layers[0].thickness"

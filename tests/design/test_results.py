@@ -15,7 +15,7 @@ from rollnip._errors import InvalidInputError
 from rollnip.cli.app import app
 from rollnip.design import pareto_front
 from rollnip.design.results import open_results
-from rollnip.sweep import sweep
+from rollnip.sweeps import sweep
 
 STUDY: dict[str, Any] = {
     "case": {

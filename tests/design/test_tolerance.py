@@ -20,7 +20,7 @@ from rollnip.design import (
     tolerance,
 )
 from rollnip.design.tolerance import quantile
-from rollnip.sweep import Table, sweep
+from rollnip.sweeps import Table, sweep
 
 LOAD = Varied("nip.load", Normal("10 N/mm", "1 N/mm"))
 THICKNESS = Varied("upper.layers[0].thickness", Normal("5 mm", "0.5 mm"))

@@ -77,7 +77,7 @@ def test_an_unknown_name_is_an_attribute_error():
         _ = rn.Nipp
 
 
-@pytest.mark.parametrize("first", ["from rollnip.solve import solve", "import rollnip.solve", ""])
+@pytest.mark.parametrize("first", ["from rollnip.solver import solve", "import rollnip.solver", ""])
 def test_solve_is_the_function_whatever_was_imported_before(first):
     code = f"{first}\nimport rollnip as rn\nfrom rollnip import solve\nassert callable(rn.solve)\n"
     loaded_after(code + "assert rn.solve is solve")

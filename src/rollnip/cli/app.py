@@ -107,7 +107,7 @@ def solve(
             from rollnip.io import check_fields_target, write_fields
 
             check_fields_target(fields)
-        from rollnip.solve import solve as solve_nip
+        from rollnip.solver import solve as solve_nip
 
         with named(problem.source):
             solution = solve_nip(problem.nip, model, on_failure="return")

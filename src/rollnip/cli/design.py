@@ -20,7 +20,7 @@ from rollnip.cli.options import WORKERS, Force
 
 if TYPE_CHECKING:
     from rollnip.design import Found
-    from rollnip.sweep import Study, Table
+    from rollnip.sweeps import Study, Table
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
 _GEOMETRY = typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file.")
@@ -266,10 +266,10 @@ def _option_named(case: str) -> Iterator[None]:
 def _solved(study: Study, *, database: Path | None, workers: int | None) -> Table:
     """All cases of a study; what a database holds is not solved again."""
     from rollnip.cli.sweep import solve_open
-    from rollnip.sweep.run import OpenCases
-    from rollnip.sweep.store import About, Store
-    from rollnip.sweep.table import read_table
-    from rollnip.sweep.version import own_version
+    from rollnip.sweeps.run import OpenCases
+    from rollnip.sweeps.store import About, Store
+    from rollnip.sweeps.table import read_table
+    from rollnip.sweeps.version import own_version
 
     with Store(database, About.of(study, own_version())) as store:
         solve_open(OpenCases(study, store), store, workers)

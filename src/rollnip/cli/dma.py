@@ -251,7 +251,7 @@ def _in_the_nip(found: DmaFit | TimeFit, case: Path, name: str) -> list[str]:
     from rollnip.dma import frequency_warning, material_toml
     from rollnip.io import parse_case
     from rollnip.io.document import parse_document, read_document
-    from rollnip.solve import solve
+    from rollnip.solver import solve
 
     tree = read_document(case)
     fitted = parse_document(material_toml(found, name), "material")

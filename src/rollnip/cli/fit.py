@@ -16,7 +16,7 @@ from rollnip.cli.kept import evaluating
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
-    from rollnip.identify import Fit
+    from rollnip.identification import Fit
     from rollnip.model import Geometry
 
 _FILES = ("report.txt", "fit.json", "case.toml", "fit.png")
@@ -52,7 +52,7 @@ def fit(
         from dataclasses import replace
         from json import dumps
 
-        from rollnip.identify import fit_dict, fit_report, identify, read_fit
+        from rollnip.identification import fit_dict, fit_report, identify, read_fit
 
         study = read_fit(file)
         method = study.method
@@ -116,7 +116,7 @@ def _write(found: Fit, title: str, folder: Path) -> None:
     from json import dumps
 
     from rollnip._files import write_whole
-    from rollnip.identify import fit_case, fit_dict, fit_report, plot_fit
+    from rollnip.identification import fit_case, fit_dict, fit_report, plot_fit
     from rollnip.plots import save_figure
 
     texts = {

@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 import typer
 
 if TYPE_CHECKING:
-    from rollnip.sweep import Together
-    from rollnip.sweep.interrupt import Interrupts
-    from rollnip.sweep.store import Store
+    from rollnip.sweeps import Together
+    from rollnip.sweeps.interrupt import Interrupts
+    from rollnip.sweeps.store import Store
 
 
 @contextmanager
@@ -23,7 +23,7 @@ def interrupts_told(store: Store, total: int | None = None) -> Iterator[Interrup
 
     ``total`` is the number of all cases, where it is known.
     """
-    from rollnip.sweep.interrupt import Interrupts
+    from rollnip.sweeps.interrupt import Interrupts
 
     with Interrupts((signal.SIGINT, signal.SIGTERM)) as interrupts:
         try:
@@ -46,9 +46,9 @@ def evaluating(
     database: Path | None, tree: Mapping[str, Any], paths: Sequence[str], workers: int | None
 ) -> Iterator[Together]:
     """Yield the workers that solve cases; with a database, no case in it is solved again."""
-    from rollnip.sweep import recalling, together
-    from rollnip.sweep.crew import available_cores
-    from rollnip.sweep.interrupt import Interrupts
+    from rollnip.sweeps import recalling, together
+    from rollnip.sweeps.crew import available_cores
+    from rollnip.sweeps.interrupt import Interrupts
 
     count = available_cores() if workers is None else workers
     if database is None:

@@ -242,7 +242,7 @@ def _solved(case: str, geometry: str | None) -> tuple[Solution, str]:
 
     problem = read_case(case)
     model = overridden(problem.model, geometry, None)
-    from rollnip.solve import solve
+    from rollnip.solver import solve
 
     with named(problem.source):
         return solve(problem.nip, model, on_failure="return"), problem.source

@@ -20,10 +20,10 @@ from rollnip.cli.kept import interrupts_told, kept
 from rollnip.cli.options import WORKERS, Force
 
 if TYPE_CHECKING:
-    from rollnip.sweep.crew import Crew
-    from rollnip.sweep.interrupt import Interrupts
-    from rollnip.sweep.run import OpenCases
-    from rollnip.sweep.store import Store
+    from rollnip.sweeps.crew import Crew
+    from rollnip.sweeps.interrupt import Interrupts
+    from rollnip.sweeps.run import OpenCases
+    from rollnip.sweeps.store import Store
 
 _MANY = 1_000_000
 
@@ -91,13 +91,13 @@ def run(
     Ctrl-C.
     """
     with clear_failures(), one_run(force=force) as run:
-        from rollnip.sweep.merge import take_known
-        from rollnip.sweep.profiles import check_profiles_target
-        from rollnip.sweep.run import OpenCases
-        from rollnip.sweep.store import About, Store
-        from rollnip.sweep.study_file import read_study
-        from rollnip.sweep.table import check_table_target
-        from rollnip.sweep.version import own_version
+        from rollnip.sweeps.merge import take_known
+        from rollnip.sweeps.profiles import check_profiles_target
+        from rollnip.sweeps.run import OpenCases
+        from rollnip.sweeps.store import About, Store
+        from rollnip.sweeps.study_file import read_study
+        from rollnip.sweeps.table import check_table_target
+        from rollnip.sweeps.version import own_version
 
         part = _shard(shard)
         table = out or Path(f"{'study' if study == '-' else Path(study).stem}.csv")
@@ -141,9 +141,9 @@ def merge(
 ) -> None:
     """Join the databases of the shards of one study into one table."""
     with clear_failures(), one_run(force=force) as run:
-        from rollnip.sweep.merge import merged
-        from rollnip.sweep.profiles import check_profiles_target
-        from rollnip.sweep.table import check_table_target
+        from rollnip.sweeps.merge import merged
+        from rollnip.sweeps.profiles import check_profiles_target
+        from rollnip.sweeps.table import check_table_target
 
         check_table_target(out)
         if profiles is not None:
@@ -167,9 +167,9 @@ def status(
     The exit code is 0 where all cases are there, 1 where some are open, 2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
-        from rollnip.sweep.connect import is_being_written
-        from rollnip.sweep.store import Store
-        from rollnip.sweep.table import check_table_target, write_table
+        from rollnip.sweeps.connect import is_being_written
+        from rollnip.sweeps.store import Store
+        from rollnip.sweeps.table import check_table_target, write_table
 
         if out is not None:
             check_table_target(out)
@@ -193,7 +193,7 @@ def solve_open(
 ) -> None:
     """Solve what is open; what stops it says how much is kept, and how to go on."""
     from rollnip.cli.progress import progress
-    from rollnip.sweep.run import run as run_cases
+    from rollnip.sweeps.run import run as run_cases
 
     total = len(store.about.positions)
     known = total - cases.count
@@ -211,8 +211,8 @@ def solve_open(
 
 def _finish(store: Store, files: tuple[Path, Path | None, Path | None], *, as_json: bool) -> None:
     """Write table, profiles and picture, and say what became of the cases."""
-    from rollnip.sweep.profiles import write_profiles
-    from rollnip.sweep.table import write_table
+    from rollnip.sweeps.profiles import write_profiles
+    from rollnip.sweeps.table import write_table
 
     table, profiles, plot = files
     write_table(store, table)
@@ -232,7 +232,7 @@ def tally_json(store: Store, is_running: bool | None) -> str:
     """Return the number of cases by status as JSON, and whether a process writes them, if asked."""
     from json import dumps
 
-    from rollnip.sweep.row import STATUSES
+    from rollnip.sweeps.row import STATUSES
 
     tally, first = store.tally(), next(store.rows_not_solved(), None)
     total = len(store.about.positions)
@@ -265,7 +265,7 @@ def _status_text(store: Store, is_running: bool) -> str:
 
 
 def _tally(store: Store) -> str:
-    from rollnip.sweep.row import STATUSES
+    from rollnip.sweeps.row import STATUSES
 
     tally = store.tally()
     return ", ".join(f"{tally[status]:,} {status}" for status in STATUSES if status in tally)
@@ -281,7 +281,7 @@ def _check_figure(plot: Path | None) -> None:
 def _draw(store: Store, plot: Path | None) -> None:
     if plot is not None:
         from rollnip.plots import save_figure
-        from rollnip.sweep.picture import plot_sweep
+        from rollnip.sweeps.picture import plot_sweep
 
         save_figure(plot_sweep(store), plot)
 
@@ -290,11 +290,11 @@ def _draw(store: Store, plot: Path | None) -> None:
 def _crew(
     workers: int | None, dask: str | None, cases: int, interrupts: Interrupts
 ) -> Iterator[Crew | None]:
-    from rollnip.sweep.crew import available_cores, crew_of
+    from rollnip.sweeps.crew import available_cores, crew_of
 
     count = available_cores() if workers is None else workers
     if dask is not None and cases:
-        from rollnip.sweep.cluster import dask_crew
+        from rollnip.sweeps.cluster import dask_crew
 
         interrupts.strike_at(2)  # a scheduler may take long to answer; the second ends that
         with dask_crew(dask, count) as crew:

@@ -19,7 +19,7 @@ from rollnip.design.quantities import (
     result_error,
 )
 from rollnip.io import with_values
-from rollnip.sweep import evaluate as evaluated
+from rollnip.sweeps import evaluate as evaluated
 
 Evaluate = Callable[[Mapping[str, Any]], Mapping[str, Any]]
 
@@ -51,7 +51,7 @@ class Found:
     points : every case solved on the way, (parameter, result), by parameter; None: not solved.
     failures : (parameter, message) of those that were not solved.
     solves : number of solved cases, the one at ``value`` included.
-    scalars : all results at ``value``, as `rollnip.sweep.evaluate` returns them; empty without.
+    scalars : all results at ``value``, as `rollnip.sweeps.evaluate` returns them; empty without.
     case : the case with ``value``; the case as it was where there is none.
     message : what was found, in one or a few sentences.
     """

@@ -22,7 +22,7 @@ from rollnip.design.search import (
     search_cube,
 )
 from rollnip.io import with_values
-from rollnip.sweep import evaluate as evaluated
+from rollnip.sweeps import evaluate as evaluated
 
 _SHOWN = 5
 _AT_BOUND = 2e-3  # share of the interval
@@ -88,7 +88,7 @@ class Optimum:
     solves : number of solved cases, the last included.
     failures : (values by path, message) of those that could not be.
     trials : (values by path, objective, whether all limits are kept) of every solved case in turn.
-    scalars : all results at the optimum, as `rollnip.sweep.evaluate` returns them.
+    scalars : all results at the optimum, as `rollnip.sweeps.evaluate` returns them.
     case : the case with the chosen values.
     message : what was found, in a few sentences.
     """
@@ -151,7 +151,7 @@ def optimise(
     limits : ``AtLeast("nip_width", "8 mm")``, ``AtMost("peak_pressure", "0.5 MPa")``.
     search : how; ``Search()`` by default.
     evaluate : solves one case; for tests, and for programs that keep count.
-    each : calls a function with several items; with that of `rollnip.sweep.together`, and its
+    each : calls a function with several items; with that of `rollnip.sweeps.together`, and its
         ``evaluate``, several cases are solved at a time. The answer is the same.
 
     Returns

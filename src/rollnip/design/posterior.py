@@ -18,7 +18,7 @@ def posterior(fit: Mapping[str, Any]) -> tuple[tuple[Varied, ...], tuple[Correla
     Parameters
     ----------
     fit :
-        the tree of fit.json, or what `rollnip.identify.fit_dict` returns.
+        the tree of fit.json, or what `rollnip.identification.fit_dict` returns.
 
     Returns
     -------

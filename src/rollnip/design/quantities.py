@@ -10,7 +10,7 @@ from typing import Any, get_args
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension, base_unit, parse_quantity
 from rollnip.io import dimension_at
-from rollnip.sweep import SCALARS
+from rollnip.sweeps import SCALARS
 
 # What says how a case was solved is no aim of a design.
 QUANTITIES: Mapping[str, str] = {

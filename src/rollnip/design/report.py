@@ -43,7 +43,7 @@ def optimum_report(found: Optimum, title: str = "") -> str:
 
 
 def result_lines(row: Mapping[str, Any]) -> list[str]:
-    """The main results of a row of `rollnip.sweep.evaluate`, each with its error; warnings."""
+    """The main results of a row of `rollnip.sweeps.evaluate`, each with its error; warnings."""
     lines = ["", "Results there, solved afresh"]
     for name in _SHOWN:
         if row.get(name) is not None:

@@ -33,7 +33,7 @@ from rollnip.design.scatter import (
     Tolerance,
 )
 from rollnip.design.sensitivity import SobolIndices, regression, sobol_places, sobol_shares
-from rollnip.sweep import SCALARS, Axis, Study, Table, sweep
+from rollnip.sweeps import SCALARS, Axis, Study, Table, sweep
 
 Solver = Callable[[Study], Table]
 
@@ -81,7 +81,7 @@ def tolerance(
     limits : the specifications: ``AtLeast("nip_width", "7 mm")``.
     correlations : between parameters; none: they are independent.
     sampling : how many samples and which intervals; ``Sampling()`` by default.
-    solve : solves a study; `rollnip.sweep.sweep` in this process by default. For more processes
+    solve : solves a study; `rollnip.sweeps.sweep` in this process by default. For more processes
         ``functools.partial(sweep, workers=8)``; with ``database="tolerance.db"`` a run that was
         stopped goes on from there.
 

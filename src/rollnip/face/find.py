@@ -16,7 +16,7 @@ from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Approach, Nip, Traction
 from rollnip.shafts import Face
-from rollnip.solve import solve
+from rollnip.solver import solve
 
 Array = NDArray[np.float64]
 

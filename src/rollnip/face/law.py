@@ -26,7 +26,7 @@ from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip, Traction
 from rollnip.solution import Solution
-from rollnip.solve import solve
+from rollnip.solver import solve
 
 Array = NDArray[np.float64]
 Progress = Callable[[int, int], None]

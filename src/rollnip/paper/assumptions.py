@@ -19,7 +19,7 @@ from rollnip.paper.cases import (
 )
 from rollnip.paper.measures import edge_peak, pressure_offset
 from rollnip.solution import Solution
-from rollnip.solve import solve
+from rollnip.solver import solve
 
 Measure = Callable[[Solution], float]
 

@@ -28,7 +28,7 @@ from rollnip.paper.cases import (
 )
 from rollnip.paper.measures import stress_centre
 from rollnip.solution import Solution
-from rollnip.solve import solve
+from rollnip.solver import solve
 
 Array = NDArray[np.float64]
 GEOMETRIES: tuple[Geometry, ...] = ("linear", "corrected", "curved")

@@ -9,7 +9,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rollers import Layer, Roller
 from rollnip.solution import Solution, Zone
-from rollnip.solve import solve
+from rollnip.solver import solve
 
 LINEAR = Model(geometry="linear")
 

@@ -1,4 +1,4 @@
-"""The nip designer: a web page and a JSON API over `rollnip.io` and `rollnip.solve`.
+"""The nip designer: a web page and a JSON API over `rollnip.io` and `rollnip.solver`.
 
 Needs the extra ``rollnip[web]``. The web framework is imported only when one of these is called,
 so that the worker processes, which need no more than the solver, start quickly.

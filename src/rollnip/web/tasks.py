@@ -33,8 +33,8 @@ from rollnip.io.document import parse_document
 from rollnip.materials import Prony
 from rollnip.rollers import Roller
 from rollnip.solution import Solution
-from rollnip.solve import solve
-from rollnip.sweep import scalars
+from rollnip.solver import solve
+from rollnip.sweeps import scalars
 from rollnip.web.answers import SOURCE, Reply, error_tree, json_bytes, refusal
 from rollnip.web.known import JUDGED, at_end, bands, is_judged, spread
 from rollnip.web.library import Library

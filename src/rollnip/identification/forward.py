@@ -1,0 +1,197 @@
+"""Predictions of the measurements from values of the unknowns: one solve for each nip."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any, Protocol, TypeVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError, RollnipError
+from rollnip.identification.costs import Measurements, Scalars
+from rollnip.identification.unknowns import Unknown
+from rollnip.io import case_hash, dimension_at, parse_case, with_values
+from rollnip.model import Model
+from rollnip.solution import Solution
+from rollnip.solver import solve
+
+Array = NDArray[np.float64]
+Predictions = tuple[Array, ...]
+_A = TypeVar("_A")
+_B = TypeVar("_B")
+
+
+class Predictor(Protocol):
+    """A predictor: it returns each set's predictions at values of the unknowns, or None."""
+
+    def predict(self, values: Mapping[str, float]) -> Predictions | None:
+        """Return the predictions of each set, None where there are none at these values."""
+
+
+class Workforce(Protocol):
+    """The workers that solve nips; `rollnip.sweeps.Together` is such a type."""
+
+    @property
+    def evaluate(self) -> Callable[[Mapping[str, Any]], Mapping[str, Any]]:
+        """The function that solves one case, as `rollnip.sweeps.evaluate` does."""
+        ...
+
+    def each(self, function: Callable[[_A], _B], items: Sequence[_A], /) -> list[_B]:
+        """Call a function with every item, perhaps at the same time; results in order."""
+        ...
+
+
+class Numbers:
+    """The numbers of a solution from a row of `rollnip.sweeps.evaluate`, as attributes."""
+
+    def __init__(self, row: Mapping[str, Any]) -> None:
+        self._row = row
+        self.converged = bool(row["converged"])
+
+    def __getattr__(self, name: str) -> Any:
+        """Return a number, None where it is not defined."""
+        row: Mapping[str, Any] = self.__dict__["_row"]
+        if name not in row:
+            raise AttributeError(name)
+        return row[name]
+
+
+class Forward:
+    """Predictions by solving nips.
+
+    Parameters
+    ----------
+    tree :
+        the case.
+    parts :
+        the sets of measurements.
+    overrides :
+        values by path for every nip: geometry and tolerance.
+    on_solve :
+        called after each nip with the number solved so far.
+    workforce :
+        who solves the nips of which only numbers are wanted, such as several processes or a
+        database; None: this process, one after the other.
+    """
+
+    def __init__(
+        self,
+        tree: Mapping[str, Any],
+        parts: tuple[Measurements, ...],
+        overrides: Mapping[str, Any],
+        on_solve: Callable[[int], None] | None = None,
+        workforce: Workforce | None = None,
+    ) -> None:
+        self.tree = with_values(tree, overrides)
+        self.parts = parts
+        self.solves = 0
+        self.unverified = 0
+        self.refused = ""
+        self.is_verified = True  # all nips of the last prediction
+        self.fallbacks = 0  # solves with another geometry than wanted
+        self._on_solve = on_solve
+        self._workforce = workforce
+
+    def predict(self, values: Mapping[str, float]) -> Predictions | None:
+        """Predictions of each set; None, and why in ``refused``, where a nip has no solution."""
+        known: dict[str, Solution | Numbers] = {}
+        self.is_verified, self.fallbacks = True, 0
+        try:
+            if self._workforce is not None:
+                self._solve_together(self._workforce, values, known)
+            predictions = tuple(self._predict(part, values, known) for part in self.parts)
+        except RollnipError as problem:
+            self.refused = str(problem)
+            return None
+        except (ArithmeticError, np.linalg.LinAlgError) as problem:
+            self.refused = f"The solver failed: {problem}."  # at values far from any real nip
+            return None
+        for part, prediction in zip(self.parts, predictions, strict=True):
+            if not np.all(np.isfinite(prediction)):
+                self.refused = f"{part.quantity} is not defined in this nip."
+                return None
+        return predictions
+
+    def _solve_together(
+        self,
+        workforce: Workforce,
+        values: Mapping[str, float],
+        known: dict[str, Solution | Numbers],
+    ) -> None:
+        """Solve the nips of all sets that need numbers only, as many at a time as can be."""
+        trees: dict[str, dict[str, Any]] = {}
+        for part in (one for one in self.parts if isinstance(one, Scalars)):
+            for row in part.conditions:
+                tree = with_values(self.tree, {**values, **row})
+                trees[case_hash(parse_case(tree))] = tree
+        rows = workforce.each(workforce.evaluate, list(trees.values()))
+        for key, found in zip(trees, rows, strict=True):
+            if found["geometry"] is None:
+                raise InvalidInputError(str(found["message"]))
+            known[key] = Numbers(found)
+            self._count(known[key].converged, found["geometry"] != self._geometry)
+
+    @property
+    def _geometry(self) -> str:
+        return model_of(self.tree, None, None).geometry
+
+    def _count(self, converged: bool, is_fallback: bool) -> None:
+        self.solves += 1
+        self.fallbacks += is_fallback
+        if not converged:
+            self.unverified, self.is_verified = self.unverified + 1, False
+        if self._on_solve is not None:
+            self._on_solve(self.solves)
+
+    def _predict(
+        self,
+        part: Measurements,
+        values: Mapping[str, float],
+        known: dict[str, Solution | Numbers],
+    ) -> Array:
+        found = [self._solved(values, row, known) for row in part.conditions]
+        return part.predict(cast("list[Solution]", found))
+
+    def _solved(
+        self,
+        values: Mapping[str, float],
+        row: Mapping[str, Any],
+        known: dict[str, Solution | Numbers],
+    ) -> Solution | Numbers:
+        """Return the solution of one nip; nips of the same values are solved once."""
+        case = parse_case(with_values(self.tree, {**values, **row}))
+        key = case_hash(case)
+        if key not in known:
+            found = solve(case.nip, case.model, on_failure="return")
+            known[key] = found
+            self._count(found.converged, found.model.geometry != case.model.geometry)
+        return known[key]
+
+
+def check_paths(
+    tree: Mapping[str, Any], unknowns: Sequence[Unknown], parts: Sequence[Measurements]
+) -> None:
+    """Raise InvalidInputError where a path is no number of the case, twice there, or both."""
+    paths = [one.path for one in unknowns]
+    for path in paths:
+        if dimension_at(tree, path) is None:
+            raise InvalidInputError(f"`{path}` must be a number of the case to be an unknown.")
+        if paths.count(path) > 1:
+            raise InvalidInputError(f"`{path}` must be among the unknowns once only.")
+    for part in parts:
+        for path in part.at:
+            dimension_at(tree, path)
+            if path in paths:
+                raise InvalidInputError(
+                    f"`{path}` must not be an unknown: the {part.quantity} was measured at "
+                    "known values of it."
+                )
+
+
+def model_of(tree: Mapping[str, Any], geometry: str | None, tolerance: float | None) -> Model:
+    """The model of the case with what is not None put in its place."""
+    model = parse_case(tree).model
+    changed: dict[str, Any] = {"geometry": geometry, "tolerance": tolerance}
+    return replace(model, **{name: value for name, value in changed.items() if value is not None})

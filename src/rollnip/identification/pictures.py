@@ -1,0 +1,142 @@
+"""Pictures of a fit: measurements beside predictions, and what is left of them."""
+
+from __future__ import annotations
+
+from math import ceil
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rollnip.identification.result import Fit, FittedSet
+from rollnip.plots.style import FULL, MM, Look, Style, label, palette_of, prepare
+
+_MOST_COLUMNS = 3
+_HEIGHT = 92.0  # mm of a row
+_BAND = 2.0  # standard errors
+
+
+def plot_fit(fit: Fit, style: Style = "light") -> Figure:
+    """Draw each set: measurements with standard errors and predictions; residuals below.
+
+    Parameters
+    ----------
+    fit :
+        from `identify`.
+    style :
+        "light" or "dark".
+
+    Returns
+    -------
+    Figure
+        180 mm wide, outside pyplot; two axes for each set.
+    """
+    columns = min(len(fit.sets), _MOST_COLUMNS)
+    rows = ceil(len(fit.sets) / columns)
+    figure = Figure(
+        figsize=(FULL * MM, _HEIGHT * rows * MM),
+        layout="constrained",
+        facecolor=palette_of(style).ground,
+    )
+    grids = figure.subfigures(rows, columns, squeeze=False)
+    for part, one in zip(grids.flat, fit.sets, strict=False):
+        part.set_facecolor(palette_of(style).ground)
+        above, below = part.subplots(2, 1, sharex=True, height_ratios=(2.2, 1.0))
+        plot_set(one, above, style=style, quantile=fit.quantile)
+        plot_residuals(one, below, style=style)
+        above.set_xlabel("")
+        above.tick_params(labelbottom=False)
+    return figure
+
+
+def plot_set(
+    one: FittedSet,
+    ax: Axes | None = None,
+    style: Style | None = None,
+    *,
+    quantile: float = _BAND,
+) -> Axes:
+    """Draw the measurements of a set with two standard errors, and the predictions.
+
+    A band about the predictions, ``quantile`` standard errors each way, says how well the fitted
+    curve is known.
+    """
+    ax, look = prepare(ax, style)
+    colours = look.palette
+    order = np.argsort(one.at, kind="stable")
+    ax.plot(
+        one.at[order],
+        one.predicted[order],
+        color=colours.pressure,
+        linewidth=look.line,
+        marker=".",
+        label="fit",
+    )
+    reach = quantile * one.prediction_error[order]
+    if np.all(np.isfinite(reach)):
+        ax.fill_between(
+            one.at[order],
+            one.predicted[order] - reach,
+            one.predicted[order] + reach,
+            color=colours.pressure,
+            alpha=0.2,
+            linewidth=0.0,
+            label="interval of the curve",
+        )
+    ax.errorbar(
+        one.at,
+        one.measured,
+        yerr=_BAND * one.standard_error,
+        fmt="o",
+        color=colours.shear,
+        markerfacecolor="none",
+        markersize=0.45 * look.size,
+        linewidth=1.5 * look.thin,
+        label="measured, ± 2 standard errors",
+    )
+    label(ax, look, _named(one.against), f"{one.quantity}{_unit(one)}")
+    ax.set_title(one.name, loc="left", fontsize=look.size, color=colours.ink, parse_math=False)
+    ax.legend(frameon=False, fontsize=look.small, labelcolor=colours.ink, loc="best")
+    return ax
+
+
+def plot_residuals(one: FittedSet, ax: Axes | None = None, style: Style | None = None) -> Axes:
+    """Draw measured less predicted over the standard error; the band holds 95 of 100 points."""
+    ax, look = prepare(ax, style)
+    colours = look.palette
+    ax.axhspan(-_BAND, _BAND, facecolor=colours.stick, linewidth=0.0)
+    ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
+    ax.plot(
+        one.at,
+        one.residuals,
+        "o",
+        color=colours.shear,
+        markerfacecolor="none",
+        markersize=0.45 * look.size,
+    )
+    reach = max(1.3 * float(np.max(np.abs(one.residuals))), 1.5 * _BAND)
+    ax.set_ylim(-reach, reach)
+    _label_residuals(ax, look, one)
+    return ax
+
+
+def _label_residuals(ax: Axes, look: Look, one: FittedSet) -> None:
+    label(ax, look, _named(one.against), "residual\n/ std. error")
+
+
+def _named(path: str) -> str:
+    """An axis for a path: its last key in words, with the base unit where it is one of [nip]."""
+    units = {
+        "nip.load": "N/mm",
+        "nip.approach": "mm",
+        "nip.traction": "N/mm",
+        "nip.torque_lower": "N",
+        "nip.speed": "mm/s",
+        "x": "mm",
+    }
+    name = path.rpartition(".")[2].replace("_", " ")
+    return f"{name} [{units[path]}]" if path in units else name
+
+
+def _unit(one: FittedSet) -> str:
+    return f" [{one.unit}]" if one.unit else ""

@@ -1,0 +1,26 @@
+"""Many cases: studies, one case to one row, sweeps over many cores and machines."""
+
+from rollnip.sweeps.recall import recalling
+from rollnip.sweeps.row import SCALARS, STATUSES, evaluate, scalars
+from rollnip.sweeps.study import Axis, Study
+from rollnip.sweeps.study_file import read_study
+from rollnip.sweeps.sweep import sweep
+from rollnip.sweeps.table import Table
+from rollnip.sweeps.task import Outcome
+from rollnip.sweeps.together import Together, together
+
+__all__ = [
+    "SCALARS",
+    "STATUSES",
+    "Axis",
+    "Outcome",
+    "Study",
+    "Table",
+    "Together",
+    "evaluate",
+    "read_study",
+    "recalling",
+    "scalars",
+    "sweep",
+    "together",
+]

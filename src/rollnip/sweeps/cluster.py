@@ -1,0 +1,149 @@
+"""Dask, for more than one machine, through the extra ``rollnip[cluster]``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from concurrent.futures import CancelledError, Future
+from contextlib import contextmanager, suppress
+from time import monotonic
+from typing import Any
+
+from rollnip._errors import RollnipError
+from rollnip._extras import require_extra
+from rollnip.sweeps import version
+from rollnip.sweeps.crew import Given, one_thread_each
+from rollnip.sweeps.task import Outcome, Task
+from rollnip.sweeps.version import own_version
+
+_ADDRESS = re.compile(r"([a-z]+://)?\S+:\d+")
+_CHUNK_SECONDS = 0.25  # a task costs Dask some milliseconds
+PATIENCE = "30s"
+"""How long a scheduler may take to answer."""
+LONELY = 30.0
+"""Seconds without any worker after which a sweep gives up."""
+_LOOK = 2.0  # s, between two looks at who is there
+
+
+@contextmanager
+def dask_crew(address: str, workers: int) -> Iterator[Given]:
+    """Workers of a Dask cluster.
+
+    Parameters
+    ----------
+    address :
+        address of the scheduler, such as tcp://host:8786; "local" starts a cluster on this machine.
+    workers :
+        processes of the local cluster.
+
+    Raises
+    ------
+    RollnipError
+        where the extra is missing, the scheduler does not answer, has no workers, or these have
+        no rollnip or another version of it.
+    """
+    if address != "local" and not _ADDRESS.fullmatch(address):
+        raise RollnipError(
+            f'the address of a Dask scheduler must be like tcp://host:8786, or "local", '
+            f'got "{address}".'
+        )
+    require_extra("cluster", "solving on a Dask cluster", "leave out --dask")
+    from distributed import Client, LocalCluster
+
+    if address != "local":
+        with _connected(Client, address) as client:
+            yield _checked(client, address)
+        return
+    start: Any = LocalCluster
+    with (
+        one_thread_each(),
+        start(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        _connected(Client, cluster) as client,
+    ):
+        yield _checked(client, "the local cluster")
+
+
+class DaskCrew(Given):
+    """Workers of a Dask cluster.
+
+    Parameters
+    ----------
+    client :
+        client of the scheduler.
+    workers :
+        threads of all workers.
+    name :
+        name of the cluster, for messages.
+    """
+
+    def __init__(self, client: Any, workers: int, name: str) -> None:
+        super().__init__(client.get_executor(), workers, _CHUNK_SECONDS)
+        self._client, self._name = client, name
+        self._looked = self._seen = monotonic()
+
+    def submit(self, task: Task) -> Future[list[Outcome]]:
+        """Start a task. Raises RollnipError where the scheduler is gone."""
+        with _scheduler_told(self._name):
+            return super().submit(task)
+
+    def require_alive(self) -> None:
+        """Raise RollnipError where the scheduler is gone, or no worker came back for a while."""
+        now = monotonic()
+        if now - self._looked < _LOOK:
+            return
+        self._looked = now
+        with _scheduler_told(self._name):
+            if self._client.nthreads():
+                self._seen = now
+        if now - self._seen > LONELY:
+            raise RollnipError(
+                f"{self._name}: has had no worker for {now - self._seen:.0f} s; what was finished "
+                "is kept: start workers and run the same again."
+            )
+
+
+@contextmanager
+def _scheduler_told(name: str) -> Iterator[None]:
+    """Say of a lost connection that it is one."""
+    try:
+        yield
+    except (OSError, TimeoutError, CancelledError) as error:
+        said = " ".join(str(error).split()) or type(error).__name__
+        raise RollnipError(
+            f"{name}: the Dask scheduler does not answer any more ({said}); what was finished is "
+            "kept: run the same again."
+        ) from None
+
+
+@contextmanager
+def _connected(connect: Any, address: Any) -> Iterator[Any]:
+    try:
+        client = connect(address, timeout=PATIENCE, set_as_default=False)
+    except (OSError, ValueError) as error:
+        raise RollnipError(f"{address}: no Dask scheduler answers there ({error}).") from None
+    try:
+        yield client
+    finally:
+        with suppress(OSError, TimeoutError, CancelledError):
+            client.close()
+
+
+def _checked(client: Any, name: str) -> Given:
+    """The workers, all of this version of rollnip; one that is lost meanwhile is left out."""
+    with _scheduler_told(name):
+        answers = client.run(version.own_version, on_error="return")
+    ours = own_version()
+    for worker, theirs in answers.items():
+        if isinstance(theirs, ImportError):
+            raise RollnipError(f"{name}: worker {worker} has no rollnip ({theirs}).")
+        if isinstance(theirs, Exception) and not isinstance(theirs, OSError):
+            said = f"{type(theirs).__name__}: {theirs}"
+            raise RollnipError(f"{name}: worker {worker} cannot say its version ({said}).")
+        if isinstance(theirs, str) and theirs != ours:
+            raise RollnipError(f"{name}: worker {worker} has rollnip {theirs}, this is {ours}.")
+    with _scheduler_told(name):
+        threads = sum(client.nthreads().values())
+    if not threads:
+        lost = f"; {len(answers)} were lost while they were asked" if answers else ""
+        raise RollnipError(f"{name}: the Dask scheduler has no workers{lost}.")
+    return DaskCrew(client, threads, name)

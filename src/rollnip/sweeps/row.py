@@ -1,0 +1,144 @@
+"""The row of numbers of one case; whatever goes wrong with it is a message in the row."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cache
+from math import isfinite
+from typing import Any
+
+from rollnip._errors import ConvergenceError, RollnipError
+from rollnip.figures import CLAIMED, FIGURES
+from rollnip.influence import KernelCache
+from rollnip.io import Case, case_hash, parse_case
+from rollnip.solution import Solution
+from rollnip.solver import solve
+
+Row = dict[str, float | bool | str | None]
+
+SCALARS: Mapping[str, str] = {
+    **{key: figure.unit for key, figure in FIGURES.items()},
+    **{f"error.{name}": figure.unit for name, figure in CLAIMED.items()},
+    "solver.elements": "1",
+    "solver.iterations": "1",
+    "solver.residual": "1",
+    "solver.geometry_change": "1",
+}
+"""Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``."""
+
+STATUSES = ("solved", "unverified", "refused", "failed", "lost")
+"""What became of a case; only of the first two there are numbers. "lost" is of sweeps alone: the
+process that worked on the case ended without a word."""
+
+_NAME = "case"
+
+
+def evaluate(tree: Mapping[str, Any]) -> Row:
+    """Solve one case and return its scalars; an error is a message, never an exception.
+
+    Parameters
+    ----------
+    tree :
+        the tree of a case file, such as `rollnip.io.with_values` returns.
+
+    Returns
+    -------
+    A flat dict, always with the same keys in the same order:
+
+    - ``status``: "solved" (and verified), "unverified" (there are numbers, but they were not
+      verified), "refused" (the case is wrong) or "failed" (no solution was found);
+    - ``message``: why, in one line; empty where solved;
+    - ``converged``: whether the status is "solved";
+    - ``geometry``: the geometry solved with, which may be "curved" where "finite" was wanted;
+      None without a solution;
+    - the names of `SCALARS`: numbers in the units given there, per axial length; None where not
+      finite, not defined or not solved. ``max_surface_strain`` is the largest strain of either
+      surface in the contact, mean over an element;
+    - ``warnings``: reservations, parted by blanks.
+    """
+    return solved(ready(lambda: tree), own_kernels())[0]
+
+
+@cache
+def own_kernels() -> KernelCache:
+    """Return this process's cache of kernels, which neighbouring cases share."""
+    return KernelCache()
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """A case that was read, to be solved.
+
+    Attributes
+    ----------
+    case : None where it is no case.
+    name : its hash; None where it is no case.
+    refusal : the row that says why it is none; else None.
+    """
+
+    case: Case | None = None
+    name: str | None = None
+    refusal: Row | None = None
+
+
+def ready(make: Callable[[], Mapping[str, Any]]) -> Ready:
+    """Read the case whose tree ``make`` returns; what either raises is a message in a row."""
+    try:
+        case = parse_case(make(), source=_NAME)
+        return Ready(case, case_hash(case))
+    except Exception as error:  # noqa: BLE001 - a fault in one case must not end a thousand others
+        return Ready(refusal=_row_of(error))
+
+
+def solved(one: Ready, kernels: KernelCache | None = None) -> tuple[Row, Solution | None]:
+    """Solve a case: its row, as `evaluate` returns it, and its solution where there is one."""
+    if one.case is None:
+        assert one.refusal is not None
+        return one.refusal, None
+    try:
+        solution = solve(one.case.nip, one.case.model, cache=kernels, on_failure="return")
+        return scalars(solution), solution
+    except Exception as error:  # noqa: BLE001 - as above
+        return _row_of(error), None
+
+
+def _row_of(error: Exception) -> Row:
+    if isinstance(error, ConvergenceError):
+        return without_solution("failed", str(error))
+    if isinstance(error, RollnipError):
+        lines = (line.removeprefix(f"{_NAME}: ") for line in str(error).splitlines())
+        return without_solution("refused", " ".join(lines))
+    said = " ".join(str(error).split())
+    return without_solution("failed", f"Unforeseen {type(error).__name__}: {said}")
+
+
+def scalars(solution: Solution) -> Row:
+    """The row of a solution, as `evaluate` returns it."""
+    row: Row = {
+        "status": "solved" if solution.converged else "unverified",
+        "message": "" if solution.converged else solution.status,
+        "converged": bool(solution.converged),
+        "geometry": solution.model.geometry,
+    }
+    row |= {name: _value(solution, name) for name in SCALARS}
+    return row | {"warnings": " ".join(solution.warnings)}
+
+
+def _value(solution: Solution, name: str) -> float | None:
+    if name in FIGURES:
+        return FIGURES[name].value(solution)
+    table, _, key = name.partition(".")
+    if table == "error":
+        return CLAIMED[key].error(solution)
+    return _number(getattr(solution.solver, key))
+
+
+def _number(value: float | None) -> float | None:
+    return float(value) if value is not None and isfinite(value) else None
+
+
+def without_solution(status: str, message: str) -> Row:
+    """A row that says what went wrong and holds no numbers."""
+    row: Row = {"status": status, "message": message, "converged": False, "geometry": None}
+    return row | dict.fromkeys(SCALARS) | {"warnings": ""}

@@ -1,0 +1,304 @@
+"""The reader of study files: paths, values and units checked, every fault one clear line."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from difflib import get_close_matches
+from math import prod
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
+from rollnip._units import Dimension, base_unit, parse_quantity
+from rollnip.figures import PROFILES
+from rollnip.io import Columns, dimension_at, parse_case, read_columns, value_at
+from rollnip.io.document import read_document
+from rollnip.io.study import ParameterTable, StudyTable, parse_study
+from rollnip.sweeps.row import SCALARS
+from rollnip.sweeps.sampling import Range, samples
+from rollnip.sweeps.study import Axis, Column, Study
+
+MOST_CASES = 10**8
+_EITHER = (("nip.load", "nip.approach"), ("nip.traction", "nip.creepage", "nip.torque_lower"))
+
+
+def read_study(study: str | Path | Mapping[str, Any]) -> Study:
+    """Read a study file, TOML or JSON, or the tree that such a file holds.
+
+    Names of other files in it count from the folder of the study, or from the working directory
+    where ``study`` is a tree.
+
+    Raises
+    ------
+    CaseFileError
+        where a file cannot be read or does not describe a study; with the name of the file and
+        the path of the key.
+    InvalidInputError
+        where a table of designs is wrong, with file, line and column.
+    """
+    if isinstance(study, Mapping):
+        return _Reader(study, "study", Path()).study()
+    folder = Path() if str(study) == "-" else Path(study).parent
+    return _Reader(read_document(study), str(study), folder).study()
+
+
+class _Reader:
+    def __init__(self, tree: Mapping[str, Any], source: str, folder: Path) -> None:
+        if "nip" in tree and "parameters" not in tree:
+            raise CaseFileError(
+                f"{source}: is a case; a study names it with `case` and holds [[parameters]]."
+            )
+        self.table: StudyTable = parse_study(tree, source)
+        self.source = source
+        self.folder = folder
+        self.case, self.case_source = self._case()
+
+    def study(self) -> Study:
+        axes = self._axes()
+        self._check_paths([path for axis in axes for path in axis.paths])
+        _require_few(self.source, prod(len(axis) for axis in axes))
+        study = Study(
+            title=self.table.title or str(self.case.get("title", "")),
+            tree=self.case,
+            axes=axes,
+            results=self._names("results", self.table.results, SCALARS),
+            profiles=self._names("profiles", self.table.profiles or [], PROFILES),
+            source=self.source,
+        )
+        self._check_cases(study)
+        return study
+
+    def _case(self) -> tuple[dict[str, Any], str]:
+        given = self.table.case
+        if isinstance(given, str):
+            path = self.folder / given
+            return read_document(path), str(path)
+        if not isinstance(given, dict):
+            raise self._wrong("case: must be the name of a case file, or a table.")
+        return given, f"{self.source}: case"
+
+    def _axes(self) -> tuple[Axis, ...]:
+        """Return the axes: one for all sampled ranges, one for each group or other parameter."""
+        if not self.table.parameters:
+            raise self._wrong("parameters: must hold at least one parameter, holds none.")
+        parts: dict[str, list[Axis]] = {}
+        sampled: list[tuple[str, ParameterTable, Range]] = []
+        for index, parameter in enumerate(self.table.parameters):
+            where = f"parameters[{index}]"
+            kind = self._kind(where, parameter)
+            if kind == "sampled":
+                parts.setdefault("sampled", [])
+                sampled.append((where, parameter, self._range(where, parameter)))
+                continue
+            name = f"group {parameter.group}" if parameter.group is not None else where
+            parts.setdefault(name, []).append(self._axis(where, parameter, kind))
+        self._check_sampling(bool(sampled))
+        if sampled:
+            parts["sampled"] = [self._sampled(sampled)]
+        return tuple(self._joined(name, axes) for name, axes in parts.items())
+
+    def _kind(self, where: str, parameter: ParameterTable) -> str:
+        """Return the kind of a parameter: values, start (a range with count), sampled or table."""
+        given = [name for name in ("values", "start", "table") if _has(parameter, name)]
+        if len(given) != 1:
+            got = " and ".join(given) or "none"
+            raise self._wrong(f"{where}: must hold one of values, start and table, got {got}.")
+        kind = given[0]
+        allowed = {
+            "values": {"path", "values", "group"},
+            "start": {"path", "start", "stop", "count", "spacing", "group"},
+            "table": {"table", "sheet", "group"},
+        }[kind]
+        for name in sorted(parameter.model_fields_set - allowed):
+            raise self._wrong(f"{where}.{name}: has no meaning beside `{kind}`; leave it out.")
+        needed = {"values": ("path",), "start": ("path", "stop"), "table": ()}[kind]
+        for name in needed:
+            if not _has(parameter, name):
+                raise self._wrong(f"{where}.{name}: is missing.")
+        if kind == "start" and parameter.count is None:
+            if parameter.group is not None:
+                raise self._wrong(f"{where}.count: is missing; a group needs it.")
+            return "sampled"
+        return kind
+
+    def _check_sampling(self, is_sampled: bool) -> None:
+        sampling = self.table.sampling
+        if is_sampled and sampling.method == "grid":
+            raise self._wrong(
+                "parameters: a range has no `count`; give one, or choose [sampling] method = "
+                '"latin-hypercube" or "sobol" with a count there.'
+            )
+        if is_sampled and sampling.count is None:
+            raise self._wrong("sampling.count: is missing.")
+        if not is_sampled and (sampling.method != "grid" or sampling.count is not None):
+            raise self._wrong(
+                "sampling: there is nothing to sample; leave out the `count` of the ranges that "
+                "are to be sampled."
+            )
+        if sampling.seed < 0:
+            raise self._wrong(f"sampling.seed: must be zero or positive, got {sampling.seed}.")
+
+    def _axis(self, where: str, parameter: ParameterTable, kind: str) -> Axis:
+        if kind == "table":
+            return self._from_table(parameter)
+        path = str(parameter.path)
+        dimension = self._dimension(f"{where}.path", path)
+        if kind == "values":
+            column = self._values(where, parameter.values or [], dimension)
+        else:
+            count = parameter.count or 0
+            if count < 2:
+                raise self._wrong(f"{where}.count: must be 2 or more, got {parameter.count}.")
+            _require_few(f"{self.source}: {where}.count", count)
+            column = self._range(where, parameter).steps(count)
+        return Axis((path,), (_unit(dimension),), (column,))
+
+    def _values(self, where: str, values: Sequence[Any], dimension: Dimension | None) -> Column:
+        if not values:
+            raise self._wrong(f"{where}.values: must hold at least one value, holds none.")
+        if dimension is None:
+            return tuple(json.dumps(value, default=str) for value in values)
+        numbers = []
+        for index, value in enumerate(values):
+            with self._placed(f"{where}.values[{index}]"):
+                numbers.append(parse_quantity(value, dimension, infinite=True))
+        return np.array(numbers, dtype=np.float64)
+
+    def _range(self, where: str, parameter: ParameterTable) -> Range:
+        dimension = self._dimension(f"{where}.path", str(parameter.path))
+        if dimension is None:
+            raise self._wrong(f"{where}: {parameter.path} is no quantity; give `values`.")
+        ends = []
+        for name in ("start", "stop"):
+            with self._placed(f"{where}.{name}"):
+                ends.append(parse_quantity(getattr(parameter, name), dimension))
+        with self._placed(where):
+            return Range(ends[0], ends[1], parameter.spacing)
+
+    def _sampled(self, parameters: list[tuple[str, ParameterTable, Range]]) -> Axis:
+        sampling = self.table.sampling
+        assert sampling.method != "grid"
+        _require_few(f"{self.source}: sampling.count", sampling.count or 0)
+        paths = tuple(str(parameter.path) for _, parameter, _ in parameters)
+        dimensions = [
+            self._dimension(where, path)
+            for (where, *_), path in zip(parameters, paths, strict=True)
+        ]
+        ranges = [one for *_, one in parameters]
+        with self._placed("sampling"):
+            columns = samples(ranges, sampling.method, sampling.count or 0, sampling.seed)
+        return Axis(paths, tuple(_unit(dimension) for dimension in dimensions), columns)
+
+    def _from_table(self, parameter: ParameterTable) -> Axis:
+        """The columns of a table of designs step together, one row after the other."""
+        table = read_columns(self.folder / str(parameter.table), sheet=parameter.sheet)
+        paths, units, columns = table.names, [], []
+        for path in paths:
+            dimension = self._dimension(table.source, path)
+            units.append(_unit(dimension))
+            columns.append(_column(table, path, dimension))
+        return Axis(paths, tuple(units), tuple(columns))
+
+    def _joined(self, name: str, axes: list[Axis]) -> Axis:
+        """One axis from those of a group."""
+        lengths = [len(axis) for axis in axes]
+        if len(set(lengths)) > 1:
+            raise self._wrong(
+                f"parameters: those of {name} must have equally many values, have "
+                f"{', '.join(map(str, lengths))}."
+            )
+        return Axis(
+            tuple(path for axis in axes for path in axis.paths),
+            tuple(unit for axis in axes for unit in axis.units),
+            tuple(column for axis in axes for column in axis.columns),
+        )
+
+    def _check_paths(self, paths: list[str]) -> None:
+        """Check that no parameter sets the same value as another, or a part of it."""
+        for path in paths:
+            if paths.count(path) > 1:
+                raise self._wrong(f"parameters: {path} must not be there twice.")
+            below = next((p for p in paths if p.startswith((f"{path}.", f"{path}["))), None)
+            if below is not None:
+                raise self._wrong(f"parameters: {below} is a part of {path}; leave one out.")
+        for group in _EITHER:
+            both = [path for path in paths if path in group]
+            if len(both) > 1:
+                raise self._wrong(f"parameters: {' and '.join(both)} exclude each other.")
+
+    def _check_cases(self, study: Study) -> None:
+        """A case that is wrong at both ends of the study is wrong itself: say so before it runs."""
+        refused = []
+        for position in (0, study.count - 1):
+            try:
+                parse_case(study.case(position), source=f"{self.case_source} (case {position})")
+            except InvalidInputError as error:
+                raise self._wrong(f"parameters: {error}") from None
+            except CaseFileError as error:
+                refused.append(error)
+        if len(refused) == 2:
+            raise refused[0]
+
+    def _dimension(self, where: str, path: str) -> Dimension | None:
+        with self._placed(where):
+            dimension = dimension_at(self.case, path)
+            above = path.rpartition(".")[0]
+            if above and above not in ("model", "solver"):
+                value_at(self.case, above)
+            return dimension
+
+    def _names(
+        self, key: str, wanted: Sequence[str] | None, known: Mapping[str, object]
+    ) -> tuple[str, ...]:
+        if wanted is None:
+            return tuple(known)
+        for index, name in enumerate(wanted):
+            if name not in known:
+                near = get_close_matches(name, known, n=1)
+                hint = f'did you mean "{near[0]}"?' if near else f"known: {', '.join(known)}."
+                raise self._wrong(f'{key}[{index}]: there is no "{name}"; {hint}')
+            if name in wanted[:index]:
+                raise self._wrong(f'{key}[{index}]: "{name}" must not be there twice.')
+        return tuple(wanted)
+
+    @contextmanager
+    def _placed(self, where: str) -> Iterator[None]:
+        """Prefix an input error raised inside the block with the file and the key."""
+        try:
+            yield
+        except InvalidInputError as error:
+            raise self._wrong(f"{where}: {error}") from None
+
+    def _wrong(self, line: str) -> RollnipError:
+        return CaseFileError(f"{self.source}: {line}")
+
+
+def _require_few(where: str, count: int) -> None:
+    if count > MOST_CASES:
+        raise CaseFileError(
+            f"{where}: must make at most {MOST_CASES:,} cases, makes {count:,}; part the study."
+        )
+
+
+def _has(parameter: ParameterTable, name: str) -> bool:
+    return name in parameter.model_fields_set
+
+
+def _unit(dimension: Dimension | None) -> str:
+    """Base unit; "1" for ratios, empty for what is no quantity."""
+    return "" if dimension is None else base_unit(dimension) or "1"
+
+
+def _column(table: Columns, path: str, dimension: Dimension | None) -> Column:
+    if dimension is not None:
+        return table.numbers(path, dimension)
+    if table.unit(path):
+        raise InvalidInputError(
+            f'{table.source}: column "{path}" holds no quantities and must have no unit, '
+            f'has "{table.unit(path)}".'
+        )
+    return tuple(json.dumps(cell) for cell in table.cells(path))

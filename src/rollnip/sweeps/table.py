@@ -1,0 +1,245 @@
+"""The table of results: in memory, as CSV, as Parquet; rows in the order of the study.
+
+All are made from the database alone, so that they are the same however the sweep was run.
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._extras import require_extra
+from rollnip._files import check_target, write_whole
+from rollnip._units import parse_quantity
+from rollnip.model import Model
+from rollnip.sweeps.row import SCALARS
+from rollnip.sweeps.store import About, Store
+from rollnip.sweeps.workbook import MOST_ROWS, write_workbook
+
+SUFFIXES = (".csv", ".parquet", ".xlsx")
+_TEXTS = ("status", "message", "geometry")
+_AFTER = ("warnings", "hash")
+_TEXT = ""
+_TOLERANCE = "solver.tolerance"
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
+class Table:
+    """Results of a sweep, a row for each case, in the order of the study.
+
+    Attributes
+    ----------
+    columns :
+        by name: ``case`` (position in the study, from 0), the paths of the parameters, ``status``,
+        ``message``, ``geometry``, ``converged`` (1 or 0), the results, ``warnings`` and ``hash``.
+        Numbers are float arrays in which nan is what is not there, texts are tuples.
+        The last are ``tolerance`` and ``version``.
+    units :
+        units of the columns of numbers, "1" where there is none.
+    case :
+        case of the study, as the tree of a case file; the parameters change it from row to row.
+    """
+
+    columns: Mapping[str, Array | tuple[str, ...]]
+    units: Mapping[str, str]
+    case: Mapping[str, Any] = field(default_factory=dict)
+
+    def __getitem__(self, name: str) -> Any:
+        """One column. Raises InvalidInputError where there is none of that name."""
+        if name not in self.columns:
+            raise InvalidInputError(
+                f'`name` must be one of {", ".join(self.columns)}, got "{name}".'
+            )
+        return self.columns[name]
+
+    def __len__(self) -> int:
+        """Number of cases."""
+        return len(self.columns["case"])
+
+    def __repr__(self) -> str:
+        done = sum(status == "solved" for status in self.columns.get("status", ()))
+        return f"<Table of {len(self)} cases, {done} solved: {', '.join(self.columns)}>"
+
+    def to_pandas(self) -> Any:
+        """Return a pandas DataFrame; units and case are in its ``attrs``.
+
+        Raises RollnipError where pandas is not installed.
+        """
+        frame = _module("pandas").DataFrame(dict(self.columns))
+        frame.attrs = {"units": dict(self.units), "case": dict(self.case)}
+        return frame
+
+    def to_polars(self) -> Any:
+        """Return a polars DataFrame. Raises RollnipError where polars is not installed."""
+        return _module("polars").DataFrame(
+            {name: _plain_column(column) for name, column in self.columns.items()}
+        )
+
+    def to_xarray(self) -> Any:
+        """Return an xarray Dataset over ``case``, units as attributes.
+
+        Raises RollnipError where xarray is not installed.
+        """
+        others = {name: column for name, column in self.columns.items() if name != "case"}
+        variables = {
+            name: ("case", _plain_column(column), {"units": self.units[name]})
+            if name in self.units
+            else ("case", _plain_column(column))
+            for name, column in others.items()
+        }
+        place = {"case": np.asarray(self.columns["case"]).astype(int)}
+        attributes = {"case": json.dumps(self.case)}
+        return _module("xarray").Dataset(variables, coords=place, attrs=attributes)
+
+
+def _plain_column(column: Array | tuple[str, ...]) -> Any:
+    return list(column) if isinstance(column, tuple) else column
+
+
+def _module(name: str) -> Any:
+    try:
+        return import_module(name)
+    except ModuleNotFoundError:
+        raise RollnipError(f"{name} is needed for this, and is not installed.") from None
+
+
+def check_table_target(path: Path) -> None:
+    """Raise RollnipError where a table could not be written to ``path``; costs next to nothing."""
+    check_target(path, SUFFIXES)
+    if path.suffix.lower() == ".parquet":
+        require_extra("tables", f"{path}: Parquet", "choose a name that ends in .csv")
+
+
+def read_table(store: Store) -> Table:
+    """All results of a sweep in memory."""
+    heads = _columns(store.about)
+    rows = list(_rows(store))
+    found = zip(*rows, strict=True) if rows else ((),) * len(heads)
+    columns: dict[str, Array | tuple[str, ...]] = {}
+    for (name, unit), values in zip(heads.items(), found, strict=True):
+        if unit == _TEXT:
+            columns[name] = tuple("" if value is None else str(value) for value in values)
+        else:
+            columns[name] = np.array(
+                [np.nan if value is None else value for value in values], dtype=np.float64
+            )
+    units = {name: unit for name, unit in heads.items() if unit != _TEXT}
+    return Table(columns, units, json.loads(store.about.case or "{}"))
+
+
+def write_table(store: Store, path: Path) -> None:
+    """Write the results to a file, all or nothing; a row at a time, whatever their number.
+
+    Parameters
+    ----------
+    store :
+        store of the sweep.
+    path :
+        ends in .csv, .parquet (with the extra ``rollnip[tables]``) or .xlsx. Heads carry the unit:
+        ``nip_width [mm]``; what is not there is empty.
+
+    Raises
+    ------
+    RollnipError
+        where the ending is another, the extra is missing, a sheet has too few rows or the file
+        cannot be written.
+    """
+    check_table_target(path)
+    if path.suffix.lower() == ".csv":
+        write_whole(path, lambda file: _write_csv(store, file))
+    elif path.suffix.lower() == ".xlsx":
+        if store.size >= MOST_ROWS:
+            raise RollnipError(
+                f"{path}: a sheet of a workbook has {MOST_ROWS:,} rows, for {store.size:,} cases "
+                "too few; choose a name that ends in .csv or .parquet."
+            )
+        write_whole(path, lambda file: write_workbook(file, _heads(store.about), _rows(store)))
+    else:
+        write_whole(path, lambda file: _write_parquet(store, file))
+
+
+def _columns(about: About) -> dict[str, str]:
+    """Unit of each column, empty for texts."""
+    columns = {"case": "1"} | dict(zip(about.paths, about.units, strict=True))
+    columns |= dict.fromkeys(_TEXTS, _TEXT) | {"converged": "1"}
+    columns |= {name: SCALARS[name] for name in about.results}
+    return columns | dict.fromkeys(_AFTER, _TEXT) | {"tolerance": "1", "version": _TEXT}
+
+
+def _heads(about: About) -> list[str]:
+    return [
+        name if unit in (_TEXT, "1") else f"{name} [{unit}]"
+        for name, unit in _columns(about).items()
+    ]
+
+
+def _rows(store: Store) -> Iterator[list[Any]]:
+    about = store.about
+    names = ("position", "parameters", *_TEXTS, *about.results, *_AFTER)
+    tolerance = _tolerance(about)
+    changed = about.paths.index(_TOLERANCE) if _TOLERANCE in about.paths else None
+    for position, parameters, *rest in store.rows(names):
+        values = zip(json.loads(parameters), about.units, strict=True)
+        shown = [_shown(value, unit) for value, unit in values]
+        texts, others = rest[: len(_TEXTS)], rest[len(_TEXTS) :]
+        here = tolerance if changed is None else shown[changed]
+        yield [position, *shown, *texts, int(texts[0] == "solved"), *others, here, about.version]
+
+
+def _tolerance(about: About) -> float | None:
+    """The tolerance of the case of a study; None where the case is wrong there."""
+    solver = json.loads(about.case or "{}").get("solver")
+    given = solver.get("tolerance") if isinstance(solver, dict) else None
+    if given is None:
+        return Model().tolerance
+    try:
+        return parse_quantity(given, "ratio")
+    except InvalidInputError:
+        return None
+
+
+def _shown(value: Any, unit: str) -> Any:
+    """A parameter as it stands in the table: texts are JSON in the database."""
+    if unit != _TEXT:
+        return value
+    read = json.loads(value)
+    return read if isinstance(read, str) else value
+
+
+def _write_csv(store: Store, file: Path) -> None:
+    with file.open("w", encoding="utf-8", newline="") as stream:
+        writer = csv.writer(stream, lineterminator="\n")
+        writer.writerow(_heads(store.about))
+        writer.writerows(_rows(store))
+
+
+def _write_parquet(store: Store, file: Path) -> None:
+    """Write Parquet from a temporary CSV beside it, so that the rows are never all in memory."""
+    import polars as pl
+
+    kinds = _columns(store.about).values()
+    schema = {
+        head: pl.String if unit == _TEXT else pl.Float64
+        for head, unit in zip(_heads(store.about), kinds, strict=True)
+    } | {"case": pl.Int64}
+    between = file.with_name(f"{file.name}.csv")
+    try:
+        _write_csv(store, between)
+        frame = pl.scan_csv(between, schema=schema).with_columns(pl.col(pl.String).fill_null(""))
+        about = store.about
+        frame.sink_parquet(file, metadata={"rollnip": about.version, "case": about.case})
+    except pl.exceptions.PolarsError as error:
+        raise OSError(str(error)) from None  # as any other failure to write
+    finally:
+        between.unlink(missing_ok=True)

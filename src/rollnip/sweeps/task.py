@@ -1,0 +1,118 @@
+"""Tasks of a worker: solve one case after the other and hand back what is to be kept."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+from multiprocessing import parent_process
+from multiprocessing.connection import wait
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from rollnip._memory import keep_freed_memory
+from rollnip.figures import PROFILES
+from rollnip.solution import Solution
+from rollnip.sweeps.row import Row, own_kernels, ready, solved, without_solution
+from rollnip.sweeps.study import Value, case_with
+
+
+@dataclass(frozen=True, slots=True)
+class Task:
+    """A batch of cases of a study.
+
+    Attributes
+    ----------
+    tree : the case of the study.
+    paths : paths of the parameters.
+    cases : position and values of the parameters of each case.
+    with_profiles : whether profiles are kept.
+    """
+
+    tree: Mapping[str, Any]
+    paths: Sequence[str]
+    cases: Sequence[tuple[int, tuple[Value, ...]]]
+    with_profiles: bool = False
+
+    def split(self) -> list[Task]:
+        """Return the cases as tasks of one case each."""
+        return [Task(self.tree, self.paths, (one,), self.with_profiles) for one in self.cases]
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """The outcome of one case.
+
+    Attributes
+    ----------
+    position : position of the case in the study.
+    values : values of its parameters.
+    case : its hash, as `rollnip.io.case_hash` has it; None where it is no case.
+    row : row as `evaluate` returns it.
+    seconds : time that it took [s].
+    profiles : all profiles, 8 bytes a number, one after the other; None where not kept.
+    """
+
+    position: int
+    values: tuple[Value, ...]
+    case: str | None
+    row: Row
+    seconds: float
+    profiles: bytes | None = None
+
+
+def perform(task: Task) -> list[Outcome]:
+    """Solve the cases of a task; a case that goes wrong is a row with its message."""
+    return list(performed(task))
+
+
+def performed(task: Task) -> Iterator[Outcome]:
+    """Solve the cases of a task and yield each outcome as it is ready.
+
+    All cases are read before the first is solved: the code that reads then stays in the core's
+    caches, and reading takes a third of the time.
+    """
+    start = perf_counter()
+    read = [ready(partial(case_with, task.tree, task.paths, values)) for _, values in task.cases]
+    share = (perf_counter() - start) / len(read)
+    for (position, values), one in zip(task.cases, read, strict=True):
+        start = perf_counter()
+        row, solution = solved(one, own_kernels())
+        profiles = None
+        if task.with_profiles and solution is not None:
+            profiles = _profiles(solution)
+        seconds = share + perf_counter() - start
+        yield Outcome(position, values, one.name, row, seconds, profiles)
+
+
+def given_up(task: Task, why: str) -> list[Outcome]:
+    """Return the outcomes of a task whose worker died."""
+    row = without_solution("lost", why)
+    return [Outcome(position, values, None, row, 0.0) for position, values in task.cases]
+
+
+def stand_alone() -> None:
+    """Let a new worker process leave Ctrl-C to its parent, and end when the parent is gone."""
+    keep_freed_memory()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    parent = parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
+
+
+def _end_with(sentinel: int) -> None:
+    wait([sentinel])
+    os._exit(1)
+
+
+def _profiles(solution: Solution) -> bytes:
+    """The profiles in the order of `PROFILES`; those not defined are nan."""
+    profiles = solution.profiles
+    nothing = np.full(profiles.x.size, np.nan)
+    found = (getattr(profiles, name) for name in PROFILES)
+    return np.concatenate([nothing if one is None else one for one in found]).tobytes()

@@ -1,0 +1,138 @@
+"""The verb: defaults, refusals, failures that are returned or raised, and speed of the first."""
+
+import subprocess
+import sys
+from dataclasses import replace
+from textwrap import dedent
+
+import pytest
+
+import rollnip as rn
+from rollnip.model import Model
+from rollnip.solver import solve
+
+RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
+NIP = rn.Nip(
+    upper=rn.Roller(radius=50.0, layers=[rn.Layer(2.0, RUBBER)]),
+    lower=rn.Roller(radius=25.0),
+    normal=rn.LineLoad(0.74),
+    friction=0.5,
+)
+
+
+def test_a_solution_is_verified():
+    solution = solve(NIP)
+    assert solution.converged
+    assert solution.solver.residual < solution.model.tolerance
+    assert "verified" in solution.status
+
+
+def test_load_and_approach_are_two_ways_to_the_same_nip():
+    by_load = solve(NIP, Model(tolerance=1e-4))
+    by_approach = solve(replace(NIP, normal=rn.Approach(by_load.approach)), Model(tolerance=1e-4))
+    assert by_approach.load == pytest.approx(0.74, rel=2e-4)
+
+
+def test_traction_and_creepage_are_two_ways_to_the_same_nip():
+    by_traction = solve(replace(NIP, tangential=rn.Traction(0.2)))
+    by_creepage = solve(replace(NIP, tangential=rn.Creepage(by_traction.creepage)))
+    assert by_creepage.traction == pytest.approx(0.2, rel=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("changes", "limit"),
+    [
+        ({"normal": rn.Approach(0.1), "tangential": rn.Traction(0.9)}, "friction"),
+        ({"normal": rn.LineLoad(1e6)}, "smaller roller"),
+        ({"normal": rn.Approach(24.0)}, "cores would touch"),
+    ],
+)
+def test_what_has_no_solution_is_refused(changes, limit):
+    with pytest.raises(rn.InvalidInputError, match=limit):
+        solve(replace(NIP, **changes))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (([NIP],), r"^`nip` must be a Nip, got a list\.$"),
+        (
+            (rn.Case(nip=NIP, model=Model(), source=""),),
+            r"^`nip` must be a Nip, got a Case; of a case take `case.nip`\.$",
+        ),
+        (
+            (NIP, "linear"),
+            r"^`model` must be a Model, such as Model\(geometry='linear'\), got 'linear'\.$",
+        ),
+        ((NIP, 1e-3), r"^`model` must be a Model, got a float\.$"),
+    ],
+)
+def test_arguments_of_another_kind_are_refused(arguments, said):
+    with pytest.raises(rn.InvalidInputError, match=said):
+        solve(*arguments)
+
+
+def test_what_to_do_on_failure_is_one_of_two():
+    with pytest.raises(rn.InvalidInputError, match=r"^`on_failure` must be .* got 'x'\.$"):
+        solve(NIP, on_failure="x")
+
+
+@pytest.mark.parametrize("torque", [12.0, 40.0])
+def test_a_torque_beyond_friction_does_not_settle(torque):
+    """What traction it takes hangs on a solution that there is not: it is told as a guess."""
+    returned = solve(replace(NIP, tangential=rn.Torque(torque)))
+    assert not returned.converged
+    assert "may be asked for, and friction * load carries" in returned.status
+
+
+def test_failure_is_returned_or_raised():
+    # A layer of a nanometre under a newton: no mesh of ours resolves it.
+    film = rn.Roller(radius=50.0, layers=[rn.Layer(1e-6, RUBBER)])
+    hopeless = replace(NIP, upper=film, normal=rn.LineLoad(1.0))
+    returned = solve(hopeless)
+    assert not returned.converged
+    with pytest.raises(rn.ConvergenceError) as caught:
+        solve(hopeless, on_failure="raise")
+    assert caught.value.solution.status == str(caught.value)
+
+
+def test_full_sliding_beyond_the_friction_limit_of_creepage():
+    # linear: with the pressure along the deformed normal T is mu int p, not mu F
+    solution = solve(replace(NIP, tangential=rn.Creepage(0.9)), Model(geometry="linear"))
+    assert solution.converged
+    assert [zone.state for zone in solution.zones] == ["slip"]
+    assert solution.traction == pytest.approx(0.5 * 0.74, rel=1e-9)
+
+
+def test_first_solve_of_a_fresh_process_prepares_little():
+    """Nothing is compiled or imported by the package in it, and it takes as much as some others."""
+    script = dedent(
+        """
+        import sys
+        from dataclasses import replace
+        from time import process_time
+        import rollnip as rn
+        rubber = rn.Elastic(modulus=0.91, poisson=0.5)
+        nip = rn.Nip(
+            upper=rn.Roller(radius=50.0, layers=[rn.Layer(2.0, rubber)]),
+            lower=rn.Roller(radius=25.0),
+            normal=rn.LineLoad(0.74),
+            friction=0.5,
+        )
+        rn.solve  # what it imports is counted elsewhere
+        before = set(sys.modules)
+        def seconds(load):
+            start = process_time()
+            rn.solve(replace(nip, normal=rn.LineLoad(load)))
+            return process_time() - start
+        first = seconds(0.74)
+        print(first / min(seconds(load) for load in (0.75, 0.76, 0.77)))
+        print(*{name.partition(".")[0] for name in set(sys.modules) - before})
+        """
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script], capture_output=True, text=True, check=True
+    )
+    ratio, imported = done.stdout.splitlines()
+    assert float(ratio) < 15.0
+    assert {"matplotlib", "pydantic", "typer", "rich", "xarray"}.isdisjoint(imported.split())

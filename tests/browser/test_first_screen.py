@@ -1,6 +1,7 @@
 """The first screen: an engineer reads the width of a nip, and changes it to hers."""
 
 import pytest
+from tests.browser.test_known import learned
 
 import rollnip as rn
 from rollnip.materials import shore_a_modulus
@@ -49,12 +50,19 @@ def test_her_own_roller_takes_five_numbers_and_no_scrolling_between_answer_and_i
 
 def test_the_answer_is_big_has_its_unit_its_error_and_a_hint(designer):
     big = designer.page.locator("#big")
+    learned(designer)
     assert big.inner_text().startswith("12.05 mm")
     assert "±" in big.inner_text()
     size = big.evaluate("node => parseFloat(getComputedStyle(node).fontSize)")
     assert size >= 40
     assert big.bounding_box()["y"] < 400
     assert "ink print" in designer.page.inner_text("#big-hint")
+
+
+def test_the_numerical_error_is_said_before_the_rest_is_known(fresh):
+    fresh.page.route("**/api/known", lambda _route: None)  # never answered
+    fresh.open("?again")
+    assert "± " in fresh.page.inner_text("#big-error")
 
 
 def test_every_figure_has_a_hint_in_plain_words(designer):

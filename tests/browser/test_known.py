@@ -3,6 +3,7 @@
 import csv
 import io
 import json
+import re
 
 import pytest
 from tests.browser.test_inputs import TOP, sent
@@ -38,7 +39,9 @@ def test_the_headline_says_within_what_the_width_is_known(designer):
     said = learned(designer)
     band = shore_a_band(60.0)
     low, high = width(band.high), width(band.low)
-    assert f"{low:.3g} to {high:.3g} mm" in designer.page.inner_text("#big").replace("\u202f", " ")
+    big = designer.page.inner_text("#big").replace("\u202f", " ")
+    assert re.search(r"± [0-9.]+ mm numerical", big)
+    assert f"{low:.3g} to {high:.3g} mm" in big
     assert "3.1 to 7.3 MPa" in said
     assert "of finite elements" in said
     assert "±" in said

@@ -21,16 +21,21 @@ export function rangeText([low, high], dimension, units, digits = 3) {
   });
 }
 
-/** The line under the headline: within what the nip width is known. */
+/** The line under the headline: the numerical error, and what else the nip width is known within. */
 export function headline({ result, known }, units) {
+  const error = result.error?.nip_width;
+  const numerical = say("known.error", { error: error ? units.error(error, "length") : "0" });
+  return [numerical, beyondNumerical(result, known, units)].filter(Boolean).join("; ");
+}
+
+/** The widest of what the material and the model leave open; "" until it is known. */
+function beyondNumerical(result, known, units) {
+  if (!known) return "";
   const band = bandOf(known, "nip_width");
   if (band) return say("known.headline", { range: rangeText(band, "length", units) });
-  const error = result.error?.nip_width;
-  const numerical = error ? units.error(error, "length") : "0";
-  if (!known) return say("known.waiting", { error: numerical });
-  const model = known.is_judged ? (known.accuracy.nip_width ?? 0) * result.nip_width : null;
-  if (model === null) return say("known.unjudged", { error: numerical });
-  return say("known.both", { error: units.error(model + (error ?? 0), "length") });
+  if (!known.is_judged) return say("known.unjudged");
+  const model = (known.accuracy.nip_width ?? 0) * result.nip_width;
+  return say("known.model-error", { error: units.error(model, "length") });
 }
 
 /** The three parts of what is known, as [term, sentence]. */

@@ -8,8 +8,8 @@ from typer.testing import CliRunner
 
 import rollnip as rn
 from rollnip.cli.app import app
-from rollnip.face.pictures import plot_face
 from rollnip.io import case_hash, parse_case
+from rollnip.plots import plot_face
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "press-face.toml"
 TEXT = EXAMPLE.read_text(encoding="utf-8")

@@ -138,8 +138,7 @@ def _roller(name: str) -> Any:
 
 def _draw(solution: Any, plot: Path | None) -> None:
     if plot is not None:
-        from rollnip.face.pictures import plot_face
-        from rollnip.plots import save_figure
+        from rollnip.plots import plot_face, save_figure
 
         save_figure(plot_face(solution), plot)
 

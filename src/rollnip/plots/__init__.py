@@ -1,5 +1,6 @@
 """Pictures of a solution, ``plot_x(solution, ax=None) -> ax``, and of studies, from arrays."""
 
+from rollnip.plots.face import plot_face
 from rollnip.plots.field import plot_field
 from rollnip.plots.files import check_figure_target, save_figure
 from rollnip.plots.map import plot_map
@@ -16,6 +17,7 @@ __all__ = [
     "plot_curves",
     "plot_deformed_surfaces",
     "plot_distribution",
+    "plot_face",
     "plot_field",
     "plot_gap",
     "plot_map",

@@ -173,3 +173,34 @@ def test_an_answer_that_cannot_be_read_is_said_in_a_sentence(designer):
     designer.page.unroute("**/api/solve*")
     designer.enter("in-nip-load", "8")
     assert designer.page.inner_text("#alarm") == ""
+
+
+def test_the_hover_text_says_the_place_with_its_unit(designer):
+    page = designer.page
+    designer.trace("chart-pressure", "pressure")
+    for system, unit in (("us", "in"), ("metric", "mm")):
+        page.click(f"#{system}")
+        title = "document.getElementById('chart-pressure').layout.xaxis.title.text"
+        designer.until(f"{title}.includes('[{unit}]')")
+        for x in (400, 420):
+            page.hover("#chart-pressure", position={"x": x, "y": 160}, force=True)
+        said = "document.querySelector('#chart-pressure .hoverlayer .legendtitletext')?.textContent"
+        designer.until(f"/^[-−0-9.]+ {unit}$/.test({said} ?? '')")
+        page.mouse.move(0, 0)
+
+
+def test_totals_losses_and_lengths_per_thousand_are_in_the_units_chosen(designer):
+    page = designer.page
+    designer.unfold("advanced")
+    with page.expect_response("**/api/solve*"):
+        page.check("#in-has-width")
+    designer.rest()
+    whole = page.locator("#figures .figure", has_text="whole face")
+    watts = [text for text in whole.all_inner_texts() if "\nW" in text or " W" in text]
+    assert watts
+    page.click("#us")
+    assert "ft in 1000 ft" in page.inner_text("#figures")
+    assert " m in 1000" not in page.inner_text("#figures")
+    horses = [text for text in whole.all_inner_texts() if " hp" in text]
+    assert len(horses) == len(watts)
+    page.click("#metric")

@@ -10,9 +10,10 @@ import tomllib
 
 import pytest
 from tests.browser.conftest import DEFAULT, Designer, Watch, fragment, new_context
+from tests.browser.test_known import learned
 
 import rollnip as rn
-from rollnip.io import parse_case
+from rollnip.io import case_hash, parse_case
 
 pytestmark = pytest.mark.slow
 
@@ -26,6 +27,7 @@ def test_a_link_holds_the_whole_state_and_leaves_saved_designs_alone(designer, b
     designer.enter("in-nip-load", "9.5")
     page.select_option("#compare-profile", "gap")
     page.click("#us")
+    learned(designer)
     width = page.inner_text("#big")
     designer.share("copy-link")
     designer.toast("link is copied")
@@ -40,6 +42,7 @@ def test_a_link_holds_the_whole_state_and_leaves_saved_designs_alone(designer, b
     other.page.evaluate("text => localStorage.setItem('rollnip.designs', text)", own)
     other.page.goto("about:blank")
     other.open(link.partition("/")[2].partition("/")[2].partition("/")[2])
+    learned(other)
     assert other.page.inner_text("#big") == width
     assert other.page.input_value("#design-title") == "Press 3"
     assert other.page.get_attribute("#us", "aria-pressed") == "true"
@@ -185,7 +188,44 @@ def test_the_report_is_one_page_with_inputs_figures_version_and_hash(designer):
     assert not page.is_visible("main")
     pdf = page.pdf(prefer_css_page_size=True)
     assert len(re.findall(rb"/Type\s*/Page[^s]", pdf)) == 1
-    page.emulate_media(media="screen")
+    page.emulate_media(media="null")
+
+
+def test_the_menu_of_the_browser_prints_the_same_report_also_in_the_dark(designer):
+    """A browser that prints does not wait: what is printed is written at once."""
+    page = designer.page
+    designer.trace("chart-pressure", "pressure")
+    page.click("#theme")
+    page.evaluate(
+        "void addEventListener('beforeprint', () => { window.asked = "
+        "[document.documentElement.dataset.report, report.textContent]; })"
+    )
+    pdf = page.pdf(prefer_css_page_size=True)  # as the menu does; no button was pressed
+    state, text = page.evaluate("window.asked")
+    assert state == "yes"
+    assert "Assumptions" in text
+    assert f"Case {case_hash(parse_case(DEFAULT))}" in text
+    assert len(re.findall(rb"/Type\s*/Page[^s]", pdf)) == 1
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    page.emulate_media(media="print", color_scheme="dark")
+    colours = (
+        "node => [getComputedStyle(node).color, getComputedStyle(document.body).backgroundColor]"
+    )
+    assert page.locator("#report").evaluate(colours) == ["rgb(0, 0, 0)", "rgb(255, 255, 255)"]
+    assert page.locator("#report svg").count() >= 2
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    page.emulate_media(media="null", color_scheme="light")
+    page.click("#theme")
+
+
+def test_printing_beside_a_text_nobody_can_read_says_why_there_is_no_report(designer):
+    page = designer.page
+    designer.type("in-nip-load", "much")
+    page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    text = page.text_content("#report")
+    page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert "cannot be read" in text
+    assert "Figures" not in text
 
 
 def test_every_example_opens_with_one_click(designer):

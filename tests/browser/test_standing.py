@@ -226,10 +226,10 @@ def test_slow_answers_are_shown_while_the_slider_moves(designer):
         gate.waiting.remove(previews[0])
         previews[0].continue_()
         designer.until(
-            "before => document.querySelector('[data-figure=load]').textContent !== before",
-            arg=f"{before:g}",
+            "before => Number(document.querySelector('[data-figure=load]').firstChild.textContent)"
+            " !== before",
+            arg=before,
         )
-        page.wait_for_timeout(60)
         shown.append(designer.figure("load"))
     assert shown == sorted(set(shown))
     assert len(shown) == 6

@@ -53,7 +53,8 @@ LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"|`((?:[^`\\]|\\.)*)`')
 COMMENT = re.compile(r"^\s*//.*$|\s//.*$|/\*.*?\*/", re.M | re.S)
 NOT_SHOWN = re.compile(
     r"^(?:line load|roller force|air pressure|temperature difference|molar energy|power per length"
-    r"|Content-Type|Accept|AbortError|Enter|Home|End|ArrowRight|ArrowLeft|Highlight|CSV|Inter, .*"
+    r"|power per volume|Content-Type|Accept|AbortError|Enter|Home|End|ArrowRight|ArrowLeft"
+    r"|Highlight|CSV|Inter, .*"
     r"|given up|button main|There is no message .*|The page has no element .*"
     r"|both be bare rigid cores|thinner in all than .*|lbf in/in)$",
     re.S,

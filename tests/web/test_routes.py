@@ -1,6 +1,7 @@
 """Every route: what it answers, and that it says what the rest of rollnip says."""
 
 import json
+import re
 import tomllib
 from dataclasses import replace
 
@@ -292,3 +293,14 @@ def test_every_typical_example_is_a_readable_file():
     assert len(files) >= 5
     for file in files:
         tomllib.loads(file.read_text(encoding="utf-8"))
+
+
+def test_the_us_page_shows_power_in_horsepower(client):
+    """1 hp = 550 ft lbf/s = 745.69987 W (NIST SP 811, appendix B.8)."""
+    text = client.get("/static/js/figures.js").text
+    shown = dict(re.findall(r"export const (\w+) = (.*);", text))
+    losses = [one for one in json.loads(shown["TOTALS"]) if one["units"]["metric"][0] == "W"]
+    assert losses
+    assert all(one["units"]["us"] == ["hp", pytest.approx(745.69987)] for one in losses)
+    per_length = json.loads(shown["RESULT_UNITS"])["power per length"]["us"]
+    assert per_length == ["hp/ft", pytest.approx(745.69987 / 0.3048)]

@@ -33,8 +33,10 @@ _SHOWN: dict[Dimension, tuple[str, str]] = {
 }
 # Dimensions and totals of results alone: [unit, scale] of the metric and the US page.
 _SHARE, _DEGREE = ["%", 0.01], ["°", 1.0]
+_HORSEPOWER = 550.0 * 0.3048 * 4.4482216152605  # W; 550 ft lbf/s, what US drives are sized in
 _SHOWN_RESULTS = {
-    "power per length": {"metric": ["W/m", 1.0], "us": ["W/ft", 1.0 / 0.3048]},
+    "power per length": {"metric": ["W/m", 1.0], "us": ["hp/ft", _HORSEPOWER / 0.3048]},
+    "power per volume": {"metric": ["mW/mm³", 1.0], "us": ["hp/in³", 1e3 * _HORSEPOWER / 25.4**3]},
     "share": {"metric": _SHARE, "us": _SHARE},
     "angle": {"metric": _DEGREE, "us": _DEGREE},
     "roller force": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
@@ -43,7 +45,7 @@ _SHOWN_RESULTS = {
 _SHOWN_TOTALS = {
     "N": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
     "N m": {"metric": ["N·m", 1.0], "us": ["lbf·in", 0.11298482902762]},
-    "W": {"metric": ["W", 1.0], "us": ["W", 1.0]},
+    "W": {"metric": ["W", 1.0], "us": ["hp", _HORSEPOWER]},
 }
 # In the order of the page: what is read first stands first.
 _FIRST = ("nip_width", "approach", "load", "peak_pressure", "mean_pressure", "dwell_time")

@@ -1,6 +1,7 @@
 // What the menus do: open, keep, save, copy, export, print. The App is what they act on.
 
 import { post, sentencesOf } from "./api.js";
+import { plotly } from "./charts.js";
 import { defaultCase, nameOf } from "./design.js";
 import {
   chartCsv,
@@ -16,7 +17,6 @@ import {
 import { MOST_KEPT } from "./compare.js";
 import { askDialog, textDialog } from "./menus.js";
 import { paletteOf } from "./palette.js";
-import { fillReport } from "./report.js";
 import { same } from "./paths.js";
 import { saveDesign, savedDesigns } from "./saved.js";
 import { say } from "./texts.js";
@@ -30,7 +30,7 @@ const REFUSALS = {
   preview: "refuse.computing",
 };
 
-/** Actions on `this.store`, `this.snapshot`, `this.tabs`. */
+/** Actions on `this.store`, `this.snapshot`, `this.tabs`, `this.printing`. */
 export class Actions {
   /** Open a case from anywhere; the one at hand can be had back with undo. */
   async open(tree, title = null) {
@@ -200,11 +200,8 @@ export class Actions {
 
   async report() {
     await this.attempt(say("report.failed"), async () => {
-      const answer = this.drawnAnswer;
-      const { hash } = await post("/api/case", answer.tree);
-      const date = new Date().toISOString().slice(0, 10);
-      await fillReport(answer, this.units(), paletteOf(LIGHT), { hash, date });
-      document.documentElement.dataset.report = "yes";
+      await plotly();
+      this.printing.fill();
       print();
     });
   }

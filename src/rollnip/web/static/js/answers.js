@@ -19,7 +19,7 @@ export function showAnswers(snapshot, units) {
     ...withUnit(nip),
     el("span", { class: "error", id: "big-error" }),
   );
-  byId("big-hint").textContent = ANSWERS[0].hint(all);
+  byId("big-hint").textContent = ANSWERS[0].hint(all, units);
   byId("seconds").replaceChildren(...SECONDS.map((key) => second(key, all, units, known)));
   showKnown(snapshot, units);
   showFigures(all, units, known);
@@ -79,7 +79,7 @@ function showFigures(all, units, known) {
     const noted = errorOf(all, key);
     const error = noted ? `± ${units.error(noted, dimension)}` : "";
     const band = bandLine(key, dimension, units, known);
-    return figure(label, key, units.format(all[key], dimension, digits), error, hint(all), band);
+    return figure(label, key, units.format(all[key], dimension, digits), error, hint(all, units), band);
   });
   const totals = totalsOf(all, units.system).map(({ label, text, unit }) =>
     figure(label, null, { text, unit }, "", ""),

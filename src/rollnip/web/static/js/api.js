@@ -36,8 +36,19 @@ export async function get(path) {
   return answer(await reach(path, { headers: { Accept: "application/json" } }));
 }
 
-/** POST a tree; `signal` gives it up. A busy server (429) is asked again some times. */
+/** POST a tree; `signal` gives it up. */
 export async function post(path, tree, signal) {
+  return answer(await posted(path, tree, signal));
+}
+
+/** The result of a case, with the hash of the case. */
+export async function solved(tree, signal) {
+  const response = await posted(SOLVE, tree, signal);
+  return { ...(await answer(response)), hash: response.headers.get("x-rollnip-case") };
+}
+
+/** The response to a tree; a busy server (429) is asked again some times. */
+async function posted(path, tree, signal) {
   const request = {
     method: "POST",
     body: JSON.stringify(tree),
@@ -46,7 +57,7 @@ export async function post(path, tree, signal) {
   };
   for (let turn = 0; ; turn += 1) {
     const response = await reach(path, request);
-    if (response.status !== 429 || turn === RETRIES) return answer(response);
+    if (response.status !== 429 || turn === RETRIES) return response;
     await pause(WAIT * (turn + 1), signal);
   }
 }

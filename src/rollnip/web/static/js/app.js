@@ -18,6 +18,7 @@ import { paletteOf } from "./palette.js";
 import { same, setAt } from "./paths.js";
 import { modulusOf } from "./materials.js";
 import { linkOf, stateIn } from "./permalink.js";
+import { Printing } from "./printing.js";
 import { inputAt } from "./quantities.js";
 import { Runner } from "./runner.js";
 import { inWords } from "./said.js";
@@ -60,6 +61,7 @@ export class App extends Actions {
     this.drawings = new Drawings(byId("drawings"), this);
     this.tabs = new Tabs(this.views(), this);
     this.examples = examplesDialog(examples, (example) => this.open(example.case, example.title));
+    this.printing = new Printing(this);
     this.wire();
     onOutage((yes) => {
       this.isOut = yes;
@@ -98,7 +100,6 @@ export class App extends Actions {
       this.store.design({ case: setAt(this.store.state.case, "title", title.value.trim()) }),
     );
     addEventListener("keydown", (event) => this.shortcut(event));
-    addEventListener("afterprint", () => delete document.documentElement.dataset.report);
     addEventListener("hashchange", () => this.begin(location.hash));
     new IntersectionObserver(([entry]) =>
       byId("mini").classList.toggle("shown", !entry.isIntersecting),

@@ -71,8 +71,8 @@ function sized(layout, node) {
   };
 }
 
-/** Layout shared by all charts. */
-export function layoutOf(palette, x, y, more = {}) {
+/** Layout shared by all charts; `along` is the unit of x where the hover text is one for all lines. */
+export function layoutOf(palette, x, y, { along = "", ...more } = {}) {
   const axis = (title) => ({
     title: { text: title, standoff: 8 },
     gridcolor: palette.grid,
@@ -88,7 +88,7 @@ export function layoutOf(palette, x, y, more = {}) {
     font: { family: TYPE, size: 13, color: palette.ink },
     paper_bgcolor: palette.ground,
     plot_bgcolor: palette.ground,
-    xaxis: { ...axis(x), ...xaxis },
+    xaxis: { ...axis(x), unifiedhovertitle: { text: `%{x:.4~g} ${along}`.trim() }, ...xaxis },
     yaxis: { ...axis(y), ...yaxis },
     legend: {
       orientation: "h",
@@ -134,6 +134,24 @@ export function plain(text) {
 /** An axis title with its unit. */
 export function titled(text, unit) {
   return unit ? `${text} [${unit}]` : text;
+}
+
+/** The figure as an SVG element, at once. Throws where Plotly is not loaded yet. */
+export function svgOf(figure, width, height) {
+  const { Plotly } = globalThis;
+  if (!Plotly) throw new Error(say("chart.undrawn"));
+  const place = document.createElement("div");
+  place.className = "offstage";
+  document.body.append(place);
+  const drawing = Plotly.newPlot(place, figure.data, { ...figure.layout, width, height }, { staticPlot: true });
+  drawing.finally(() => {
+    Plotly.purge(place);
+    place.remove();
+  });
+  const text = Plotly.Snapshot.toSVG(place, "svg");
+  const node = new DOMParser().parseFromString(text, "image/svg+xml").documentElement;
+  node.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  return document.importNode(node, true);
 }
 
 /** The figure as a data URL, "svg" or "png", whatever is on the page. */

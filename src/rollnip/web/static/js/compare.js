@@ -158,7 +158,7 @@ export class CompareView {
     const key = el("i", { class: "key" });
     key.style.background = palette.designs[i];
     const isNow = i === this.designs.length - 1;
-    const name = isNow ? `${nameOf(tree)} (at hand)` : nameOf(tree);
+    const name = isNow ? say("compare.at-hand", { name: nameOf(tree) }) : nameOf(tree);
     const open = button(say("compare.open"), () => this.app.openKept(i), {
       kind: "small",
       id: `kept-open-${i}`,

@@ -6,6 +6,7 @@ import { withSize } from "./design.js";
 import { getAt, idOf } from "./paths.js";
 import { inputAt } from "./quantities.js";
 import { inWords } from "./said.js";
+import { say } from "./texts.js";
 import { joined, typable } from "./units.js";
 
 const STEPS = 500; // of a slider
@@ -49,7 +50,7 @@ export class Control {
       min: 0,
       max: STEPS,
       step: 1,
-      "aria-label": `${label}, slider`,
+      "aria-label": say("control.slider", { label }),
     });
     this.wrong = el("p", { class: "wrong", id: `${id}-wrong` });
     this.slider.addEventListener("input", () => this.slid());

@@ -123,8 +123,13 @@ function pngOf(address) {
   return new Blob([bytes], { type: "image/png" });
 }
 
-/** Both drawings and the name of the design in one SVG. */
-export function drawingSvg({ tree, result, surfaces }, look) {
+/** Both drawings and the name of the design as the text of one SVG. */
+export function drawingSvg(answer, look) {
+  return new XMLSerializer().serializeToString(drawingOf(answer, look));
+}
+
+/** The same as an element. */
+export function drawingOf({ tree, result, surfaces }, look) {
   const [width, height, top] = [900, 430, 34];
   const whole = svg("svg", {
     xmlns: "http://www.w3.org/2000/svg",
@@ -146,7 +151,7 @@ export function drawingSvg({ tree, result, surfaces }, look) {
   const pair = pairPicture(tree, result, windowOf(result), { ...look, width: 290, height: height - top });
   const nip = sectionPicture(tree, result, surfaces, { ...look, width: 590, height: height - top });
   whole.append(placed(pair, 0, top), placed(nip, 310, top));
-  return new XMLSerializer().serializeToString(whole);
+  return whole;
 }
 
 function placed(node, x, y) {

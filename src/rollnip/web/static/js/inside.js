@@ -16,7 +16,7 @@ const FIELDS = [
   { key: "s_xz", title: say("field.s-xz"), dimension: "pressure", signed: true },
   { key: "u_x", title: say("field.u-x"), dimension: "length", signed: true },
   { key: "u_z", title: say("field.u-z"), dimension: "length", signed: true },
-  { key: "loss", title: say("field.loss"), dimension: null },
+  { key: "loss", title: say("field.loss"), dimension: "power per volume" },
 ];
 
 /** The view say("tab.inside"). */
@@ -153,10 +153,8 @@ export class InsideView {
 /** The contour chart of one field. */
 function contours({ field, chosen, roller, result }, units, palette) {
   const length = units.name("length");
-  const values = chosen.dimension
-    ? field[chosen.key].map((row) => units.list(row, chosen.dimension))
-    : field[chosen.key];
-  const unit = chosen.dimension ? units.name(chosen.dimension) : "mW/mm³";
+  const values = field[chosen.key].map((row) => units.list(row, chosen.dimension));
+  const unit = units.name(chosen.dimension);
   const x = units.list(field.x, "length");
   const bar = {
     title: { text: titled(chosen.title, unit), side: "right" },

@@ -42,6 +42,7 @@ function pressurePlot(result, units, palette, tree) {
   }
   const [low, high] = span(pressure, shear);
   const layout = layoutOf(palette, along(units), titled(say("axis.pressure"), name), {
+    along: units.name("length"),
     xaxis: { range: reach(result, units) },
     yaxis: { range: [low, high] },
     shapes: zonesOf(result, units, palette),
@@ -60,6 +61,7 @@ function gapPlot(result, units, palette) {
   const gap = units.list(result.profiles.gap, "length");
   data.push(line(say("curve.gap"), x, gap, palette.upper, { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` }));
   const layout = layoutOf(palette, along(units), titled(say("axis.gap"), unit), {
+    along: units.name("length"),
     xaxis: { range: reach(result, units) },
     yaxis: { rangemode: "tozero", range: upTo(x, gap, reach(result, units)) },
     shapes: contactShape(result, units, palette),
@@ -83,6 +85,7 @@ function strainPlot(result, units, palette) {
     );
   }
   const layout = layoutOf(palette, along(units), say("axis.strain"), {
+    along: units.name("length"),
     xaxis: { range: reach(result, units) },
     shapes: zonesOf(result, units, palette),
   });
@@ -104,6 +107,7 @@ function speedPlot(result, units, palette) {
     );
   }
   const layout = layoutOf(palette, along(units), titled(say("axis.speed"), unit), {
+    along: units.name("length"),
     xaxis: { range: reach(result, units) },
     shapes: zonesOf(result, units, palette),
   });
@@ -208,6 +212,7 @@ export function overlay(designs, { key, title, dimension }, units, palette) {
   const ranges = designs.filter(({ result }) => result).map(({ result }) => reach(result, units));
   const range = [Math.min(...ranges.map(([low]) => low)), Math.max(...ranges.map(([, high]) => high))];
   const layout = layoutOf(palette, along(units), titled(title, unit), {
+    along: units.name("length"),
     xaxis: { range },
     showlegend: true,
   });

@@ -62,7 +62,7 @@ export class Probe {
     const there = this.fields.filter(({ key }) => field[key]);
     const rows = there.map(({ key, title, dimension }) => {
       const value = field[key][i][j];
-      return [title, dimension ? units.text(value, dimension) : `${value} mW/mm³`];
+      return [title, units.text(value, dimension)];
     });
     const place = say("probe.place", {
       x: units.text(field.x[j], "length", 3),
@@ -113,7 +113,7 @@ export function bondTable(interfaces, units) {
 /** A field as CSV: a row for each point. */
 export function fieldRows(field, fields, units) {
   const there = fields.filter(({ key }) => field[key]);
-  const head = there.map(({ title, dimension }) => `${title} [${dimension ? units.of(dimension).name : "mW/mm3"}]`);
+  const head = there.map(({ title, dimension }) => `${title} [${units.of(dimension).name}]`);
   const length = units.of("length").name;
   const rows = field.z.flatMap((z, i) =>
     field.x.map((x, j) => [
@@ -122,7 +122,7 @@ export function fieldRows(field, fields, units) {
       field.layer[i]?.[j] ?? field.layer[i],
       ...there.map(({ key, dimension }) => {
         const value = field[key][i][j];
-        return dimension && value !== null ? units.shown(value, dimension) : value;
+        return value === null ? null : units.shown(value, dimension);
       }),
     ]),
   );

@@ -187,32 +187,34 @@ function named(where, input) {
   };
 }
 
+const FAR = { metric: "m", us: "ft" };
 const positive = (value) =>
   value > 0 ? say("faster.upper") : say("faster.lower");
 
 // What a figure means at the size it has.
 const MEANINGS = {
   nip_width: () => say("meaning.nip"),
-  speed_ratio: (value) => (value ? say("meaning.ratio", { length: number(1000 * Math.abs(value - 1)) }) : ""),
+  speed_ratio: (value, units) =>
+    value ? say("meaning.ratio", { length: number(1000 * Math.abs(value - 1)), unit: FAR[units.system] }) : "",
   creepage: (value) => (value ? say("meaning.creepage", { which: positive(value) }) : ""),
 };
 
 /** The answers: key in the flat result, label, dimension, digits, and a hint in plain words. */
 export const ANSWERS = FIGURES.map((figure) => ({
   ...said(figure),
-  hint: ({ [figure.key]: value }) => said(figure).hint + (MEANINGS[figure.key]?.(value) ?? ""),
+  hint: ({ [figure.key]: value }, units) => said(figure).hint + (MEANINGS[figure.key]?.(value, units) ?? ""),
 }));
 
 /** The result with every scalar on its first level, as sweeps give it; what is rounding only is zero. */
 export function flat(result) {
   const { friction, viscous } = result.dissipation;
   const all = { ...result, dissipation_friction: friction, dissipation_viscous: viscous };
-  const cleaned = FIGURES.map(({ key, size }) => [key, isNoise(all, key, size) ? 0 : all[key]]);
+  const cleaned = FIGURES.map(({ key, size }) => [key, isNoise(all[key], all, size) ? 0 : all[key]]);
   return { ...all, ...Object.fromEntries(cleaned) };
 }
 
-function isNoise(all, key, size) {
-  const value = all[key];
+/** Whether a figure or its error is no more than what rounding leaves beside those of `size`. */
+function isNoise(value, all, size) {
   if (value === null || value === undefined) return false;
   const factors = Object.entries(size).map(([name, power]) => Math.abs(all[name] ?? 0) ** power);
   return Math.abs(value) < factors.reduce((product, factor) => product * factor, ROUNDING);
@@ -221,7 +223,8 @@ function isNoise(all, key, size) {
 /** An estimated error worth showing, or null. */
 export function errorOf(all, key) {
   const error = all.error?.[key];
-  return error && error > TINY * Math.abs(all[key]) ? error : null;
+  const { size } = FIGURES.find((figure) => figure.key === key);
+  return error && error > TINY * Math.abs(all[key]) && !isNoise(error, all, size) ? error : null;
 }
 
 /** Totals over the face width as {label, text, unit}. */

@@ -1,9 +1,9 @@
 // The printed page: what was put in, assumed and found.
 
-import { image } from "./charts.js";
+import { svgOf } from "./charts.js";
 import { driving, kindOf, nameOf } from "./design.js";
 import { byId, el } from "./dom.js";
-import { drawingSvg } from "./files.js";
+import { drawingOf } from "./files.js";
 import { bandOf, partsOf, rangeText } from "./known.js";
 import { PLOTS } from "./plots.js";
 import { ANSWERS, errorOf, flat, inputAt, totalsOf } from "./quantities.js";
@@ -40,23 +40,19 @@ const ASSUMPTIONS = [
   say("assume.material"),
 ];
 
-/** Fill the page that is printed. `answer` is {tree, result, surfaces}, `about` {hash, link, date}. */
-export async function fillReport(answer, units, palette, about) {
+/** Fill the page that is printed. `answer` is {tree, result, surfaces, known}. */
+export function fillReport(answer, units, palette, date) {
   const { tree, result } = answer;
-  const chart = await image(PLOTS.pressure(result, units, palette, tree), "svg", {
-    width: 620,
-    height: 350,
-  });
-  const drawing = `data:image/svg+xml;charset=utf-8,${encodeURIComponent(drawingSvg(answer, { palette, units }))}`;
+  const chart = svgOf(PLOTS.pressure(result, units, palette, tree), 620, 350);
   const pictures = [
-    picture(drawing, say("report.drawing")),
+    picture(drawingOf(answer, { palette, units }), say("report.drawing")),
     picture(chart, say("report.chart")),
   ];
   byId("report").replaceChildren(
     el("h1", { text: nameOf(tree) }),
     el("p", {
       class: "meta",
-      text: say("report.head", { version: result.solver.version, date: about.date, hash: about.hash }),
+      text: say("report.head", { version: result.solver.version, date, hash: result.hash }),
     }),
     result.converged
       ? el("span")
@@ -82,7 +78,11 @@ export async function fillReport(answer, units, palette, about) {
     el("ul", {}, ...assumptionsOf(tree, result).map((text) => el("li", { text }))),
     ...warnings(result),
   );
-  await Promise.all(pictures.map((one) => one.decode()));
+}
+
+/** Fill it with the reason why there is no report. */
+export function fillRefusal(name, why) {
+  byId("report").replaceChildren(el("h1", { text: name }), el("p", { class: "alarm", text: why }));
 }
 
 function assumptionsOf(tree, { geometry }) {
@@ -91,8 +91,10 @@ function assumptionsOf(tree, { geometry }) {
   return [GEOMETRIES[geometry], ...ASSUMPTIONS, ...(byHardness ? [HARDNESS] : [])];
 }
 
-function picture(source, alt) {
-  return el("img", { src: source, alt });
+function picture(node, label) {
+  node.setAttribute("role", "img");
+  node.setAttribute("aria-label", label);
+  return node;
 }
 
 function warnings({ warnings: list }) {

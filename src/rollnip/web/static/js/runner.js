@@ -1,6 +1,6 @@
 // Asks the server for answers so that the newest design wins and slow ones are still seen.
 
-import { SOLVE, isAbort, post } from "./api.js";
+import { isAbort, post, solved } from "./api.js";
 import { quickCase } from "./design.js";
 
 /**
@@ -59,7 +59,7 @@ export class Runner {
     this.resting = null;
     this.exact = exact;
     try {
-      const result = await post(SOLVE, one.tree, exact.signal);
+      const result = await solved(one.tree, exact.signal);
       if (this.isNews(one)) {
         this.tell.settled(one.tree, result);
         this.tell.surfaces(one.tree, await post("/api/surfaces", one.tree, exact.signal), result);
@@ -82,7 +82,7 @@ export class Runner {
     this.flight = flight;
     try {
       const quick = quickCase(one.tree);
-      const result = await post(SOLVE, quick, flight.signal);
+      const result = await solved(quick, flight.signal);
       if (this.isNews(one)) {
         this.tell.preview(one.tree, result);
         if (one.number === this.count) this.sections(one, quick, result);

@@ -4,6 +4,9 @@ import json
 
 import pytest
 
+import rollnip as rn
+from rollnip.io import parse_case
+
 pytestmark = pytest.mark.slow
 
 TOP = "in-upper-layers-0"
@@ -141,9 +144,9 @@ def test_every_model_of_a_material_can_be_chosen_and_solved(designer, kind, numb
 
 def test_terms_of_a_prony_series_are_added_and_removed(designer):
     choose(designer, f"{TOP}-material-kind", "prony")
-    tree = sent(designer, lambda: designer.page.click(f"#{TOP}-material-add-term"))
+    tree = sent(designer, lambda: designer.page.click(f"#{TOP}-material-terms-add"))
     assert len(tree["upper"]["layers"][0]["material"]["terms"]) == 3
-    tree = sent(designer, lambda: designer.page.click(f"#{TOP}-material-drop-0"))
+    tree = sent(designer, lambda: designer.page.click(f"#{TOP}-material-terms-drop-0"))
     assert len(tree["upper"]["layers"][0]["material"]["terms"]) == 2
 
 
@@ -172,6 +175,44 @@ def test_a_viscoelastic_rubber_is_shifted_with_temperature(designer):
     assert tree["upper"]["layers"][0]["material"]["shift"]["activation_energy"] == 60
     tree = choose(designer, f"{TOP}-material-shift", "none")
     assert "shift" not in tree["upper"]["layers"][0]["material"]
+
+
+def test_a_measured_table_of_shifts_is_typed_in_row_by_row(designer):
+    page = designer.page
+    choose(designer, f"{TOP}-material-kind", "standard-linear-solid")
+    designer.unfold(f"{TOP}-material-more")
+    choose(designer, f"{TOP}-material-shift", "table")
+    points = f"{TOP}-material-shift-points"
+    sent(designer, lambda: page.click(f"#{points}-add"))
+    sent(designer, lambda: page.click(f"#{points}-drop-0"))
+    designer.enter(f"{points}-0-factor", "3")
+    designer.enter(f"{points}-1-temperature", "50")
+    tree = sent(designer, lambda: designer.type(f"{TOP}-material-temperature", "40"))
+    material = tree["upper"]["layers"][0]["material"]
+    assert material["shift"]["points"][:2] == [
+        {"temperature": 23, "factor": 3},
+        {"temperature": 50, "factor": 0.05},
+    ]
+    assert len(material["shift"]["points"]) == 3
+    case = parse_case(tree)
+    assert designer.figure("rolling_resistance") == pytest.approx(
+        rn.solve(case.nip, case.model).rolling_resistance, rel=1e-3
+    )
+
+
+def test_the_stiffness_of_a_viscoelastic_rubber_may_be_given_by_its_hardness(designer):
+    choose(designer, f"{TOP}-material-kind", "standard-linear-solid")
+    tree = choose(designer, f"{TOP}-material-given", "shore_a")
+    material = tree["upper"]["layers"][0]["material"]
+    assert "modulus" not in material
+    assert (material["shore_a"], material["reading_time"]) == (60, 3)
+    designer.unfold(f"{TOP}-material-more")
+    tree = sent(designer, lambda: designer.type(f"{TOP}-material-reading_time", "15 s"))
+    case = parse_case(tree)
+    assert designer.nip_width == pytest.approx(rn.solve(case.nip, case.model).nip_width, rel=1e-3)
+    tree = choose(designer, f"{TOP}-material-given", "modulus")
+    material = tree["upper"]["layers"][0]["material"]
+    assert {"shore_a", "reading_time"} & set(material) == set()
 
 
 def test_load_gives_way_to_approach_without_a_jump_and_back(designer):

@@ -49,7 +49,7 @@ def test_every_view_and_menu_is_there_in_german(german):
         page.wait_for_timeout(200)
         words = set(re.findall(r"[a-z]{3,}", page.inner_text("#panel").lower()))
         assert not words & {"the", "and", "with", "which"}, tab
-    # Entries of the library and what the solver says stay as their sources have them.
+    # What the solver says and the sources of materials stay as they are.
     parts = page.locator("#inputs :is(label, legend, .hint, .note, button)").all_inner_texts()
     words = set(re.findall(r"[a-z]{3,}", " ".join(parts).lower()))
     assert not words & {"the", "and", "with", "which"}
@@ -65,3 +65,18 @@ def test_what_is_known_is_said_in_german(german):
     assert "innerhalb der Spanne des Werkstoffs" in german.page.inner_text("#big")
     german.enter("in-upper-layers-0-thickness", "0,5 in")
     assert german.page.input_value("#in-upper-layers-0-thickness") == "12.7"
+
+
+def test_examples_and_materials_are_there_in_german(german):
+    page = german.page
+    page.click("#open-examples")
+    texts = page.locator("#examples .tile").all_inner_texts()
+    words = set(re.findall(r"[a-z]{3,}", " ".join(texts).lower()))
+    assert "walze" in words
+    assert not words & {"the", "and", "with", "which", "assumed"}
+    with page.expect_response("**/api/solve*"):
+        page.click('[id="example-soft-press"]')
+    german.rest()
+    assert page.input_value("#design-title") == "Presswalze mit weichem Bezug"
+    options = page.locator("#in-upper-layers-0-material-kind option").all_inner_texts()
+    assert {"Stahl", "Gummi, 60 Shore A", "Nitrilkautschuk (NBR), nach Härte"} <= set(options)

@@ -87,7 +87,7 @@ def test_the_page_itself_holds_no_text():
 def messages(language):
     """The messages of a language by key."""
     text = (STATIC / "js" / "texts" / f"{language}.js").read_text(encoding="utf-8")
-    return dict(re.findall(r'^  "([^"]+)": "(.*)",$', text, re.M))
+    return dict(re.findall(r'^  "([^"]+)": ["`](.*)["`],$', text, re.M))
 
 
 def test_both_languages_have_the_same_messages_with_the_same_holes():
@@ -106,6 +106,17 @@ def test_the_german_names_of_figures_are_of_figures_that_there_are():
     names = {figure.name for figure in FIGURES.values()} | {"whole"}
     german = {key.split(".")[1] for key in messages("de") if key.startswith("figure.")}
     assert german <= names
+
+
+def test_the_german_names_of_the_library_are_of_entries_that_there_are():
+    from rollnip.web.library import Library
+
+    library = Library.read()
+    there = {f"example.{one['name']}" for one in library.examples}
+    there |= {f"library.{one['name']}" for one in library.materials}
+    german = {key.removesuffix(".hint") for key in messages("library-de")}
+    assert len(german) >= 30
+    assert german <= there
 
 
 def test_every_message_that_is_asked_for_is_there():

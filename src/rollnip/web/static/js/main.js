@@ -5,7 +5,7 @@ import { App } from "./app.js";
 import { byId, el } from "./dom.js";
 import { alarm, clearAlarm } from "./answers.js";
 import { remember } from "./saved.js";
-import { LANGUAGE, fillPage, say } from "./texts.js";
+import { LANGUAGE, fillPage, say, translated } from "./texts.js";
 
 const PICKED = ".toml,.json,application/toml,application/json,text/plain";
 
@@ -23,7 +23,12 @@ async function start() {
     get("/api/hardness"),
     get("/api/examples"),
   ]);
-  const app = new App({ units, materials, hardness, examples });
+  const app = new App({
+    units,
+    materials: materials.map((one) => translated("library", one)),
+    hardness,
+    examples: examples.map((one) => translated("example", one)),
+  });
   const file = el("input", {
     type: "file",
     id: "file",

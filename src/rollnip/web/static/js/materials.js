@@ -1,10 +1,10 @@
 // The material of a layer: from the library, by hardness, or one of the models.
 
 import { kindOf, materialAs } from "./design.js";
-import { button, el, select } from "./dom.js";
-import { icon } from "./icons.js";
+import { el, select } from "./dom.js";
 import { rangeText } from "./known.js";
 import { getAt, idOf, setAt } from "./paths.js";
+import { rowsEditor } from "./rows.js";
 import { say } from "./texts.js";
 
 const MODELS = [
@@ -29,6 +29,28 @@ const SHIFTS = {
   none: undefined,
   wlf: { model: "wlf", c1: 17.44, c2: 51.6, reference: 23 },
   arrhenius: { model: "arrhenius", activation_energy: 60, reference: 23 },
+  table: {
+    model: "table",
+    reference: 23,
+    points: [
+      { temperature: 0, factor: 10 },
+      { temperature: 23, factor: 1 },
+      { temperature: 60, factor: 0.05 },
+    ],
+  },
+};
+const READING_TIME = 3; // s, of a durometer on vulcanised rubber (ISO 48-4)
+const TERMS = {
+  kind: "term",
+  names: ["modulus", "relaxation_time"],
+  fewest: 1,
+  next: (last) => ({ ...last }),
+};
+const POINTS = {
+  kind: "point",
+  names: ["temperature", "factor"],
+  fewest: 2,
+  next: ({ temperature, factor }) => ({ temperature: temperature + 20, factor: factor / 10 }),
 };
 
 /** The elements that edit the material at `path`. */
@@ -39,8 +61,9 @@ export function materialEditor(path, panel) {
   panel.parts.push(choice);
   return [
     choice.node,
+    material.model === "elastic" ? null : givenAs(path, material, panel),
     ...numbers(kind, material).map((name) => panel.control(`${path}.${name}`)),
-    kind === "prony" ? terms(path, material, panel) : null,
+    kind === "prony" ? rowsEditor(`${path}.terms`, TERMS, panel) : null,
     panel.fold(`${idOf(path)}-more`, say("material.more"), [
       choice.note,
       ...more(path, material, panel),
@@ -132,36 +155,19 @@ export function modulusOf(shore, table) {
   return { low: between(table.low), likely: between(table.likely), high: between(table.high) };
 }
 
-function terms(path, material, panel) {
-  const rows = material.terms.map((_term, i) => {
-    const drop = () =>
-      put(
-        panel,
-        `${path}.terms`,
-        material.terms.filter((_one, j) => j !== i),
-      );
-    const label = say("material.remove-term", { number: i + 1 });
-    return el(
-      "div",
-      { class: "term", role: "group", "aria-label": say("material.term", { number: i + 1 }) },
-      panel.control(`${path}.terms[${i}].modulus`),
-      button(icon("remove"), drop, {
-        kind: "icon",
-        label,
-        id: `${idOf(path)}-drop-${i}`,
-        disabled: material.terms.length === 1,
-      }),
-      panel.control(`${path}.terms[${i}].relaxation_time`),
-    );
-  });
-  const add = () =>
-    put(panel, `${path}.terms`, [...material.terms, { ...material.terms[material.terms.length - 1] }]);
-  return el(
-    "div",
-    { class: "inner" },
-    ...rows,
-    button(say("material.add-term"), add, { kind: "small", id: `${idOf(path)}-add-term` }),
-  );
+/** Whether the stiffness of a viscoelastic material is given as its modulus or by its hardness. */
+function givenAs(path, material, panel) {
+  const options = [
+    ["modulus", say("given.modulus")],
+    ["shore_a", say("given.hardness")],
+  ];
+  const act = (name) => {
+    const { modulus: _m, shore_a: shore, reading_time: _t, ...rest } = material;
+    const hard = { ...rest, shore_a: 60, reading_time: READING_TIME };
+    put(panel, path, name === "shore_a" ? hard : { ...rest, modulus: panel.app.modulusOf(shore) });
+  };
+  const value = material.shore_a === undefined ? "modulus" : "shore_a";
+  return select({ id: `${idOf(path)}-given`, label: say("given.label"), options, value, act });
 }
 
 function more(path, material, panel) {
@@ -171,6 +177,8 @@ function more(path, material, panel) {
     isViscous ? shiftEditor(path, material, panel) : null,
     isViscous && material.shift ? panel.control(`${path}.temperature`) : null,
     ...(isViscous ? shiftNumbers(path, material, panel) : []),
+    material.shift?.points ? rowsEditor(`${path}.shift.points`, POINTS, panel) : null,
+    material.reading_time === undefined ? null : panel.control(`${path}.reading_time`),
   ];
 }
 
@@ -179,6 +187,7 @@ function shiftEditor(path, material, panel) {
     ["none", say("shift.none")],
     ["wlf", say("shift.wlf")],
     ["arrhenius", say("shift.arrhenius")],
+    ["table", say("shift.table")],
   ];
   const act = (kind) => {
     const shift = SHIFTS[kind];
@@ -196,7 +205,7 @@ function shiftEditor(path, material, panel) {
 
 function shiftNumbers(path, material, panel) {
   const names =
-    { wlf: ["c1", "c2", "reference"], arrhenius: ["activation_energy", "reference"] }[
+    { wlf: ["c1", "c2", "reference"], arrhenius: ["activation_energy", "reference"], table: ["reference"] }[
       material.shift?.model
     ] ?? [];
   return names.map((name) => panel.control(`${path}.shift.${name}`));

@@ -55,6 +55,7 @@ const MATERIAL = {
     high: 0.5,
     hint: say("hint.poisson"),
   },
+  reading_time: { label: say("input.reading"), dimension: "time", low: 0.1, high: 60, log: true, hint: say("hint.reading") },
   temperature: { label: say("input.temperature"), dimension: "temperature", low: -40, high: 150 },
   "shift.reference": { label: say("input.reference"), dimension: "temperature", low: -40, high: 150 },
   "shift.c1": { label: say("input.c1"), dimension: "ratio", low: 1, high: 40 },
@@ -141,11 +142,17 @@ const TERMS = {
   relaxation_time: { ...MATERIAL.relaxation_time, hint: null },
 };
 
+const POINTS = {
+  temperature: { ...MATERIAL.temperature },
+  factor: { label: say("input.factor"), dimension: "ratio", low: 1e-6, high: 1e6, log: true, hint: null },
+};
+
 /** The input at a path: {path, label, dimension, low, high, log, hint, factor}; shown is factor times the value. */
 export function inputAt(path, tree) {
   const last = path.replace(/^.*?(shift\.[a-z0-9_]+|[a-z_]+)$/, "$1");
   const start = { path, factor: 1 };
   if (path.startsWith("nip.")) return { ...start, ...NIP[last], ...tractionRange(last, tree) };
+  if (path.includes(".points[")) return { ...start, ...POINTS[last] };
   if (path.includes(".terms[")) return { ...start, ...TERMS[last] };
   const hint = path === "upper.radius" ? say("hint.diameter") : null;
   return { ...start, hint, ...(SIZES[last] ?? MATERIAL[last]) };

@@ -8,7 +8,7 @@ import { bandOf, partsOf, rangeText } from "./known.js";
 import { PLOTS } from "./plots.js";
 import { ANSWERS, errorOf, flat, inputAt, totalsOf } from "./quantities.js";
 import { say } from "./texts.js";
-import { joined } from "./units.js";
+import { joined, number } from "./units.js";
 import { getAt } from "./paths.js";
 
 const DRIVES = {
@@ -145,13 +145,17 @@ function material(tree, path, units) {
     .filter((name) => typeof table[name] === "number")
     .map((name) => row(tree, `${path}.${name}`, units));
   const shift = Object.keys(table.shift ?? {})
-    .filter((name) => name !== "model")
+    .filter((name) => typeof table.shift[name] === "number")
     .map((name) => row(tree, `${path}.shift.${name}`, units));
+  const points = (table.shift?.points ?? []).map(({ temperature, factor }) => [
+    say("report.factor", { temperature: units.text(temperature, "temperature") }),
+    number(factor),
+  ]);
   const terms = (table.terms ?? []).map((term, i) => [
     say("material.term", { number: i + 1 }),
     `${units.text(term.modulus, "pressure")}, ${units.text(term.relaxation_time, "time")}`,
   ]);
-  return [[say("material.label"), MODELS[kindOf(table)]], ...numbers, ...terms, ...shift];
+  return [[say("material.label"), MODELS[kindOf(table)]], ...numbers, ...terms, ...shift, ...points];
 }
 
 function row(tree, path, units, label = null) {

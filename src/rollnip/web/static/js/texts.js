@@ -2,9 +2,10 @@
 
 import { DE } from "./texts/de.js";
 import { EN } from "./texts/en.js";
+import { LIBRARY_DE } from "./texts/library-de.js";
 import { remembered } from "./saved.js";
 
-const MESSAGES = { en: EN, de: DE };
+const MESSAGES = { en: EN, de: { ...DE, ...LIBRARY_DE } };
 const HOLE = /\{(\w+)\}/g;
 
 /** The language of the page: as chosen in this browser, else German where the browser is German. */
@@ -28,6 +29,14 @@ export function say(key, values = {}) {
 /** The message of a key, or a text of the server where the language has none of its own. */
 export function sayOr(key, text) {
   return MESSAGES[LANGUAGE][key] ?? text;
+}
+
+/** An entry of a list of the server, "example" or "library", in the language of the page. */
+export function translated(kind, entry) {
+  const key = `${kind}.${entry.name}`;
+  const title = sayOr(key, entry.title);
+  const whole = { ...entry, title, description: sayOr(`${key}.hint`, entry.description) };
+  return entry.case ? { ...whole, case: { ...entry.case, title } } : whole;
 }
 
 /** A label within a sentence: German nouns keep their capital. */

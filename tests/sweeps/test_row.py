@@ -97,14 +97,8 @@ def test_a_fault_of_the_program_is_a_message_too(monkeypatch: pytest.MonkeyPatch
 
 
 def test_what_is_not_verified_says_so() -> None:
-    """The peaks beside the edges of a stiff skin, 80 times thinner than the nip is wide."""
-    skin = {"thickness": 0.1, "material": {"model": "elastic", "modulus": 5500.0, "poisson": 0.3}}
-    case = CASE | {
-        "nip": {"load": 5.0, "friction": 0.0},
-        "model": {"geometry": "linear"},
-        "upper": CASE["upper"] | {"layers": [skin, CASE["upper"]["layers"][0]]},
-    }
-    row = evaluate(case | {"solver": {"tolerance": 1e-6}})
+    """A tolerance finer than the second order of "finite" can meet, on whatever mesh."""
+    row = evaluate(CASE | {"model": {"geometry": "finite"}, "solver": {"tolerance": 1e-4}})
     assert row["status"] in STATUSES
     assert row["status"] == "unverified"
     assert row["converged"] is False

@@ -143,7 +143,7 @@ def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     worst = max(ratios, key=lambda name: inf if isnan(ratios[name]) else ratios[name])
     if ratios[worst] <= 1.0 + 1e-9:
         return True, f"errors within the tolerance {model.tolerance:g}{_more(shares, model)}."
-    if relative[worst] <= shares[worst]:
+    if relative[worst] <= shares[worst] * (1.0 + 1e-9):
         return False, (
             f"The estimated error of the {_WORDS[worst]} is {100.0 * relative[worst]:.2g} %, more "
             f'than the tolerance {model.tolerance:g}: no mesh makes the second order of "finite" '

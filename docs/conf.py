@@ -8,6 +8,7 @@ from importlib.metadata import version as installed
 from pathlib import Path
 
 from rollnip.model import Model
+from rollnip.rolling.claims import model_share
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
@@ -69,6 +70,10 @@ myst_substitutions = {
     "default_geometry": f'`"{Model().geometry}"`',
     "default_tolerance": Model().tolerance,
     "release": release,
+    **{
+        f"share_{name}": f"{100 * model_share(name, 'finite'):g} %"
+        for name in ("load", "creepage", "nip_width", "peak_pressure")
+    },
 }
 myst_heading_anchors = 3
 myst_dmath_double_inline = True

@@ -17,6 +17,7 @@ import numpy as np
 
 import rollnip as rn
 from rollnip.model import Geometry
+from rollnip.validity import Strains
 
 GEOMETRIES: tuple[str, ...] = get_args(Geometry)
 FIGURES = ("approach", "edges", "peak", "creepage")
@@ -38,6 +39,7 @@ class Judged:
     converged : whether the solution was verified.
     deviations : relative, but of the creepage; by "approach", "trailing", "leading", "peak".
     creepage : difference of the creepages; None without friction.
+    skin : estimate of the warning on stiff top layers; None where it is not given.
     """
 
     case: dict[str, Any]
@@ -45,6 +47,7 @@ class Judged:
     converged: bool
     deviations: dict[str, float]
     creepage: float | None
+    skin: float | None
 
     @property
     def edges(self) -> float:
@@ -124,7 +127,14 @@ def _judge(case: dict[str, Any], geometry: str) -> Judged:
         solution.converged,
         {name: value - 1.0 for name, value in found.items()},
         None if xi is None else float(solution.creepage - xi),
+        _skin(solution),
     )
+
+
+def _skin(solution: rn.Solution) -> float | None:
+    if not any("A stiff top layer" in line for line in solution.warnings):
+        return None
+    return Strains.of(solution.nip, solution.model, solution.final).skin
 
 
 GROUPS = {
@@ -271,6 +281,26 @@ def width_angle(case: dict[str, Any]) -> float:
     """Return half the nip width over the smaller radius."""
     trailing, leading = case["contact_x"]
     return float(0.5 * (leading - trailing) / min(case["upper"]["radius"], case["lower"]["radius"]))
+
+
+def skins() -> tuple[int, list[float], float]:
+    """Return what the warning on stiff top layers is worth, on results with a stiffer top layer.
+
+    Returns
+    -------
+    How many results have the warning; their deviations of the creepage over the estimates; the
+    largest deviation of those without it.
+    """
+    ratios, unwarned = [], [0.0]
+    for one in judged("finite"):
+        layers = one.case["upper"].get("layers", [])
+        if one.creepage is None or len(layers) < 2 or layers[0]["modulus"] <= layers[1]["modulus"]:
+            continue
+        if one.skin is None:
+            unwarned.append(abs(one.creepage))
+        else:
+            ratios.append(abs(one.creepage) / one.skin)
+    return len(ratios), ratios, max(unwarned)
 
 
 def at_most(value: float, bound: float, sentence: str) -> None:

@@ -6,16 +6,17 @@ list with its reasons is in docs/validity.md. A warning never changes a result.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import inf
+from dataclasses import dataclass, replace
+from math import inf, isnan
 
 import numpy as np
 
+from rollnip.compliance import flat_compliance
 from rollnip.influence import is_ring
 from rollnip.materials import LossFactor, Prony, Viscoelastic
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rollers import Roller
+from rollnip.rollers import Layer, Roller
 from rollnip.rolling import Round, surface_strain_in_nip
 
 NIP_STRAIN = 0.15
@@ -30,6 +31,10 @@ CONTACT_ANGLE = 0.25
 """Half the nip width over the smaller radius [rad]."""
 SECOND_SHARE = 0.15
 """Second-order part of the indentation over the approach, geometry "finite"."""
+SKIN_CREEPAGE = 3e-4
+"""Creepage by third-order stretch under stiff top layers, geometry "finite"; both this ..."""
+SKIN_SHARE = 0.03
+"""... and this share of the creepage must be exceeded."""
 TEMPERATURE_SPAN = 60.0
 """Distance of a temperature from the reference of its shift [K]."""
 TIME_SPAN = 10.0
@@ -45,16 +50,19 @@ class Strains:
     surface : largest strain of either surface in the contact, mean over an element.
     second : largest second-order indentation in the contact over the approach; 0 where there is
         none.
+    skin : third-order stretch of stiff top layers, as `_skin_stretch` estimates it; 0 where there
+        are none, and but in "finite".
     """
 
     surface: float
     second: float
+    skin: float
 
     @classmethod
     def of(cls, nip: Nip, model: Model, final: Round) -> Strains:
         """Return the strains of a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
-        return cls(surface, _second_share(nip, final))
+        return cls(surface, _second_share(nip, final), _skin_stretch(nip, final))
 
 
 def validity_warnings(nip: Nip, model: Model, final: Round, strains: Strains) -> tuple[str, ...]:
@@ -65,6 +73,7 @@ def validity_warnings(nip: Nip, model: Model, final: Round, strains: Strains) ->
         _contact_angle(nip, final),
         _surface_strain(strains.surface),
         _second_order(strains.second),
+        _stiff_skin(strains.skin, final.figures.creepage),
         *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),
         *(_thin_top_layer(name, roller, final) for name, roller in _rollers(nip)),
         *(line for name, roller in _rollers(nip) for line in _materials(name, roller, nip, final)),
@@ -143,6 +152,73 @@ def _second_order(share: float) -> str:
     return (
         f"Finite strain changes the indentation by {100.0 * share:.0f} % of the approach; beyond "
         f"{100.0 * SECOND_SHARE:.0f} % the second order was not compared with finite elements."
+    )
+
+
+def _skin_stretch(nip: Nip, final: Round) -> float:
+    """Return how far the stretch of stiff top layers may be off by terms of third order.
+
+    A stiff top layer that turns by r is stretched by du_x/dx + r^2/2 and resists as a sheet. The
+    second order makes up for r_1^2/2, r_1 the rotation of the linear solution, and not for what
+    r_1 lacks: (r^2 - r_1^2)/2, of third order. Of a strain that is imposed on the sheet the surface
+    takes the share k^2 D/(k^2 D + K): D is the stiffness of the sheet along itself, K the shear
+    traction that displaces what it covers by one. The estimate is that share of the root mean
+    square of (r^2 - r_1^2)/2 in the nip, the sum for both rollers.
+    """
+    mesh, state = final.mesh, final.state
+    if mesh.kernels.is_linear:
+        return 0.0
+    linear, present = mesh.linear(state), mesh.displacements(state)
+    dx = mesh.dx
+    touching = state.pressure > 0.0
+    total = 0.0
+    for roller, first, all_orders in (
+        (nip.upper, (linear.x_upper, linear.z_upper), (present.x_upper, present.z_upper)),
+        (nip.lower, (linear.x_lower, linear.z_lower), (present.x_lower, present.z_lower)),
+    ):
+        share = _sheet_share(roller.layers, 0.5 * final.figures.nip_width)
+        if share <= 0.0:
+            continue
+        turned, turned_first = (
+            np.diff(u_z) / dx + 0.5 * roller.curvature * (u_x[1:] + u_x[:-1])
+            for u_x, u_z in (all_orders, first)
+        )
+        left_out = 0.5 * (turned**2 - turned_first**2)[touching]
+        mean_square = float(left_out**2 @ dx[touching] / np.sum(dx[touching]))
+        total += share * float(np.sqrt(mean_square))
+    return total
+
+
+def _sheet_share(layers: tuple[Layer, ...], half_width: float) -> float:
+    """Return the share of a strain, imposed on stiff top layers, that the surface takes.
+
+    With K of `_skin_stretch` the compliance to shear is 1/(k^2 D + K) and without the sheet 1/K:
+    the share is one less their ratio, at k = 1/a. The sheet is the top layers above any interface,
+    whichever gives most; without it, they are of the material below.
+    """
+    k = np.array([1.0 / half_width])
+
+    def along(materials: list[Layer]) -> float:
+        moduli = [[layer.material.relaxed_modulus] for layer in materials]
+        poisson = [layer.material.poisson for layer in materials]
+        made = flat_compliance(k, [layer.thickness for layer in materials], moduli, poisson)
+        return float(made.xx[0].real)
+
+    whole = along(list(layers)) if len(layers) > 1 else 0.0
+    largest = 0.0
+    for n in range(1, len(layers)):
+        soft = [replace(one, material=layers[n].material) for one in layers[:n]]
+        largest = max(largest, 1.0 - whole / along([*soft, *layers[n:]]))
+    return largest
+
+
+def _stiff_skin(stretch: float, creepage: float) -> str:
+    if isnan(creepage) or stretch <= max(SKIN_CREEPAGE, SKIN_SHARE * abs(creepage)):
+        return ""
+    return (
+        "A stiff top layer bends and resists stretch like a sheet: terms of third order, which "
+        f'geometry "finite" leaves out, may change the creepage by about {stretch:.1g} (it is '
+        f"{creepage:.2g})."
     )
 
 

@@ -26,21 +26,25 @@ def test_a_file_is_returned_whole(tmp_path):
 
 
 @pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no named pipes")
-@pytest.mark.parametrize("read", READERS, ids=lambda read: read.__name__)
-def test_a_pipe_is_refused_before_it_could_block(read, tmp_path):
+def test_a_pipe_is_refused_before_it_could_block(tmp_path):
     pipe = tmp_path / "pipe.csv"
     os.mkfifo(pipe)
     # In a process of its own: a reader that waits for a writer would wait for ever.
-    code = (
-        f"from {read.__module__} import {read.__name__} as read\n"
-        "from rollnip import RollnipError\n"
-        f"try: read({str(pipe)!r})\n"
-        "except RollnipError as error: print(error)\n"
-    )
+    code = "from rollnip import RollnipError\n"
+    for read in READERS:
+        code += (
+            f"from {read.__module__} import {read.__name__}\n"
+            f"print({read.__name__!r}, end=' ', flush=True)\n"
+            f"try: {read.__name__}({str(pipe)!r})\n"
+            "except RollnipError as error: print(error)\n"
+        )
     done = subprocess.run(
         [sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=120
     )
-    assert "pipe.csv: must be a regular file, it is a pipe or a device" in done.stdout
+    said = done.stdout.splitlines()
+    assert [line.split()[0] for line in said] == [read.__name__ for read in READERS]
+    for line in said:
+        assert "pipe.csv: must be a regular file, it is a pipe or a device" in line
 
 
 @pytest.mark.skipif(not Path("/dev/zero").exists(), reason="there is no endless device")

@@ -37,7 +37,7 @@ def test_unknowns_scatter_together_as_the_fit_knows_them(coated: Any) -> None:
         parameters,
         results=["nip_width"],
         correlations=correlations,
-        sampling=Sampling(count=300),
+        sampling=Sampling(count=150),
         solve=lambda study: sweep(study, workers=1),
     )
     samples = np.array(found.samples)
@@ -50,7 +50,7 @@ def test_unknowns_scatter_together_as_the_fit_knows_them(coated: Any) -> None:
         coated | {"model": {"geometry": "linear"}, "solver": {"tolerance": 0.01}},
         alone,
         results=["nip_width"],
-        sampling=Sampling(count=300),
+        sampling=Sampling(count=150),
         solve=lambda study: sweep(study, workers=1),
     )
     assert found.scatters[0].deviation > 1.2 * apart.scatters[0].deviation

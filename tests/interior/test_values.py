@@ -29,16 +29,23 @@ def test_hertz():
     # Johnson 1985, 4.2: 0.30 p0 at 0.78 a
 
 
-@pytest.mark.parametrize("geometry", ["linear", "curved"])
-@pytest.mark.parametrize("name", ["one layer", "plate", "viscoelastic"])
+@pytest.mark.parametrize(
+    ("name", "geometry"),
+    [
+        ("one layer", "curved"),
+        ("plate", "linear"),
+        ("viscoelastic", "linear"),
+        ("viscoelastic", "curved"),
+    ],
+)
 def test_trapezoidal_rule_with_plain_sums(tractions, name, geometry):
     """An equidistant transform, traction by traction from its definition, of the same layers."""
     from rollnip.compliance import flat_fields, ring_fields
 
     roller = ROLLERS[name]
     x, z = np.array([-4.0, -2.0, 0.0, 1.7, 3.7, 9.0]), np.array([0.5, 2.0, 3.9])
-    step = 2.0 * np.pi / 4000.0  # images 4000 mm away
-    k = step * np.arange(1, 70000 if name == "viscoelastic" else 60000)
+    step = 2.0 * np.pi / 1000.0  # images 1000 mm away
+    k = step * np.arange(1, 17500 if name == "viscoelastic" else 15000)
     stack = (
         [layer.thickness for layer in roller.layers],
         [np.broadcast_to(m.modulus_at(-1j * k * SPEED), k.shape) for m in roller.materials],

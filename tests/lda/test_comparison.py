@@ -63,18 +63,18 @@ def test_averaging_the_model_is_what_a_long_volume_needs(driven):
 
 def test_where_the_volume_is_too_long_positions_are_left_out(driven):
     """About the end of the slip zone 0.2 mm are too long for an average of first order."""
-    at = Instrument(half_width=0.2, sample_rate=300e3)
+    at = Instrument(half_width=0.2, sample_rate=150e3)
     places = np.concatenate(
-        [np.linspace(-9.0, -4.0, 8), np.linspace(-3.8, -2.9, 10), np.linspace(-2.5, 8.0, 12)]
+        [np.linspace(-9.0, -4.0, 5), np.linspace(-3.8, -2.9, 10), np.linspace(-2.5, 8.0, 7)]
     )
-    scan = simulate_scan(driven, at, Seeding(bursts=60), positions=places, seed=1)
+    scan = simulate_scan(driven, at, Seeding(bursts=40), positions=places, seed=1)
     profile = estimate_profile(scan.x, scan.velocity)
     plain = compare(profile, driven, width=at.averaging_width)
     found = compare(profile, driven, width=at.averaging_width, blur=at.largest_blur)
     assert plain.left_out == 0
     assert plain.probability < 1e-6
     assert 3 < found.left_out < 14
-    assert found.x.size == 30 - found.left_out
+    assert found.x.size == 22 - found.left_out
     assert found.probability > 1e-3
     with pytest.raises(InvalidInputError, match="at least 4 positions where"):
         compare(profile, driven, width=at.averaging_width, blur=0.0)

@@ -4,10 +4,13 @@ import re
 import runpy
 from pathlib import Path
 
+import pytest
+
 ROOT = Path(__file__).parents[2]
 DOCS = ROOT / "docs"
 
 
+@pytest.mark.slow
 def test_every_picture_is_made_and_shown(tmp_path):
     (tmp_path / "docs" / "figures").mkdir(parents=True)
     (tmp_path / "examples").symlink_to(ROOT / "examples")

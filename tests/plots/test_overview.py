@@ -78,6 +78,7 @@ def test_many_layers_still_fit():
     assert "and 4 more" in words(figure)
 
 
+@pytest.mark.slow
 def test_it_takes_little_more_than_its_pictures(viscoelastic, tmp_path):
     """Compared in processor time with an empty page of four pictures that is written as well."""
 

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 import rollnip as rn
 
-EXAMPLES = [20, pytest.param(100, marks=pytest.mark.slow)]
+EXAMPLES = [12, pytest.param(100, marks=pytest.mark.slow)]
 
 
 @pytest.fixture(params=EXAMPLES, ids=["few", "many"])

@@ -71,6 +71,16 @@ class KnownBody(Body):
         return measured
 
 
+class CrownBody(Body):
+    """A request for the crown that evens out the load along a face."""
+
+    case: Case
+    roller: Literal["upper", "lower"] = "upper"
+    within: float = Field(
+        0.1, gt=0.0, lt=1.0, description="Largest departure of the line load from its mean."
+    )
+
+
 class TomlBody(Body):
     """The text of a case file."""
 

@@ -6,10 +6,10 @@ import asyncio
 import json
 from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
-from typing import Any
+from typing import Any, TypeGuard
 
 from rollnip.web.answers import RefusedError, Reply, json_bytes
-from rollnip.web.bodies import FindBody, InteriorBody, KnownBody, SweepBody
+from rollnip.web.bodies import CrownBody, FindBody, InteriorBody, KnownBody, SweepBody
 from rollnip.web.limits import Limits
 from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError
 
@@ -97,6 +97,24 @@ class Desk:
             except (OverloadedError, TimeLimitError, WorkerError) as error:
                 raise _refused(error, seconds) from None
 
+    async def face(self, case: Mapping[str, Any]) -> Reply:
+        """Solve a case along its face, where its table is if it can be. Raises RefusedError."""
+        seconds = self._limits.long_seconds  # the first time; a table that is there takes no time
+        body = {"case": case}
+        try:
+            return await self.pool.run("face", body, seconds, key=_section_key(case))
+        except (OverloadedError, TimeLimitError, WorkerError) as error:
+            raise _refused(error, seconds) from None
+
+    async def crown(self, body: CrownBody) -> Reply:
+        """Find the crown that evens out the load along the face. Raises RefusedError."""
+        async with self._long_task(), self._gate:
+            seconds = self._limits.long_seconds
+            try:
+                return await self.pool.run("crown", body.model_dump(), seconds, patient=True)
+            except (OverloadedError, TimeLimitError, WorkerError) as error:
+                raise _refused(error, seconds) from None
+
     async def _value(self, body: SweepBody, value: float | str) -> Reply:
         """One solve of a sweep; one that takes too long is an error of its row."""
         task = {"case": body.case, "path": body.path, "value": value}
@@ -123,6 +141,22 @@ class Desk:
             raise _refused(TimeLimitError(), self._limits.long_seconds) from None
         finally:
             self._long -= 1
+
+
+def _section_key(case: Mapping[str, Any]) -> str:
+    """Return what is the same for all faces of one cross-section, as the case is written."""
+    nip = case.get("nip")
+    parts = {name: case.get(name) for name in ("model", "solver", "materials")}
+    parts["nip"] = [nip.get(name) for name in ("friction", "speed")] if _is_table(nip) else None
+    for side in ("upper", "lower"):
+        roller = case.get(side)
+        table = roller if _is_table(roller) else {}
+        parts[side] = {name: value for name, value in table.items() if name != "shaft"}
+    return "face " + json.dumps(parts, sort_keys=True)
+
+
+def _is_table(value: Any) -> TypeGuard[Mapping[str, Any]]:
+    return isinstance(value, Mapping)
 
 
 def _refused(error: Exception, seconds: float) -> RefusedError:

@@ -27,7 +27,7 @@ T = TypeVar("T")
 _log = logging.getLogger(__name__)
 _START_SECONDS = 60.0
 _PAUSE = 2.0  # before a start that failed is tried again [s]
-_RECENT = 4  # as many keys as a worker keeps solutions
+_RECENT = 8  # keys of what a worker did last: solutions and tables that it may still have
 
 
 class OverloadedError(Exception):
@@ -134,7 +134,13 @@ class Pool:
         await asyncio.gather(*(worker.stop() for worker in self._all))
 
     async def run(
-        self, name: str, body: Mapping[str, Any], seconds: float, *, patient: bool = False
+        self,
+        name: str,
+        body: Mapping[str, Any],
+        seconds: float,
+        *,
+        patient: bool = False,
+        key: str | None = None,
     ) -> Reply:
         """Have one task done.
 
@@ -148,6 +154,8 @@ class Pool:
             that it may take once it is begun.
         patient :
             whether it may wait even where too many do: for a caller that asks for one at a time.
+        key :
+            what the worker keeps for the next such task; the case by default.
 
         Raises
         ------
@@ -158,7 +166,7 @@ class Pool:
         if not self._idle and len(self._queue) >= self._limits.waiting and not patient:
             raise OverloadedError
         task = json.dumps({"name": name, "body": body}).encode()
-        key = json.dumps(body.get("case"), sort_keys=True)
+        key = key or json.dumps(body.get("case"), sort_keys=True)
         try:
             async with asyncio.timeout(self._limits.waiting_seconds):
                 worker = await self._free(key)

@@ -16,6 +16,7 @@ from rollnip.io import case_schema
 from rollnip.web.answers import RefusedError, Reply, json_bytes
 from rollnip.web.bodies import (
     Case,
+    CrownBody,
     FindBody,
     InteriorBody,
     KnownBody,
@@ -90,6 +91,18 @@ async def find(request: Request, body: FindBody) -> Response:
 async def known(request: Request, body: KnownBody) -> Response:
     """Accuracy of the model against finite elements; figures over the bands of the materials."""
     return await _answer(request, _desk(request).known(body))
+
+
+@posts.post("/face", response_model=dict[str, Any])
+async def face(request: Request, case: CaseBody) -> Response:
+    """Load, nip width and peak pressure along the face; the case holds [face] and shafts."""
+    return await _answer(request, _desk(request).face(case))
+
+
+@posts.post("/crown", response_model=dict[str, Any])
+async def crown(request: Request, body: CrownBody) -> Response:
+    """The crown of one roller that evens out the load along the face, and the loads it serves."""
+    return await _answer(request, _desk(request).crown(body))
 
 
 @posts.post("/case", response_model=dict[str, Any])

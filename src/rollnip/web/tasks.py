@@ -36,6 +36,7 @@ from rollnip.solution import Solution
 from rollnip.solver import solve
 from rollnip.sweeps import scalars
 from rollnip.web.answers import SOURCE, Reply, error_tree, json_bytes, refusal
+from rollnip.web.faces import Faces
 from rollnip.web.known import JUDGED, at_end, bands, is_judged, spread
 from rollnip.web.library import Library
 from rollnip.web.limits import Limits
@@ -78,6 +79,7 @@ class Tasks:
         self._limits = limits
         self._kept: OrderedDict[str, Solution] = OrderedDict()
         self._kernels = KernelCache()
+        self._faces = Faces(self._kernels)
         self._library: Library | None = None
         self._tasks: dict[str, Callable[[Body], Reply]] = {
             "solve": self._solve,
@@ -86,6 +88,8 @@ class Tasks:
             "value": self._value,
             "find": self._find,
             "known": self._known,
+            "face": self._face,
+            "crown": self._crown,
             "case": self._case,
             "toml": self._toml,
         }
@@ -196,6 +200,15 @@ class Tasks:
             except RollnipError as error:
                 answer["message"] = refusal(error)["error"]
         return Reply(200, json_bytes(answer), case_hash(case))
+
+    def _face(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        return Reply(200, json_bytes(self._faces.face(case)), case_hash(case))
+
+    def _crown(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        tree = self._faces.crown(case, body["roller"], body["within"])
+        return Reply(200, json_bytes(tree), case_hash(case))
 
     def _sound_row(self, tree: Body) -> dict[str, Any]:
         """The scalars of a case's solution. Raises CaseFileError where it did not converge."""

@@ -1,0 +1,166 @@
+"""Faces of nips for the page: each is solved on the table of its cross-section, which is kept."""
+
+from __future__ import annotations
+
+import re
+from collections import OrderedDict
+from dataclasses import replace
+from typing import Any, Literal
+
+from rollnip._errors import CaseFileError, InvalidInputError
+from rollnip.face import (
+    FaceSolution,
+    NipLaw,
+    even_crown,
+    face_problem,
+    load_range,
+    solve_face,
+    with_crown,
+)
+from rollnip.face.report import face_dict
+from rollnip.influence import KernelCache
+from rollnip.io import Case
+from rollnip.nip import LineLoad, Nip, Traction
+from rollnip.rollers import Roller
+from rollnip.shafts import STEEL, Crown, Face
+from rollnip.web.answers import SOURCE
+
+_KEPT = 4  # tables, some ten kB each
+_FEW = 5  # places along the face where only its shafts are checked
+_NAMED = re.compile(r"`([\w.]+)`")
+_SIDES: tuple[Literal["upper", "lower"], ...] = ("upper", "lower")
+_PLACES = {
+    "end_loads": "face.end_loads",
+    "length": "face.length",
+    "traction": "nip.traction",
+    "approach": "nip.approach",
+    "face_width": "nip.face_width",
+}
+
+
+class Faces:
+    """Solves faces, and keeps the tables of the last cross-sections.
+
+    Parameters
+    ----------
+    kernels :
+        influence functions, shared with other solves.
+    """
+
+    def __init__(self, kernels: KernelCache) -> None:
+        self._kernels = kernels
+        self._laws: OrderedDict[str, NipLaw] = OrderedDict()
+
+    def face(self, case: Case) -> dict[str, Any]:
+        """Return the key "face" of the result of a case.
+
+        Raises
+        ------
+        CaseFileError
+            where the case has no face, or something along it does not fit; says at which key.
+        """
+        return face_dict(self._solved(case.nip, _face_of(case), case))
+
+    def crown(self, case: Case, roller: Literal["upper", "lower"], within: float) -> dict[str, Any]:
+        """Return the crown of one roller that evens out the load, and the loads that it serves.
+
+        ``height`` is that of the parabola on the diameter [mm]; ``skew`` the angle between the axes
+        that does the same [rad]; ``low`` and ``high`` [N/mm] the mean line loads for which every
+        line load along the face is within a share of the mean, null where the range goes on or
+        none was found, which ``served`` tells apart.
+        """
+        face = _face_of(case)
+        _check(case.nip, face)
+        try:
+            best = even_crown(case.nip, face, case.model, roller=roller, cache=self._kernels)
+        except InvalidInputError as error:
+            raise _placed(error, roller) from None
+        crowned = with_crown(case.nip, roller, Crown(best.height))
+        served = load_range(crowned, face, case.model, within=within, law=best.solution.law)
+        load = best.solution.load
+        return {
+            "roller": roller,
+            "height": best.height,
+            "skew": best.skew,
+            "loads": [float(load.min()), float(load.max())],
+            "served": served is not None,
+            "low": None if served is None else served.low,
+            "high": None if served is None else served.high,
+            "within": within,
+        }
+
+    def _solved(self, nip: Nip, face: Face, case: Case) -> FaceSolution:
+        _check(nip, face)
+        key = repr((_section(nip), case.model))
+        law = self._laws.pop(key, None)
+        try:
+            solution = solve_face(nip, face, case.model, law=law, cache=self._kernels)
+        except InvalidInputError as error:
+            raise _placed(error) from None
+        finally:
+            if law is not None:
+                self._laws[key] = law
+        self._laws[key] = solution.law
+        while len(self._laws) > _KEPT:
+            self._laws.popitem(last=False)
+        return solution
+
+
+def _face_of(case: Case) -> Face:
+    if case.face is None:
+        raise CaseFileError(f"{SOURCE}: face: is missing; add a table [face] with a length.")
+    return case.face
+
+
+def _section(nip: Nip) -> Nip:
+    """Return the cross-section that a table belongs to, whatever its load, crowns and bearings."""
+    return replace(
+        nip,
+        upper=_unbent(nip.upper),
+        lower=_unbent(nip.lower),
+        normal=LineLoad(1.0),
+        tangential=Traction(0.0),
+        face_width=None,
+        title="",
+    )
+
+
+def _unbent(roller: Roller) -> Roller:
+    """Return the roller without what bends it; what else its shaft may hold stays."""
+    if roller.shaft is None:
+        return roller
+    plain = replace(
+        roller.shaft,
+        bearing_distance=1.0,
+        bore=0.0,
+        journal_diameter=None,
+        modulus=STEEL,
+        poisson=0.3,
+        density=None,
+        crown=0.0,
+    )
+    return replace(roller, shaft=plain)
+
+
+def _check(nip: Nip, face: Face) -> None:
+    """Raise where a shaft does not fit its roller or the face, one roller after the other."""
+    for side in _SIDES:
+        other = "lower" if side == "upper" else "upper"
+        one = replace(nip, **{other: replace(getattr(nip, other), shaft=None)})
+        try:
+            face_problem(one, replace(face, end_loads=None), _FEW)
+        except InvalidInputError as error:
+            raise _placed(error, side) from None
+
+
+def _placed(error: InvalidInputError, side: str = "") -> CaseFileError:
+    """Return the error with the path of the key that it names."""
+    named = _NAMED.match(str(error))
+    key = named[1] if named else ""
+    if "." in key:
+        path = key
+    elif side:
+        path = f"{side}.shaft" if key in ("", "shaft") else f"{side}.shaft.{key}"
+    else:
+        path = _PLACES.get(key, "face")
+    return CaseFileError(f"{SOURCE}: {path}: {error}")

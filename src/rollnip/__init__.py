@@ -35,6 +35,8 @@ if TYPE_CHECKING:
     )
     from rollnip.model import Model
     from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
+    from rollnip.patch import solve_patch
+    from rollnip.patches import Across, Force, Patch
     from rollnip.rollers import Layer, Profile, Roller
     from rollnip.shafts import Crown, CrownTable, Face, Shaft
     from rollnip.solution import Solution
@@ -60,6 +62,8 @@ _HOMES = {
     "rollnip.model": ("Model",),
     "rollnip.nip": ("Approach", "Creepage", "LineLoad", "Nip", "Torque", "Traction"),
     "rollnip.face": ("solve_face",),
+    "rollnip.patch": ("solve_patch",),
+    "rollnip.patches": ("Across", "Force", "Patch"),
     "rollnip.rollers": ("Layer", "Profile", "Roller"),
     "rollnip.shafts": ("Crown", "CrownTable", "Face", "Shaft"),
     "rollnip.solution": ("Solution",),
@@ -70,6 +74,7 @@ _HOME = {name: module for module, names in _HOMES.items() for name in names}
 
 __all__ = [
     "WLF",
+    "Across",
     "Approach",
     "Arrhenius",
     "Case",
@@ -80,6 +85,7 @@ __all__ = [
     "CrownTable",
     "Elastic",
     "Face",
+    "Force",
     "FractionalZener",
     "InvalidInputError",
     "KernelCache",
@@ -88,6 +94,7 @@ __all__ = [
     "LossFactor",
     "Model",
     "Nip",
+    "Patch",
     "Profile",
     "Prony",
     "Roller",
@@ -104,6 +111,7 @@ __all__ = [
     "read_case",
     "solve",
     "solve_face",
+    "solve_patch",
     "sweep",
     "write_result",
 ]

@@ -7,7 +7,13 @@ import pytest
 
 from rollnip import closed_forms
 from rollnip._errors import InvalidInputError
-from rollnip.closed_forms import HertzLine, contact_modulus, effective_radius, hertz_line
+from rollnip.closed_forms import (
+    HertzLine,
+    contact_modulus,
+    effective_radius,
+    hertz_ellipse,
+    hertz_line,
+)
 
 UNIT = HertzLine(half_width=1.0, peak_pressure=1.0)
 
@@ -95,3 +101,37 @@ def test_largest_shear_stress_lies_below_the_surface():
 def test_wrong_input_is_named(call, name):
     with pytest.raises(InvalidInputError, match=name):
         call()
+
+
+def test_ellipse_printed_by_contact():
+    """CONTACT's example `tractcurv`: G 82 GPa, nu 0.28, gap 0.0008 x^2, a/b = 0.5."""
+    got = hertz_ellipse(
+        load=106.7e3, curvature_x=0.0016, curvature_y=0.00056283463, contact_modulus=82e3 / 0.72
+    )
+    assert got.half_length / got.half_width == pytest.approx(0.5, rel=1e-6)
+    assert got.peak_pressure == pytest.approx(640.7, rel=1e-3)  # the curvature has one digit
+    assert got.approach == pytest.approx(0.07651, rel=2e-4)
+
+
+def test_ellipse_tends_to_the_circle_from_both_sides():
+    given = {"load": 3.0, "contact_modulus": 7.0, "curvature_x": 0.1}
+    circle = hertz_ellipse(curvature_y=0.1, **given)
+    assert circle.half_length == pytest.approx((0.75 * 3.0 * 10.0 / 7.0) ** (1 / 3), rel=1e-14)
+    for other in (0.1 * (1 - 1e-6), 0.1 * (1 + 1e-6)):
+        near = hertz_ellipse(curvature_y=other, **given)
+        assert near.approach == pytest.approx(circle.approach, rel=1e-6)
+        assert near.peak_pressure == pytest.approx(circle.peak_pressure, rel=1e-6)
+
+
+def test_long_ellipse_has_the_pressure_of_a_line():
+    """Far from its ends a long ellipse carries a line load w = pi/2 p0 a, a^2 = 4 w R/(pi E*)."""
+    got = hertz_ellipse(load=3.0, contact_modulus=7.0, curvature_x=0.1, curvature_y=1e-7)
+    line = hertz_line(
+        load=0.5 * np.pi * got.peak_pressure * got.half_length, radius=10.0, contact_modulus=7.0
+    )
+    assert line.half_width == pytest.approx(got.half_length, rel=1e-3)
+
+
+def test_ellipse_refuses_lines():
+    with pytest.raises(InvalidInputError, match="hertz_line"):
+        hertz_ellipse(load=1.0, contact_modulus=1.0, curvature_x=1.0, curvature_y=1e-13)

@@ -12,10 +12,12 @@ from rollnip.closed_forms.dissimilar import (
     free_rolling_vanishing_friction,
 )
 from rollnip.closed_forms.hertz import (
+    HertzEllipse,
     HertzLine,
     InteriorStress,
     contact_modulus,
     effective_radius,
+    hertz_ellipse,
     hertz_line,
 )
 from rollnip.closed_forms.hetenyi import end_loaded_rollers
@@ -51,6 +53,7 @@ __all__ = [
     "Carter",
     "Cattaneo",
     "FullStick",
+    "HertzEllipse",
     "HertzLine",
     "Hunter",
     "InteriorStress",
@@ -69,6 +72,7 @@ __all__ = [
     "end_loaded_rollers",
     "free_rolling_full_stick",
     "free_rolling_vanishing_friction",
+    "hertz_ellipse",
     "hertz_line",
     "hunter",
     "plate_on_foundation",

@@ -156,3 +156,91 @@ def _inverse(name: str, value: float) -> float:
         return 0.0
     require_positive(name, value)
     return 1.0 / value
+
+
+@dataclass(frozen=True, slots=True)
+class HertzEllipse:
+    """A Hertzian contact over an ellipse, no friction.
+
+    Attributes
+    ----------
+    half_length, half_width :
+        semi-axes along x and y [mm].
+    peak_pressure :
+        p0 [MPa]; p = p0 sqrt(1 - x^2/half_length^2 - y^2/half_width^2).
+    approach :
+        of points far inside both bodies [mm].
+    """
+
+    half_length: float
+    half_width: float
+    peak_pressure: float
+    approach: float
+
+
+def hertz_ellipse(
+    *, load: float, curvature_x: float, curvature_y: float, contact_modulus: float
+) -> HertzEllipse:
+    """Contact of two half-spaces with the gap curvature_x x^2/2 + curvature_y y^2/2.
+
+    Parameters
+    ----------
+    load :
+        force [N], positive.
+    curvature_x, curvature_y :
+        sums of the curvatures of both bodies along x and y [1/mm], positive.
+    contact_modulus :
+        E* [MPa], see `contact_modulus`.
+
+    Returns
+    -------
+    HertzEllipse.
+
+    Raises
+    ------
+    InvalidInputError
+        where a parameter is not positive and finite, or one curvature is more than 1e12 times the
+        other.
+
+    References
+    ----------
+    Johnson (1985), Contact Mechanics, eqs 4.24-4.28: with a the longer and b the shorter semi-axis,
+    m = 1 - b^2/a^2, the curvatures along a and b are as K - E to (a/b)^2 E - K.
+    """
+    from scipy.optimize import brentq
+    from scipy.special import ellipe, ellipk
+
+    require_all_positive(
+        {
+            "load": load,
+            "curvature_x": curvature_x,
+            "curvature_y": curvature_y,
+            "contact_modulus": contact_modulus,
+        }
+    )
+    small, large = sorted((curvature_x, curvature_y))
+    if large > 1e12 * small:
+        raise InvalidInputError(
+            f"`curvature_x` and `curvature_y` must not differ by a factor beyond 1e12, got "
+            f"{curvature_x!r} and {curvature_y!r}; take `hertz_line`."
+        )
+    if large - small <= 1e-7 * large:
+        radius = 1.0 / sqrt(small * large)
+        half = (0.75 * load * radius / contact_modulus) ** (1.0 / 3.0)
+        return HertzEllipse(half, half, 1.5 * load / (pi * half**2), half**2 / radius)
+
+    def wrong(ratio: float) -> float:
+        m = 1.0 - ratio**2
+        first, second = float(ellipk(m)), float(ellipe(m))
+        return small * (second / ratio**2 - first) - large * (first - second)
+
+    ratio = float(brentq(wrong, 1e-8, 1.0 - 1e-8, xtol=1e-15))
+    m = 1.0 - ratio**2
+    first, second = float(ellipk(m)), float(ellipe(m))
+    # 0.5 small = p0/E* (b/a^2) (K - E)/m and p0 = 3 F/(2 pi a b)
+    long = (3.0 * load * (first - second) / (pi * contact_modulus * small * m)) ** (1.0 / 3.0)
+    short = ratio * long
+    peak = 1.5 * load / (pi * long * short)
+    approach = peak / contact_modulus * short * first
+    along, across = (long, short) if curvature_x <= curvature_y else (short, long)
+    return HertzEllipse(along, across, peak, approach)

@@ -1,0 +1,228 @@
+"""Steady rolling with friction on a grid: a semismooth Newton method with Krylov steps.
+
+With the displacement u of the upper surface against the lower one, and the creepage of the rigid
+rollers w = (along - spin y, across + spin x), the surfaces creep by
+
+    c = w + du/dx,   slip velocity = -V c,
+    |q| <= mu p,   c = 0 where |q| < mu p,   q = mu p c/|c| where c is not 0.
+
+du/dx is the difference to the next rectangle upstream, as in Kalker's steady state (Kalker 1990,
+*Three-Dimensional Elastic Bodies in Rolling Contact*, section 4.3): on the first rectangle upstream
+is the surface before the contact, so that the traction starts from zero.
+
+The conditions are q = the nearest point to z = q + c/kappa within the circle of radius mu p.
+Newton's method takes rectangles with |z| < mu p as sticking; in the others q has the size mu p and
+turns (`rollnip.patch.linear`). Prescribed forces make the creepages unknowns of the same system.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft2, rfft2
+
+from rollnip.patch.coefficients import Array
+from rollnip.patch.convolution import Convolutions
+from rollnip.patch.linear import Cone, LinearSystem
+
+Mask = NDArray[np.bool_]
+
+_MOST_STEPS = 40
+_LINEAR = 0.03
+"""Share of the residual that a linear system may leave at first; later the square of Newton's."""
+_LEAST_LINEAR = 1e-6
+_LEAST_SHARE = 1e-3
+"""Residuals are relative to the tractions at hand, but to no less than this of the bound."""
+
+
+@dataclass(frozen=True)
+class RollingProblem:
+    """Friction on a grid under given pressures.
+
+    Attributes
+    ----------
+    products : displacements under tractions.
+    bound : (ny, nx) mu p [MPa], positive in the contact, 0 outside.
+    pressure : (ny, nx) [MPa]; it shears unlike surfaces against each other.
+    creepages : along, across [1] and spin [1/mm]: given, or where to start.
+    forces : along and across [N], each None where the creepage is given.
+    symbols : (3, py, px) preconditioner: inverse of the compliance to shear over the wave vector.
+    stiffness : 1/kappa [MPa], of the size of the shear modulus.
+    """
+
+    products: Convolutions
+    bound: Array
+    pressure: Array
+    creepages: tuple[float, float, float]
+    forces: tuple[float | None, float | None]
+    symbols: Array
+    stiffness: float
+
+    @cached_property
+    def contact(self) -> Mask:
+        """True in the contact."""
+        return np.asarray(self.bound > 0.0)
+
+    @cached_property
+    def carried(self) -> Array:
+        """-du/dx that the pressure alone makes, (2, ny, nx)."""
+        products = self.products
+        out = np.zeros((2, *self.bound.shape))
+        if any(np.any(part) for part in products.coupling):
+            spectrum = products.forward(self.pressure) * products.downstream
+            for i, part in enumerate(products.coupling):
+                out[i] = products.back(1j * part * spectrum)
+        return out
+
+    @cached_property
+    def places(self) -> tuple[Array, Array]:
+        """Places where the rigid creepage counts, (ny, nx) [mm].
+
+        The difference upstream stands half a rectangle ahead of the traction. Where a traction
+        rises from zero at one end and without bound at the other, such a row answers as the exact
+        one whose contact lies a quarter ahead (James 1972, Comput. Methods Appl. Mech. Eng. 1,
+        59-79): seen from there the difference stands a quarter ahead of the middle.
+        """
+        grid = self.products.grid
+        x, y = np.meshgrid(grid.x + 0.25 * grid.hx, grid.y)
+        return x, y
+
+    def rigid(self, creepages: Array) -> Array:
+        """Return the creepage of the rigid rollers, (2, ny, nx)."""
+        x, y = self.places
+        along, across, spin = creepages
+        return np.stack([along - spin * y, across + spin * x])
+
+    def relieved(self, shear: Array) -> Array:
+        """Return -du/dx under shear tractions, (2, ny, nx)."""
+        products = self.products
+        xx, xy, yy = products.shear
+        along, across = (products.forward(part) * products.downstream for part in shear)
+        return np.stack(
+            [products.back(xx * along + xy * across), products.back(xy * along + yy * across)]
+        )
+
+    def smoothed(self, values: Array) -> Array:
+        """Return roughly the shear that relieves -du/dx = ``values``, (2, ny, nx)."""
+        (py, half), (ny, nx) = self.symbols.shape[1:], self.bound.shape
+        px = 2 * (half - 1)
+        first, both, second = self.symbols
+        along, across = (rfft2(part, (py, px), workers=1) for part in values)
+        out = np.empty_like(values)
+        out[0] = irfft2(first * along + both * across, (py, px), workers=1)[:ny, :nx]
+        out[1] = irfft2(both * along + second * across, (py, px), workers=1)[:ny, :nx]
+        return out
+
+    @property
+    def free(self) -> list[int]:
+        """Numbers of the creepages that are unknown because a force is given."""
+        return [i for i, force in enumerate(self.forces) if force is not None]
+
+    def within(self, shear: Array) -> Array:
+        """Return tractions cut to the bound."""
+        size = np.hypot(shear[0], shear[1])
+        share = np.where(size > self.bound, self.bound / np.maximum(size, 1e-300), 1.0)
+        return np.asarray(shear * share * self.contact)
+
+    def cone(self, shear: Array, creep: Array) -> Cone:
+        """Return what sticks and slips, and by how much the conditions are violated."""
+        tried = shear + self.stiffness * creep
+        size = np.hypot(tried[0], tried[1])
+        slip = self.contact & (size > self.bound)
+        normal = np.where(slip, tried / np.maximum(size, 1e-300), 0.0)
+        nearest = np.where(slip, self.bound * normal, tried * self.contact)
+        wrong = float(np.max(np.abs(nearest - shear * self.contact)))
+        largest = max(float(np.max(np.abs(nearest))), _LEAST_SHARE * float(np.max(self.bound)))
+        scale = np.maximum(self.bound * self.stiffness, 1e-300)
+        return Cone(
+            stick=self.contact & ~slip,
+            slip=slip,
+            normal=normal,
+            turn=np.stack([-normal[1], normal[0]]),
+            creep=creep,
+            size=size,
+            excess=np.where(slip, (size - self.bound) / scale, 0.0),
+            residual=wrong / largest,
+        )
+
+    def missing(self, shear: Array) -> Array:
+        """Return what the given forces lack, one for each [N]."""
+        had = np.sum(shear, axis=(1, 2)) * self.products.grid.element
+        wanted = [self.forces[i] or 0.0 for i in self.free]
+        return np.asarray(np.array(wanted) - had[self.free])
+
+    def share(self, short: Array) -> float:
+        """Return missing forces as a share of those given, or of some of what can be carried."""
+        limit = float(np.sum(self.bound)) * self.products.grid.element
+        given = max(abs(force or 0.0) for force in self.forces)
+        return float(np.max(np.abs(short), initial=0.0)) / max(given, _LEAST_SHARE * limit)
+
+
+@dataclass(frozen=True, slots=True)
+class RollingState:
+    """Shear tractions on a grid.
+
+    Attributes
+    ----------
+    shear : (2, ny, nx) along x and y on the upper roller [MPa].
+    creep : (2, ny, nx) c, minus the slip velocity over V.
+    slip : (ny, nx) True where the surfaces slip.
+    creepages : along, across and spin.
+    steps, products : Newton steps, and products with the compliance.
+    residual : largest violation of the conditions over the largest traction.
+    settled : whether that met the tolerance.
+    """
+
+    shear: Array
+    creep: Array
+    slip: Mask
+    creepages: tuple[float, float, float]
+    steps: int
+    products: int
+    residual: float
+    settled: bool
+
+
+def solve_rolling(problem: RollingProblem, tolerance: float, start: Array | None) -> RollingState:
+    """Solve for shear tractions and, where forces are given, creepages.
+
+    Parameters
+    ----------
+    problem : traction bound, creepages or forces.
+    tolerance : of the violation of the conditions over the largest traction.
+    start : shear to start from; None: none.
+    """
+    shear = np.zeros((2, *problem.bound.shape))
+    if start is not None:
+        shear = problem.within(start)
+    creepages = np.array(problem.creepages)
+    steps, products, residual = 0, 0, np.inf
+    while True:
+        creep = problem.rigid(creepages) - problem.relieved(shear) - problem.carried
+        products += 1
+        cone = problem.cone(shear, creep)
+        short = problem.missing(shear)
+        before, residual = residual, max(cone.residual, problem.share(short))
+        if residual < tolerance or steps == _MOST_STEPS:
+            break
+        steps += 1
+        linear = _LINEAR if before == np.inf else (residual / before) ** 2
+        system = LinearSystem(problem, cone)
+        change, turned = system.step(shear, short, float(np.clip(linear, _LEAST_LINEAR, _LINEAR)))
+        products += system.products
+        shear = problem.within(shear + change)
+        creepages = creepages + turned
+    along, across, spin = (float(v) for v in creepages)
+    return RollingState(
+        shear=shear,
+        creep=np.where(cone.slip, creep, 0.0),
+        slip=cone.slip,
+        creepages=(along, across, spin),
+        steps=steps,
+        products=products,
+        residual=residual,
+        settled=residual < tolerance,
+    )

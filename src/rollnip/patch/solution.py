@@ -1,0 +1,245 @@
+"""A solved patch: forces, sizes, fields over the grid, and how well they are known."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.patch.coefficients import Array, Grid
+from rollnip.patch.level import Level
+from rollnip.patches import Patch
+
+IntArray = NDArray[np.int8]
+
+FIGURES = (
+    "load",
+    "approach",
+    "length",
+    "width",
+    "area",
+    "peak_pressure",
+    "traction_x",
+    "traction_y",
+    "spin_moment",
+    "creepage",
+    "lateral_creepage",
+)
+"""Figures with an error."""
+
+
+@dataclass(frozen=True)
+class PatchSolution:
+    """A solved patch.
+
+    Fields are arrays (ny, nx): the first index runs along y, the second along x, towards the
+    leading edge.
+
+    Attributes
+    ----------
+    patch : the problem.
+    level : the solution on the finest grid.
+    error : of each figure, in its own unit; from the change of the figure from the next coarser
+        grid. For what has a sign (tractions, moment, creepages) it is absolute too.
+    tolerance : relative accuracy that was wanted.
+    converged : whether all iterations settled and all errors are within the tolerance.
+    status : one sentence on what was reached.
+    levels : numbers of rectangles (nx, ny) of all grids, coarsest first.
+    """
+
+    patch: Patch
+    level: Level = field(repr=False)
+    error: dict[str, float]
+    tolerance: float
+    converged: bool
+    status: str
+    levels: tuple[tuple[int, int], ...]
+
+    @property
+    def grid(self) -> Grid:
+        """Rectangles of the finest grid."""
+        return self.level.grid
+
+    @property
+    def x(self) -> Array:
+        """Middles of the rectangles along x, (nx,) [mm]."""
+        return self.grid.x
+
+    @property
+    def y(self) -> Array:
+        """Middles of the rectangles along y, (ny,) [mm]."""
+        return self.grid.y
+
+    @property
+    def pressure(self) -> Array:
+        """Contact pressure, (ny, nx) [MPa]."""
+        return self.level.normal.pressure
+
+    @property
+    def shear_x(self) -> Array:
+        """Shear traction on the upper roller along +x, (ny, nx) [MPa]."""
+        return np.asarray(self.level.shear[0])
+
+    @property
+    def shear_y(self) -> Array:
+        """Shear traction on the upper roller along +y, (ny, nx) [MPa]."""
+        return np.asarray(self.level.shear[1])
+
+    @property
+    def gap(self) -> Array:
+        """Gap of the deformed surfaces, (ny, nx) [mm]; inf where a face has ended."""
+        return self.level.normal.gap
+
+    @cached_property
+    def slip(self) -> Array:
+        """Slip velocity of the upper against the lower surface over V, along x and y, (2, ny, nx).
+
+        0 where the surfaces stick and outside the patch.
+        """
+        if self.level.rolling is None:
+            return np.zeros((2, *self.pressure.shape))
+        return -self.level.rolling.creep
+
+    @cached_property
+    def state(self) -> IntArray:
+        """State of each rectangle, (ny, nx): 0 apart, 1 stick, 2 slip; without friction 2."""
+        contact = self.pressure > 0.0
+        slip = contact if self.level.rolling is None else self.level.rolling.slip
+        return np.where(contact, np.where(slip, 2, 1), 0).astype(np.int8)
+
+    @cached_property
+    def figures(self) -> dict[str, float]:
+        """Load, approach, length, width, area, peak pressure, tractions, moment and creepages."""
+        return figures_of(self.level)
+
+    @property
+    def load(self) -> float:
+        """Force that presses [N]."""
+        return self.figures["load"]
+
+    @property
+    def approach(self) -> float:
+        """Approach of the axles from first touch [mm]."""
+        return self.figures["approach"]
+
+    @property
+    def length(self) -> float:
+        """Length of the patch along x [mm]."""
+        return self.figures["length"]
+
+    @property
+    def width(self) -> float:
+        """Width of the patch along y [mm]."""
+        return self.figures["width"]
+
+    @property
+    def area(self) -> float:
+        """Area of the patch [mm2]."""
+        return self.figures["area"]
+
+    @property
+    def peak_pressure(self) -> float:
+        """Largest pressure [MPa]."""
+        return self.figures["peak_pressure"]
+
+    @property
+    def traction_x(self) -> float:
+        """Force along +x on the upper roller [N]."""
+        return self.figures["traction_x"]
+
+    @property
+    def traction_y(self) -> float:
+        """Force along +y on the upper roller [N]."""
+        return self.figures["traction_y"]
+
+    @property
+    def spin_moment(self) -> float:
+        """Moment of the shear about the normal at x = y = 0, from +x to +y [N mm]."""
+        return self.figures["spin_moment"]
+
+    @property
+    def creepage(self) -> float | None:
+        """Creepage along x; None without friction where none is given."""
+        return self._creepage(0)
+
+    @property
+    def lateral_creepage(self) -> float | None:
+        """Creepage along y; None without friction where none is given."""
+        return self._creepage(1)
+
+    @property
+    def friction_resistance(self) -> float:
+        """Power that slip turns into heat over the rolling speed [N]."""
+        lost = -float(np.sum(self.level.shear * self.slip)) * self.grid.element
+        return max(lost, 0.0)
+
+    @property
+    def dissipation_friction(self) -> float | None:
+        """Power that slip turns into heat [N mm/s = mW]; None without a speed."""
+        speed = self.patch.speed
+        return None if speed is None else speed * self.friction_resistance
+
+    def _creepage(self, i: int) -> float | None:
+        if self.level.rolling is not None:
+            return self.level.rolling.creepages[i]
+        drive = (self.patch.along, self.patch.across)[i]
+        return getattr(drive, "creepage", None)
+
+
+def figures_of(level: Level) -> dict[str, float]:
+    """Return the figures of a solution on one grid."""
+    grid, pressure, shear = level.grid, level.normal.pressure, level.shear
+    x, y = np.meshgrid(grid.x, grid.y)
+    creepages = (0.0, 0.0, 0.0) if level.rolling is None else level.rolling.creepages
+    element = grid.element
+    return {
+        "load": float(np.sum(pressure)) * element,
+        "approach": level.normal.approach,
+        "length": _extent(np.max(pressure, axis=0), grid.hx),
+        "width": _extent(np.max(pressure, axis=1), grid.hy),
+        "area": _area(pressure, grid),
+        "peak_pressure": float(np.max(pressure)),
+        "traction_x": float(np.sum(shear[0])) * element,
+        "traction_y": float(np.sum(shear[1])) * element,
+        "spin_moment": float(np.sum(x * shear[1] - y * shear[0])) * element,
+        "creepage": creepages[0],
+        "lateral_creepage": creepages[1],
+    }
+
+
+def _extent(pressure: Array, side: float) -> float:
+    """Return the length over which pressures on equal sides reach [mm]."""
+    inside = np.flatnonzero(pressure > 0.0)
+    if inside.size == 0:
+        return 0.0
+    low, high = _beyond(pressure[None, :])
+    reach = inside[-1] - inside[0] + 1 + low[0, inside[0]] + high[0, inside[-1]]
+    return float(reach) * side
+
+
+def _area(pressure: Array, grid: Grid) -> float:
+    """Return the area of the patch, its edges between the rectangles row by row [mm2]."""
+    low, high = _beyond(pressure)
+    return float(np.sum(pressure > 0.0) + np.sum(low) + np.sum(high)) * grid.element
+
+
+def _beyond(pressure: Array) -> tuple[Array, Array]:
+    """Return how far each row reaches beyond its end rectangles, in rectangles: low, high end.
+
+    Beside an edge the square of the pressure is a straight line over the distance. It is followed
+    to zero from the last two rectangles, but by no more than one. Where the grid ends with the
+    contact, the face ends.
+    """
+    touched, square = pressure > 0.0, pressure**2
+    out = []
+    for way in (slice(None), slice(None, None, -1)):
+        t, s = touched[:, way], square[:, way]
+        inner, outer = np.zeros_like(s), np.ones_like(t)
+        inner[:, :-1] = s[:, 1:]
+        outer[:, 1:] = t[:, :-1]
+        ends = t & ~outer & (inner > s)
+        reach = s / np.maximum(inner - s, 1e-300)
+        out.append(np.where(ends, np.minimum(reach, 1.0) - 0.5, 0.0)[:, way])
+    return out[0], out[1]

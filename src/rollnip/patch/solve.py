@@ -1,0 +1,235 @@
+"""From a patch to its solution: where to put the grid, and how fine it must be."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf, sqrt
+
+import numpy as np
+
+from rollnip._blas import one_blas_thread
+from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
+from rollnip.nip import Approach
+from rollnip.patch.coefficients import Grid
+from rollnip.patch.level import Level, solve_level
+from rollnip.patch.solution import FIGURES, PatchSolution, figures_of
+from rollnip.patches import Force, Patch
+
+_SEARCH = 32
+"""Rectangles along each side while the place of the patch is looked for."""
+_FIRST = 32
+"""Rectangles along each side of the first grid on the patch."""
+_FINEST = 512
+_LARGEST = 1024
+"""Most rectangles along a side that a caller may ask for."""
+_MARGIN = 1.06
+_SEARCHES = 60
+_EDGE = 0.25  # of a rectangle: the least error of a length
+_SHARE = 0.02  # of the wanted accuracy that the iterations may leave
+
+Span = tuple[float, float]
+Box = tuple[Span, Span]
+
+
+def solve_patch(
+    patch: Patch,
+    *,
+    tolerance: float = 5e-3,
+    grid: tuple[int, int] | None = None,
+    strict: bool = False,
+) -> PatchSolution:
+    """Solve the contact of two rollers in a patch.
+
+    Layers are flat and linearly elastic, the patch small against the radii.
+
+    Parameters
+    ----------
+    patch :
+        the problem.
+    tolerance :
+        wanted relative accuracy of the figures, between 1e-4 and 0.1; of tractions relative to
+        friction * load, of the spin moment to that times half the root of the area.
+    grid :
+        None: refined until the tolerance is met, up to 512 by 512 rectangles; or the numbers of
+        rectangles along x and y.
+    strict :
+        raise ConvergenceError where the solution is not within the tolerance.
+
+    Raises
+    ------
+    InvalidInputError
+        for a tolerance or grid out of range, or surfaces that do not touch.
+    ConvergenceError
+        where ``strict`` and the tolerance was not met.
+    """
+    if not 1e-4 <= require_positive("tolerance", tolerance) <= 0.1:
+        raise InvalidInputError(f"`tolerance` must lie between 1e-4 and 0.1, got {tolerance!r}.")
+    _check_grid(grid)
+    with one_blas_thread():
+        solution = _solved(patch, tolerance, grid)
+    if strict and not solution.converged:
+        raise ConvergenceError(solution.status, solution)
+    return solution
+
+
+def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> PatchSolution:
+    box = patch_box(patch)
+    inner = _SHARE * tolerance
+    level, errors = None, dict.fromkeys(FIGURES, inf)
+    sizes: list[tuple[int, int]] = []
+    for nx, ny in _sizes(wanted):
+        before = level
+        level = solve_level(patch, Grid.over(*box, nx, ny), inner, before)
+        sizes.append((nx, ny))
+        if before is not None:
+            errors = _errors(patch, level, before, inner)
+            if wanted is None and _worst(patch, level, errors)[1] <= tolerance:
+                break
+    assert level is not None
+    name, worst = _worst(patch, level, errors)
+    converged = level.settled and worst <= tolerance
+    status = _status(level, name, worst, tolerance)
+    return PatchSolution(patch, level, errors, tolerance, converged, status, tuple(sizes))
+
+
+def _sizes(wanted: tuple[int, int] | None) -> list[tuple[int, int]]:
+    """Return numbers of rectangles, coarsest first."""
+    if wanted is None:
+        return [(n, n) for n in (32, 64, 128, 256, 512) if _FIRST <= n <= _FINEST]
+    sizes = [wanted]
+    while max(sizes[0]) > _FIRST and min(sizes[0]) >= 8:
+        nx, ny = sizes[0]
+        sizes.insert(0, ((nx + 1) // 2, (ny + 1) // 2))
+    return sizes
+
+
+def _check_grid(grid: tuple[int, int] | None) -> None:
+    if grid is None:
+        return
+    if len(grid) != 2 or not all(isinstance(n, int) and 8 <= n <= _LARGEST for n in grid):
+        raise InvalidInputError(
+            f"`grid` must be two whole numbers from 8 to {_LARGEST}, got {grid!r}."
+        )
+
+
+def _errors(patch: Patch, level: Level, before: Level, inner: float) -> dict[str, float]:
+    """Return the change of each figure from the coarser grid, and what the iterations left.
+
+    Edges lie between the rectangles, wherever the grid happens to be: two grids may agree on them
+    by chance, so a length is never claimed to better than a quarter of a rectangle.
+    """
+    fine, coarse = figures_of(level), figures_of(before)
+    scales = _scales(patch, level)
+    errors = {}
+    for name in FIGURES:
+        errors[name] = abs(fine[name] - coarse[name]) + inner * scales[name]
+    shares = (level.grid.hx / fine["length"], level.grid.hy / fine["width"])
+    errors["length"] = max(errors["length"], _EDGE * level.grid.hx)
+    errors["width"] = max(errors["width"], _EDGE * level.grid.hy)
+    errors["area"] = max(errors["area"], 0.5 * _EDGE * sum(shares) * fine["area"])
+    if isinstance(patch.normal, Force):
+        errors["load"] = inner * scales["load"]
+    else:
+        errors["approach"] = 0.0
+    return errors
+
+
+def _scales(patch: Patch, level: Level) -> dict[str, float]:
+    """Return the size that the error of each figure is measured against."""
+    figures = figures_of(level)
+    bound = patch.friction * figures["load"]
+    scales = {name: abs(figures[name]) for name in FIGURES}
+    scales["traction_x"] = scales["traction_y"] = bound
+    scales["spin_moment"] = 0.5 * bound * sqrt(figures["area"])
+    # A creepage is known as well as the traction it makes on a patch that sticks.
+    creep = 0.0
+    if level.rolling is not None:
+        stiffness = 1.0 / float(np.max(level.products.coefficients.xx)) * level.grid.hx
+        creep = max(
+            abs(figures["creepage"]),
+            abs(figures["lateral_creepage"]),
+            patch.friction * figures["peak_pressure"] / stiffness,
+        )
+    scales["creepage"] = scales["lateral_creepage"] = creep
+    return scales
+
+
+def _worst(patch: Patch, level: Level, errors: dict[str, float]) -> tuple[str, float]:
+    """Return the figure with the largest relative error, and the error."""
+    scales = _scales(patch, level)
+    shares = {n: errors[n] / scales[n] if scales[n] > 0.0 else 0.0 for n in FIGURES}
+    name = max(shares, key=lambda n: shares[n])
+    return name, shares[name]
+
+
+def _status(level: Level, name: str, worst: float, tolerance: float) -> str:
+    if not level.settled:
+        return "The iterations did not settle; the figures are those of the last state."
+    if worst == inf:
+        return "One grid alone tells no error; give a finer one."
+    plain = name.replace("_", " ")
+    if worst <= tolerance:
+        return f"Solved; the largest error claimed is {worst:.1e}, of the {plain}."
+    return f"The {plain} is known to {worst:.1e} only, where {tolerance:.1e} was wanted."
+
+
+def patch_box(patch: Patch) -> Box:
+    """Return the rectangle along x and y that the patch fills but for a narrow rim [mm].
+
+    Raises InvalidInputError where the surfaces do not touch.
+    """
+    frictionless = replace(patch, friction=0.0, along=Force(0.0), across=Force(0.0), spin=0.0)
+    box = _first_box(patch)
+    level = None
+    for _ in range(_SEARCHES):
+        level = solve_level(frictionless, Grid.over(*box, _SEARCH, _SEARCH), 1e-3, None)
+        fitted, fits = _fitted(patch, level, box)
+        if fits:
+            return fitted
+        box = fitted
+    raise InvalidInputError(
+        "`patch` must touch over a bounded area, and none was found; check radii, layers and load."
+    )
+
+
+def _first_box(patch: Patch) -> Box:
+    """Return a rectangle to begin with, from Hertz for the softest material."""
+    radius = 1.0 / patch.curvature
+    rollers = [r for r in (patch.upper, patch.lower) if not r.is_rigid]
+    young = min(m.relaxed_modulus for r in rollers for m in r.materials)
+    if isinstance(patch.normal, Approach):
+        half = sqrt(2.0 * patch.normal.approach * radius)
+        across = sqrt(2.0 * patch.normal.approach / max(patch.curvature_across, 1e-9))
+    else:
+        half = float(np.cbrt(patch.normal.force * radius / young))
+        across = half * (max(patch.curvature, 1e-9) / max(patch.curvature_across, 1e-9)) ** 0.6
+    return (-half, half), _held(patch, (-across, across))
+
+
+def _held(patch: Patch, span: Span) -> Span:
+    """Return a span along y, cut where a face ends."""
+    return max(span[0], -patch.half_face), min(span[1], patch.half_face)
+
+
+def _fitted(patch: Patch, level: Level, box: Box) -> tuple[Box, bool]:
+    """Return a rectangle that fits the contact better, and whether the last one was close."""
+    contact = level.normal.pressure > 0.0
+    if not contact.any():
+        raise InvalidInputError("`approach` must be large enough for the surfaces to touch.")
+    spans, fits = [], True
+    sides = (level.grid.hx, level.grid.hy)
+    for i, (low, high) in enumerate(box):
+        touched = np.flatnonzero(np.any(contact, axis=i))
+        free_low = touched[0] > 0 or (i == 1 and low <= -patch.half_face)
+        free_high = touched[-1] < _SEARCH - 1 or (i == 1 and high >= patch.half_face)
+        start, end = low + sides[i] * touched[0], low + sides[i] * (touched[-1] + 1)
+        middle, half = 0.5 * (start + end), 0.5 * (end - start)
+        if not (free_low and free_high):
+            half, fits = 2.0 * half, False
+        elif touched.size < 0.7 * _SEARCH:
+            half, fits = max(1.25 * half, half + 1.5 * sides[i]), False
+        else:
+            half = max(_MARGIN * half, half + 0.5 * sides[i])
+        span = (middle - half, middle + half)
+        spans.append(_held(patch, span) if i == 1 else span)
+    return (spans[0], spans[1]), fits

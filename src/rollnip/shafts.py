@@ -1,14 +1,13 @@
-"""Rollers along their face: the shaft that carries a core, its crown, and how a face is loaded."""
+"""Rollers along their face: the shaft that carries a core, and how a face is loaded."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from hashlib import sha256
-from math import cos, pi, radians, sqrt
-from typing import Literal
+from math import inf, pi, sqrt
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from rollnip._errors import (
     InvalidInputError,
@@ -16,122 +15,47 @@ from rollnip._errors import (
     require_not_negative,
     require_positive,
 )
+from rollnip.crowns import CoveringTable, Crown, CrownTable
+
+__all__ = [
+    "STEEL",
+    "CoveringTable",
+    "Crown",
+    "CrownTable",
+    "Face",
+    "JournalStep",
+    "PivotArm",
+    "Shaft",
+    "bending_stiffness",
+    "shear_stiffness",
+    "skew_of_crown",
+]
 
 Array = NDArray[np.float64]
-Shape = Literal["parabolic", "cosine", "circular"]
+AnyCrown = Crown | CrownTable
 
 _LARGEST_SKEW = 0.1  # rad; the gap of crossed axes is then no parabola
-_COSINE = radians(70.0)  # half the angle of the cosine that grinders use
 STEEL = 206e3
 """Young's modulus of steel [MPa], the default of a shaft."""
 
 
 @dataclass(frozen=True, slots=True)
-class Crown:
-    """A crown, measured on the diameter as drawings give it.
+class JournalStep:
+    """A part of a journal of one diameter.
 
     Parameters
     ----------
-    height :
-        diameter in the middle less diameter at the ends [mm]; negative: a hollow (concave) roller.
-    shape :
-        "parabolic"; "cosine", of 70 degrees to either side, flatter in the middle by a little;
-        "circular", an arc through the middle and both ends.
-
-    Raises
-    ------
-    InvalidInputError
-        where the height is not finite or the shape is not one of the three.
+    diameter : [mm].
+    length : along the axis [mm]; inf, as far as the bearing, for the last one.
     """
 
-    height: float
-    shape: Shape = "parabolic"
+    diameter: float
+    length: float = inf
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "height", require_finite("crown", self.height))
-        if self.shape not in ("parabolic", "cosine", "circular"):
-            raise InvalidInputError(
-                f'`shape` must be "parabolic", "cosine" or "circular", got {self.shape!r}.'
-            )
-
-    def radial(self, y: Array, length: float) -> Array:
-        """Return the radius at ``y`` less the radius at the ends of the face, (n,) [mm].
-
-        Parameters
-        ----------
-        y : (n,) places from the middle of the face [mm].
-        length : of the face [mm].
-        """
-        share = np.asarray(2.0 * y / length)
-        half = 0.5 * self.height
-        if self.shape == "cosine":
-            fall = (np.cos(_COSINE * share) - cos(_COSINE)) / (1.0 - cos(_COSINE))
-            return np.asarray(half * fall)
-        if self.shape == "circular" and half != 0.0:
-            # Arc through (0, half) and (+-length/2, 0): radius of the arc from its rise.
-            rise, reach = abs(half), 0.5 * length
-            arc = (reach**2 + rise**2) / (2.0 * rise)
-            depth = arc - np.sqrt(arc**2 - (share * reach) ** 2)
-            return np.asarray(np.sign(half) * (rise - depth))
-        return np.asarray(half * (1.0 - share**2))
-
-
-@dataclass(frozen=True, slots=True, eq=False, repr=False)
-class CrownTable:
-    """A measured or freely chosen crown: diameters at places along the face.
-
-    Parameters
-    ----------
-    y :
-        (n,) increasing places from the middle of the face [mm], n >= 2.
-    diameter :
-        (n,) diameter there over the nominal one [mm]; straight lines between, constant beyond.
-
-    Raises
-    ------
-    InvalidInputError
-        where lengths differ, a value is not finite, or places do not increase.
-    """
-
-    y: ArrayLike
-    diameter: ArrayLike
-
-    def __post_init__(self) -> None:
-        y, diameter = (_row(name, getattr(self, name)) for name in ("y", "diameter"))
-        if y.size != diameter.size or y.size < 2:
-            raise InvalidInputError(
-                f"`diameter` must have one value for each of at least 2 places, got {y.size} "
-                f"places and {diameter.size} diameters."
-            )
-        if np.any(np.diff(y) <= 0.0):
-            raise InvalidInputError("`y` must increase from place to place.")
-        object.__setattr__(self, "y", y)
-        object.__setattr__(self, "diameter", diameter)
-
-    def __eq__(self, other: object) -> bool:
-        if not isinstance(other, CrownTable):
-            return NotImplemented
-        return np.array_equal(self.y, other.y) and np.array_equal(self.diameter, other.diameter)
-
-    def __hash__(self) -> int:
-        return hash((np.asarray(self.y).tobytes(), np.asarray(self.diameter).tobytes()))
-
-    def __repr__(self) -> str:
-        # Whole problems are told apart by their texts: this one holds a digest of all places.
-        y, diameter = np.asarray(self.y), np.asarray(self.diameter)
-        digest = sha256(y.tobytes() + diameter.tobytes()).hexdigest()[:16]
-        return f"CrownTable({y.size} places, {y[0]:.6g} to {y[-1]:.6g} mm, {digest})"
-
-    def radial(self, y: Array, length: float) -> Array:
-        """Return the radius at ``y`` over the nominal one, (n,) [mm]; raise beyond the table."""
-        places = np.asarray(self.y)
-        slack = 1e-6 * length
-        if places[0] > -0.5 * length + slack or places[-1] < 0.5 * length - slack:
-            raise InvalidInputError(
-                f"`crown` must cover the whole face, from {-0.5 * length:g} to {0.5 * length:g} "
-                f"mm; its table goes from {places[0]:g} to {places[-1]:g} mm."
-            )
-        return np.asarray(0.5 * np.interp(y, places, np.asarray(self.diameter)))
+        object.__setattr__(self, "diameter", require_positive("diameter", self.diameter))
+        if self.length != inf:
+            object.__setattr__(self, "length", require_positive("length", self.length))
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -144,16 +68,25 @@ class Shaft:
     ----------
     bearing_distance :
         between the centres of the bearings [mm]; they hold the shaft without clamping it.
+    bearing_middle :
+        where the middle between the bearings lies, from the middle of the face [mm].
     bore :
         diameter of the hole through the core [mm]; 0 is solid.
     journal_diameter :
         between face and bearing [mm]; None: journals that do not bend.
+    journals :
+        steps of both journals instead, from the face to the bearing; the last goes on to the
+        bearing.
     modulus, poisson :
         of core and journals; steel by default [MPa, 1].
     density :
         of core [kg/m3]; None where weight does not count.
     crown :
         Crown or CrownTable, or a height on the diameter [mm], parabolic; 0 is straight.
+    profiles :
+        further changes of the diameter, which add to the crown: wear, thermal growth.
+    covering :
+        thickness and stiffness of the covering over the face; None: the same everywhere.
 
     Raises
     ------
@@ -162,32 +95,93 @@ class Shaft:
     """
 
     bearing_distance: float
+    bearing_middle: float = 0.0
     bore: float = 0.0
     journal_diameter: float | None = None
+    journals: tuple[JournalStep, ...] = ()
     modulus: float = STEEL
     poisson: float = 0.3
     density: float | None = None
-    crown: Crown | CrownTable | float = 0.0
+    crown: AnyCrown | float = 0.0
+    profiles: tuple[AnyCrown, ...] = ()
+    covering: CoveringTable | None = None
 
     def __post_init__(self) -> None:
         for name in ("bearing_distance", "modulus"):
             object.__setattr__(self, name, require_positive(name, getattr(self, name)))
         object.__setattr__(self, "bore", require_not_negative("bore", self.bore))
+        middle = require_finite("bearing_middle", self.bearing_middle)
+        object.__setattr__(self, "bearing_middle", middle)
         for name in ("journal_diameter", "density"):
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, require_positive(name, value))
         poisson = require_finite("poisson", self.poisson)
         if not -1.0 < poisson <= 0.5:
-            raise InvalidInputError(f"`poisson` must lie in (-1, 0.5], got {self.poisson!r}.")
+            raise InvalidInputError(f"`poisson` must lie in (-1, 0.5], got {poisson!r}.")
         object.__setattr__(self, "poisson", poisson)
         if not isinstance(self.crown, Crown | CrownTable):
             object.__setattr__(self, "crown", Crown(require_finite("crown", self.crown)))
+        if self.covering is not None and not isinstance(self.covering, CoveringTable):
+            raise InvalidInputError(f"`covering` must be a CoveringTable, got {self.covering!r}.")
+        object.__setattr__(self, "profiles", _all_of("profiles", self.profiles, Crown, CrownTable))
+        object.__setattr__(self, "journals", _all_of("journals", self.journals, JournalStep))
+        if self.journals and self.journal_diameter is not None:
+            raise InvalidInputError("`journals` must be left out beside `journal_diameter`.")
+
+    @property
+    def journal_steps(self) -> tuple[JournalStep, ...]:
+        """Steps of a journal from the face to the bearing; none: it does not bend."""
+        if self.journal_diameter is not None:
+            return (JournalStep(self.journal_diameter),)
+        return self.journals
+
+    @property
+    def bearings(self) -> tuple[float, float]:
+        """Places of the two bearings along the face, from its middle [mm]."""
+        half = 0.5 * self.bearing_distance
+        return self.bearing_middle - half, self.bearing_middle + half
 
     def radial_crown(self, y: Array, length: float) -> Array:
-        """Return the radius at ``y`` over the nominal one, (n,) [mm]."""
+        """Return the radius at ``y`` over the nominal one, all profiles together, (n,) [mm]."""
         assert isinstance(self.crown, Crown | CrownTable)
-        return self.crown.radial(y, length)
+        parts = [one.radial(y, length) for one in (self.crown, *self.profiles)]
+        return np.asarray(np.sum(parts, axis=0))
+
+
+@dataclass(frozen=True, slots=True)
+class PivotArm:
+    """An arm on a pivot that presses one bearing of the upper roller onto the lower roller.
+
+    Parameters
+    ----------
+    bearing_lever :
+        distance of the line through the bearing, along which the nip is pressed, from the
+        pivot [mm].
+    forces :
+        pairs of a force [N] and the distance of its line from the pivot [mm]: dead weights, the
+        arm's own weight, a cylinder. A force that lifts the roller is negative.
+    """
+
+    bearing_lever: float
+    forces: tuple[tuple[float, float], ...]
+
+    def __post_init__(self) -> None:
+        lever = require_positive("bearing_lever", self.bearing_lever)
+        object.__setattr__(self, "bearing_lever", lever)
+        forces = tuple(self.forces)
+        if not forces:
+            raise InvalidInputError("`forces` must hold at least one force and its lever.")
+        checked = tuple(
+            (require_finite("force", force), require_not_negative("lever", lever))
+            for force, lever in forces
+        )
+        object.__setattr__(self, "forces", checked)
+
+    @property
+    def end_load(self) -> float:
+        """Force on the bearing towards the lower roller [N]: moments about the pivot vanish."""
+        return sum(force * lever for force, lever in self.forces) / self.bearing_lever
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -202,7 +196,11 @@ class Face:
         angle between the axes, in the plane of contact [rad].
     end_loads :
         forces on the bearings of the upper roller towards the lower one, at y < 0 and at y > 0
-        [N]; None: the nip's own control holds, its load or its approach in the middle.
+        [N]; None: the nip's own control holds, its mean load or its approach in the middle.
+    bearing_offset :
+        how much further the upper roller's bearing at y > 0 comes towards the lower roller than
+        the one at y < 0 [mm]; with the nip's mean load or approach. None: with a mean load both
+        bearings of the upper roller carry the same, with an approach it is 0.
     nip_angle :
         angle of the line from the lower to the upper axis against the vertical [rad]; 0: the
         upper roller lies on the lower one. It counts only where a shaft has a density.
@@ -210,12 +208,13 @@ class Face:
     Raises
     ------
     InvalidInputError
-        where a value lies outside its range.
+        where a value lies outside its range, or end loads and an offset are given both.
     """
 
     length: float
     skew: float = 0.0
     end_loads: tuple[float, float] | None = None
+    bearing_offset: float | None = None
     nip_angle: float = 0.0
 
     def __post_init__(self) -> None:
@@ -227,6 +226,21 @@ class Face:
         object.__setattr__(self, "skew", skew)
         if self.end_loads is not None:
             object.__setattr__(self, "end_loads", _checked_ends(self.end_loads))
+        if self.bearing_offset is not None:
+            if self.end_loads is not None:
+                raise InvalidInputError(
+                    "`bearing_offset` must be left out beside `end_loads`, from which it follows."
+                )
+            offset = require_finite("bearing_offset", self.bearing_offset)
+            object.__setattr__(self, "bearing_offset", offset)
+
+
+def _all_of(name: str, values: object, *kinds: type) -> tuple[object, ...]:
+    """Return a tuple of objects of some kinds."""
+    if not isinstance(values, Sequence) or not all(isinstance(one, kinds) for one in values):
+        wanted = " or ".join(kind.__name__ for kind in kinds)
+        raise InvalidInputError(f"`{name}` must be a list of {wanted} objects, got {values!r}.")
+    return tuple(values)
 
 
 def _checked_ends(ends: tuple[float, float]) -> tuple[float, float]:
@@ -265,11 +279,3 @@ def skew_of_crown(height: float, length: float, radii: tuple[float, float]) -> f
     of the crown on the diameter.
     """
     return 2.0 / length * sqrt(abs(height) * (radii[0] + radii[1]))
-
-
-def _row(name: str, values: ArrayLike) -> Array:
-    out = np.array(values, dtype=float)
-    if out.ndim != 1 or not np.all(np.isfinite(out)):
-        raise InvalidInputError(f"`{name}` must be a list of finite numbers.")
-    out.setflags(write=False)
-    return out

@@ -3,17 +3,23 @@
 import pytest
 from press_face import FACE, press
 
-from rollnip.face import solve_face
+from rollnip.face import NipRows, solve_face
 from rollnip.shafts import Crown
 
 
 @pytest.fixture(scope="session")
-def straight():
-    """The press with straight rollers."""
-    return solve_face(press(), FACE)
+def rows():
+    """Plane nips of the press, shared by all tests of its faces."""
+    return NipRows()
 
 
 @pytest.fixture(scope="session")
-def crowned():
+def straight(rows):
+    """The press with straight rollers."""
+    return solve_face(press(), FACE, rows=rows)
+
+
+@pytest.fixture(scope="session")
+def crowned(rows):
     """The press with a crown of 0.25 mm."""
-    return solve_face(press(crown=Crown(0.25)), FACE)
+    return solve_face(press(crown=Crown(0.25)), FACE, rows=rows)

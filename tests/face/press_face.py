@@ -6,6 +6,7 @@ import numpy as np
 
 import rollnip as rn
 from rollnip.face import Face, NipLaw
+from rollnip.face.law import NAMES
 from rollnip.shafts import Shaft
 
 RUBBER = rn.Elastic(modulus=3.6, poisson=0.5)
@@ -27,9 +28,7 @@ def press(*, crown=0.0, load=6.0, **upper):
 def foundation_law(stiffness, nip):
     """A law F = stiffness * approach without friction, for beams on a linear foundation."""
     loads = np.geomspace(1e-4, 1e4, 41)
-    ones = np.ones((loads.size, 1))
-    table = dict.fromkeys(("creepage", "nip_width", "peak_pressure"), ones)
-    table |= dict.fromkeys(("friction_loss", "viscous_loss"), ones)
-    table["approach"] = (loads / stiffness)[:, None]
+    table = {name: np.ones((1, loads.size, 1)) for name in NAMES}
+    table["approach"] = (loads / stiffness)[None, :, None]
     plain = replace(nip, friction=0.0, tangential=rn.Traction(0.0))
     return NipLaw(plain, rn.Model(), loads, np.zeros(1), table, {})

@@ -60,7 +60,8 @@ def test_an_impression_is_read_back(straight):
     true = solve_face(
         with_crown(press(), "upper", Crown(0.25)),
         Face(length=1600.0, end_loads=(4700.0, 4900.0)),
-        law=straight.law.stiffened(1.1),
+        stiffness=1.1,
+        law=straight.law,
     )
     y = np.linspace(-750.0, 750.0, 11)
     noise = np.random.default_rng(5).normal(0.0, 0.03, y.size)

@@ -1,12 +1,14 @@
 """Faces from case files and on the command line."""
 
 import json
+from math import inf
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner
 
 import rollnip as rn
+from rollnip._results.case import case_tree
 from rollnip.cli.app import app
 from rollnip.io import case_hash, parse_case
 from rollnip.plots import plot_face
@@ -58,6 +60,68 @@ def test_a_crown_from_a_file(tmp_path):
     assert list(crown.diameter) == pytest.approx([0.0, 0.25, 0.0])
 
 
+FULL = (
+    TEXT.replace('load = "6 N/mm" ', "# ")
+    .replace(
+        'length = "1600 mm"',
+        """length = "1600 mm"
+arms = [{ bearing_lever = "250 mm", forces = [
+    { force = "3 kN", lever = "400 mm" }, { force = "60 N", lever = "200 mm" } ] }]""",
+    )
+    .replace(
+        'journal_diameter = "80 mm"',
+        """bearing_middle = "10 mm"
+journals = [{ diameter = "120 mm", length = "60 mm" }, { diameter = "80 mm" }]
+profiles = [{ height = "-0.05 mm" }, { y = [-800, "800 mm"], diameter = [0, "20 um"] }]
+covering = { y = [-800, 800], thickness = ["12 mm", "11 mm"], stiffness = [1, "110 %"] }""",
+    )
+)
+
+
+def test_everything_a_shaft_may_have_is_read_and_written_again():
+    case = parse_case(FULL)
+    shaft = case.nip.upper.shaft
+    assert shaft.bearing_middle == 10.0
+    assert [(one.diameter, one.length) for one in shaft.journals] == [(120.0, 60.0), (80.0, inf)]
+    assert shaft.profiles[0] == rn.Crown(-0.05)
+    assert list(shaft.profiles[1].diameter) == pytest.approx([0.0, 0.02])
+    assert list(shaft.covering.stiffness) == pytest.approx([1.0, 1.1])
+    assert case.face.end_loads == pytest.approx((4848.0, 4848.0))
+    again = parse_case(case_tree(case.nip, case.model))
+    assert again.nip.upper == case.nip.upper
+
+
+def gent(hardness):
+    """Young's modulus by Gent's formula [MPa]."""
+    return 0.0981 * (56.0 + 7.62336 * hardness) / (0.137505 * (254.0 - 2.54 * hardness))
+
+
+@pytest.mark.parametrize(
+    ("head", "values", "stiffness"),
+    [
+        ("y [mm], thickness [mm], modulus [MPa]", ("12, 3.6", "11, 3.96"), [1.0, 1.1]),
+        ("y, stiffness", ("1", "1.1"), [1.0, 1.1]),
+        ("y, shore_a", ("60", "65"), [gent(60.0) / 3.6, gent(65.0) / 3.6]),
+    ],
+)
+def test_a_covering_from_a_file(tmp_path, head, values, stiffness):
+    rows = "\n".join(f"{y}, {one}" for y, one in zip((800, -800), values[::-1], strict=True))
+    (tmp_path / "covering.csv").write_text(f"{head}\n{rows}\n")
+    path = tmp_path / "case.toml"
+    path.write_text(TEXT.replace('crown = "0.25 mm"', 'covering = { file = "covering.csv" }'))
+    covering = rn.read_case(path).nip.upper.shaft.covering
+    assert list(covering.stiffness) == pytest.approx(stiffness, rel=1e-4)
+    assert (covering.thickness is None) == ("thickness" not in head)
+
+
+def test_a_file_that_is_no_covering(tmp_path):
+    (tmp_path / "covering.csv").write_text("y, hardness\n-800, 60\n800, 60\n")
+    path = tmp_path / "case.toml"
+    path.write_text(TEXT.replace('crown = "0.25 mm"', 'covering = { file = "covering.csv" }'))
+    with pytest.raises(rn.CaseFileError, match="must have thickness, or one of stiffness, modulus"):
+        rn.read_case(path)
+
+
 @pytest.mark.parametrize(
     ("old", "new", "sentence"),
     [
@@ -70,6 +134,33 @@ def test_a_crown_from_a_file(tmp_path):
             "beside face",
         ),
         ('length = "1600 mm"', 'lenght = "1600 mm"', "length"),
+        ('length = "1600 mm"', 'length = "1600 mm"\narms = []', "nip: must not hold load or app"),
+        (
+            'load = "6 N/mm" ',
+            "# ",
+            "nip: must hold load or approach, got neither",
+        ),
+        (
+            'crown = "0.25 mm"',
+            'crown = { height = 0.2, file = "crown.csv" }',
+            "upper.shaft.crown: must hold either height or file, or y and diameter",
+        ),
+        ('crown = "0.25 mm"', "covering = {}", "upper.shaft.covering: must hold either file, or y"),
+        (
+            'crown = "0.25 mm"',
+            "covering = { y = [-800, 800], thickness = [12] }",
+            "upper.shaft.covering.thickness: must have one value for each of the 2 places, got 1",
+        ),
+        (
+            'journal_diameter = "80 mm"',
+            'journal_diameter = "80 mm"\njournals = [{ diameter = "80 mm" }]',
+            "upper.shaft.journals: must be left out beside `journal_diameter`",
+        ),
+        (
+            'crown = "0.25 mm"',
+            "profiles = [{ y = [0, 0], diameter = [0, 0] }]",
+            r"upper.shaft.profiles\[0\].y: must increase from place to place",
+        ),
         ('length = "1600 mm"', 'length = "1600 kg"', "face.length"),
     ],
 )

@@ -78,11 +78,27 @@ def _roller(roller: Roller) -> dict[str, Any]:
 
 def _shaft(shaft: Shaft) -> dict[str, Any]:
     tree = _without_none({one.name: getattr(shaft, one.name) for one in fields(shaft)})
-    if isinstance(shaft.crown, Crown):
-        tree["crown"] = {"height": shaft.crown.height, "shape": shaft.crown.shape}
-    elif isinstance(shaft.crown, CrownTable):
-        tree["crown"] = repr(shaft.crown)
+    tree["crown"] = _crown(shaft.crown)
+    tree["profiles"] = [_crown(one) for one in shaft.profiles]
+    tree["journals"] = [
+        {"diameter": one.diameter} | ({} if isinf(one.length) else {"length": one.length})
+        for one in shaft.journals
+    ]
+    if shaft.covering is not None:
+        tree["covering"] = _rows(shaft.covering)
     return tree
+
+
+def _crown(crown: Crown | CrownTable | float) -> dict[str, Any]:
+    if isinstance(crown, Crown):
+        return {"height": crown.height, "shape": crown.shape}
+    return _rows(crown)
+
+
+def _rows(table: Any) -> dict[str, Any]:
+    """Lists of a table over y."""
+    rows = _without_none({one.name: getattr(table, one.name) for one in fields(table)})
+    return {name: values.tolist() for name, values in rows.items()}
 
 
 def _named(part: Any) -> dict[str, Any]:

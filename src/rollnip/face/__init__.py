@@ -1,18 +1,28 @@
 """The face: load, width and traction of a nip along rollers that bend, are crowned or crossed."""
 
-from rollnip.face.beam import Beam, FaceGrid
+from rollnip.face.beam import Beam, FaceGrid, Journal
 from rollnip.face.design import EvenCrown, LoadRange, even_crown, load_range, with_crown
 from rollnip.face.find import solve_face
 from rollnip.face.impression import Estimate, Impression, Reading, read_impressions
-from rollnip.face.law import NipLaw, nip_law
+from rollnip.face.law import NipLaw
+from rollnip.face.rows import NipRows
 from rollnip.face.solution import Bearings, FaceSolution
 from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
-from rollnip.shafts import Crown, CrownTable, Face, Shaft
+from rollnip.shafts import (
+    CoveringTable,
+    Crown,
+    CrownTable,
+    Face,
+    JournalStep,
+    PivotArm,
+    Shaft,
+)
 
 __all__ = [
     "Balance",
     "Beam",
     "Bearings",
+    "CoveringTable",
     "Crown",
     "CrownTable",
     "Estimate",
@@ -22,15 +32,18 @@ __all__ = [
     "FaceProblem",
     "FaceSolution",
     "Impression",
+    "Journal",
+    "JournalStep",
     "LoadRange",
     "NipLaw",
+    "NipRows",
+    "PivotArm",
     "Reading",
     "Shaft",
     "balance",
     "even_crown",
     "face_problem",
     "load_range",
-    "nip_law",
     "read_impressions",
     "solve_face",
     "with_crown",

@@ -1,18 +1,20 @@
 """Deflection of a roller under a line load along its face: a stepped Timoshenko beam.
 
-The roller lies on two bearings, B apart and the same distance beyond both ends of the face of
-length L. With reactions R_1, R_2 by statics, shear force Q and moment M over the face,
+The roller lies on two bearings, B apart, beyond both ends of the face of length L. With reactions
+R_1, R_2 by statics, shear force Q and moment M over the face,
 
     psi' = -M/(E I),   v' = psi + Q/(kappa G A),   v = 0 at both bearings,
 
 v the deflection in the direction of the load, psi the turn of the cross-section, kappa after
-Cowper (1966). Journals carry the reactions: over their length l they add R l^2/(2 E I_j) of turn
-and R l^3/(3 E I_j) + R l/(kappa G A_j) of deflection at their end. Everything is linear in the
-load, so a matrix holds it. Integrals over the face are those of the polynomial through the nodes.
+Cowper (1966). Journals carry the reactions: with s from the bearing, over the length l, their ends
+at the face lose a turn of int R s/(E I_j) ds, fall off the tangent by int R (l - s) s/(E I_j) ds
+and move by int R/(kappa G A_j) ds in shear, step by step. Everything is linear in the load, so a
+matrix holds it. Integrals over the face are those of the polynomial through the nodes.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf
 
@@ -58,22 +60,59 @@ class FaceGrid:
 
 
 @dataclass(frozen=True, slots=True)
+class Journal:
+    """What a journal gives way by under the unit force of its bearing.
+
+    Attributes
+    ----------
+    length : from bearing to face [mm].
+    turn : of its end at the face against the bearing [1/N].
+    fall : deflection of that end off the tangent at the bearing, by bending [mm/N].
+    shear : deflection by shear [mm/N].
+    """
+
+    length: float
+    turn: float = 0.0
+    fall: float = 0.0
+    shear: float = 0.0
+
+    @classmethod
+    def of(cls, length: float, steps: Sequence[tuple[float, float, float]]) -> Journal:
+        """Return a journal of steps from the face to the bearing.
+
+        Parameters
+        ----------
+        length : of the journal [mm].
+        steps : length [mm], E I [N mm2] and kappa G A [N] of each; the last goes on to the bearing.
+        """
+        turn = fall = shear = 0.0
+        upper = length  # distance of the step's end next to the face from the bearing
+        for i, (own, bending, rigidity) in enumerate(steps):
+            low = 0.0 if i == len(steps) - 1 else max(upper - own, 0.0)
+            first = (upper**2 - low**2) / 2.0  # int s ds
+            second = (upper**3 - low**3) / 3.0  # int s^2 ds
+            turn += first / bending
+            fall += (length * first - second) / bending
+            shear += (upper - low) / rigidity
+            upper = low
+        return cls(length, turn, fall, shear)
+
+
+@dataclass(frozen=True, slots=True)
 class Beam:
     """A roller as a beam, for the deflection of its axis.
 
     Attributes
     ----------
-    length, bearing_distance : of the face, between the bearings [mm].
+    length : of the face [mm].
     bending, shear : E I [N mm2] and kappa G A [N] over the face; inf: rigid.
-    journal_bending, journal_shear : the same between face and bearing.
+    journals : at y < 0 and at y > 0.
     """
 
     length: float
-    bearing_distance: float
     bending: float
     shear: float
-    journal_bending: float = inf
-    journal_shear: float = inf
+    journals: tuple[Journal, Journal]
 
     @classmethod
     def of(cls, roller: Roller, shaft: Shaft, length: float) -> Beam:
@@ -82,35 +121,24 @@ class Beam:
         Raises
         ------
         InvalidInputError
-            where the bearings lie inside the face, the roller is a plane, or the bore is not
-            smaller than the core.
+            where the bearings lie inside the face, the roller is a plane, the bore is not
+            smaller than the core, or the journals are longer or thicker than there is room for.
         """
-        if shaft.bearing_distance < length:
-            raise InvalidInputError(
-                f"`bearing_distance` must be at least the length of the face, {length:g} mm, got "
-                f"{shaft.bearing_distance:g} mm; bearings inside the face are not modelled."
-            )
         if roller.radius == inf:
             raise InvalidInputError("`shaft` needs a roller with a radius, not a plane.")
+        overhangs = _overhangs(shaft, length)
         core = 2.0 * (roller.radius - roller.coating_thickness)
         if shaft.bore >= core:
             raise InvalidInputError(
                 f"`bore` must be smaller than the core's diameter, {core:g} mm, got "
                 f"{shaft.bore:g} mm."
             )
-        elastic = (shaft.modulus, shaft.poisson)
-        journals = (inf, inf)
-        if shaft.journal_diameter is not None:
-            journals = (
-                bending_stiffness(shaft.journal_diameter, 0.0, shaft.modulus),
-                shear_stiffness(shaft.journal_diameter, 0.0, *elastic),
-            )
+        first, second = (Journal.of(one, _steps(shaft, one, core)) for one in overhangs)
         return cls(
             length,
-            shaft.bearing_distance,
             bending_stiffness(core, shaft.bore, shaft.modulus),
-            shear_stiffness(core, shaft.bore, *elastic),
-            *journals,
+            shear_stiffness(core, shaft.bore, shaft.modulus, shaft.poisson),
+            (first, second),
         )
 
     def flexibility(self, grid: FaceGrid) -> Array:
@@ -118,29 +146,60 @@ class Beam:
 
         ``flexibility @ load`` is v at the places, in the direction of the load [N/mm].
         """
-        y, span, overhang = (
-            grid.y,
-            self.bearing_distance,
-            0.5 * (self.bearing_distance - self.length),
-        )
-        total = grid.weights
-        right = (grid.weights * (y + 0.5 * span)) / span  # reactions per load at a node
-        left = total - right
+        one, two = self.journals
+        span = one.length + self.length + two.length
+        from_first = grid.y + 0.5 * self.length + one.length  # distance from the first bearing
+        right = (grid.weights * from_first) / span  # reactions per load at a node
+        left = grid.weights - right
         shear = left[None, :] - grid.running
-        moment = left[None, :] * (y[:, None] + 0.5 * span) - grid.running @ grid.running
-        bent = grid.running @ moment / self.bending
-        turn = -bent  # psi less psi at the first end of the face
-        down = grid.running @ turn + grid.running @ shear / self.shear
-        # Over a journal, seen from its bearing: turn lost and deflection gained under R there.
-        ends = (left, right)
-        lost = [r * overhang**2 / (2.0 * self.journal_bending) for r in ends]
-        sheared = [r * overhang / self.journal_shear for r in ends]
-        cubic = [r * overhang**3 / (6.0 * self.journal_bending) for r in ends]
-        # v(bearing 2) = 0 gives psi at bearing 1: psi_1 B + what the loads add = 0.
-        at_end = down[-1] + (sheared[0] - cubic[0]) - lost[0] * self.length
-        turn_end = turn[-1] - lost[0]
-        beyond = turn_end * overhang - (sheared[1] + 2.0 * cubic[1])
+        moment = left[None, :] * from_first[:, None] - grid.running @ grid.running
+        turned = -(grid.running @ moment) / self.bending  # psi less psi at the first end
+        down = grid.running @ turned + grid.running @ shear / self.shear
+        # The first journal, seen from its bearing: turn lost, deflection gained.
+        lost = left * one.turn
+        gained = left * (one.shear - one.fall)
+        # The second one, seen from the face: int s^2/(E I) = length * turn - fall.
+        fallen = right * (two.shear + two.length * two.turn - two.fall)
+        # v(second bearing) = 0 gives psi at the first one: psi span + what the loads add = 0.
+        at_end = gained - lost * self.length + down[-1]
+        beyond = (turned[-1] - lost) * two.length - fallen
         first = -(at_end + beyond) / span
-        start = first * overhang + sheared[0] - cubic[0]
-        slope = first - lost[0]
-        return np.asarray(start[None, :] + slope[None, :] * (y[:, None] - y[0]) + down)
+        start, slope = first * one.length + gained, first - lost
+        return np.asarray(start[None, :] + slope[None, :] * (grid.y - grid.y[0])[:, None] + down)
+
+
+def _overhangs(shaft: Shaft, length: float) -> tuple[float, float]:
+    """Return how far both bearings lie beyond the face [mm]."""
+    first, second = shaft.bearings
+    overhangs = -0.5 * length - first, second - 0.5 * length
+    if min(overhangs) < 0.0:
+        raise InvalidInputError(
+            f"`bearing_distance` must set both bearings beyond the face of {length:g} mm; they lie "
+            f"at {first:g} and {second:g} mm from its middle, and bearings inside the face are "
+            "not modelled."
+        )
+    return overhangs
+
+
+def _steps(shaft: Shaft, overhang: float, core: float) -> list[tuple[float, float, float]]:
+    """Return length, E I and kappa G A of the steps of a journal from the face outwards."""
+    steps = shaft.journal_steps
+    for step in steps:
+        if step.diameter > core:
+            raise InvalidInputError(
+                f"`journal_diameter` must not be larger than the core's diameter, {core:g} mm, got "
+                f"{step.diameter:g} mm."
+            )
+    if sum(step.length for step in steps[:-1]) > overhang * (1.0 + 1e-9):
+        raise InvalidInputError(
+            f"`journals` must fit between face and bearing, {overhang:g} mm; all steps but the "
+            f"last are {sum(step.length for step in steps[:-1]):g} mm long."
+        )
+    return [
+        (
+            step.length,
+            bending_stiffness(step.diameter, 0.0, shaft.modulus),
+            shear_stiffness(step.diameter, 0.0, shaft.modulus, shaft.poisson),
+        )
+        for step in steps
+    ]

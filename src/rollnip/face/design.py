@@ -83,10 +83,10 @@ def even_crown(
         raise InvalidInputError(f"`{roller}.shaft` is needed for a crown on it.")
     straight = with_crown(nip, roller, Crown(0.0))
     problem = face_problem(straight, face, _PLACES)
-    given = problem.end_loads
-    if given is None:
+    total = problem.total
+    if total is None:
         raise InvalidInputError("`load` or `end_loads` must be given to find a crown for it.")
-    mean = given[0] / face.length
+    mean = total / face.length
     needed = (problem.upper + problem.lower) @ np.full(_PLACES, mean) - problem.still
     radial = needed - 0.5 * (needed[0] + needed[-1])
     guess = 2.0 * float(radial[_PLACES // 2])

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
 from math import ceil, floor, inf, log
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._blas import one_blas_thread
-from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.face.law import NipLaw, Progress, nip_law, slip_measure
+from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
+from rollnip.face.covering import Axis, axes_of, covers
+from rollnip.face.law import NipLaw, slip_measure
+from rollnip.face.rows import NipRows
 from rollnip.face.solution import FaceSolution
 from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
+from rollnip.face.table import Lattice, Progress, nip_law
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Approach, Nip, Traction
@@ -21,14 +26,18 @@ from rollnip.solver import solve
 Array = NDArray[np.float64]
 
 _PLACES = 65  # along the face
-_PER_E = 2.0  # loads of a table per factor e, about
-_SLIPS = 5  # measures of partial slip, at least
-_SLIP_STEP, _MOST_SLIP = 0.07, 0.95  # between them; the last one before all slides
+_PER_E = 1.0  # loads of a table per factor e, at least
+_SLIP_STEP, _MOST_SLIP = 0.14, 0.91  # between measures of slip, at most; the last one
 _FIRST_SLIP = 0.14  # to either side of that of the mean traction
-_MOST_TABLES = 8
+_FEWEST = 5  # loads and slips of a table
+_FINEST = 3  # halvings of the lattice
+_MOST_TABLES = 12
 _SMALLEST_LOAD = 1e-3  # of the largest: below, the law is a power of the approach
-_TOLERANCE = 5e-3
-"""Relative error of loads, approaches, widths and peaks up to which a face counts as converged."""
+_HEAVY = 0.02  # of the largest load: lighter cross-sections need no slip of their own
+_CLAIM = 5.0
+"""Largest error of a converged face over the tolerance of its cross-sections."""
+_WANTED = 4.0
+"""Interpolation that leaves more than this over the tolerance asks for a finer table."""
 
 
 def solve_face(
@@ -36,28 +45,37 @@ def solve_face(
     face: Face,
     model: Model | None = None,
     *,
+    stiffness: float = 1.0,
     law: NipLaw | None = None,
+    rows: NipRows | None = None,
     cache: KernelCache | None = None,
     progress: Progress | None = None,
+    executor: Executor | None = None,
 ) -> FaceSolution:
     """Solve a nip along its face.
 
     Parameters
     ----------
     nip :
-        the cross-section; its rollers may have shafts. Its load is the mean line load and its
-        traction the mean traction, unless ``face`` holds end loads.
+        the cross-section; its rollers may have shafts. Its load is the mean line load, its
+        traction and torque are means too, unless ``face`` holds end loads.
     face :
         length, skew, end loads.
+    stiffness :
+        factor on every modulus of both rollers' layers.
     model :
         geometry and accuracy of the cross-sections; ``Model()`` by default.
     law :
         the table of an earlier solution (``solution.law``) of the same cross-section: then nothing
         is solved but the balance, where the table covers it.
+    rows :
+        plane nips of earlier faces, and where those of this one are kept.
     cache :
-        influence functions to begin with.
+        influence functions to begin with, where no ``rows`` are given.
     progress :
         called after each cross-section with how many are solved, and of how many.
+    executor :
+        solves cross-sections in other processes, such as a ProcessPoolExecutor.
 
     Returns
     -------
@@ -67,25 +85,28 @@ def solve_face(
     Raises
     ------
     InvalidInputError
-        where shafts, crowns or loads do not fit, or the nip has a half-space core or a torque.
+        where shafts, crowns, coverings or loads do not fit, or the nip has a half-space core.
     ConvergenceError
         where a cross-section or the balance cannot be solved.
     """
     model = Model() if model is None else model
     _require_plain(nip, face)
-    cache = KernelCache() if cache is None else cache
-    problem = face_problem(nip, face, _PLACES)
+    problem = face_problem(nip, face, _PLACES, require_positive("stiffness", stiffness))
     with one_blas_thread():
-        if law is not None and (law.model != model or not _same_section(law.nip, nip)):
-            raise InvalidInputError("`law` must be that of the same cross-section and model.")
-        law, found = _covered(problem, model, law, cache, progress)
+        if law is not None:
+            _require_same(law, problem, model)
+        if rows is None:
+            rows = NipRows(cache) if law is None or law.rows is None else law.rows
+        maker = _Maker(problem, model, rows, progress, executor)
+        law, found = maker.covered(law)
         error = {**law.error, "places": _error_of_places(problem, law, found)}
     worst = max(error.values())
-    converged = worst <= _TOLERANCE
+    allowed = _CLAIM * model.tolerance
+    converged = worst <= allowed
     status = (
         f"Solved and verified: estimated error {worst:.1e} of the figures over the face."
         if converged
-        else f"The estimated error over the face is {worst:.1e}, more than {_TOLERANCE:g}."
+        else f"The estimated error over the face is {worst:.1e}, more than {allowed:g}."
     )
     notes = _warnings(problem, found)
     return FaceSolution(nip, face, model, converged, status, notes, error, law, problem, found)
@@ -96,117 +117,215 @@ def _require_plain(nip: Nip, face: Face) -> None:
         raise InvalidInputError("`profile` and a face cannot be solved together.")
     if face.end_loads is not None and isinstance(nip.normal, Approach):
         raise InvalidInputError("`end_loads` and `approach` exclude each other.")
-
-
-def _same_section(one: Nip, other: Nip) -> bool:
-    """Return whether two nips have the same cross-sections, whatever their loads and shafts."""
-    parts = (("radius", "layers", "core"),)
-    for name in ("upper", "lower"):
-        a, b = getattr(one, name), getattr(other, name)
-        if any(getattr(a, part) != getattr(b, part) for part in parts[0]):
-            return False
-    return one.friction == other.friction and one.speed == other.speed
-
-
-def _covered(
-    problem: FaceProblem,
-    model: Model,
-    law: NipLaw | None,
-    cache: KernelCache,
-    progress: Progress | None,
-) -> tuple[NipLaw, Balance]:
-    """Return a table that covers the face, and the balance on it."""
-    if law is None:
-        loads, slips = _first_range(problem, model, cache)
-        law = nip_law(problem.nip, model, loads, slips, cache, progress)
-    for _ in range(_MOST_TABLES):
-        found = balance(problem, law)
-        wider = _wider(law, found)
-        if wider is None:
-            return law, found
-        law = nip_law(problem.nip, model, *wider, cache, progress, known=law)
-    raise ConvergenceError(
-        "The line load varies too much along the face: the table of cross-sections does not end. "
-        "Try a smaller crown, skew or difference of end loads."
-    )
-
-
-def _first_range(problem: FaceProblem, model: Model, cache: KernelCache) -> tuple[Array, Array]:
-    """Return loads about the mean one, and measures of slip about that of the mean traction."""
-    nip, face = problem.nip, problem.face
-    given = problem.end_loads
-    if given is not None:
-        mean = given[0] / face.length
-    else:
-        assert isinstance(nip.normal, Approach)
-        mean = solve(nip, model, cache=cache).load
-    if not mean > 0.0:
+    if nip.face_width is not None and abs(nip.face_width / face.length - 1.0) > 1e-9:
         raise InvalidInputError(
-            f"`end_loads` leave a mean line load of {mean:.4g} N/mm; it must be positive."
+            f"`face_width` must be the length of the face, {face.length:g} mm, or be left out, got "
+            f"{nip.face_width:g} mm."
         )
-    loads = _spaced(0.3 * mean, 2.5 * mean)
-    if nip.friction == 0.0:
-        return loads, np.zeros(1)
-    middle = 0.0
-    if isinstance(nip.tangential, Traction):
-        share = nip.tangential.traction / (nip.friction * mean)
-        if abs(share) >= 1.0:
-            raise InvalidInputError(
-                f"`traction` must stay below friction * load, {nip.friction * mean:.4g} N/mm in "
-                f"the mean, got {nip.tangential.traction:.4g}."
+
+
+def _require_same(law: NipLaw, problem: FaceProblem, model: Model) -> None:
+    """Raise unless a law is of the same cross-sections, whatever their loads and shafts."""
+    one, other = law.nip, problem.nip
+    parts = [
+        getattr(a, part) == getattr(b, part)
+        for a, b in ((one.upper, other.upper), (one.lower, other.lower))
+        for part in ("radius", "layers", "core")
+    ]
+    is_same = all(parts) and one.friction == other.friction and one.speed == other.speed
+    if law.model != model or not is_same or not covers(law.axes, problem.coverings):
+        raise InvalidInputError("`law` must be that of the same cross-section, covering and model.")
+
+
+@dataclass(frozen=True, slots=True)
+class _Span:
+    """What a table reaches over, and how fine its lattice is.
+
+    Attributes
+    ----------
+    low, high : line loads of the nominal covering [N/mm].
+    slips : smallest and largest measure of slip; None without friction.
+    halved : how often the steps between loads, and between slips, are halved at least.
+    """
+
+    low: float
+    high: float
+    slips: tuple[float, float] | None
+    halved: tuple[int, int] = (0, 0)
+
+    @property
+    def steps(self) -> tuple[int, int]:
+        """How often both steps are halved: so that the span itself holds enough of them."""
+        loads = max(_needed(log(self.high / self.low) * _PER_E), self.halved[0])
+        if self.slips is None:
+            return loads, 0
+        return loads, max(_needed((self.slips[1] - self.slips[0]) / _SLIP_STEP), self.halved[1])
+
+    @property
+    def lattice(self) -> Lattice:
+        """Loads and slips, on a lattice that all tables share."""
+        loads, slips = self.steps
+        per_e = _PER_E * 2.0**loads
+        first, last = _around(per_e * log(self.low), per_e * log(self.high), inf)
+        ladder = np.exp(np.arange(first, last + 1) / per_e)
+        if self.slips is None:
+            return Lattice(ladder, np.zeros(1))
+        step = _SLIP_STEP / 2.0**slips
+        low, high = self.slips
+        first, last = _around(low / step, high / step, _MOST_SLIP / step)
+        return Lattice(ladder, step * np.arange(first, last + 1.0))
+
+
+def _needed(steps: float) -> int:
+    """Return how often steps must be halved to become enough for a table."""
+    return max(0, ceil(log((_FEWEST - 1) / max(steps, 0.1)) / log(2.0) - 1e-9))
+
+
+def _around(low: float, high: float, most: float) -> tuple[int, int]:
+    """Return whole numbers about an interval, at least as many as a table needs, up to +-most."""
+    first, last = floor(low + 1e-6), ceil(high - 1e-6)
+    while last - first < _FEWEST - 1:
+        first, last = first - 1, last + 1
+    if most < inf:
+        limit = floor(most + 1e-6)
+        first, last = max(first, -limit), min(last, limit)
+        first = min(first, max(last - _FEWEST + 1, -limit))
+        last = max(last, min(first + _FEWEST - 1, limit))
+    return first, last
+
+
+def _span_of(law: NipLaw) -> _Span:
+    """Return the span of a table."""
+    loads = round(log((law.loads.size - 1) / log(law.loads[-1] / law.loads[0]) / _PER_E, 2.0))
+    ends = float(law.loads[0]), float(law.loads[-1])
+    if law.s.size == 1:
+        return _Span(*ends, None, (loads, 0))
+    slips = round(log(_SLIP_STEP / (law.s[1] - law.s[0]), 2.0))
+    return _Span(*ends, (float(law.s[0]), float(law.s[-1])), (loads, slips))
+
+
+@dataclass(frozen=True, slots=True)
+class _Maker:
+    """Makes tables until one covers a face and is fine enough."""
+
+    problem: FaceProblem
+    model: Model
+    rows: NipRows
+    progress: Progress | None
+    executor: Executor | None
+
+    def covered(self, law: NipLaw | None) -> tuple[NipLaw, Balance]:
+        """Return a table that covers the face, and the balance on it."""
+        if law is None:
+            span, axes = self._first_span(), axes_of(self.problem.coverings)
+            law = self._table(span, axes)
+        else:
+            span = _span_of(law)
+        for _ in range(_MOST_TABLES):
+            found = balance(self.problem, law)
+            wanted = _WANTED * self.model.tolerance
+            wider = _wider(law, found, span)
+            finer = _finer(law, span, wanted) if wider is None else None
+            axes = tuple(
+                axis.finer if law.error[axis.name] > wanted and axis.can_be_finer else axis
+                for axis in law.axes
             )
-        middle = slip_measure(share)
-    return loads, _slips(middle - _FIRST_SLIP, middle + _FIRST_SLIP)
+            if wider is None and finer is None and axes == law.axes:
+                return law, found
+            span = wider or finer or span
+            law = self._table(span, axes)
+        raise ConvergenceError(
+            "The line load varies too much along the face: the table of cross-sections does not "
+            "end. Try a smaller crown, skew or difference of end loads."
+        )
+
+    def _table(self, span: _Span, axes: tuple[Axis, ...]) -> NipLaw:
+        return nip_law(
+            self.problem.nip,
+            self.model,
+            span.lattice,
+            axes,
+            self.rows,
+            progress=self.progress,
+            executor=self.executor,
+        )
+
+    def _first_span(self) -> _Span:
+        """Return loads about the mean one, and measures of slip about that of the mean traction."""
+        nip, scale = self.problem.nip, self.problem.coverings.scale
+        total = self.problem.total
+        if total is None:
+            mean = solve(nip, self.model, cache=self.rows.kernels).load
+        else:
+            mean = total / self.problem.face.length
+        if not mean > 0.0:
+            raise InvalidInputError(
+                f"`end_loads` leave a mean line load of {mean:.4g} N/mm; it must be positive."
+            )
+        low, high = 0.3 * mean / float(scale.max()), 2.5 * mean / float(scale.min())
+        if nip.friction == 0.0:
+            return _Span(low, high, None)
+        middle = 0.0
+        if isinstance(nip.tangential, Traction):
+            share = nip.tangential.traction / (nip.friction * mean)
+            if abs(share) >= 1.0:
+                raise InvalidInputError(
+                    f"`traction` must stay below friction * load, {nip.friction * mean:.4g} N/mm "
+                    f"in the mean, got {nip.tangential.traction:.4g}."
+                )
+            middle = slip_measure(share)
+        return _Span(low, high, (middle - _FIRST_SLIP, middle + _FIRST_SLIP))
 
 
-def _spaced(low: float, high: float) -> Array:
-    """Return loads from below ``low`` to above ``high``, on a lattice that all tables share."""
-    first, last = floor(_PER_E * log(low)), ceil(_PER_E * log(high))
-    return np.asarray(np.exp(np.arange(first, max(last, first + 5) + 1) / _PER_E))
+def _finer(law: NipLaw, span: _Span, wanted: float) -> _Span | None:
+    """Return the span with a finer lattice; None where the table is fine enough."""
+    if sum(law.parts) <= wanted:
+        return None
+    steps = span.steps
+    loads, slips = (
+        have + 1 if part > 0.5 * wanted and have < _FINEST else have
+        for have, part in zip(steps, law.parts, strict=True)
+    )
+    return None if (loads, slips) == steps else replace(span, halved=(loads, slips))
 
 
-def _slips(low: float, high: float) -> Array:
-    """Return measures of slip from below ``low`` to above ``high``, on such a lattice."""
-    most = floor(_MOST_SLIP / _SLIP_STEP)
-    first = max(floor(low / _SLIP_STEP), -most)
-    last = min(ceil(high / _SLIP_STEP), most)
-    while last - first < _SLIPS - 1:
-        first, last = max(first - 1, -most), min(last + 1, most)
-    return np.asarray(np.arange(first, last + 1) * _SLIP_STEP)
-
-
-def _wider(law: NipLaw, found: Balance) -> tuple[Array, Array] | None:
-    """Return the range of a wider table; None where the face lies within the one there is."""
+def _wider(law: NipLaw, found: Balance, span: _Span) -> _Span | None:
+    """Return a wider span; None where the face lies within the table."""
     section = found.section
     carries = section.load > 0.0
-    loads, s = section.load[carries], section.s[carries]
+    loads, s = np.exp(section.log_load[carries]), section.s[carries]
     low, high = float(loads.min()), float(loads.max())
     least = max(low, _SMALLEST_LOAD * high)
-    new_low, new_high = float(law.loads[0]), float(law.loads[-1])
-    slips = law.s
-    grown = False
-    if high > 1.001 * new_high:
-        new_high, grown = min(1.3 * high, 4.0 * new_high), True
-    if least < 0.999 * new_low:
-        new_low, grown = max(0.7 * least, 0.2 * new_low, 0.5 * _SMALLEST_LOAD * high), True
-    if law.s.size > 1:
+    grown = span
+    beyond = (least < 0.999 * law.loads[0], high > 1.001 * law.loads[-1])
+    fault = next((why for out, why in zip(beyond, law.faults, strict=True) if out and why), "")
+    if fault:
+        raise ConvergenceError(fault)
+    if high > 1.001 * law.loads[-1]:
+        grown = replace(grown, high=min(1.3 * high, 4.0 * float(law.loads[-1])))
+    if least < 0.999 * law.loads[0]:
+        smallest = 0.2 * float(law.loads[0])
+        grown = replace(grown, low=max(0.7 * least, smallest, 0.5 * _SMALLEST_LOAD * high))
+    if law.s.size > 1 and span.slips is not None:
         # Only cross-sections that carry something need their slip.
-        heavy = s[loads > 0.02 * high]
+        heavy = s[loads > _HEAVY * high]
         below, above = float(heavy.min(initial=inf)), float(heavy.max(initial=-inf))
-        ends = [float(law.s[0]), float(law.s[-1])]
-        if below < ends[0] - 1e-9 and ends[0] > _SLIP_STEP - _MOST_SLIP:
-            ends[0], grown = max(1.3 * below - 0.3 * ends[1], ends[0] - 0.5), True
-        if above > ends[1] + 1e-9 and ends[1] < _MOST_SLIP - _SLIP_STEP:
-            ends[1], grown = min(1.3 * above - 0.3 * ends[0], ends[1] + 0.5), True
-        slips = _slips(*ends)
-    if not grown:
-        return None
-    return _spaced(new_low, new_high), slips
+        first, last = float(law.s[0]), float(law.s[-1])
+        if below < first - 1e-9 and first > _SLIP_STEP - _MOST_SLIP:
+            grown = replace(
+                grown, slips=(max(1.3 * below - 0.3 * last, first - 0.5), span.slips[1])
+            )
+        if above > last + 1e-9 and last < _MOST_SLIP - _SLIP_STEP:
+            assert grown.slips is not None
+            grown = replace(
+                grown, slips=(grown.slips[0], min(1.3 * above - 0.3 * first, last + 0.5))
+            )
+    return None if grown == span else grown
 
 
 def _error_of_places(problem: FaceProblem, law: NipLaw, found: Balance) -> float:
     """Return the change of the load with half as many places, over the largest load."""
-    coarse = face_problem(problem.nip, problem.face, _PLACES // 2 + 1)
+    coarse = face_problem(problem.nip, problem.face, _PLACES // 2 + 1, problem.stiffness)
     again = balance(coarse, law).section.load
     return float(np.max(np.abs(found.section.load[::2] - again)) / found.section.load.max())
 
@@ -215,14 +334,17 @@ def _warnings(problem: FaceProblem, found: Balance) -> tuple[str, ...]:
     notes = []
     y, carries = problem.grid.y, found.section.load > 0.0
     if not carries.all():
-        open_from = y[~carries]
-        notes.append(
-            f"The nip is open over a part of the face, between y = {open_from.min():.0f} and "
-            f"{open_from.max():.0f} mm."
-        )
-    if found.section.s.size and np.any(np.abs(found.section.s[carries]) >= 1.0):
+        parts = " and ".join(f"from y = {a:.0f} to {b:.0f} mm" for a, b in _runs(y, ~carries))
+        notes.append(f"The nip is open over a part of the face: {parts}.")
+    if np.any(np.abs(found.section.s[carries]) >= 1.0):
         notes.append(
             "Over a part of the face the surfaces slide all over the nip: one creepage for the "
             "whole face is too far from that of free rolling there."
         )
     return tuple(notes)
+
+
+def _runs(y: Array, chosen: NDArray[np.bool_]) -> list[tuple[float, float]]:
+    """Return the first and last place of each run of chosen ones."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]]).astype(int)))
+    return [(float(y[a]), float(y[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True)]

@@ -236,7 +236,7 @@ def _faces(
 ) -> list[FaceSolution]:
     """Solve the faces of all impressions with values for the unknowns.
 
-    A factor on the moduli is a factor on the law; the nip keeps its own.
+    The nip keeps its own moduli.
     """
     crowned = with_crown(nip, roller, Crown(named["crown"]))
     out = []
@@ -248,7 +248,8 @@ def _faces(
         total = mean * face.length - own
         half = 0.5 * named["tilt"]
         loaded = replace(face, end_loads=(0.5 * total - half, 0.5 * total + half))
-        out.append(solve_face(one, loaded, model, law=law.stiffened(named["modulus"])))
+        stiffness = named["modulus"]
+        out.append(solve_face(one, loaded, model, stiffness=stiffness, law=law))
     return out
 
 

@@ -7,13 +7,13 @@ splines in ln F and in s, which measures the traction by Carter's law of partial
     T/(mu F) = sign(s) (1 - (1 - |s|)^2),   -1 <= s <= 1.
 
 For equal half-spaces the creepage is then linear in s; for layers it is smooth in it. Beyond
-|s| = 1 all slides, and T = +-mu F.
+|s| = 1 all slides, and T = +-mu F. How coverings that vary along the face enter says `covering`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 from math import sqrt
 
@@ -21,22 +21,22 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
-from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.influence import KernelCache
+from rollnip.face.covering import Axis, Coverings, weights_of
+from rollnip.face.rows import NipRows
 from rollnip.model import Model
-from rollnip.nip import LineLoad, Nip, Traction
-from rollnip.solution import Solution
-from rollnip.solver import solve
+from rollnip.nip import Nip
 
 Array = NDArray[np.float64]
-Progress = Callable[[int, int], None]
 
-FIGURES = ("nip_width", "peak_pressure", "friction_loss", "viscous_loss")
-"""What a law tells beside approach and creepage."""
+FORCES = ("peak_pressure", "torque_upper", "torque_lower", "friction_loss", "viscous_loss")
+"""Figures of a law that grow with the moduli."""
+NAMES = ("approach", "creepage", "nip_width", "slip_width", *FORCES)
+"""Figures of a law: torques and losses per length; they are nan where a nip has none."""
 _POSITIVE = ("approach", "nip_width", "peak_pressure")
+_PER_LOAD = ("torque_upper", "torque_lower", "viscous_loss")
+_KINKED = ("friction_loss", "slip_width")  # where the nip rolls freely: linear in s between nips
 _STEPS = 40  # of Newton's method for load and traction
 _SETTLED = 1e-12
-_BEYOND = 1.0 - 1e-9
 
 
 def traction_share(s: Array) -> Array:
@@ -52,6 +52,25 @@ def slip_measure(share: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
+class Places:
+    """The coverings at the places of a face, as a law takes them.
+
+    Attributes
+    ----------
+    weights : (n, states) share of each state of the coverings that the law was solved for.
+    scale : (n,) factor on all moduli.
+    """
+
+    weights: Array
+    scale: Array
+
+    @property
+    def mean(self) -> Places:
+        """One place in the middle of all."""
+        return Places(self.weights.mean(axis=0)[None, :], np.array([np.mean(self.scale)]))
+
+
+@dataclass(frozen=True, slots=True)
 class Section:
     """Cross-sections of the nip at some approaches and creepages, each (n,).
 
@@ -61,6 +80,8 @@ class Section:
     load_slope, traction_slope : by the approach [N/mm2].
     load_by_creepage, traction_by_creepage : [N/mm].
     log_load, s : where in the table they lie.
+    rates : derivatives of these two by approach and creepage: (ln F by approach, s by approach,
+        ln F by creepage, s by creepage).
     """
 
     load: Array
@@ -71,6 +92,7 @@ class Section:
     traction_by_creepage: Array
     log_load: Array
     s: Array
+    rates: tuple[Array, Array, Array, Array]
 
 
 @dataclass(frozen=True)
@@ -82,9 +104,14 @@ class NipLaw:
     nip, model : of the cross-section; its own load and traction do not matter.
     loads : (m,) increasing line loads [N/mm], evenly spaced in their logarithm.
     s : (k,) increasing measures of partial slip; (1,) holding 0 without friction.
-    table : name of a figure -> (m, k); "approach", "creepage" and those of FIGURES.
-    error : relative error of approach, nip width and peak pressure between the nips of the table,
-        by nips solved in the middle of its cells.
+    table : name of a figure -> (states, m, k), for the names in `NAMES`.
+    error : relative error of approach, nip width, peak pressure and ("traction") of the traction
+        over friction times load, between the nips of the table, by nips solved there.
+    axes : the coverings solved for; none: the nip's own.
+    parts : the largest error between loads, and that between slips.
+    faults : why the loads end where they do, below and above; empty where more could be solved.
+    solves : number of nips that were solved for the law.
+    rows : keeps these nips, for a wider table.
     """
 
     nip: Nip
@@ -93,48 +120,50 @@ class NipLaw:
     s: Array
     table: Mapping[str, Array]
     error: Mapping[str, float]
+    axes: tuple[Axis, ...] = ()
+    parts: tuple[float, float] = (0.0, 0.0)
+    faults: tuple[str, str] = ("", "")
+    solves: int = 0
+    rows: NipRows | None = field(default=None, repr=False, compare=False)
 
-    @property
-    def solves(self) -> int:
-        """Number of nips that were solved for the law."""
-        return int(self.loads.size * (self.s.size + 1)) - 1
+    def places(self, coverings: Coverings) -> Places:
+        """Return the coverings of a face as this law takes them."""
+        return Places(weights_of(self.axes, coverings), coverings.scale)
 
-    @property
-    def rows(self) -> dict[tuple[float, float], dict[str, float]]:
-        """Figures of every plane nip of the table, by its load and measure of slip."""
-        return {
-            _key(load, one): {name: float(values[i, j]) for name, values in self.table.items()}
-            for i, load in enumerate(self.loads)
-            for j, one in enumerate(self.s)
-        }
+    def figure(self, name: str, log_load: Array, s: Array, places: Places) -> Array:
+        """Return a figure of `NAMES` at places of the table, (n,)."""
+        value = self._surface(name, log_load, s, places)[0]
+        if name in _POSITIVE:
+            value = np.exp(value)
+        elif name in _PER_LOAD:
+            value = np.exp(log_load) * value
+        elif name == "friction_loss":
+            value = np.exp(log_load) * value**2
+        return value * places.scale if name in FORCES else value
 
-    def stiffened(self, factor: float) -> NipLaw:
-        """Return the law of the same nip with every modulus times ``factor``.
+    def slopes(self, name: str, section: Section, places: Places) -> tuple[Array, Array]:
+        """Return the derivatives of a figure by the approach and by the creepage, each (n,)."""
+        value, by_load, by_s = self._surface(name, section.log_load, section.s, places)
+        if name in _PER_LOAD:
+            load = np.exp(section.log_load)
+            by_load, by_s = load * (by_load + value), load * by_s
+        load_d, s_d, load_x, s_x = section.rates
+        scale = places.scale if name in FORCES else 1.0
+        return scale * (by_load * load_d + by_s * s_d), scale * (by_load * load_x + by_s * s_x)
 
-        Lengths stay, forces and pressures grow with the moduli, in every geometry: dimensions. The
-        nip that the law holds is not changed.
-        """
-        forces = ("peak_pressure", "friction_loss", "viscous_loss")
-        table = {
-            name: factor * values if name in forces else values
-            for name, values in self.table.items()
-        }
-        return replace(self, loads=factor * self.loads, table=table)
+    def creepage_slope(self, log_load: Array, s: Array, places: Places) -> Array:
+        """Return the derivative of the creepage by s at places of the table, (n,)."""
+        return self._surface("creepage", log_load, s, places)[2]
 
-    def figure(self, name: str, log_load: Array, s: Array) -> Array:
-        """Return the approach or a figure of FIGURES at places of the table, (n,)."""
-        value = self._surface(name, log_load, s)[0]
-        return np.exp(value) if name in _POSITIVE else value
+    def creepage_at(self, load: float, share: float, places: Places) -> float:
+        """Return the creepage at one place under a load and a traction T/(mu F)."""
+        return float(self.figure("creepage", *_place(load, share, places), places)[0])
 
-    def creepage_at(self, load: float, share: float) -> float:
-        """Return the creepage of a cross-section under a load and a traction T/(mu F)."""
-        return float(self.figure("creepage", *_place(load, share))[0])
+    def approach_at(self, load: float, share: float, places: Places) -> float:
+        """Return the approach at one place under a load and a traction T/(mu F) [mm]."""
+        return float(self.figure("approach", *_place(load, share, places), places)[0])
 
-    def approach_at(self, load: float, share: float) -> float:
-        """Return the approach of a cross-section under a load and a traction T/(mu F) [mm]."""
-        return float(self.figure("approach", *_place(load, share))[0])
-
-    def at(self, approach: Array, creepage: Array) -> Section:
+    def at(self, approach: Array, creepage: Array, places: Places) -> Section:
         """Return load and traction of cross-sections, with their derivatives.
 
         Where the approach is not positive the nip is open, and all is 0. Below the smallest load of
@@ -144,51 +173,54 @@ class NipLaw:
         ----------
         approach : (n,) [mm].
         creepage : (n,); without friction it does not matter.
+        places : coverings at the n places.
         """
         touching = approach > 0.0
         positive = np.where(touching, approach, 1.0)
-        log_load, s = self._located(np.log(positive), creepage)
-        _, a_f, a_s = self._surface("approach", log_load, s)
+        log_load, s = self._located(np.log(positive), creepage, places)
+        _, a_f, a_s = self._surface("approach", log_load, s, places)
         if self.s.size > 1:
-            _, x_f, x_s = self._surface("creepage", log_load, s)
+            _, x_f, x_s = self._surface("creepage", log_load, s, places)
             share = traction_share(s)
         else:
             nothing = np.zeros_like(s)
             x_f, x_s, a_s, share = nothing, np.ones_like(s), nothing, nothing
-        load = np.where(touching, np.exp(log_load), 0.0)
+        load = np.where(touching, np.exp(log_load) * places.scale, 0.0)
         bound = self.nip.friction * load
         slope = 2.0 * (1.0 - np.abs(np.clip(s, -1.0, 1.0))) * bound  # dT/ds
         # d(ln delta, xi) = [[a_f, a_s], [x_f, x_s]] d(ln F, s)
         determinant = a_f * x_s - a_s * x_f
         slides = np.abs(s) >= 1.0
-        per_log = np.where(slides, 1.0 / a_f, x_s / determinant)
-        per_xi, s_log, s_xi = (
-            np.where(slides, 0.0, part / determinant) for part in (-a_s, -x_f, a_f)
-        )
         by_approach = touching / positive
+        load_d = np.where(slides, 1.0 / a_f, x_s / determinant) * by_approach
+        load_x, s_d, s_x = (
+            np.where(slides | ~touching, 0.0, part / determinant) for part in (-a_s, -x_f, a_f)
+        )
+        s_d = np.asarray(s_d * by_approach)
         return Section(
             load=load,
             traction=share * bound,
-            load_slope=load * per_log * by_approach,
-            traction_slope=(share * bound * per_log + slope * s_log) * by_approach,
-            load_by_creepage=load * per_xi,
-            traction_by_creepage=share * bound * per_xi + slope * s_xi,
+            load_slope=load * load_d,
+            traction_slope=share * bound * load_d + slope * s_d,
+            load_by_creepage=load * load_x,
+            traction_by_creepage=share * bound * load_x + slope * s_x,
             log_load=log_load,
             s=s,
+            rates=(load_d, s_d, load_x, s_x),
         )
 
-    def _located(self, log_approach: Array, creepage: Array) -> tuple[Array, Array]:
+    def _located(self, log_approach: Array, creepage: Array, places: Places) -> tuple[Array, Array]:
         """Return ln F and s where approach and creepage are as given, by Newton's method."""
-        middle = np.log(self.table["approach"][:, self.s.size // 2])
+        middle = np.log(self.table["approach"][:, :, self.s.size // 2]).mean(axis=0)
         log_load = np.interp(log_approach, middle, np.log(self.loads))
         s = np.zeros_like(log_load)
         for _ in range(_STEPS):
-            a, a_f, a_s = self._surface("approach", log_load, s)
+            a, a_f, a_s = self._surface("approach", log_load, s, places)
             wrong = log_approach - a
             if self.s.size == 1:
                 step_load, step_s = wrong / a_f, np.zeros_like(s)
             else:
-                x, x_f, x_s = self._surface("creepage", log_load, s)
+                x, x_f, x_s = self._surface("creepage", log_load, s, places)
                 off = creepage - x
                 determinant = a_f * x_s - a_s * x_f
                 step_load = (x_s * wrong - a_s * off) / determinant
@@ -200,154 +232,68 @@ class NipLaw:
         return log_load, s
 
     @cached_property
-    def _splines(self) -> dict[str, CubicSpline | RectBivariateSpline]:
-        """Splines of all figures in ln F and s; of the logarithm where a figure is positive."""
-        knots = np.log(self.loads)
-        values = {
-            name: np.log(rows) if name in _POSITIVE else rows for name, rows in self.table.items()
-        }
-        if self.s.size == 1:
-            return {name: CubicSpline(knots, rows[:, 0]) for name, rows in values.items()}
-        return {name: RectBivariateSpline(knots, self.s, rows) for name, rows in values.items()}
+    def _splines(self) -> dict[str, list[CubicSpline | RectBivariateSpline]]:
+        """Splines of every figure, one for each state of the coverings.
 
-    def _surface(self, name: str, log_load: Array, s: Array) -> tuple[Array, Array, Array]:
+        Positive ones are splined by their logarithm, torques and losses over the load. The friction
+        loss goes with the square of s, on either side of free rolling with another factor: its root
+        is taken, and no spline goes through the kink.
+        """
+        knots = np.log(self.loads)
+        values = dict(self.table)
+        values |= {name: np.log(values[name]) for name in _POSITIVE}
+        values |= {name: values[name] / self.loads[:, None] for name in _PER_LOAD}
+        loss = values["friction_loss"] / self.loads[:, None]
+        values["friction_loss"] = np.sqrt(np.maximum(loss, 0.0))
+        if self.s.size == 1:
+            return {
+                name: [CubicSpline(knots, one[:, 0]) for one in rows]
+                for name, rows in values.items()
+                if np.all(np.isfinite(rows))
+            }
+        return {
+            name: [
+                RectBivariateSpline(knots, self.s, one, ky=1 if name in _KINKED else 3)
+                for one in rows
+            ]
+            for name, rows in values.items()
+            if np.all(np.isfinite(rows))
+        }
+
+    def _surface(
+        self, name: str, log_load: Array, s: Array, places: Places
+    ) -> tuple[Array, Array, Array]:
         """Return a figure's spline with its derivatives by ln F and by s, each (n,).
 
-        Beyond the table it goes on as a plane.
+        Beyond the table it goes on as a plane. A figure that the nips do not have is nan.
         """
-        spline, knots = self._splines[name], np.log(self.loads)
+        if name not in self._splines:
+            nothing = np.full_like(log_load, np.nan)
+            return nothing, nothing, nothing
+        knots = np.log(self.loads)
         near = np.clip(log_load, knots[0], knots[-1])
-        if isinstance(spline, CubicSpline):
-            slope = spline(near, 1)
-            return spline(near) + slope * (log_load - near), slope, np.zeros_like(s)
         inside = np.clip(s, self.s[0], self.s[-1])
-        value, by_load, by_s = (
-            spline.ev(near, inside, dx=dx, dy=dy) for dx, dy in ((0, 0), (1, 0), (0, 1))
-        )
+        value, by_load, by_s = (np.zeros_like(log_load) for _ in range(3))
+        for spline, share in zip(self._splines[name], places.weights.T, strict=True):
+            if isinstance(spline, CubicSpline):
+                value = value + share * spline(near)
+                by_load = by_load + share * spline(near, 1)
+                continue
+            value = value + share * spline.ev(near, inside)
+            by_load = by_load + share * spline.ev(near, inside, dx=1)
+            by_s = by_s + share * self._by_slip(spline, name, near, inside)
         beyond = by_load * (log_load - near) + by_s * (s - inside)
         return value + beyond, by_load, by_s
 
-
-def _place(load: float, share: float) -> tuple[Array, Array]:
-    return np.array([np.log(load)]), np.array([slip_measure(share)])
-
-
-def nip_law(
-    nip: Nip,
-    model: Model,
-    loads: Array,
-    s: Array,
-    cache: KernelCache | None = None,
-    progress: Progress | None = None,
-    known: NipLaw | None = None,
-) -> NipLaw:
-    """Solve the plane nips of a law.
-
-    Parameters
-    ----------
-    nip, model : the cross-section; its load and traction are varied.
-    loads : (m,) increasing line loads [N/mm], m >= 4.
-    s : (k,) increasing measures of partial slip, k >= 4; (1,) holding 0 without friction.
-    cache : influence functions to begin with; they are kept from nip to nip.
-    progress : called after each solve with how many there are, and of how many.
-    known : a law of the same cross-section; what it holds is not solved again.
-
-    Raises
-    ------
-    ConvergenceError
-        where a nip could not be verified; the message says which.
-    InvalidInputError
-        where a core is a half-space, whose approach is not defined in plane strain.
-    """
-    if nip.has_half_space:
-        raise InvalidInputError(
-            "`core` must be rigid for a face: over a half-space core the approach is not defined."
-        )
-    cache = KernelCache() if cache is None else cache
-    kept = {} if known is None else known.rows
-    missing = [(i, j) for i in range(loads.size) for j in range(s.size)]
-    missing = [(i, j) for i, j in missing if _key(loads[i], s[j]) not in kept]
-    count, done = len(missing) + loads.size - 1, 0
-
-    def solved(load: float, share: float) -> dict[str, float]:
-        nonlocal done
-        row = _row(_solved(nip, model, load, share, cache))
-        done += 1
-        if progress is not None:
-            progress(done, count)
-        return row
-
-    rows = dict(kept)
-    for i, j in missing:
-        share = float(traction_share(s[j : j + 1])[0])
-        rows[_key(loads[i], s[j])] = solved(float(loads[i]), share)
-    table = {
-        name: np.array([[rows[_key(load, one)][name] for one in s] for load in loads])
-        for name in ("approach", "creepage", *FIGURES)
-    }
-    law = NipLaw(nip, model, loads, s, table, {})
-    return replace(law, error=_error_between(law, solved))
+    def _by_slip(self, spline: RectBivariateSpline, name: str, log_load: Array, s: Array) -> Array:
+        """Return the derivative of a spline by s, (n,): of a kinked one the slope between nips."""
+        if name not in _KINKED:
+            return np.asarray(spline.ev(log_load, s, dy=1))
+        cell = np.clip(np.searchsorted(self.s, s) - 1, 0, self.s.size - 2)
+        low, high = self.s[cell], self.s[cell + 1]
+        return np.asarray((spline.ev(log_load, high) - spline.ev(log_load, low)) / (high - low))
 
 
-def _key(load: float, s: float) -> tuple[float, float]:
-    """Return what tells two plane nips of a law apart, whatever the last digit."""
-    return float(f"{load:.9e}"), round(float(s), 9)
-
-
-def _error_between(
-    law: NipLaw, solved: Callable[[float, float], dict[str, float]]
-) -> dict[str, float]:
-    """Return the largest relative error of a law in the middle of its cells, by figure.
-
-    One cell for each pair of neighbouring loads, the measures of slip in turn.
-    """
-    middles = np.sqrt(law.loads[1:] * law.loads[:-1])
-    slips = 0.5 * (law.s[1:] + law.s[:-1]) if law.s.size > 1 else law.s
-    error = dict.fromkeys(("approach", "nip_width", "peak_pressure"), 0.0)
-    for i, load in enumerate(middles):
-        s = slips[i % slips.size]
-        fresh = solved(float(load), float(traction_share(np.array([s]))[0]))
-        log_load, at = np.array([np.log(load)]), np.array([s])
-        found = {name: float(law.figure(name, log_load, at)[0]) for name in error}
-        for name, value in found.items():
-            error[name] = max(error[name], abs(value / fresh[name] - 1.0))
-    return error
-
-
-def cross_section(
-    nip: Nip, model: Model, load: float, traction: float, cache: KernelCache | None = None
-) -> Solution:
-    """Solve one plane nip under a line load and a traction [N/mm]; ConvergenceError if it fails."""
-    one = replace(
-        nip, normal=LineLoad(load), tangential=Traction(traction), face_width=None, title=""
-    )
-    solution = solve(one, model, cache=cache)
-    if not solution.converged:
-        raise ConvergenceError(
-            f"The nip at {load:.4g} N/mm and a traction of {traction:.4g} N/mm, which the face "
-            f"needs, was not solved: {solution.status}",
-            solution,
-        )
-    return solution
-
-
-def _solved(nip: Nip, model: Model, load: float, share: float, cache: KernelCache) -> Solution:
-    within = float(np.clip(share, -_BEYOND, _BEYOND))
-    return cross_section(nip, model, load, within * nip.friction * load, cache)
-
-
-def _row(solution: Solution) -> dict[str, float]:
-    creepage = solution.creepage
-    figures = (
-        solution.approach,
-        0.0 if creepage is None else creepage,
-        solution.nip_width,
-        solution.peak_pressure,
-        solution.dissipation_friction,
-        solution.dissipation_viscous,
-    )
-    names = ("approach", "creepage", *FIGURES)
-    return {
-        name: float("nan") if value is None else float(value)
-        for name, value in zip(names, figures, strict=True)
-    }
+def _place(load: float, share: float, places: Places) -> tuple[Array, Array]:
+    log_load = np.log(load / float(places.scale[0]))
+    return np.array([log_load]), np.array([slip_measure(share)])

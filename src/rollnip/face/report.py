@@ -8,45 +8,29 @@ from typing import Any
 import numpy as np
 
 from rollnip._results.case import case_tree, problem_hash
+from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
 from rollnip.face.solution import FaceSolution
 
-_LISTS = (
-    "y",
-    "load",
-    "approach",
-    "nip_width",
-    "peak_pressure",
-    "traction",
-    "local_creepage",
-    "deflection_upper",
-    "deflection_lower",
-    "friction_loss",
-    "viscous_loss",
-)
+_SILENT = ("mean_load", "evenness")
+_OF_FRICTION = ("creepage", "total_traction", "largest_scrub")
 
 
 def face_dict(solution: FaceSolution) -> dict[str, Any]:
-    """Return the key "face" of a result: lists over y, uniformity, totals, bearings, errors."""
-    lists = {name: getattr(solution, name) for name in _LISTS}
+    """Return the key "face" of a result: scalars, bearings, errors, lists over y."""
     bearings = {
         name: None if one is None else [one.first, one.second]
         for name, one in ((name, solution.bearings(name)) for name in ("upper", "lower"))
     }
-    return {
-        "converged": solution.converged,
-        "status": solution.status,
-        "creepage": None if solution.nip.friction == 0.0 else solution.creepage,
-        "mean_load": solution.mean_load,
-        "total_load": solution.total_load,
-        "total_traction": solution.total_traction,
-        "evenness": solution.evenness,
-        "even_share": solution.even_share,
-        "largest_scrub": solution.largest_scrub,
+    tree: dict[str, Any] = {"converged": solution.converged, "status": solution.status}
+    tree |= {key: figure.value(solution) for key, figure in FACE_FIGURES.items()}
+    if solution.nip.friction == 0.0:
+        tree["creepage"] = None
+    tree |= {
         "bearing_forces": bearings,
         "error": dict(solution.error),
         "warnings": list(solution.warnings),
-        **{name: None if values is None else values.tolist() for name, values in lists.items()},
     }
+    return tree | {key: figure.values(solution) for key, figure in FACE_PROFILES.items()}
 
 
 def face_parts(solution: FaceSolution) -> dict[str, Any]:
@@ -57,6 +41,8 @@ def face_parts(solution: FaceSolution) -> dict[str, Any]:
         "skew": face.skew,
         "nip_angle": face.nip_angle,
     }
+    if face.bearing_offset is not None:
+        table["bearing_offset"] = face.bearing_offset
     case = case_tree(solution.nip, solution.model) | {"face": table}
     if face.end_loads is not None:
         table["end_loads"] = list(face.end_loads)
@@ -81,19 +67,29 @@ def face_lines(solution: FaceSolution) -> Iterator[str]:
     for label, values, unit in rows:
         shown = "".join(f" {_four(values[i], values):>12s}" for i in (0, middle, -1))
         yield f"  {label:22s}{shown} {unit}"
-    yield f"  {'total load':22s} {solution.total_load:12.5g} N"
-    if solution.nip.friction > 0.0:
-        yield f"  {'creepage of the face':22s} {100.0 * solution.creepage:12.4g} %"
-        yield f"  {'largest scrub':22s} {solution.largest_scrub:12.4g} N/mm"
-    yield f"  {'smallest/largest load':22s} {solution.evenness:12.4g}"
-    yield f"  {'within 10 % of mean':22s} {100.0 * solution.even_share:12.4g} % of the face"
+    for key, figure in FACE_FIGURES.items():
+        value = figure.value(solution)
+        hidden = solution.nip.friction == 0.0 and key in _OF_FRICTION
+        if value is not None and key not in _SILENT and not hidden:
+            yield f"  {figure.label:25s} {figure.text(_quiet(key, value, solution))}"
     for name in ("upper", "lower"):
         forces = solution.bearings(name)
         if forces is not None:
-            ends = f"{forces.first:12.5g} {'':12s} {forces.second:12.5g}"
-            yield f"  {'bearings, ' + name:22s} {ends} N"
+            ends = f"{forces.first:.5g} and {forces.second:.5g} N"
+            yield f"  {'bearings, ' + name:25s} {ends}"
     for warning in solution.warnings:
         yield f"  note: {warning}"
+
+
+def _quiet(key: str, value: float, solution: FaceSolution) -> float:
+    """Return 0 for a total that is a rounding error beside its size."""
+    sizes = {
+        "total_traction": solution.total_load,
+        "total_torque_upper": solution.total_load * solution.nip_width.max(),
+        "total_torque_lower": solution.total_load * solution.nip_width.max(),
+        "bearing_offset": float(np.max(np.abs(solution.approach))),
+    }
+    return 0.0 if abs(value) < 1e-7 * sizes.get(key, 0.0) else value
 
 
 def _four(value: float, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.face.law import NipLaw
-from rollnip.face.solve import Balance, FaceProblem
+from rollnip.face.solve import Balance, FaceProblem, torque
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.shafts import Face
@@ -17,6 +17,7 @@ from rollnip.shafts import Face
 Array = NDArray[np.float64]
 
 _EVEN = 0.1  # of the mean load: the share of the face that is even is counted within this
+_FINE = 2001  # places of an even grid, by which shares of the face are counted
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +99,21 @@ class FaceSolution:
         return self._of_law("peak_pressure")
 
     @cached_property
+    def slip_width(self) -> Array:
+        """Part of the nip width over which the surfaces slip, (n,) [mm]; 0 without friction."""
+        return np.clip(self._of_law("slip_width"), 0.0, self.nip_width)
+
+    @cached_property
+    def torque_upper(self) -> Array | None:
+        """Driving torque on the upper axle per length, (n,) [N]; None for a plane."""
+        return self._torque("upper")
+
+    @cached_property
+    def torque_lower(self) -> Array | None:
+        """Driving torque on the lower axle per length, (n,) [N]; None for a plane."""
+        return self._torque("lower")
+
+    @cached_property
     def friction_loss(self) -> Array | None:
         """Friction loss, (n,) [N/s = mW/mm]; None without speed."""
         return None if self.nip.speed is None else self._of_law("friction_loss")
@@ -133,17 +149,64 @@ class FaceSolution:
         return self.total_load / self.face.length
 
     @property
+    def total_torque_upper(self) -> float | None:
+        """Driving torque on the upper axle [N mm]; None for a plane."""
+        return self._total(self.torque_upper)
+
+    @property
+    def total_torque_lower(self) -> float | None:
+        """Driving torque on the lower axle [N mm]; None for a plane."""
+        return self._total(self.torque_lower)
+
+    @property
+    def total_friction_loss(self) -> float | None:
+        """Heat made where surfaces slip, whole face [N mm/s = mW]; None without speed."""
+        return self._total(self.friction_loss)
+
+    @property
+    def total_viscous_loss(self) -> float | None:
+        """Heat made inside the layers, whole face [N mm/s = mW]; None without speed."""
+        return self._total(self.viscous_loss)
+
+    @property
+    def power_upper(self) -> float | None:
+        """Power that the upper axle puts in [N mm/s = mW]; None without speed and for a plane."""
+        return self._power(self.total_torque_upper, self.nip.upper.curvature, 1.0)
+
+    @property
+    def power_lower(self) -> float | None:
+        """Power that the lower axle puts in [N mm/s = mW]; None without speed and for a plane."""
+        return self._power(self.total_torque_lower, self.nip.lower.curvature, -1.0)
+
+    @property
+    def bearing_offset(self) -> float | None:
+        """How much further the upper bearing at y > 0 has come than the other [mm].
+
+        None without a shaft of the upper roller.
+        """
+        shaft = self.nip.upper.shaft
+        return None if shaft is None else self.balance.tilt * shaft.bearing_distance
+
+    @property
     def evenness(self) -> float:
-        """Smallest over largest line load."""
+        """Smallest over largest line load; 0 where the nip is open somewhere."""
         return float(self.load.min() / self.load.max())
+
+    @property
+    def largest_departure(self) -> float:
+        """Largest departure of the line load from its mean, over the mean."""
+        return float(np.max(np.abs(self.load / self.mean_load - 1.0)))
 
     @property
     def even_share(self) -> float:
         """Share of the face whose line load is within 10 % of the mean."""
-        near = np.abs(self.load / self.mean_load - 1.0) <= _EVEN
-        # The share of a fine, even grid: places are denser at the ends.
-        y = np.linspace(self.y[0], self.y[-1], 2001)
-        return float(np.mean(np.interp(y, self.y, near.astype(float)) > 0.5))
+        return self.share_within(_EVEN)
+
+    def share_within(self, share: float) -> float:
+        """Return the part of the face whose line load is within ``share`` of the mean."""
+        y = np.linspace(self.y[0], self.y[-1], _FINE)
+        off = np.abs(np.interp(y, self.y, self.load) / self.mean_load - 1.0)
+        return float(np.mean(off <= share))
 
     @property
     def largest_scrub(self) -> float:
@@ -158,11 +221,27 @@ class FaceSolution:
             return None
         weight = self.problem.weights[0 if roller == "upper" else 1]
         pushed = self.load - weight if roller == "upper" else self.load + weight
-        moment = float(self.problem.grid.weights @ (pushed * self.y)) / one.shaft.bearing_distance
-        half = 0.5 * float(self.problem.grid.weights @ pushed)
+        weights, middle = self.problem.grid.weights, one.shaft.bearing_middle
+        moment = float(weights @ (pushed * (self.y - middle))) / one.shaft.bearing_distance
+        half = 0.5 * float(weights @ pushed)
         return Bearings(half - moment, half + moment)
 
+    def _torque(self, roller: str) -> Array | None:
+        found = self.balance
+        values = torque(self.problem, self.law, found.section, found.places, roller)
+        return None if np.isnan(values).any() else values
+
+    def _power(self, torque: float | None, curvature: float, sign: float) -> float | None:
+        """Return torque times angular speed: both rollers turn as wholes, by nominal radii."""
+        speed = self.nip.speed
+        if torque is None or speed is None:
+            return None
+        return torque * curvature * speed * (1.0 + sign * 0.5 * self.creepage)
+
+    def _total(self, values: Array | None) -> float | None:
+        return None if values is None else float(self.problem.grid.weights @ values)
+
     def _of_law(self, name: str) -> Array:
-        section = self.balance.section
-        values = self.law.figure(name, section.log_load, section.s)
+        found = self.balance
+        values = self.law.figure(name, found.section.log_load, found.section.s, found.places)
         return np.where(self.load > 0.0, values, 0.0)

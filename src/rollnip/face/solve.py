@@ -4,7 +4,7 @@
     w(y) = F(delta, xi),  t(y) = T(delta, xi),  xi(y) = xi_0 + c_u/R_u - c_l/R_l
 
 delta_0 and the tilt b follow from the load and from its moment (or are given), xi_0 from the mean
-traction (or is given). Newton's method on delta(y), delta_0, b and xi_0 together.
+traction or torque (or is given). Newton's method on delta(y), delta_0, b and xi_0 together.
 """
 
 from __future__ import annotations
@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.beam import Beam, FaceGrid
-from rollnip.face.law import NipLaw, Section
-from rollnip.nip import Approach, Creepage, LineLoad, Nip, Traction
+from rollnip.face.covering import Coverings, coverings_of, thinnest
+from rollnip.face.law import NipLaw, Places, Section
+from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Roller
 from rollnip.shafts import Face
 
@@ -28,6 +29,7 @@ _GRAVITY = 9.80665e-9  # N per (kg/m3) mm3
 _MOST_STEPS = 60
 _SETTLED = 1e-10  # largest change of an approach over the mean one
 _SMALLEST_STEP = 1e-6
+_LARGEST_CROWN = 0.05  # of the radius
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +43,9 @@ class FaceProblem:
     upper, lower : (n, n) deflection of each axis by the line load [mm2/N].
     weights : (2,) weight per length of each roller towards the lower one [N/mm].
     still : (n,) what delta has without load: crowns and skew, less what weight bends [mm].
-    local : (n,) creepage that the local radii add.
+    rise : (2, n) crown of each roller over its radius.
+    coverings : what the coverings are at the places.
+    stiffness : factor on every modulus of the layers.
     """
 
     nip: Nip
@@ -51,25 +55,56 @@ class FaceProblem:
     lower: Array
     weights: tuple[float, float]
     still: Array
-    local: Array
+    rise: Array
+    coverings: Coverings
+    stiffness: float = 1.0
 
     @property
-    def end_loads(self) -> tuple[float, float] | None:
-        """Total load of the nip and its moment about the middle [N, N mm]; None if not given."""
-        face, nip = self.face, self.nip
-        own = self.weights[0] * face.length
-        if face.end_loads is not None:
-            first, second = face.end_loads
-            assert nip.upper.shaft is not None
-            reach = 0.5 * nip.upper.shaft.bearing_distance
-            return first + second + own, (second - first) * reach
-        if isinstance(nip.normal, LineLoad):
-            return nip.normal.load * face.length, 0.0
+    def local(self) -> Array:
+        """Creepage that the local radii add, (n,)."""
+        return np.asarray(self.rise[0] - self.rise[1])
+
+    @property
+    def total(self) -> float | None:
+        """Total load of the nip [N]; None where the approach is given."""
+        if self.face.end_loads is not None:
+            return sum(self.face.end_loads) + self.weights[0] * self.face.length
+        if isinstance(self.nip.normal, LineLoad):
+            return self.nip.normal.load * self.face.length
+        return None
+
+    @property
+    def moment(self) -> float | None:
+        """Moment of the load about the middle of the face [N mm]; None where the tilt is given.
+
+        Weights act in the middle of the face, end loads at the bearings of the upper roller.
+        """
+        shaft, total = self.nip.upper.shaft, self.total
+        if self.tilt is not None or total is None:
+            return None
+        if self.face.end_loads is not None:
+            assert shaft is not None
+            pairs = zip(self.face.end_loads, shaft.bearings, strict=True)
+            return sum(force * place for force, place in pairs)
+        if shaft is None:
+            return 0.0
+        return (total - self.weights[0] * self.face.length) * shaft.bearing_middle
+
+    @property
+    def tilt(self) -> float | None:
+        """Tilt b that is given; None where it follows from the moment."""
+        if self.face.bearing_offset is not None:
+            assert self.nip.upper.shaft is not None
+            return self.face.bearing_offset / self.nip.upper.shaft.bearing_distance
+        if self.face.end_loads is None and isinstance(self.nip.normal, Approach):
+            return 0.0
         return None
 
 
-def face_problem(nip: Nip, face: Face, count: int) -> FaceProblem:
+def face_problem(nip: Nip, face: Face, count: int, stiffness: float = 1.0) -> FaceProblem:
     """Return beams, crowns and skew of a face on ``count`` places.
+
+    ``stiffness`` is a factor on every modulus of the layers.
 
     Raises
     ------
@@ -77,8 +112,9 @@ def face_problem(nip: Nip, face: Face, count: int) -> FaceProblem:
         where a shaft does not fit its roller, a crown is larger than the covering can take, or
         end loads are given without a shaft of the upper roller.
     """
-    if face.end_loads is not None and nip.upper.shaft is None:
-        raise InvalidInputError("`end_loads` need `upper.shaft`, for its distance of bearings.")
+    for name in ("end_loads", "bearing_offset"):
+        if getattr(face, name) is not None and nip.upper.shaft is None:
+            raise InvalidInputError(f"`{name}` needs `upper.shaft`, which says where bearings are.")
     grid = FaceGrid.of(face.length, count)
     upper, lower = (_flexibility(roller, face, grid) for roller in (nip.upper, nip.lower))
     down = cos(face.nip_angle)
@@ -98,7 +134,9 @@ def face_problem(nip: Nip, face: Face, count: int) -> FaceProblem:
         lower,
         weights,
         crowns[0] + crowns[1] - skew - bent,
-        crowns[0] * nip.upper.curvature - crowns[1] * nip.lower.curvature,
+        np.array([crowns[0] * nip.upper.curvature, crowns[1] * nip.lower.curvature]),
+        coverings_of(nip, grid.y, face.length, stiffness),
+        stiffness,
     )
 
 
@@ -125,10 +163,15 @@ def _crown(roller: Roller, grid: FaceGrid) -> Array:
 
 def _require_covered(roller: Roller, crown: Array) -> None:
     size = float(np.ptp(crown))
-    if roller.layers and size >= roller.coating_thickness:
+    if roller.layers and size >= thinnest(roller):
         raise InvalidInputError(
-            f"`crown` must be smaller than the covering, {roller.coating_thickness:g} mm thick, "
+            f"`crown` must be smaller than the covering, {thinnest(roller):g} mm thick, "
             f"got {2.0 * size:g} mm on the diameter."
+        )
+    if size * roller.curvature >= _LARGEST_CROWN:
+        raise InvalidInputError(
+            f"`crown` must be small against the diameter, at most {_LARGEST_CROWN:.0%} of "
+            f"{2.0 * roller.radius:g} mm, got {2.0 * size:g} mm on the diameter."
         )
 
 
@@ -140,6 +183,7 @@ class Balance:
     ----------
     approach : (n,) of the surfaces [mm]; negative where the nip is open.
     section : loads and tractions of the cross-sections.
+    places : coverings as the law takes them.
     middle, tilt : delta_0 [mm] and b.
     creepage : xi_0.
     steps : of Newton's method.
@@ -147,10 +191,28 @@ class Balance:
 
     approach: Array
     section: Section
+    places: Places
     middle: float
     tilt: float
     creepage: float
     steps: int
+
+
+@dataclass(frozen=True, slots=True)
+class _System:
+    """The equations of a face.
+
+    Attributes
+    ----------
+    problem, law : what they hold.
+    places : coverings as the law takes them.
+    scale : an approach, by which equations of another unit are weighed [mm].
+    """
+
+    problem: FaceProblem
+    law: NipLaw
+    places: Places
+    scale: float
 
 
 def balance(problem: FaceProblem, law: NipLaw) -> Balance:
@@ -161,15 +223,18 @@ def balance(problem: FaceProblem, law: NipLaw) -> Balance:
     ConvergenceError
         where Newton's method does not settle.
     """
-    unknowns = _start(problem, law)
-    wrong, slopes, section = _residual(problem, law, unknowns)
+    places = law.places(problem.coverings)
+    middle_load = float(np.sqrt(law.loads[0] * law.loads[-1])) * float(np.mean(places.scale))
+    system = _System(problem, law, places, law.approach_at(middle_load, 0.0, places.mean))
+    unknowns = _start(system)
+    wrong, slopes, section = _residual(system, unknowns)
     size = _size(wrong)
     for step in range(1, _MOST_STEPS + 1):
         change = np.linalg.solve(slopes, -wrong)
         share = 1.0
         while True:
             tried = unknowns + share * change
-            wrong, slopes, section = _residual(problem, law, tried)
+            wrong, slopes, section = _residual(system, tried)
             if _size(wrong) < size or share < _SMALLEST_STEP:
                 break
             share *= 0.5
@@ -177,9 +242,10 @@ def balance(problem: FaceProblem, law: NipLaw) -> Balance:
         scale = max(float(np.mean(np.abs(unknowns[:-3]))), 1e-12)
         if float(np.max(np.abs(share * change[:-3]))) < _SETTLED * scale:
             middle, tilt, creepage = (float(v) for v in unknowns[-3:])
-            return Balance(unknowns[:-3], section, middle, tilt, creepage, step)
+            return Balance(unknowns[:-3], section, places, middle, tilt, creepage, step)
     raise ConvergenceError(
-        "The balance of the face did not settle; try a smaller crown or skew, or a larger load."
+        "The balance of the face did not settle; try a smaller crown, skew or torque, or a larger "
+        "load."
     )
 
 
@@ -187,87 +253,95 @@ def _size(wrong: Array) -> float:
     return float(np.sqrt(np.mean(wrong**2)))
 
 
-def _start(problem: FaceProblem, law: NipLaw) -> Array:
+def _start(system: _System) -> Array:
     """Return approaches under an even load, and the creepage of free rolling there."""
-    n = problem.grid.y.size
-    given = problem.end_loads
-    nip = problem.nip
-    if given is not None:
-        load = given[0] / problem.face.length
-    else:
-        load = float(np.sqrt(law.loads[0] * law.loads[-1]))
+    problem, law, places = system.problem, system.law, system.places
+    n, nip, total = problem.grid.y.size, problem.nip, problem.total
+    load = float(np.sqrt(law.loads[0] * law.loads[-1])) * float(np.mean(places.scale))
+    if total is not None:
+        load = total / problem.face.length
     share = 0.0
     if isinstance(nip.tangential, Traction) and nip.friction > 0.0:
         share = float(np.clip(nip.tangential.traction / (nip.friction * load), -0.99, 0.99))
-    approach = law.approach_at(load, share)
-    creepage = 0.0 if nip.friction == 0.0 else law.creepage_at(load, share)
-    if isinstance(nip.normal, Approach) and problem.face.end_loads is None:
-        approach = nip.normal.approach
+    approach = law.approach_at(load, share, places.mean)
+    creepage = 0.0 if nip.friction == 0.0 else law.creepage_at(load, share, places.mean)
     middle = approach
-    if given is not None:
+    if total is not None:
         # As if the load were even: what crown and bending take off is added in the mean.
         away = (problem.upper + problem.lower) @ np.full(n, load)
         middle += float(problem.grid.weights @ (away - problem.still)) / problem.face.length
-    return np.concatenate([np.full(n, approach), [middle, 0.0, creepage]])
+    elif isinstance(nip.normal, Approach):
+        approach = middle = nip.normal.approach
+    return np.concatenate([np.full(n, approach), [middle, problem.tilt or 0.0, creepage]])
 
 
-def _residual(problem: FaceProblem, law: NipLaw, unknowns: Array) -> tuple[Array, Array, Section]:
+def _residual(system: _System, unknowns: Array) -> tuple[Array, Array, Section]:
     """Return what is left of the equations, their derivatives, and the cross-sections."""
-    nip, grid, y = problem.nip, problem.grid, problem.grid.y
+    problem, grid, y = system.problem, system.problem.grid, system.problem.grid.y
     n = y.size
     delta, (middle, tilt, creepage) = unknowns[:n], unknowns[n:]
-    section = law.at(delta, creepage + problem.local)
+    section = system.law.at(delta, creepage + problem.local, system.places)
     bends = problem.upper + problem.lower
     wrong, slopes = np.zeros(n + 3), np.zeros((n + 3, n + 3))
     wrong[:n] = delta + bends @ section.load - problem.still - middle - tilt * y
     slopes[:n, :n] = np.eye(n) + bends * section.load_slope[None, :]
     slopes[:n, n], slopes[:n, n + 1] = -1.0, -y
     slopes[:n, n + 2] = bends @ section.load_by_creepage
-    scale = law.approach_at(float(np.sqrt(law.loads[0] * law.loads[-1])), 0.0)
-    given = problem.end_loads
-    if given is None:
-        assert isinstance(nip.normal, Approach)
-        wrong[n], slopes[n, n] = middle - nip.normal.approach, 1.0
-        wrong[n + 1], slopes[n + 1, n + 1] = tilt * problem.face.length, problem.face.length
+    total, moment, length = problem.total, problem.moment, problem.face.length
+    mean = float(grid.weights @ section.load) if total is None else total
+    unit = system.scale / max(abs(mean), 1e-300)
+
+    def carried(row: int, weight: Array, goal: float, factor: float) -> None:
+        wrong[row] = factor * (weight @ section.load - goal)
+        slopes[row, :n] = factor * weight * section.load_slope
+        slopes[row, n + 2] = factor * (weight @ section.load_by_creepage)
+
+    if total is None:
+        assert isinstance(problem.nip.normal, Approach)
+        wrong[n], slopes[n, n] = middle - problem.nip.normal.approach, 1.0
     else:
-        total, moment = given
-        unit = scale / abs(total)
-        arm = unit / (0.5 * problem.face.length)
-        for row, weight, goal, factor in (
-            (n, grid.weights, total, unit),
-            (n + 1, grid.weights * y, moment, arm),
-        ):
-            wrong[row] = factor * (weight @ section.load - goal)
-            slopes[row, :n] = factor * weight * section.load_slope
-            slopes[row, n + 2] = factor * (weight @ section.load_by_creepage)
-    _drive(problem, section, creepage, scale, wrong, slopes)
+        carried(n, grid.weights, total, unit)
+    if moment is None:
+        assert problem.tilt is not None
+        wrong[n + 1], slopes[n + 1, n + 1] = (tilt - problem.tilt) * length, length
+    else:
+        carried(n + 1, grid.weights * y, moment, 2.0 * unit / length)
+    _drive(system, section, creepage, wrong, slopes)
     return wrong, slopes, section
 
 
-def _drive(
-    problem: FaceProblem,
-    section: Section,
-    creepage: float,
-    scale: float,
-    wrong: Array,
-    slopes: Array,
-) -> None:
-    """Write the equation of the mean traction, or of the creepage, into the last row."""
+def _drive(system: _System, section: Section, creepage: float, wrong: Array, slopes: Array) -> None:
+    """Write the equation of traction, torque or creepage into the last row."""
+    problem, scale = system.problem, system.scale
     nip, weights = problem.nip, problem.grid.weights
     n = weights.size
     if nip.friction == 0.0:
         wrong[n + 2], slopes[n + 2, n + 2] = scale * creepage, scale
-    elif isinstance(nip.tangential, Creepage):
+        return
+    if isinstance(nip.tangential, Creepage):
         wrong[n + 2] = scale * (creepage - nip.tangential.creepage)
         slopes[n + 2, n + 2] = scale
-    elif isinstance(nip.tangential, Traction):
-        carried = nip.friction * float(weights @ section.load)
-        unit = scale / max(carried, 1e-300)
-        goal = nip.tangential.traction * problem.face.length
-        wrong[n + 2] = unit * (float(weights @ section.traction) - goal)
-        slopes[n + 2, :n] = unit * weights * section.traction_slope
-        slopes[n + 2, n + 2] = unit * float(weights @ section.traction_by_creepage)
+        return
+    unit = scale / max(nip.friction * float(weights @ section.load), 1e-300)
+    if isinstance(nip.tangential, Traction):
+        goal, values = nip.tangential.traction, section.traction
+        by_approach, by_creepage = section.traction_slope, section.traction_by_creepage
     else:
-        raise InvalidInputError(
-            "`torque_lower` cannot be prescribed for a face; give `traction` or `creepage`."
-        )
+        assert isinstance(nip.tangential, Torque)
+        goal, unit = nip.tangential.torque_lower, unit * nip.lower.curvature
+        values = torque(problem, system.law, section, system.places, "lower")
+        arm = 1.0 + problem.rise[1]
+        slope = system.law.slopes("torque_lower", section, system.places)
+        by_approach, by_creepage = (arm * one for one in slope)
+    wrong[n + 2] = unit * (float(weights @ values) - goal * problem.face.length)
+    slopes[n + 2, :n] = unit * weights * by_approach
+    slopes[n + 2, n + 2] = unit * float(weights @ by_creepage)
+
+
+def torque(
+    problem: FaceProblem, law: NipLaw, section: Section, places: Places, roller: str
+) -> Array:
+    """Return the driving torque on one axle per length, (n,) [N]: forces at the local radius."""
+    values = law.figure(f"torque_{roller}", section.log_load, section.s, places)
+    arm = 1.0 + problem.rise[0 if roller == "upper" else 1]
+    return np.asarray(np.where(section.load > 0.0, arm * values, 0.0))

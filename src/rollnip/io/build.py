@@ -7,22 +7,20 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip.io.build_face import ShaftBuilder, face_of
 from rollnip.io.messages import placed, unknown_name
-from rollnip.io.profile import read_crown, read_profile
+from rollnip.io.profile import read_profile
 from rollnip.io.tables import (
     AnyMaterial,
     ArrheniusTable,
     CaseTable,
-    CrownTableTable,
     ElasticTable,
-    FaceTable,
     FractionalZenerTable,
     LayerTable,
     LossFactorTable,
     NipTable,
     PronyTable,
     RollerTable,
-    ShaftTable,
     ShiftTable,
     StandardLinearSolidTable,
     TabulatedTable,
@@ -49,7 +47,7 @@ from rollnip.materials.shore import shore_a_modulus
 from rollnip.model import Model
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Profile, Roller
-from rollnip.shafts import Crown, CrownTable, Face, Shaft
+from rollnip.shafts import Face
 
 _OF_THE_WHOLE = {
     "title": "title",
@@ -142,7 +140,10 @@ class Builder:
     def _controls(
         self, table: NipTable
     ) -> tuple[LineLoad | Approach, Traction | Creepage | Torque] | None:
-        normal = self._made("nip", lambda: _normal(table, self.table.face))
+        face = self.face()
+        if face is None and self.table.face is not None:
+            return None
+        normal = self._made("nip", lambda: _normal(table, face))
         tangential = self._made("nip", lambda: _tangential(table))
         return None if normal is None or tangential is None else (normal, tangential)
 
@@ -151,7 +152,10 @@ class Builder:
         layers = [self._layer(f"{path}.layers[{i}]", layer) for i, layer in enumerate(table.layers)]
         core = None if table.core == "rigid" else self._named(f"{path}.core", table.core)
         whole = tuple(layer for layer in layers if layer is not None)
-        shaft = self._shaft(f"{path}.shaft", table.shaft)
+        outermost = whole[0].material if whole else None
+        shaft = ShaftBuilder(self._made, self.errors, self.folder, outermost).shaft(
+            f"{path}.shaft", table.shaft
+        )
         return self._made(
             path,
             lambda: Roller(
@@ -162,50 +166,7 @@ class Builder:
     def face(self) -> Face | None:
         """Return the face; None where the case has none, or where it was refused."""
         table = self.table.face
-        if table is None:
-            return None
-        ends = None if table.end_loads is None else tuple(table.end_loads)
-        return self._made(
-            "face",
-            lambda: Face(
-                length=table.length,
-                skew=table.skew,
-                end_loads=ends,  # type: ignore[arg-type]
-                nip_angle=table.nip_angle,
-            ),
-        )
-
-    def _shaft(self, path: str, table: ShaftTable | None) -> Shaft | None:
-        if table is None:
-            return None
-        crown = self._crown(f"{path}.crown", table.crown)
-        values = table.model_dump(exclude={"crown", "modulus"})
-        if table.modulus is not None:
-            values["modulus"] = table.modulus
-        if crown is None:
-            return None
-        return self._made(path, lambda: Shaft(**values, crown=crown))
-
-    def _crown(self, path: str, table: float | CrownTableTable | None) -> Crown | CrownTable | None:
-        if table is None:
-            return Crown(0.0)
-        if isinstance(table, float):
-            return self._made(path, lambda: Crown(table))
-        if (table.height is None) == (table.file is None):
-            self.errors.append(f"{path}: must hold either height or file.")
-            return None
-        if table.height is not None:
-            height, shape = table.height, table.shape
-            return self._made(path, lambda: Crown(height, shape))
-        if self.folder is None:
-            self.errors.append(f"{path}: names a file, which is read for a case file alone.")
-            return None
-        assert table.file is not None
-        try:
-            return read_crown(self.folder / table.file)
-        except RollnipError as error:
-            self.errors.append(f"{path}: {error}")
-            return None
+        return None if table is None else self._made("face", lambda: face_of(table))
 
     def _profile(self, path: str, name: str | None) -> Profile | None:
         if name is None:
@@ -251,8 +212,8 @@ class Builder:
         return None if shift is None else self._made(f"{path}.shift", lambda: _shift(shift))
 
 
-def _normal(table: NipTable, face: FaceTable | None) -> LineLoad | Approach:
-    if face is not None and face.end_loads is not None and face.length > 0.0:
+def _normal(table: NipTable, face: Face | None) -> LineLoad | Approach:
+    if face is not None and face.end_loads is not None:
         return LineLoad(sum(face.end_loads) / face.length)
     if table.approach is not None:
         return Approach(table.approach)

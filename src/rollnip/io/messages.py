@@ -38,9 +38,12 @@ def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
                 f"nip: must hold only one of {', '.join(names)}, got {' and '.join(given)}."
             )
     face = tree.get("face")
-    ends = isinstance(face, dict) and "end_loads" in face
+    named = [one for one in ("end_loads", "arms") if isinstance(face, dict) and one in face]
+    ends = bool(named)
+    if len(named) > 1:
+        lines.append("face: must hold only one of end_loads, arms, got both.")
     if ends and ("load" in nip or "approach" in nip):
-        lines.append("nip: must not hold load or approach beside face.end_loads.")
+        lines.append(f"nip: must not hold load or approach beside face.{named[0]}.")
     if not ends and "load" not in nip and "approach" not in nip:
         lines.append("nip: must hold load or approach, got neither.")
     return lines

@@ -12,9 +12,10 @@ from pathlib import Path
 import numpy as np
 
 from rollnip._errors import InvalidInputError
-from rollnip.io.columns import read_columns
+from rollnip.io.columns import Columns, read_columns
+from rollnip.materials import Material, stiffness_of_hardness
 from rollnip.rollers import Profile
-from rollnip.shafts import CrownTable
+from rollnip.shafts import CoveringTable, CrownTable
 
 
 def read_profile(path: str | Path) -> Profile:
@@ -58,3 +59,53 @@ def read_crown(path: str | Path) -> CrownTable:
         return CrownTable(y, diameter)
     except InvalidInputError as problem:
         raise InvalidInputError(f"{table.source}: {problem}") from None
+
+
+def read_covering(path: str | Path, material: Material | None) -> CoveringTable:
+    """Read a covering from a CSV file or a workbook with the column ``y`` and others.
+
+    ``thickness`` of the outermost layer, in mm where the head names no unit; and at most one of
+    ``stiffness``, ``modulus`` (relaxed, in MPa) and ``shore_a``, by which it becomes stiffer or
+    softer than ``material``.
+
+    Raises
+    ------
+    InvalidInputError
+        as `read_profile` does; also where there are several of these, or no layer.
+    """
+    table = read_columns(path)
+    given = [name for name in ("stiffness", "modulus", "shore_a") if name in table.names]
+    if len(given) > 1 or ("thickness" not in table.names and not given):
+        raise InvalidInputError(
+            f"{table.source}: must have thickness, or one of stiffness, modulus, shore_a, or both; "
+            f"has {', '.join(table.names)}."
+        )
+    try:
+        y = table.samples("y", "length")
+        turn = slice(None, None, -1 if y.size > 1 and np.all(np.diff(y) < 0.0) else 1)
+        thickness = table.samples("thickness", "length") if "thickness" in table.names else None
+        stiffness = _stiffness(table, given[0], material) if given else None
+        return CoveringTable(
+            y[turn],
+            None if thickness is None else thickness[turn],
+            None if stiffness is None else stiffness[turn],
+        )
+    except InvalidInputError as problem:
+        text = str(problem)
+        raise InvalidInputError(
+            text if text.startswith(table.source) else f"{table.source}: {text}"
+        ) from None
+
+
+def _stiffness(
+    table: Columns, name: str, material: Material | None
+) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
+    """Return the modulus over that of the material, (n,)."""
+    if name == "stiffness":
+        return table.samples(name, "ratio")
+    if material is None:
+        raise InvalidInputError(f"`{name}` needs a layer, and the roller has none.")
+    if name == "modulus":
+        return np.asarray(table.samples(name, "pressure") / material.relaxed_modulus)
+    readings = table.samples(name, "ratio")
+    return np.array([stiffness_of_hardness(material, float(one)) for one in readings])

@@ -3,7 +3,13 @@
 from rollnip.materials.base import Material
 from rollnip.materials.elastic import Elastic
 from rollnip.materials.passivity import is_passive
-from rollnip.materials.relaxation import creep_compliance, relaxation_modulus, with_shore_a
+from rollnip.materials.relaxation import (
+    creep_compliance,
+    relaxation_modulus,
+    stiffness_of_hardness,
+    with_shore_a,
+)
+from rollnip.materials.scaling import with_stiffness
 from rollnip.materials.shift import WLF, Arrhenius, Shift, TabulatedShift
 from rollnip.materials.shore import (
     ShoreBand,
@@ -38,5 +44,7 @@ __all__ = [
     "shore_a_band",
     "shore_a_modulus",
     "shore_a_modulus_log_linear",
+    "stiffness_of_hardness",
     "with_shore_a",
+    "with_stiffness",
 ]

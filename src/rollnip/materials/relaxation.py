@@ -115,3 +115,23 @@ def with_shore_a(material: Solid, shore_a: float, *, reading_time: float = READI
             f"beyond its relaxed modulus, and a hardness of {shore_a:g} is {wanted:.3g} MPa."
         )
     return replace(material, modulus=relaxed)
+
+
+def stiffness_of_hardness(material: Material, shore_a: float) -> float:
+    """Return the factor on all moduli that makes a material as hard as a durometer says.
+
+    The modulus that a durometer reads, `READING_TIME` after contact at 23 degC, becomes that of the
+    hardness (Gent's formula). So readings along a face tell how its stiffness varies; what
+    `with_shore_a` leaves as it is, the relaxing part, goes in proportion here.
+
+    Raises
+    ------
+    InvalidInputError
+        for a hardness outside 20 to 95.
+    """
+    wanted = shore_a_modulus(shore_a)
+    if material.is_elastic or isinstance(material, LossFactor):
+        return wanted / material.relaxed_modulus
+    shift = getattr(material, "shift", None)
+    cold = material if shift is None else replace(material, temperature=LABORATORY)  # type: ignore[type-var]
+    return wanted / float(relaxation_modulus(cold, READING_TIME))

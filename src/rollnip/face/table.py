@@ -1,0 +1,265 @@
+"""Making the table of a law: which plane nips are solved, kept, and solved between to check it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Executor
+from dataclasses import dataclass, replace
+from functools import cache
+from itertools import pairwise
+from math import isnan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip.face.covering import Axis, nips_of, with_covering
+from rollnip.face.law import NAMES, NipLaw, Places, traction_share
+from rollnip.face.rows import NipRows, Place, Row
+from rollnip.influence import KernelCache
+from rollnip.model import Model
+from rollnip.nip import LineLoad, Nip, Traction
+from rollnip.solution import Solution
+from rollnip.solver import solve
+
+Array = NDArray[np.float64]
+Progress = Callable[[int, int], None]
+
+CHECKED = ("approach", "nip_width", "peak_pressure")
+"""Figures whose relative error between the nips of a table is looked for."""
+_BEYOND = 1.0 - 1e-9
+
+
+@dataclass(frozen=True, slots=True)
+class Lattice:
+    """Loads and slips of a table.
+
+    Attributes
+    ----------
+    loads : (m,) increasing [N/mm], evenly spaced in their logarithm.
+    s : (k,) increasing measures of partial slip; (1,) holding 0 without friction.
+    """
+
+    loads: Array
+    s: Array
+
+
+def nip_law(
+    nip: Nip,
+    model: Model,
+    lattice: Lattice,
+    axes: tuple[Axis, ...],
+    rows: NipRows,
+    progress: Progress | None = None,
+    executor: Executor | None = None,
+) -> NipLaw:
+    """Solve the plane nips of a law, and nips between them for its error.
+
+    Loads beyond one at which a nip has no solution are left out.
+
+    Parameters
+    ----------
+    nip, model : the cross-section; its load and traction are varied.
+    lattice : loads and slips.
+    axes : the coverings.
+    rows : takes what is solved; what it holds is not solved again.
+    progress : called after each solve with how many there are, and of how many.
+    executor : solves nips in other processes; None: here.
+
+    Raises
+    ------
+    ConvergenceError
+        where too few nips could be verified for a table; the message is that of the first.
+    InvalidInputError
+        where a core is a half-space, whose approach is not defined in plane strain.
+    """
+    if nip.has_half_space:
+        raise InvalidInputError(
+            "`core` must be rigid for a face: over a half-space core the approach is not defined."
+        )
+    work = _Work(model, rows, progress, executor)
+    nips = nips_of(nip, axes)
+    work.solve([(one, (load, s)) for one in nips for load in lattice.loads for s in lattice.s])
+    loads, faults = _usable(work, nips, lattice)
+    table = {
+        name: np.array(
+            [[[work.row(one, (load, s))[i] for s in lattice.s] for load in loads] for one in nips]
+        )
+        for i, name in enumerate(NAMES)
+    }
+    law = NipLaw(nip, model, loads, lattice.s, table, {}, axes, faults=faults, rows=rows)
+    by_load, by_slip = _error_between(law, nips[0], work)
+    error = {name: by_load[name] + by_slip[name] for name in by_load}
+    for axis in axes:
+        error[axis.name] = _error_of_axis(law, axis, work)
+    parts = max(by_load.values()), max(by_slip.values())
+    return replace(law, error=error, parts=parts, solves=work.done)
+
+
+class _Work:
+    """Solves nips that are not kept yet, here or in other processes."""
+
+    def __init__(
+        self, model: Model, rows: NipRows, progress: Progress | None, executor: Executor | None
+    ) -> None:
+        self.model, self.rows = model, rows
+        self.progress, self.executor = progress, executor
+        self.done = 0
+
+    def solve(self, wanted: Sequence[tuple[Nip, Place]]) -> None:
+        """Solve what is not kept."""
+        missing = [one for one in wanted if self.rows.get(one[0], self.model, one[1]) is None]
+        for (nip, place), row in zip(missing, self._solved(missing), strict=True):
+            self.rows.keep(nip, self.model, place, row)
+            self.done += 1
+            if self.progress is not None:
+                self.progress(self.done, max(self.done, len(missing)))
+
+    def _solved(self, missing: Sequence[tuple[Nip, Place]]) -> Iterator[Row | str]:
+        if self.executor is None:
+            for nip, place in missing:
+                yield _row_or_fault(nip, self.model, place, self.rows.kernels)
+            return
+        tasks = [(nip, self.model, place) for nip, place in missing]
+        yield from self.executor.map(_row_of_task, tasks, chunksize=8)
+
+    def row(self, nip: Nip, place: Place) -> Row:
+        """Return the figures of a nip; raise ConvergenceError where it has none."""
+        self.solve([(nip, place)])
+        found = self.rows.get(nip, self.model, place)
+        if not isinstance(found, tuple):
+            raise ConvergenceError(str(found))
+        return found
+
+    def fault(self, nip: Nip, place: Place) -> str:
+        """Return why a nip has no solution; empty where it has one."""
+        found = self.rows.get(nip, self.model, place)
+        return found if isinstance(found, str) else ""
+
+
+def _usable(work: _Work, nips: Sequence[Nip], lattice: Lattice) -> tuple[Array, tuple[str, str]]:
+    """Return the largest range of loads at which every nip has a solution, and why it ends."""
+    faults = [
+        next((f for one in nips for s in lattice.s if (f := work.fault(one, (load, s)))), "")
+        for load in lattice.loads
+    ]
+    best, start = (0, 0), 0
+    for i, fault in enumerate([*faults, "end"]):
+        if fault:
+            best = max(best, (i - start, start))
+            start = i + 1
+    length, first = best
+    if length < 4:
+        raise ConvergenceError(next(fault for fault in faults if fault))
+    before = faults[first - 1] if first > 0 else ""
+    return lattice.loads[first : first + length], (before, [*faults, ""][first + length])
+
+
+def _error_between(law: NipLaw, nip: Nip, work: _Work) -> tuple[dict[str, float], dict[str, float]]:
+    """Return the largest errors of a law between its loads, and between its slips, by figure.
+
+    Of the traction the error is that of the creepage times what the traction makes of it, over
+    friction * load.
+    """
+    loads, s = law.loads, law.s
+    middles = [(float(np.sqrt(a * b)), float(s[i % s.size])) for i, (a, b) in _pairs(loads)]
+    by_load = _worst(law, nip, middles, work)
+    if s.size == 1:
+        return by_load, dict.fromkeys(by_load, 0.0)
+    between = [(float(loads[(2 * i + 1) % loads.size]), 0.5 * (a + b)) for i, (a, b) in _pairs(s)]
+    return by_load, _worst(law, nip, between, work)
+
+
+def _pairs(values: Array) -> list[tuple[int, tuple[float, float]]]:
+    return list(enumerate(pairwise(values.tolist())))
+
+
+def _worst(
+    law: NipLaw, nip: Nip, places: Sequence[Place], work: _Work, at: Places | None = None
+) -> dict[str, float]:
+    work.solve([(nip, place) for place in places])
+    error = dict.fromkeys((*CHECKED, "traction"), 0.0)
+    first = np.zeros((1, len(next(iter(law.table.values())))))
+    first[0, 0] = 1.0
+    here = Places(first, np.ones(1)) if at is None else at
+    for load, s in places:
+        if work.fault(nip, (load, s)):
+            continue
+        fresh = dict(zip(NAMES, work.row(nip, (load, s)), strict=True))
+        log_load, slip = np.array([np.log(load)]), np.array([s])
+        for name in CHECKED:
+            found = float(law.figure(name, log_load, slip, here)[0])
+            error[name] = max(error[name], abs(found / fresh[name] - 1.0))
+        if law.s.size > 1:
+            off = float(law.figure("creepage", log_load, slip, here)[0]) - fresh["creepage"]
+            per_s = float(law.creepage_slope(log_load, slip, here)[0])
+            share = 2.0 * (1.0 - abs(s)) * float(abs(off / per_s))
+            error["traction"] = max(error["traction"], share)
+    return error
+
+
+def _error_of_axis(law: NipLaw, axis: Axis, work: _Work) -> float:
+    """Return the largest error of a law between two nodes of one of its axes."""
+    if len(axis.nodes) == 1:
+        return 0.0
+    state = {one.key: one.nodes[len(one.nodes) // 2] for one in law.axes}
+    state[axis.key] = axis.between_nodes
+    weights = np.ones((1, 1))
+    for one in law.axes:
+        own = one.weights(np.array([state[one.key]]))
+        weights = (weights[:, :, None] * own[:, None, :]).reshape(1, -1)
+    nip = with_covering(law.nip, state)
+    s = float(law.s[law.s.size // 2])
+    places = [(float(law.loads[i]), s) for i in (law.loads.size // 2, -1)]
+    return max(_worst(law, nip, places, work, Places(weights, np.ones(1))).values())
+
+
+@cache
+def _own_kernels() -> KernelCache:
+    """Return the influence functions of a worker process."""
+    return KernelCache()
+
+
+def _row_of_task(task: tuple[Nip, Model, Place]) -> Row | str:
+    return _row_or_fault(*task, _own_kernels())
+
+
+def _row_or_fault(nip: Nip, model: Model, place: Place, kernels: KernelCache) -> Row | str:
+    """Return the figures of a plane nip, or why it has no solution."""
+    load, s = float(place[0]), float(place[1])
+    share = float(np.clip(traction_share(np.array([s]))[0], -_BEYOND, _BEYOND))
+    traction = share * nip.friction * load
+    one = replace(
+        nip, normal=LineLoad(load), tangential=Traction(traction), face_width=None, title=""
+    )
+    try:
+        solution = solve(one, model, cache=kernels)
+    except (ConvergenceError, InvalidInputError) as error:
+        return _fault(load, traction, str(error))
+    if not solution.converged:
+        return _fault(load, traction, solution.status)
+    return _row(solution)
+
+
+def _fault(load: float, traction: float, why: str) -> str:
+    return (
+        f"The nip at {load:.4g} N/mm and a traction of {traction:.4g} N/mm, which the face "
+        f"needs, was not solved: {why}"
+    )
+
+
+def _row(solution: Solution) -> Row:
+    slips = sum(zone.stop - zone.start for zone in solution.zones if zone.state == "slip")
+    figures = {
+        "approach": solution.approach,
+        "creepage": solution.creepage or 0.0,
+        "nip_width": solution.nip_width,
+        "slip_width": slips,
+        "peak_pressure": solution.peak_pressure,
+        "torque_upper": solution.torque_upper,
+        "torque_lower": solution.torque_lower,
+        "friction_loss": solution.dissipation_friction,
+        "viscous_loss": solution.dissipation_viscous,
+    }
+    values = (figures[name] for name in NAMES)
+    return tuple(float("nan") if value is None or isnan(value) else value for value in values)

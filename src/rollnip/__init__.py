@@ -38,7 +38,15 @@ if TYPE_CHECKING:
     from rollnip.patch import solve_patch
     from rollnip.patches import Across, Force, Patch
     from rollnip.rollers import Layer, Profile, Roller
-    from rollnip.shafts import Crown, CrownTable, Face, Shaft
+    from rollnip.shafts import (
+        CoveringTable,
+        Crown,
+        CrownTable,
+        Face,
+        JournalStep,
+        PivotArm,
+        Shaft,
+    )
     from rollnip.solution import Solution
     from rollnip.solver import solve
     from rollnip.sweeps import sweep
@@ -65,7 +73,15 @@ _HOMES = {
     "rollnip.patch": ("solve_patch",),
     "rollnip.patches": ("Across", "Force", "Patch"),
     "rollnip.rollers": ("Layer", "Profile", "Roller"),
-    "rollnip.shafts": ("Crown", "CrownTable", "Face", "Shaft"),
+    "rollnip.shafts": (
+        "CoveringTable",
+        "Crown",
+        "CrownTable",
+        "Face",
+        "JournalStep",
+        "PivotArm",
+        "Shaft",
+    ),
     "rollnip.solution": ("Solution",),
     "rollnip.solver": ("solve",),
     "rollnip.sweeps": ("sweep",),
@@ -80,6 +96,7 @@ __all__ = [
     "Case",
     "CaseFileError",
     "ConvergenceError",
+    "CoveringTable",
     "Creepage",
     "Crown",
     "CrownTable",
@@ -88,6 +105,7 @@ __all__ = [
     "Force",
     "FractionalZener",
     "InvalidInputError",
+    "JournalStep",
     "KernelCache",
     "Layer",
     "LineLoad",
@@ -95,6 +113,7 @@ __all__ = [
     "Model",
     "Nip",
     "Patch",
+    "PivotArm",
     "Profile",
     "Prony",
     "Roller",

@@ -11,7 +11,7 @@ from typing import Any, TypeVar
 
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.io.profile import read_covering, read_crown
-from rollnip.io.tables import (
+from rollnip.io.tables_face import (
     CoveringTableTable,
     CrownTableTable,
     FaceTable,

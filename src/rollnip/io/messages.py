@@ -11,7 +11,8 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from rollnip._errors import CaseFileError
-from rollnip.io.tables import TABLES, CaseTable, Table
+from rollnip.io.forms import Table
+from rollnip.io.tables import TABLES, CaseTable
 
 _CONTROLS = (("load", "approach"), ("traction", "creepage", "torque_lower"))
 _NAMED = re.compile(r"`(\w+)([^`]*)` (.*)", re.DOTALL)

@@ -17,7 +17,8 @@ from pydantic import BaseModel
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension
-from rollnip.io.tables import MATERIALS, CaseTable, Quantity
+from rollnip.io.forms import Quantity
+from rollnip.io.tables import MATERIALS, CaseTable
 
 _PART = re.compile(r"([A-Za-z_][A-Za-z0-9_-]*)((?:\[\d{1,4}\])*)")
 _EITHER = (("load", "approach"), ("traction", "creepage", "torque_lower"))

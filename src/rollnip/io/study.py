@@ -7,8 +7,8 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
 
+from rollnip.io.forms import Table
 from rollnip.io.messages import checked_form
-from rollnip.io.tables import Table
 
 
 class ParameterTable(Table):

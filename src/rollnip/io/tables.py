@@ -7,65 +7,33 @@ constructors of the problem itself.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, ConfigDict, Discriminator, Field, GetJsonSchemaHandler, Tag
-from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+from pydantic import ConfigDict, Discriminator, Field, Tag
 
-from rollnip._errors import InvalidInputError
-from rollnip._units import Dimension, base_unit, example, known_units, parse_quantity
-
-
-@dataclass(frozen=True, slots=True)
-class Quantity:
-    """Marks a float of a table as a number in the base unit, or a text that carries its unit."""
-
-    dimension: Dimension
-    infinite: bool = False
-
-    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
-        """Read with the unit parser."""
-        return core_schema.no_info_plain_validator_function(self._read)
-
-    def __get_pydantic_json_schema__(
-        self, _schema: CoreSchema, _handler: GetJsonSchemaHandler
-    ) -> dict[str, Any]:
-        """Say which units there are."""
-        number = f"A number in {base_unit(self.dimension)}".removesuffix(" in ")
-        units = ", ".join(known_units(self.dimension))
-        return {
-            "description": f"{number}, or a text with one of: {units}.",
-            "anyOf": [{"type": "number"}, {"type": "string"}],
-            "examples": [example(self.dimension)],
-        }
-
-    def _read(self, value: object) -> float:
-        try:
-            return parse_quantity(value, self.dimension, infinite=self.infinite)
-        except InvalidInputError as error:
-            raise PydanticCustomError("quantity", "{why}", {"why": str(error)}) from None
-
-
-Length = Annotated[float, Quantity("length")]
-Radius = Annotated[float, Quantity("length", infinite=True)]
-Force = Annotated[float, Quantity("force")]
-Density = Annotated[float, Quantity("density")]
-Angle = Annotated[float, Quantity("angle")]
-LineLoad = Annotated[float, Quantity("line load")]
-Pressure = Annotated[float, Quantity("pressure")]
-Ratio = Annotated[float, Quantity("ratio")]
-Speed = Annotated[float, Quantity("speed")]
-Temperature = Annotated[float, Quantity("temperature")]
-TemperatureDifference = Annotated[float, Quantity("temperature difference")]
-Time = Annotated[float, Quantity("time")]
-MolarEnergy = Annotated[float, Quantity("molar energy")]
-
-
-class Table(BaseModel):
-    """A table of the file; unknown keys are errors."""
-
-    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
+from rollnip.io.forms import (
+    Force,
+    Length,
+    LineLoad,
+    MolarEnergy,
+    Pressure,
+    Radius,
+    Ratio,
+    Speed,
+    Table,
+    Temperature,
+    TemperatureDifference,
+    Time,
+)
+from rollnip.io.tables_face import (
+    ArmForceTable,
+    ArmTable,
+    CoveringTableTable,
+    CrownTableTable,
+    FaceTable,
+    JournalStepTable,
+    ShaftTable,
+)
 
 
 def _tag(models: tuple[str, ...], *, names: bool = False) -> Callable[[Any], str | None]:
@@ -229,103 +197,6 @@ class LayerTable(Table):
     material: MaterialOrName
 
 
-class CrownTableTable(Table):
-    """A crown on the diameter: a height and a shape, lists over y, or a file."""
-
-    height: Length | None = None
-    shape: Literal["parabolic", "cosine", "circular"] = "parabolic"
-    y: list[Length] | None = Field(None, description="Places from the middle of the face.")
-    diameter: list[Length] | None = Field(None, description="There, over the nominal one.")
-    file: str | None = Field(
-        None,
-        description="CSV file with the columns y, from the middle of the face, and diameter over "
-        "the nominal one.",
-    )
-
-
-class JournalStepTable(Table):
-    """A part of a journal of one diameter."""
-
-    diameter: Length
-    length: Length | None = Field(None, description="Along the axis; none: on to the bearing.")
-
-
-class CoveringTableTable(Table):
-    """The covering over the face: lists over y, or a file."""
-
-    y: list[Length] | None = Field(None, description="Places from the middle of the face.")
-    thickness: list[Length] | None = Field(None, description="Of the outermost layer.")
-    stiffness: list[Ratio] | None = Field(
-        None, description="Modulus of the outermost layer over that of its material."
-    )
-    file: str | None = Field(
-        None,
-        description="CSV file with the column y and thickness, and one of stiffness, modulus, "
-        "shore_a.",
-    )
-
-
-class ShaftTable(Table):
-    """The shaft that carries the core of a roller over its face."""
-
-    bearing_distance: Length
-    bearing_middle: Length = Field(
-        0.0, description="Where the middle between the bearings lies, from that of the face."
-    )
-    bore: Length = 0.0
-    journal_diameter: Length | None = None
-    journals: list[JournalStepTable] = Field(
-        [], description="Steps of both journals instead, from the face to the bearing."
-    )
-    modulus: Pressure | None = None
-    poisson: Ratio = 0.3
-    density: Density | None = None
-    crown: Length | CrownTableTable | None = Field(
-        None, description="Height on the diameter, parabolic; or a table with height and shape."
-    )
-    profiles: list[CrownTableTable] = Field(
-        [], description="Further changes of the diameter: wear, thermal growth."
-    )
-    covering: CoveringTableTable | None = None
-
-
-class ArmForceTable(Table):
-    """A force on a pivot arm, with its distance from the pivot."""
-
-    force: Force
-    lever: Length
-
-
-class ArmTable(Table):
-    """A pivot arm that presses a bearing of the upper roller onto the lower one."""
-
-    bearing_lever: Length = Field(
-        description="Distance of the bearing's line of pressing from the pivot."
-    )
-    forces: list[ArmForceTable] = Field(
-        description="Dead weights, the arm's own weight, a cylinder; negative where they lift."
-    )
-
-
-class FaceTable(Table):
-    """The nip along its rollers."""
-
-    length: Length
-    skew: Angle = 0.0
-    end_loads: list[Force] | None = Field(
-        None, description="Forces on the bearings of the upper roller, at y < 0 and at y > 0."
-    )
-    arms: list[ArmTable] | None = Field(
-        None, description="Pivot arms that make the end loads: one for both ends, or two."
-    )
-    bearing_offset: Length | None = Field(
-        None,
-        description="How much further the upper roller's bearing at y > 0 comes towards the lower "
-        "roller than that at y < 0.",
-    )
-    nip_angle: Angle = 0.0
-
-
 class RollerTable(Table):
     """A roller: radius, core, and layers from the surface to the core."""
 
@@ -333,7 +204,7 @@ class RollerTable(Table):
     core: MaterialOrName = Field(
         "rigid", description="'rigid', or the material of a half-space below the layers."
     )
-    layers: list[LayerTable] = []
+    layers: list[LayerTable] = Field(default=[])
     profile: str | None = Field(
         None,
         description="CSV file with the columns x and height over the smooth surface, in the "
@@ -379,7 +250,7 @@ class CaseTable(Table):
     face: FaceTable | None = None
     upper: RollerTable
     lower: RollerTable
-    materials: dict[str, Material] = {}
+    materials: dict[str, Material] = Field(default={})
 
 
 TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIALS.items()} | {

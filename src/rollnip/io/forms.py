@@ -1,0 +1,63 @@
+"""The forms that values of a file may have: quantities with their units, and tables of keys."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler
+from pydantic_core import CoreSchema, PydanticCustomError, core_schema
+
+from rollnip._errors import InvalidInputError
+from rollnip._units import Dimension, base_unit, example, known_units, parse_quantity
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """Marks a float of a table as a number in the base unit, or a text that carries its unit."""
+
+    dimension: Dimension
+    infinite: bool = False
+
+    def __get_pydantic_core_schema__(self, _source: Any, _handler: Any) -> CoreSchema:
+        """Read with the unit parser."""
+        return core_schema.no_info_plain_validator_function(self._read)
+
+    def __get_pydantic_json_schema__(
+        self, _schema: CoreSchema, _handler: GetJsonSchemaHandler
+    ) -> dict[str, Any]:
+        """Say which units there are."""
+        number = f"A number in {base_unit(self.dimension)}".removesuffix(" in ")
+        units = ", ".join(known_units(self.dimension))
+        return {
+            "description": f"{number}, or a text with one of: {units}.",
+            "anyOf": [{"type": "number"}, {"type": "string"}],
+            "examples": [example(self.dimension)],
+        }
+
+    def _read(self, value: object) -> float:
+        try:
+            return parse_quantity(value, self.dimension, infinite=self.infinite)
+        except InvalidInputError as error:
+            raise PydanticCustomError("quantity", "{why}", {"why": str(error)}) from None
+
+
+Length = Annotated[float, Quantity("length")]
+Radius = Annotated[float, Quantity("length", infinite=True)]
+Force = Annotated[float, Quantity("force")]
+Density = Annotated[float, Quantity("density")]
+Angle = Annotated[float, Quantity("angle")]
+LineLoad = Annotated[float, Quantity("line load")]
+Pressure = Annotated[float, Quantity("pressure")]
+Ratio = Annotated[float, Quantity("ratio")]
+Speed = Annotated[float, Quantity("speed")]
+Temperature = Annotated[float, Quantity("temperature")]
+TemperatureDifference = Annotated[float, Quantity("temperature difference")]
+Time = Annotated[float, Quantity("time")]
+MolarEnergy = Annotated[float, Quantity("molar energy")]
+
+
+class Table(BaseModel):
+    """A table of the file; unknown keys are errors."""
+
+    model_config = ConfigDict(extra="forbid", strict=True, frozen=True)

@@ -1,0 +1,114 @@
+"""The tables of a case file about a face: which keys there are and what each may hold."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from rollnip.io.forms import (
+    Angle,
+    Density,
+    Force,
+    Length,
+    Pressure,
+    Ratio,
+    Table,
+)
+
+
+class CrownTableTable(Table):
+    """A crown on the diameter: a height and a shape, lists over y, or a file."""
+
+    height: Length | None = None
+    shape: Literal["parabolic", "cosine", "circular"] = "parabolic"
+    y: list[Length] | None = Field(None, description="Places from the middle of the face.")
+    diameter: list[Length] | None = Field(None, description="There, over the nominal one.")
+    file: str | None = Field(
+        None,
+        description="CSV file with the columns y, from the middle of the face, and diameter over "
+        "the nominal one.",
+    )
+
+
+class JournalStepTable(Table):
+    """A part of a journal of one diameter."""
+
+    diameter: Length
+    length: Length | None = Field(None, description="Along the axis; none: on to the bearing.")
+
+
+class CoveringTableTable(Table):
+    """The covering over the face: lists over y, or a file."""
+
+    y: list[Length] | None = Field(None, description="Places from the middle of the face.")
+    thickness: list[Length] | None = Field(None, description="Of the outermost layer.")
+    stiffness: list[Ratio] | None = Field(
+        None, description="Modulus of the outermost layer over that of its material."
+    )
+    file: str | None = Field(
+        None,
+        description="CSV file with the column y and thickness, and one of stiffness, modulus, "
+        "shore_a.",
+    )
+
+
+class ShaftTable(Table):
+    """The shaft that carries the core of a roller over its face."""
+
+    bearing_distance: Length
+    bearing_middle: Length = Field(
+        0.0, description="Where the middle between the bearings lies, from that of the face."
+    )
+    bore: Length = 0.0
+    journal_diameter: Length | None = None
+    journals: list[JournalStepTable] = Field(
+        [], description="Steps of both journals instead, from the face to the bearing."
+    )
+    modulus: Pressure | None = None
+    poisson: Ratio = 0.3
+    density: Density | None = None
+    crown: Length | CrownTableTable | None = Field(
+        None, description="Height on the diameter, parabolic; or a table with height and shape."
+    )
+    profiles: list[CrownTableTable] = Field(
+        [], description="Further changes of the diameter: wear, thermal growth."
+    )
+    covering: CoveringTableTable | None = None
+
+
+class ArmForceTable(Table):
+    """A force on a pivot arm, with its distance from the pivot."""
+
+    force: Force
+    lever: Length
+
+
+class ArmTable(Table):
+    """A pivot arm that presses a bearing of the upper roller onto the lower one."""
+
+    bearing_lever: Length = Field(
+        description="Distance of the bearing's line of pressing from the pivot."
+    )
+    forces: list[ArmForceTable] = Field(
+        description="Dead weights, the arm's own weight, a cylinder; negative where they lift."
+    )
+
+
+class FaceTable(Table):
+    """The nip along its rollers."""
+
+    length: Length
+    skew: Angle = 0.0
+    end_loads: list[Force] | None = Field(
+        None, description="Forces on the bearings of the upper roller, at y < 0 and at y > 0."
+    )
+    arms: list[ArmTable] | None = Field(
+        None, description="Pivot arms that make the end loads: one for both ends, or two."
+    )
+    bearing_offset: Length | None = Field(
+        None,
+        description="How much further the upper roller's bearing at y > 0 comes towards the lower "
+        "roller than that at y < 0.",
+    )
+    nip_angle: Angle = 0.0

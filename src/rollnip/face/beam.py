@@ -172,11 +172,16 @@ def _overhangs(shaft: Shaft, length: float) -> tuple[float, float]:
     """Return how far both bearings lie beyond the face [mm]."""
     first, second = shaft.bearings
     overhangs = -0.5 * length - first, second - 0.5 * length
+    if shaft.bearing_distance < length:
+        raise InvalidInputError(
+            f"`bearing_distance` must be at least the length of the face, {length:g} mm, got "
+            f"{shaft.bearing_distance:g} mm; bearings inside the face are not modelled."
+        )
     if min(overhangs) < 0.0:
         raise InvalidInputError(
-            f"`bearing_distance` must set both bearings beyond the face of {length:g} mm; they lie "
-            f"at {first:g} and {second:g} mm from its middle, and bearings inside the face are "
-            "not modelled."
+            f"`bearing_middle` must leave both bearings beyond the face, at most "
+            f"{0.5 * (shaft.bearing_distance - length):g} mm in size, got "
+            f"{shaft.bearing_middle:g} mm; bearings inside the face are not modelled."
         )
     return overhangs
 

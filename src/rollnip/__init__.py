@@ -19,7 +19,17 @@ from rollnip._errors import (
 )
 
 if TYPE_CHECKING:
+    from rollnip.cooling import (
+        Coolant,
+        Cooling,
+        HeatBalance,
+        Held,
+        Insulated,
+        PassingSheet,
+        Shell,
+    )
     from rollnip.face import solve_face
+    from rollnip.heat import follow_heat, solve_heat, warm_up
     from rollnip.identification import identify
     from rollnip.influence import KernelCache
     from rollnip.io import Case, read_case, write_result
@@ -32,6 +42,7 @@ if TYPE_CHECKING:
         Prony,
         StandardLinearSolid,
         TabulatedShift,
+        Thermal,
     )
     from rollnip.model import Model
     from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
@@ -62,16 +73,29 @@ _HOMES = {
         "Arrhenius",
         "Elastic",
         "FractionalZener",
+        "HeatBalance",
         "LossFactor",
         "Prony",
         "StandardLinearSolid",
         "TabulatedShift",
+        "Thermal",
+        "Thermal",
     ),
     "rollnip.model": ("Model",),
     "rollnip.nip": ("Approach", "Creepage", "LineLoad", "Nip", "Torque", "Traction"),
+    "rollnip.cooling": (
+        "Coolant",
+        "Cooling",
+        "HeatBalance",
+        "Held",
+        "Insulated",
+        "PassingSheet",
+        "Shell",
+    ),
     "rollnip.face": ("solve_face",),
     "rollnip.patch": ("solve_patch",),
     "rollnip.patches": ("Across", "Force", "Patch"),
+    "rollnip.heat": ("follow_heat", "solve_heat", "warm_up"),
     "rollnip.rollers": ("Layer", "Profile", "Roller"),
     "rollnip.shafts": (
         "CoveringTable",
@@ -96,6 +120,8 @@ __all__ = [
     "Case",
     "CaseFileError",
     "ConvergenceError",
+    "Coolant",
+    "Cooling",
     "CoveringTable",
     "Creepage",
     "Crown",
@@ -104,6 +130,9 @@ __all__ = [
     "Face",
     "Force",
     "FractionalZener",
+    "HeatBalance",
+    "Held",
+    "Insulated",
     "InvalidInputError",
     "JournalStep",
     "KernelCache",
@@ -112,6 +141,7 @@ __all__ = [
     "LossFactor",
     "Model",
     "Nip",
+    "PassingSheet",
     "Patch",
     "PivotArm",
     "Profile",
@@ -120,18 +150,23 @@ __all__ = [
     "RollnipError",
     "RollnipWarning",
     "Shaft",
+    "Shell",
     "Solution",
     "StandardLinearSolid",
     "TabulatedShift",
+    "Thermal",
     "Torque",
     "Traction",
     "__version__",
+    "follow_heat",
     "identify",
     "read_case",
     "solve",
     "solve_face",
+    "solve_heat",
     "solve_patch",
     "sweep",
+    "warm_up",
     "write_result",
 ]
 

@@ -19,6 +19,7 @@ from rollnip.interior import (
     SurfaceTractions,
     interface_stresses,
     interior_field,
+    loss_below,
 )
 from rollnip.model import Model
 from rollnip.nip import Nip
@@ -300,6 +301,32 @@ class Solution(Presented):
             side=side,
             window=float(np.pi) * min(self.nip.upper.radius, self.nip.lower.radius),
         )
+
+    def heat_below(self, roller: Literal["upper", "lower"], z: ArrayLike) -> Array | None:
+        """Return the power lost inside a roller below some depths; None without speed.
+
+        Parameters
+        ----------
+        roller : "upper" or "lower".
+        z : (nz,) depths [mm], from 0 at the surface to the bottom of the layers.
+
+        Returns
+        -------
+        (nz,) powers [N/s = mW/mm]; at depth 0 all that the roller loses, 0 for an elastic one.
+        Both rollers together at depth 0 are ``dissipation_viscous``.
+        """
+        if self.nip.speed is None:
+            return None
+        upper = roller == "upper"
+        one, rate = (self.nip.upper, self._rates[0]) if upper else (self.nip.lower, self._rates[1])
+        lost = loss_below(
+            one,
+            self._tractions_on(roller),
+            np.atleast_1d(np.asarray(z, dtype=float)),
+            self.model.geometry,
+            self.nip.speed,
+        )
+        return self.nip.speed * rate * lost
 
     @cached_property
     def interfaces(self) -> tuple[InterfaceStress, ...]:

@@ -3,7 +3,7 @@
 from rollnip.interior.bonds import INTERFACE_FIGURES, InterfaceStress, interface_stresses
 from rollnip.interior.evaluate import interior_field
 from rollnip.interior.field import InteriorField, StressRanges
-from rollnip.interior.losses import loss_per_distance
+from rollnip.interior.losses import loss_below, loss_per_distance
 from rollnip.interior.tractions import SurfaceTractions
 
 __all__ = [
@@ -14,5 +14,6 @@ __all__ = [
     "SurfaceTractions",
     "interface_stresses",
     "interior_field",
+    "loss_below",
     "loss_per_distance",
 ]

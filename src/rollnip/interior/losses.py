@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rollnip.influence import surface_compliance
 from rollnip.interior.medium import Medium
@@ -14,6 +15,8 @@ _SHORTEST = 1e3
 """Largest wave number times half the contact. Of k Im C |t|^2 with t ~ k^-3/2, as at a root's edge,
 what is left out is 1e-3 where a memory is shorter than that, and 1e-9 where it is as long as the
 contact."""
+_FADED = 16.0
+"""Largest depth times wave number that counts: the work there goes as its e^-2 k z, 1e-14."""
 
 
 def loss_per_distance(
@@ -61,6 +64,55 @@ def loss_per_distance(
         lost = xx.imag * _square(t_x) + zz.imag * _square(t_z) + 2.0 * xz.real * turning
         total += float((block.weights * k) @ lost)
     return total
+
+
+def loss_below(
+    roller: Roller,
+    tractions: SurfaceTractions,
+    z: NDArray[np.float64],
+    geometry: str,
+    speed: float | None,
+) -> NDArray[np.float64]:
+    """Return the heat that steady rolling makes below some depths, per distance and axial length.
+
+    What lies below the depth z receives the work of the stresses on its upper face; as on the
+    surface, w(z) = (1 - z/R) (1/pi) int_0^inf k Im(conj(t) . u) dk with t = (-s_xz, -s_zz) and u
+    the transforms at that depth (flat layers: without the factor 1 - z/R). So w(0) is
+    `loss_per_distance`, w(z1) - w(z2) is made between two depths, and nothing is lost between.
+
+    Parameters
+    ----------
+    roller :
+        with a coating or a half-space core.
+    tractions :
+        on its surface, in its own frame.
+    z :
+        (nz,) depths [mm], from 0 to the bottom of the coating (half-space core: finite).
+    geometry, speed :
+        as for `loss_per_distance`.
+
+    Returns
+    -------
+    (nz,) losses [N/mm], 0 for an elastic roller.
+    """
+    below = np.zeros(z.size)
+    if not roller.is_viscoelastic:
+        return below
+    half_width = tractions.half_width
+    medium = Medium(roller, speed, geometry, side="above")
+    slowest = max(medium.slowest, float(z.max(initial=0.0)))
+    waves = Waves.resolving(2.0 * half_width, slowest)
+    phases = Phases(tractions.places)
+    for block in waves.blocks(_SHORTEST / half_width):
+        k = block.k
+        active = np.flatnonzero(z * block.start < _FADED)
+        if active.size == 0:
+            continue
+        t = tractions.transform(k, phases.sums(block, tractions.kinks))
+        at = medium.fields(k, z[active], t)
+        work = np.conj(at.s_xz) * at.u_x + np.conj(at.s_zz) * at.u_z
+        below[active] -= work.imag @ (block.weights * k)
+    return np.asarray(below * (1.0 - medium.curvature * z))
 
 
 def _square(values: np.ndarray) -> np.ndarray:

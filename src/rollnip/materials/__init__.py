@@ -17,6 +17,7 @@ from rollnip.materials.shore import (
     shore_a_modulus,
     shore_a_modulus_log_linear,
 )
+from rollnip.materials.thermal import SOURCES, TYPICAL, Thermal
 from rollnip.materials.viscoelastic import (
     FractionalZener,
     LossFactor,
@@ -26,6 +27,8 @@ from rollnip.materials.viscoelastic import (
 )
 
 __all__ = [
+    "SOURCES",
+    "TYPICAL",
     "WLF",
     "Arrhenius",
     "Elastic",
@@ -37,6 +40,7 @@ __all__ = [
     "ShoreBand",
     "StandardLinearSolid",
     "TabulatedShift",
+    "Thermal",
     "Viscoelastic",
     "creep_compliance",
     "is_passive",

@@ -13,6 +13,7 @@ from rollnip._errors import (
     require_not_negative,
     require_positive,
 )
+from rollnip.materials.thermal import Thermal
 
 _SMALLEST_MODULUS = 1e-9  # MPa; beyond these two a unit was mistaken
 _LARGEST_MODULUS = 1e12  # MPa
@@ -29,11 +30,14 @@ class Material(ABC):
     ----------
     poisson :
         Poisson ratio, in (-1, 0.5]; 0.5 exactly is incompressible.
+    thermal :
+        thermal properties; None where they are not known.
     """
 
     __slots__ = ()
 
     poisson: float
+    thermal: Thermal | None = None
 
     @abstractmethod
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
@@ -105,3 +109,9 @@ def checked_time(name: str, value: float) -> float:
     if not _SHORTEST_TIME <= checked <= _LONGEST_TIME:
         raise InvalidInputError(f"`{name}` must lie between 1e-30 and 1e30 s, got {value!r}.")
     return checked
+
+
+def checked_thermal(thermal: object) -> None:
+    """Raise InvalidInputError unless ``thermal`` is None or thermal properties."""
+    if thermal is not None and not isinstance(thermal, Thermal):
+        raise InvalidInputError(f"`thermal` must be Thermal or None, got {thermal!r}.")

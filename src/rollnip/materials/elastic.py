@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import with_hints
-from rollnip.materials.base import Material, checked_modulus, checked_poisson
+from rollnip.materials.base import Material, checked_modulus, checked_poisson, checked_thermal
 from rollnip.materials.shore import shore_a_modulus
+from rollnip.materials.thermal import Thermal
 
 
 @with_hints(
@@ -28,6 +29,8 @@ class Elastic(Material):
         Young's modulus E [MPa], from 1e-9 to 1e12.
     poisson :
         Poisson ratio, in (-1, 0.5].
+    thermal :
+        thermal properties; they count only for a `HeatBalance`.
 
     Raises
     ------
@@ -37,10 +40,12 @@ class Elastic(Material):
 
     modulus: float
     poisson: float
+    thermal: Thermal | None = field(default=None, repr=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "modulus", checked_modulus("modulus", self.modulus))
         object.__setattr__(self, "poisson", checked_poisson(self.poisson))
+        checked_thermal(self.thermal)
 
     @classmethod
     def from_shear_modulus(cls, shear_modulus: float, poisson: float) -> Elastic:

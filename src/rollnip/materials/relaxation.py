@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError, require_positive
+from rollnip._laplace import inverse_laplace
 from rollnip.materials.base import Material
 from rollnip.materials.shore import shore_a_modulus
 from rollnip.materials.viscoelastic import (
@@ -22,10 +23,6 @@ Solid = TypeVar("Solid", StandardLinearSolid, Prony, FractionalZener, LossFactor
 
 READING_TIME = 3.0  # s after contact, vulcanised rubber (ISO 48-4:2018, 9.2)
 LABORATORY = 23.0  # degC, at which hardness is measured (ISO 23529)
-_NODES = 32
-# Talbot's contour as improved by Trefethen, Weideman & Schmelzer (2006), BIT 46, 653-670:
-# s t = N (-sigma + mu theta cot(alpha theta) + i nu theta); errors fall as e^(-1.36 N).
-_SIGMA, _MU, _ALPHA, _NU = 0.6122, 0.5017, 0.6407, 0.2645
 
 
 def relaxation_modulus(material: Material, time: ArrayLike) -> NDArray[np.float64]:
@@ -61,14 +58,7 @@ def _inverse(material: Material, time: ArrayLike, power: int) -> NDArray[np.floa
     t = np.asarray(time, dtype=np.float64)
     if not np.all(np.isfinite(t) & (t > 0.0)):
         raise InvalidInputError(f"`time` must be positive and finite, got {time!r}.")
-    theta = np.pi * (2.0 * np.arange(_NODES) + 1.0) / _NODES - np.pi
-    cot = 1.0 / np.tan(_ALPHA * theta)
-    contour = _NODES * (-_SIGMA + _MU * theta * cot + 1j * _NU * theta)
-    slope = _NODES * (_MU * cot - _MU * _ALPHA * theta / np.sin(_ALPHA * theta) ** 2 + 1j * _NU)
-    weights = np.exp(contour) * slope / (1j * _NODES)
-    # e^(s t) E*(s)/s ds with s = contour/t: the factor 1/t of ds cancels that of 1/s
-    values = material.modulus_at(contour / t[..., None]) ** power / contour
-    return np.asarray(np.sum(weights * values, axis=-1).real)
+    return inverse_laplace(lambda at: material.modulus_at(at) ** power / at, t)
 
 
 def creep_compliance(material: Material, time: ArrayLike) -> NDArray[np.float64]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import cast
 
 import numpy as np
@@ -15,9 +15,11 @@ from rollnip.materials.base import (
     checked_modulus,
     checked_poisson,
     checked_stiffening,
+    checked_thermal,
     checked_time,
 )
 from rollnip.materials.shift import WLF, Arrhenius, Shift, TabulatedShift, checked_temperature
+from rollnip.materials.thermal import Thermal
 
 _FAR = 1e150  # |tau s| beyond which a Maxwell element is glassy to the last bit
 _FAR_EXPONENT = 700.0  # exp of it is still finite
@@ -44,11 +46,14 @@ class Viscoelastic(Material):
         temperature of the material [degC].
     shift :
         its time-temperature shift.
+    thermal :
+        its thermal properties; they count only for a `HeatBalance`.
     """
 
     poisson: float
     temperature: float | None = None
     shift: Shift | None = None
+    thermal: Thermal | None = field(default=None, repr=False)
 
     @property
     def is_elastic(self) -> bool:
@@ -86,7 +91,7 @@ class StandardLinearSolid(Viscoelastic):
         k [MPa], >= 0: glassy modulus less relaxed modulus.
     relaxation_time :
         tau [s], positive.
-    poisson, temperature, shift :
+    poisson, temperature, shift, thermal :
         see `Viscoelastic`.
 
     Raises
@@ -144,7 +149,7 @@ class Prony(Viscoelastic):
         relaxed modulus E_inf [MPa], from 1e-9 to 1e12.
     terms :
         pairs (E_i [MPa], tau_i [s]), at least one; E_i >= 0, tau_i positive. Kept as a tuple.
-    poisson, temperature, shift :
+    poisson, temperature, shift, thermal :
         see `Viscoelastic`.
 
     Raises
@@ -207,7 +212,7 @@ class FractionalZener(Viscoelastic):
         tau [s], positive.
     order :
         m, in (0, 1].
-    poisson, temperature, shift :
+    poisson, temperature, shift, thermal :
         see `Viscoelastic`.
 
     Raises
@@ -273,7 +278,7 @@ class LossFactor(Viscoelastic):
         E [MPa], from 1e-9 to 1e12: the storage modulus at every frequency.
     loss_factor :
         eta = tan delta, >= 0 and at most 10.
-    poisson, temperature, shift :
+    poisson, temperature, shift, thermal :
         see `Viscoelastic`.
 
     Raises
@@ -336,6 +341,7 @@ def _fractional_maxwell(s: ArrayLike, time: float, order: float) -> NDArray[np.c
 
 def _check_shared(material: Viscoelastic) -> None:
     object.__setattr__(material, "poisson", checked_poisson(material.poisson))
+    checked_thermal(material.thermal)
     if (material.temperature is None) != (material.shift is None):
         missing, given = (
             ("shift", "temperature")

@@ -1,0 +1,139 @@
+"""Heat that passes between the rollers while a point of their surfaces is in the nip.
+
+Two bodies of temperatures T_u and T_l touch perfectly for the dwell time t: the flux is
+(T_u - T_l) e/sqrt(pi t) with 1/e = 1/e_u + 1/e_l and effusivities e_i = sqrt(k rho c), so a pass
+hands over (T_u - T_l) 2 e sqrt(t/pi) per area (Carslaw & Jaeger 1959, Conduction of Heat in
+Solids, section 2.7: half-spaces, for heat goes sqrt(a t), some hundredths of a mm, deep).
+
+What a pass leaves in the surface is not gone when the next one comes. Of heat Q per area in each
+turn of the time t_i the surface keeps, beside what a steady flux Q/t_i leaves there,
+sum_n Q/(e_i sqrt(pi n t_i)) - int dn Q/(e_i sqrt(pi n t_i)) = zeta(1/2) Q/(e_i sqrt(pi t_i)),
+zeta(1/2) = -1.4604: just before a pass it is closer to the inside than the mean over a turn is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isinf, pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._laplace import inverse_laplace
+from rollnip.cooling import PassingSheet
+
+Array = NDArray[np.float64]
+
+_ZETA = -1.4603545088095868  # Riemann's zeta at 1/2
+
+
+@dataclass(frozen=True, slots=True)
+class Exchange:
+    """Power into both surfaces over the nip: ``matrix`` @ (T_u, T_l) + ``offset``.
+
+    Attributes
+    ----------
+    matrix : (2, 2) [mW/(mm K)].
+    offset : (2,) friction heat and what a sheet brings along [mW/mm].
+    friction : (2,) friction heat alone, which ``offset`` holds [mW/mm].
+    to_sheet : friction heat that goes straight into a sheet [mW/mm].
+    """
+
+    matrix: Array
+    offset: Array
+    friction: Array
+    to_sheet: float
+
+
+def exchange(
+    effusivity: tuple[float, float],
+    width: float,
+    speed: float,
+    radii: tuple[float, float],
+    friction: float,
+    sheet: PassingSheet | None = None,
+) -> Exchange:
+    """Return what passes over the nip.
+
+    Parameters
+    ----------
+    effusivity : of both surfaces [mW s^0.5/(mm2 K)].
+    width, speed : nip width [mm] and rolling speed [mm/s].
+    radii : of both rollers; inf for a plane [mm].
+    friction : power that slip turns into heat [mW/mm].
+    sheet : what runs between the rollers; None: they touch.
+    """
+    dwell = width / speed
+    handed, brought = _pass(effusivity, dwell, sheet)
+    shares, to_sheet = _shares(effusivity, sheet)
+    rubbed = friction / speed * shares
+    periods = [2.0 * pi * radius / speed for radius in radii]
+    kept = np.array(
+        [
+            0.0 if isinf(t) else _ZETA / (e * sqrt(pi * t))
+            for e, t in zip(effusivity, periods, strict=True)
+        ]
+    )
+    # Q = A T' + c with T' = T + kept (Q + rubbed)
+    solve = np.linalg.inv(np.eye(2) - handed * kept[None, :])
+    matrix = speed * solve @ handed
+    offset = speed * solve @ (brought + handed @ (kept * rubbed)) + speed * rubbed
+    return Exchange(matrix, offset, speed * rubbed, friction * to_sheet)
+
+
+def _pass(
+    effusivity: tuple[float, float], dwell: float, sheet: PassingSheet | None
+) -> tuple[Array, Array]:
+    """Return heat per area and pass into both surfaces: (2, 2) by temperature, and (2,)."""
+    upper, lower = effusivity
+    if sheet is None:
+        both = upper * lower / (upper + lower) * 2.0 * sqrt(dwell / pi)
+        return both * np.array([[-1.0, 1.0], [1.0, -1.0]]), np.zeros(2)
+    out = np.empty((2, 2))
+    for i in range(2):
+        for j in range(2):
+            out[i, j] = _through_sheet(effusivity, dwell, sheet, i, j)
+    return -out, out.sum(axis=1) * sheet.temperature
+
+
+def _through_sheet(
+    effusivity: tuple[float, float], dwell: float, sheet: PassingSheet, body: int, warm: int
+) -> float:
+    """Return the heat per area that a body gives off, where one of them is 1 K over the sheet.
+
+    Half-space, slab of the sheet's thickness, half-space: with x = h sqrt(s rho c/k) the slab
+    takes e sqrt(s) (coth x, -1/sinh x) times the temperatures of its faces, and a half-space of
+    1 K gives e sqrt(s) (1/s - Theta).
+    """
+    thermal, (upper, lower) = sheet.thermal, effusivity
+
+    def given(s: NDArray[np.complex128]) -> NDArray[np.complex128]:
+        root = np.sqrt(s)
+        fade = np.exp(-sheet.thickness * thermal.volume_capacity / thermal.effusivity * root)
+        coth = (1.0 + fade**2) / (1.0 - fade**2)
+        csch = 2.0 * fade / (1.0 - fade**2)
+        e = thermal.effusivity
+        diagonal = (upper + e * coth, lower + e * coth)
+        determinant = diagonal[0] * diagonal[1] - (e * csch) ** 2
+        right = effusivity[warm] / s
+        own = diagonal[1 - warm] * right / determinant
+        other = e * csch * right / determinant
+        face = own if body == warm else other
+        flux = effusivity[body] * root * ((1.0 / s if body == warm else 0.0) - face)
+        return np.asarray(flux / s)
+
+    return float(inverse_laplace(given, dwell))
+
+
+def _shares(effusivity: tuple[float, float], sheet: PassingSheet | None) -> tuple[Array, float]:
+    """Return the shares of friction heat that enter both surfaces, and the one of a sheet.
+
+    Two surfaces that rub have one temperature where they touch, so each takes a share as its
+    effusivity; with a sheet half of the heat arises on either side of it.
+    """
+    upper, lower = effusivity
+    if sheet is None:
+        return np.array([upper, lower]) / (upper + lower), 0.0
+    e = sheet.thermal.effusivity
+    shares = 0.5 * np.array([upper / (upper + e), lower / (lower + e)])
+    return shares, 1.0 - float(shares.sum())

@@ -1,0 +1,323 @@
+"""The branch of steady states from cold, with the speed or the load as its parameter.
+
+A branch is a curve of the logarithms of parameter and rise (of the hottest place). Of the next
+point the one of them is prescribed that changes faster along the curve, and the other is found
+(local parametrisation: Rheinboldt & Burkardt 1983, ACM Trans. Math. Softw. 9, 215-235). So it goes
+on through a turning point, where the parameter has an extreme value: the thermal runaway. There a
+little more speed or load has no steady state nearby.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from math import exp, hypot, isinf, log
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
+from rollnip.heat.amplitude import from_cold
+from rollnip.heat.anderson import settle
+from rollnip.heat.solution import bond_temperature, profile
+from rollnip.heat.state import HeatProblem, Parameter, State
+
+Array = NDArray[np.float64]
+
+_ALLOWED = 0.25  # change of ln E* inside a sub-layer
+_TOLERANCE = 1e-3  # of the rise
+_MOST = 15  # nips at one point
+_STEP = 0.45  # length of a step in the plane of the logarithms
+_SMALLEST = 0.03
+_POINTS = 40
+_REFINED = 2  # parabolas through a turning point
+_BEYOND = 3  # points behind a turning point that lead down
+_EXPONENT = {"speed": 1.0, "load": 1.5}
+"""How the heat roughly goes with the parameter; the iteration finds out."""
+_UNITS = {"speed": "mm/s", "load": "N/mm"}
+
+
+@dataclass(frozen=True, slots=True)
+class BranchPoint:
+    """One steady state of a branch.
+
+    Attributes
+    ----------
+    value : of the parameter [mm/s or N/mm].
+    rise : of the hottest place over the temperatures without heat [K].
+    hot_spot : highest temperature of both rollers [degC].
+    bond_upper, bond_lower : temperatures of the bonds [degC]; None without.
+    power : heat of the nip [W/m].
+    stable : whether a disturbance dies out: the parameter rises along the branch.
+    state : the nip there.
+    """
+
+    value: float
+    rise: float
+    hot_spot: float
+    bond_upper: float | None
+    bond_lower: float | None
+    power: float
+    stable: bool
+    state: State = field(repr=False)
+
+
+@dataclass(frozen=True, slots=True)
+class Branch:
+    """Steady states from cold to hot.
+
+    Attributes
+    ----------
+    parameter, unit : "speed" [mm/s] or "load" [N/mm].
+    points : along the branch, from cold.
+    turning : the first point with the largest parameter nearby, thermal runaway; None: none was
+        met.
+    reached : whether the wanted end of the parameter was reached on stable states.
+    status : a sentence about where the branch ends.
+    solves : nips that were solved.
+    """
+
+    parameter: Parameter
+    unit: str
+    points: tuple[BranchPoint, ...]
+    turning: BranchPoint | None
+    reached: bool
+    status: str
+    solves: int
+
+    def at(self, value: float) -> State | None:
+        """Return the coolest state that is near a parameter, or None where none is."""
+        for low, high in zip(self.points[:-1], self.points[1:], strict=True):
+            if low.value <= value * (1.0 + _TOLERANCE) and high.value >= value * (1.0 - _TOLERANCE):
+                near = abs(log(high.value / value)) < abs(log(low.value / value))
+                return high.state if near else low.state
+        return None
+
+    def margin(self, value: float) -> float | None:
+        """Return by which share the parameter may rise before runaway; None without runaway."""
+        return None if self.turning is None else self.turning.value / value - 1.0
+
+
+def follow(
+    thermal: HeatProblem,
+    parameter: Parameter,
+    low: float,
+    high: float,
+    *,
+    largest_rise: float = 200.0,
+) -> Branch:
+    """Follow the steady states from a low value of the parameter to a high one.
+
+    Parameters
+    ----------
+    thermal : the problem.
+    parameter : "speed" or "load".
+    low, high : where it begins and ends [mm/s or N/mm].
+    largest_rise : at which the branch ends [K].
+
+    Raises
+    ------
+    InvalidInputError
+        where the limits are not in order, or the parameter is unknown.
+    ConvergenceError
+        where not even the first state was found; begin lower.
+    """
+    if parameter not in _UNITS:
+        raise InvalidInputError(f'`parameter` must be "speed" or "load", got {parameter!r}.')
+    if not 0.0 < low < high or isinf(high):
+        raise InvalidInputError(
+            f"`low` must be positive and below `high`, got {low!r} and {high!r}."
+        )
+    walk = _Walk(thermal, parameter)
+    found = [walk.first(low)]
+    step, status = _STEP, f"It was given up after {_POINTS} points."
+    while len(found) < _POINTS:
+        try:
+            found.append(walk.next(found, step, high))
+        except RollnipError as error:
+            step *= 0.5
+            if step < _SMALLEST:
+                status = f"It ends where no further state was found: {error}"
+                break
+            continue
+        step = min(_STEP, 1.5 * step)
+        ended = _end(found, low, high, largest_rise, _UNITS[parameter])
+        if ended:
+            status = ended
+            break
+    return walk.branch(found, high, status)
+
+
+def _end(found: Sequence[_Found], low: float, high: float, largest_rise: float, unit: str) -> str:
+    """Return why a branch need not go on; "" where it goes on."""
+    last = found[-1]
+    if last.value >= high * (1.0 - 1e-9):
+        return f"It reaches {high:.5g} {unit}."
+    if last.rise > largest_rise:
+        return f"It ends at a rise of {last.rise:.4g} K."
+    values = [one.value for one in found[-_BEYOND - 1 :]]
+    falls = len(values) > _BEYOND and all(b < a for a, b in pairwise(values))
+    if falls or last.value < low * (1.0 - 1e-9):
+        return "It is followed a little beyond the turning point."
+    return ""
+
+
+@dataclass(frozen=True, slots=True)
+class _Found:
+    """A state of the branch: parameter, rise [K], and the nip."""
+
+    value: float
+    rise: float
+    state: State
+
+
+class _Walk:
+    """Finds one state of a branch after the other."""
+
+    def __init__(self, thermal: HeatProblem, parameter: Parameter) -> None:
+        self.thermal, self.parameter = thermal, parameter
+
+    def first(self, value: float) -> _Found:
+        """Return the steady state from cold at a parameter that is near the given one."""
+        thermal = self.thermal
+        nip = thermal.with_parameter(self.parameter, value)
+        cold = thermal.conduction.uniform(thermal.heat.ambient)
+        last = thermal.at(cold, thermal.whole(), nip)
+        if last.hottest <= 0.0:
+            raise InvalidInputError(
+                "`nip` must make heat for a branch to follow; it has neither loss nor slip."
+            )
+        near = from_cold(thermal, last, nip)
+        return self.at_rise(_Found(value, near.hottest, near), near.hottest, value)
+
+    def next(self, found: Sequence[_Found], step: float, high: float) -> _Found:
+        """Return the state a step further along the branch, at most at the end of the parameter."""
+        last = found[-1]
+        along, up = 1.0, 1.0 / _EXPONENT[self.parameter]
+        if len(found) > 1:
+            before = found[-2]
+            along, up = log(last.value / before.value), log(last.rise / before.rise)
+        length = hypot(along, up)
+        along, up = along / length, up / length
+        if abs(up) > abs(along):
+            return self.at_rise(last, last.rise * exp(step * up), last.value * exp(step * along))
+        value = min(last.value * exp(step * along), high)
+        return self.at_value(last, value, last.rise * (value / last.value) ** (up / along))
+
+    def at_value(self, near: _Found, value: float, guess: float) -> _Found:
+        """Return the state at a parameter, from one near it and a guess of its rise [K]."""
+        thermal = self.thermal
+        nip = thermal.with_parameter(self.parameter, value)
+        temperatures = near.state.base + guess * near.state.rise / near.state.hottest
+        cut = thermal.divided(temperatures, near.state.solution, _ALLOWED)
+        states = [near.state]
+
+        def image(values: Array) -> Array:
+            states.append(thermal.at(values, cut, nip))
+            return states[-1].new
+
+        done = settle(
+            image,
+            temperatures,
+            tolerance=lambda _: _TOLERANCE * states[-1].hottest,
+            most=_MOST,
+        )
+        if not done.converged:
+            raise ConvergenceError(f"no state at {value:.5g} {_UNITS[self.parameter]} was found")
+        return _Found(value, states[-1].hottest, states[-1])
+
+    def at_rise(self, near: _Found, rise: float, guess: float) -> _Found:
+        """Return the state of a given rise [K], from one that is near it."""
+        thermal, exponent = self.thermal, _EXPONENT[self.parameter]
+        shape = near.state.rise / near.state.hottest
+        temperatures = near.state.base + rise * shape
+        cut = thermal.divided(temperatures, near.state.solution, _ALLOWED)
+        states = [near.state]
+
+        def image(unknowns: Array) -> Array:
+            value = exp(unknowns[0] / rise)
+            nip = thermal.with_parameter(self.parameter, value)
+            state = thermal.at(states[-1].base + unknowns[1:], cut, nip)
+            states.append(state)
+            new = np.empty_like(unknowns)
+            new[0] = unknowns[0] - rise * log(state.hottest / rise) / exponent
+            new[1:] = state.rise * rise / state.hottest
+            return new
+
+        done = settle(
+            image,
+            np.concatenate([[rise * log(guess)], rise * shape]),
+            tolerance=lambda _: _TOLERANCE * rise,
+            most=_MOST,
+        )
+        if not done.converged:
+            raise ConvergenceError(f"no state of a rise of {rise:.4g} K was found")
+        return _Found(exp(float(done.value[0]) / rise), rise, states[-1])
+
+    def branch(self, found: list[_Found], high: float, status: str) -> Branch:
+        """Return the branch with its turning point."""
+        peak = _first_peak(found)
+        turning = None
+        for _ in range(0 if peak is None else _REFINED):
+            assert peak is not None
+            around = self._turning(found[peak - 1 : peak + 2])
+            if around is None:
+                break
+            forward = found[peak + 1].rise - found[peak].rise
+            behind = (around.rise - found[peak].rise) * forward > 0.0
+            found.insert(peak + 1 if behind else peak, around)
+            peak = max(range(peak - 1, peak + 3), key=lambda i: found[i].value)
+        if peak is not None:
+            turning = self._point(found, peak)
+        points = tuple(self._point(found, i) for i in range(len(found)))
+        reached = any(one.value >= high and one.stable for one in points)
+        return Branch(
+            self.parameter,
+            _UNITS[self.parameter],
+            points,
+            turning,
+            reached,
+            status,
+            self.thermal.solves,
+        )
+
+    def _turning(self, three: Sequence[_Found]) -> _Found | None:
+        """Return the state at the top of the parabola through three; None where it is one."""
+        x = np.log([one.rise for one in three])
+        y = np.log([one.value for one in three])
+        fit = np.polyfit(x - x[1], y, 2)
+        if not fit[0] < 0.0:
+            return None
+        top = float(np.clip(-0.5 * fit[1] / fit[0], x[0] - x[1], x[2] - x[1]))
+        value = exp(float(np.polyval(fit, top)))
+        try:
+            return self.at_rise(three[1], exp(float(x[1]) + top), value)
+        except RollnipError:
+            return None
+
+    def _point(self, found: Sequence[_Found], i: int) -> BranchPoint:
+        one, conduction = found[i], self.thermal.conduction
+        state = one.state
+        before, after = found[max(i - 1, 0)], found[min(i + 1, len(found) - 1)]
+        rising = after.value >= before.value
+        bonds = [bond_temperature(conduction, state.new, side) for side in range(2)]
+        solution = state.solution
+        return BranchPoint(
+            value=one.value,
+            rise=one.rise,
+            hot_spot=max(float(profile(conduction, state.new, s)[1].max()) for s in range(2)),
+            bond_upper=bonds[0],
+            bond_lower=bonds[1],
+            power=(solution.dissipation_viscous or 0.0) + (solution.dissipation_friction or 0.0),
+            stable=rising,
+            state=state,
+        )
+
+
+def _first_peak(found: Sequence[_Found]) -> int | None:
+    """Return the first inner point whose parameter is larger than those of its neighbours."""
+    for i in range(1, len(found) - 1):
+        if found[i].value > found[i - 1].value and found[i].value >= found[i + 1].value:
+            return i
+    return None

@@ -1,0 +1,183 @@
+"""A nip in thermal balance: temperatures, powers, growth, and the warm nip beside the cold one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.cooling import HeatBalance
+from rollnip.heat.conduction import Conduction, Outflow
+from rollnip.heat.grid import Grid
+from rollnip.heat.state import SIDES, Side, State
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.solution import Solution
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class RollerHeat:
+    """One roller in thermal balance; temperatures in degC, powers in W/m = mW/mm.
+
+    Attributes
+    ----------
+    r : (n,) radii from the inside to the surface [mm]; the surface alone where nothing else is.
+    temperature : (n,) there.
+    surface_temperature : mean over a turn.
+    bond_temperature : at the bond of the coverings to a rigid core; None without.
+    hot_spot, hot_spot_depth : highest temperature of the roller, and how deep it is [mm].
+    power : all heat that arises in it.
+    viscous, friction : its parts.
+    to_air, to_core, to_nip : where it goes; to_nip: over the nip, into the other roller or a
+        sheet; negative where heat comes in. A plane runs on with what is left.
+    growth : of the radius [mm].
+    """
+
+    r: Array
+    temperature: Array
+    surface_temperature: float
+    bond_temperature: float | None
+    hot_spot: float
+    hot_spot_depth: float
+    power: float
+    viscous: float
+    friction: float
+    to_air: float
+    to_core: float
+    to_nip: float
+    growth: float
+
+    def at_depth(self, depth: float) -> float:
+        """Return the temperature at a depth below the surface [mm]."""
+        return float(np.interp(self.r[-1] - depth, self.r, self.temperature))
+
+
+def profile(conduction: Conduction, values: Array, side: int) -> tuple[Array, Array]:
+    """Return radii from the inside to the surface, and the temperatures there, (n,) each."""
+    grid = conduction.grids[side]
+    surface = conduction.surface(values, side)
+    if grid.size == 0:
+        return np.array([grid.roller.radius]), np.array([surface])
+    cells = conduction.part(values, side)[::-1]
+    r = np.concatenate([grid.radii[-1:], grid.middles[::-1], grid.radii[:1]])
+    inside = conduction.inner_face(values, side)
+    return r, np.concatenate([[inside], cells, [surface]])
+
+
+def bond_temperature(conduction: Conduction, values: Array, side: int) -> float | None:
+    """Return the temperature where coverings are bonded to a rigid core; None without."""
+    grid = conduction.grids[side]
+    if grid.size == 0 or not grid.roller.layers or grid.roller.core is not None:
+        return None
+    inner = int(np.flatnonzero(grid.covering)[-1])
+    if inner == grid.size - 1:
+        return conduction.inner_face(values, side)
+    cells = conduction.part(values, side)
+    above, below = _halves(grid, inner)
+    return float((above * cells[inner] + below * cells[inner + 1]) / (above + below))
+
+
+def _halves(grid: Grid, cell: int) -> tuple[float, float]:
+    """Return the conductances from the lower face of a cell to its middle and to the next one."""
+    face = grid.radii[cell + 1]
+    above = grid.conductivity[cell] / np.log(grid.middles[cell] / face)
+    below = grid.conductivity[cell + 1] / np.log(face / grid.middles[cell + 1])
+    return float(above), float(below)
+
+
+@dataclass(frozen=True)
+class HeatSolution:
+    """A nip in thermal balance. Units mm, N, MPa, s, degC; powers in W/m = mW/mm.
+
+    Attributes
+    ----------
+    nip, heat, model : the problem.
+    converged : whether the temperatures settled, and the warm nip was verified.
+    status : a sentence that says so, or what is wrong.
+    warnings : reservations, in plain words.
+    error : "temperature" [K]: what the iteration and the sub-layers leave.
+    cold : the nip with everything at the ambient temperature.
+    stable : whether a small disturbance dies out; None where no steady state was found.
+    solves : nips that were solved.
+    sublayers : into which the layers of both rollers were divided.
+    """
+
+    nip: Nip
+    heat: HeatBalance
+    model: Model
+    converged: bool
+    status: str
+    warnings: tuple[str, ...]
+    error: dict[str, float]
+    cold: Solution = field(repr=False)
+    stable: bool | None
+    solves: int
+    sublayers: int
+    state: State = field(repr=False)
+    conduction: Conduction = field(repr=False)
+
+    @property
+    def warm(self) -> Solution:
+        """The nip of the warm rollers."""
+        return self.state.solution
+
+    @cached_property
+    def upper(self) -> RollerHeat:
+        """The upper roller."""
+        return self._roller("upper")
+
+    @cached_property
+    def lower(self) -> RollerHeat:
+        """The lower roller."""
+        return self._roller("lower")
+
+    def of(self, side: Side) -> RollerHeat:
+        """Return the "upper" or the "lower" roller."""
+        return self.upper if side == "upper" else self.lower
+
+    @property
+    def power(self) -> float:
+        """All heat of the nip, viscous and by friction [W/m]."""
+        return (self.warm.dissipation_viscous or 0.0) + (self.warm.dissipation_friction or 0.0)
+
+    @property
+    def to_sheet(self) -> float:
+        """Heat that a sheet takes along [W/m]; 0 without a sheet."""
+        if self.heat.sheet is None:
+            return 0.0
+        return self.upper.to_nip + self.lower.to_nip + self.state.sources.over.to_sheet
+
+    @property
+    def balance(self) -> float:
+        """Heat that arises less heat that leaves, over all heat; 0 is balanced."""
+        out = self.to_sheet
+        planes = [grid.plane is not None for grid in self.conduction.grids]
+        for roller, plane in zip((self.upper, self.lower), planes, strict=True):
+            # A plane takes along all its heat, and what enters it over the nip.
+            out += roller.power - roller.to_nip if plane else roller.to_air + roller.to_core
+        return (self.power - out) / self.power if self.power > 0.0 else 0.0
+
+    def _roller(self, side: Side) -> RollerHeat:
+        index, values = SIDES.index(side), self.state.new
+        r, temperature = profile(self.conduction, values, index)
+        flow: Outflow = self.conduction.outflow(values, self.state.sources, index)
+        hottest = int(np.argmax(temperature))
+        return RollerHeat(
+            r=r,
+            temperature=temperature,
+            surface_temperature=self.conduction.surface(values, index),
+            bond_temperature=bond_temperature(self.conduction, values, index),
+            hot_spot=float(temperature[hottest]),
+            hot_spot_depth=float(r[-1] - r[hottest]) if r.size > 1 else 0.0,
+            power=flow.viscous + flow.friction,
+            viscous=flow.viscous,
+            friction=flow.friction,
+            to_air=flow.to_air,
+            to_core=flow.to_core,
+            to_nip=flow.to_nip,
+            growth=self.state.growth[index].total,
+        )

@@ -1,0 +1,289 @@
+"""The steady state of a nip and its heat: temperatures that the heat of the warm nip keeps up."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
+from rollnip.cooling import HeatBalance
+from rollnip.heat.amplitude import RunawayError, from_cold
+from rollnip.heat.anderson import settle
+from rollnip.heat.follow import Branch, follow
+from rollnip.heat.solution import HeatSolution
+from rollnip.heat.state import SIDES, HeatProblem, Parameter, State
+from rollnip.heat.warm import Divided, follows
+from rollnip.influence import KernelCache
+from rollnip.materials import LossFactor
+from rollnip.model import Model
+from rollnip.nip import Nip
+
+Array = NDArray[np.float64]
+
+COARSE = 0.25  # largest change of ln E* inside a sub-layer, at first
+_FINER = 0.5
+_ROUNDS = 3
+_SHARE = 0.5  # of the model's tolerance: what the iteration may leave of the rise
+_MOST = 20  # nips of one iteration
+_PROBE = 0.03  # of the rise, by which the stability is probed
+_TRIES = 3  # starts, each above the last
+_PAST = 1.5  # times a rise where nothing settled
+_LOW = 0.1  # of the speed, from which the warm branch is followed
+
+
+@dataclass
+class _Course:
+    """What an iteration has reached: its last state, its division, and what is left open [K]."""
+
+    state: State
+    cut: Divided
+    left: float
+    fine: float = 0.0
+    settled: bool = False
+    why: str = ""
+
+
+def solve_heat(
+    nip: Nip,
+    heat: HeatBalance,
+    model: Model | None = None,
+    *,
+    cache: KernelCache | None = None,
+    on_failure: Literal["raise", "return"] = "return",
+) -> HeatSolution:
+    """Solve a nip and the temperatures of its rollers together, in the steady state.
+
+    Parameters
+    ----------
+    nip : with a speed; its materials with thermal properties. Their own temperatures do not count.
+    heat : where the heat goes.
+    model : geometry and accuracy; ``Model()`` by default.
+    cache : influence functions of solves before.
+    on_failure : "return" a solution whose ``converged`` is False, or "raise" ConvergenceError.
+
+    Returns
+    -------
+    HeatSolution; where there is no steady state its ``status`` says so, and the temperatures are
+    the last ones reached.
+
+    Raises
+    ------
+    InvalidInputError
+        where the speed is missing, a material has no thermal properties, or no heat can leave.
+    ConvergenceError
+        where ``on_failure`` is "raise" and no steady state was found.
+    """
+    model = Model() if model is None else model
+    thermal = HeatProblem(nip, heat, model, cache)
+    cold = thermal.at(thermal.conduction.uniform(heat.ambient), thermal.whole())
+    course = _Course(cold, thermal.whole(), 0.0, settled=True)
+    stable: bool | None = True
+    if thermal.follows and cold.hottest > 0.0:
+        course = _followed(thermal, cold)
+        stable = is_stable(thermal, course.state, course.cut) if course.settled else None
+    solution = _wrapped(thermal, cold, course, stable)
+    if on_failure == "raise" and not solution.converged:
+        raise ConvergenceError(solution.status, solution)
+    return solution
+
+
+def follow_heat(
+    nip: Nip,
+    heat: HeatBalance,
+    model: Model | None = None,
+    *,
+    parameter: Parameter = "speed",
+    low: float,
+    high: float,
+    largest_rise: float = 200.0,
+    cache: KernelCache | None = None,
+) -> Branch:
+    """Follow the steady states from cold with rising speed or load, through thermal runaway.
+
+    Parameters
+    ----------
+    nip, heat, model, cache : as for `solve_heat`.
+    parameter : "speed" [mm/s] or "load" [N/mm].
+    low, high : where the branch begins and ends.
+    largest_rise : at which it ends as well [K].
+
+    Returns
+    -------
+    Branch; its ``turning`` is the point of runaway, and ``margin(value)`` the distance to it.
+
+    Raises
+    ------
+    InvalidInputError
+        as `solve_heat`, and where the limits are not in order.
+    ConvergenceError
+        where not even the first state was found.
+    """
+    thermal = HeatProblem(nip, heat, Model() if model is None else model, cache)
+    return follow(thermal, parameter, low, high, largest_rise=largest_rise)
+
+
+def _followed(thermal: HeatProblem, cold: State) -> _Course:
+    """Find the steady state that a cold start leads to; where there is none, say where it ends."""
+    course, above = _Course(cold, thermal.whole(), np.inf), 0.0
+    try:
+        for _ in range(_TRIES):
+            near = from_cold(thermal, cold, above=above)
+            course = settled(thermal, near)
+            if course.settled:
+                break
+            above = _PAST * near.hottest
+    except RunawayError as error:
+        course.why = f"{error} {_where_it_ends(thermal)}".strip()
+    except RollnipError as error:
+        course.why = _lost(error)
+    return course
+
+
+def _where_it_ends(thermal: HeatProblem) -> str:
+    """Return a sentence about the speed at which the covering runs away; "" if it is not found."""
+    speed = thermal.nip.speed
+    assert speed is not None
+    try:
+        turning = follow(thermal, "speed", _LOW * speed, speed).turning
+    except RollnipError:
+        return ""
+    if turning is None:
+        return ""
+    return (
+        f"Followed from cold, the covering runs away at {turning.value:.5g} mm/s, where its hot "
+        f"spot has {turning.hot_spot:.4g} degC; cool it better, or lower speed or load."
+    )
+
+
+def settled(thermal: HeatProblem, start: State) -> _Course:
+    """Iterate the temperatures from those that a state leads to, on sub-layers fine enough."""
+    course = _Course(start, thermal.whole(), np.inf)
+    allowed = COARSE
+    cut = thermal.divided(start.new, start.solution, allowed)
+    for _ in range(_ROUNDS):
+        if not _iterate(thermal, course, cut):
+            return course
+        allowed *= _FINER
+        wanted = thermal.model.tolerance * course.state.hottest
+        finer = thermal.divided(course.state.new, course.state.solution, allowed)
+        course.fine *= _FINER**2  # sub-layers have the second order
+        if finer.count == cut.count or 0.0 < course.fine <= wanted:
+            break
+        try:
+            check = thermal.at(course.state.new, finer)
+        except RollnipError as error:
+            course.why = _lost(error)
+            return course
+        course.fine = float(np.max(np.abs(check.new - course.state.new)))
+        if course.fine <= wanted:
+            break
+        course.state, cut = check, finer
+    course.settled = True
+    return course
+
+
+def _iterate(thermal: HeatProblem, course: _Course, cut: Divided) -> bool:
+    """Iterate on given sub-layers; return whether the temperatures settled."""
+    share = _SHARE * thermal.model.tolerance
+    floor = float(np.min(course.state.base))
+
+    def image(temperatures: Array) -> Array:
+        course.state = thermal.at(temperatures, cut)
+        return course.state.new
+
+    try:
+        found = settle(
+            image,
+            course.state.new,
+            tolerance=lambda _: share * course.state.hottest,
+            most=_MOST,
+            floor=floor,
+        )
+    except RollnipError as error:
+        course.why = _lost(error)
+        return False
+    course.cut, course.left = cut, found.left
+    if not found.converged:
+        course.why = (
+            f"The temperatures did not settle: they still change by {found.left:.2g} K after "
+            f"{thermal.solves} nips."
+        )
+    return found.converged
+
+
+def _lost(error: RollnipError) -> str:
+    return f"The nip could not be solved on the way: {error}"
+
+
+def is_stable(thermal: HeatProblem, state: State, cut: Divided) -> bool:
+    """Return whether a small rise of all temperatures dies out: what it leads to is smaller."""
+    rise = state.rise
+    try:
+        pushed = thermal.at(state.new + _PROBE * rise, cut)
+    except InvalidInputError:
+        return False
+    answer = float(rise @ (pushed.new - state.new)) / float(rise @ rise)
+    return answer < _PROBE
+
+
+def _wrapped(
+    thermal: HeatProblem, cold: State, course: _Course, stable: bool | None
+) -> HeatSolution:
+    state, model = course.state, thermal.model
+    # Sub-layers are no materials of the user's: what is said of them is said of the cold layers.
+    whole = course.cut.count == thermal.whole().count
+    reservations = (state if whole else cold).solution.warnings
+    error = max(course.left, course.fine)
+    converged, status = False, course.why
+    if course.settled:
+        met = error <= 2.0 * model.tolerance * max(state.hottest, 0.0)
+        converged = state.solution.converged and met
+        if not met:
+            status = f"The sub-layers leave {error:.2g} K open, more than the tolerance."
+        elif not state.solution.converged:
+            status = f"The warm nip: {state.solution.status}"
+        else:
+            status = f"Steady: temperatures to {max(error, 1e-9):.1g} K, {thermal.solves} nips."
+        if stable is False:
+            status += " This state is not stable: a disturbance grows."
+    return HeatSolution(
+        nip=thermal.nip,
+        heat=thermal.heat,
+        model=model,
+        converged=converged,
+        status=status,
+        warnings=_warnings(thermal) + reservations,
+        error={"temperature": float(error)},
+        cold=cold.solution,
+        stable=stable,
+        solves=thermal.solves,
+        sublayers=course.cut.count,
+        state=state,
+        conduction=thermal.conduction,
+    )
+
+
+def _warnings(thermal: HeatProblem) -> tuple[str, ...]:
+    said = []
+    for side in SIDES:
+        roller = getattr(thermal.nip, side)
+        for index, material in enumerate(roller.materials):
+            layered = index < len(roller.layers)
+            place = f"{side}.layers[{index}].material" if layered else f"{side}.core"
+            if not material.is_elastic and not follows(material):
+                said.append(
+                    f"The moduli of {place} do not follow the temperature: it has no shift."
+                )
+            elif isinstance(material, LossFactor):
+                said.append(
+                    f"The loss factor of {place} does not follow the temperature: it has no times."
+                )
+            elif follows(material) and not layered:
+                said.append(
+                    f"The moduli of {place} are those of its mean temperature; put a layer of the "
+                    "same material on it to see the temperature vary."
+                )
+    return tuple(said)

@@ -1,0 +1,304 @@
+"""Warming up: temperatures over time, from a start where all is equally warm.
+
+rho c dT/dt follows from conduction and from the heat of the nip, which follows the temperatures
+within a turn. That heat is tabulated over theta, the mean rise of the coverings on the way to the
+steady state (0 to 1), from nips at the temperatures of the path itself; the path and its table are
+computed in turn until they agree. The equations are integrated by scipy's BDF.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.integrate import solve_ivp
+from scipy.interpolate import PchipInterpolator
+
+from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
+from rollnip.cooling import HeatBalance
+from rollnip.heat.conduction import Conduction
+from rollnip.heat.exchange import Exchange
+from rollnip.heat.solution import HeatSolution, bond_temperature, profile
+from rollnip.heat.state import SIDES, HeatProblem, Side, State
+from rollnip.heat.steady import solve_heat
+from rollnip.influence import KernelCache
+from rollnip.model import Model
+from rollnip.nip import Nip
+
+Array = NDArray[np.float64]
+
+_NODES = (0.0, 0.03, 0.1, 0.2, 0.35, 0.55, 0.75, 1.0)
+_ALLOWED = 0.25  # change of ln E* inside a sub-layer
+_SWEEPS = 5
+_SHARE = 5.0  # times the model's tolerance: change of the path over the largest rise
+_TIMES = 121
+_LONG = 5.0  # times the slowest time constant
+_RTOL, _ATOL = 1e-6, 1e-4  # of the integration: relative, and K
+_RUNAWAY = 200.0  # K over the start: how far the table goes where there is no steady state
+
+
+@dataclass(frozen=True)
+class WarmUp:
+    """Temperatures of both rollers over time.
+
+    Attributes
+    ----------
+    time : (nt,) from the start [s].
+    converged, status : whether path and heat agree, and a sentence about it.
+    steady : the state that it leads to.
+    error : what the last sweep changed [K].
+    solves : nips that were solved.
+    values : (nt, n+2) temperatures of cells and surfaces [degC].
+    power : (nt,) heat of the nip [W/m].
+    """
+
+    time: Array
+    converged: bool
+    status: str
+    steady: HeatSolution
+    error: float
+    solves: int
+    values: Array = field(repr=False)
+    power: Array = field(repr=False)
+
+    @property
+    def conduction(self) -> Conduction:
+        """The cells that the temperatures belong to."""
+        return self.steady.conduction
+
+    def profile(self, side: Side, time: float) -> tuple[Array, Array]:
+        """Return radii from the inside to the surface [mm] and temperatures there [degC]."""
+        now = np.array([np.interp(time, self.time, column) for column in self.values.T])
+        return profile(self.conduction, now, SIDES.index(side))
+
+    def hot_spot(self, side: Side) -> Array:
+        """Return the highest temperature of a roller over time, (nt,) [degC]."""
+        index = SIDES.index(side)
+        return np.array([profile(self.conduction, row, index)[1].max() for row in self.values])
+
+    def surface(self, side: Side) -> Array:
+        """Return the temperature of a surface over time, (nt,) [degC]."""
+        return np.asarray(self.values[:, self.conduction.cells + SIDES.index(side)])
+
+    def bond(self, side: Side) -> Array | None:
+        """Return the temperature of the bond to a rigid core, (nt,) [degC]; None without."""
+        index = SIDES.index(side)
+        rows = [bond_temperature(self.conduction, row, index) for row in self.values]
+        return None if rows[0] is None else np.array(rows, dtype=float)
+
+    @cached_property
+    def half_time(self) -> float | None:
+        """Time at which the hottest place has half of its final rise [s]; None where it has not."""
+        hottest = np.max(self.values, axis=1)
+        goal = 0.5 * (hottest[0] + float(np.max(self.steady.state.new)))
+        if hottest[-1] <= goal:
+            return None
+        return float(np.interp(goal, hottest, self.time))
+
+
+def warm_up(
+    nip: Nip,
+    heat: HeatBalance,
+    model: Model | None = None,
+    *,
+    duration: float | None = None,
+    cache: KernelCache | None = None,
+) -> WarmUp:
+    """Return the temperatures of both rollers over time, from ``heat.start``.
+
+    Parameters
+    ----------
+    nip, heat, model, cache : as for `solve_heat`.
+    duration : [s]; None: five times the slowest time constant of conduction.
+
+    Raises
+    ------
+    InvalidInputError
+        as `solve_heat`, and where neither roller can store heat.
+    ConvergenceError
+        where the integration fails.
+    """
+    model = Model() if model is None else model
+    if duration is not None:
+        duration = require_positive("duration", duration)
+    cache = KernelCache() if cache is None else cache
+    steady = solve_heat(nip, heat, model, cache=cache)
+    thermal = HeatProblem(nip, heat, model, cache)
+    if thermal.conduction.cells == 0:
+        raise InvalidInputError(
+            "`shell` must be given for at least one roller that has no layers: without it there is "
+            "nothing that could warm up."
+        )
+    path = _Path(thermal, steady)
+    length = _LONG * path.slowest if duration is None else duration
+    time = length * np.linspace(0.0, 1.0, _TIMES) ** 2
+    path.tabulate([path.guess(f) for f in _NODES])
+    values, change = path.integrate(time), 0.0
+    converged = not thermal.follows
+    for _ in range(0 if converged else _SWEEPS):
+        path.follow(values)
+        new = path.integrate(time)
+        change = float(np.max(np.abs(new - values)))
+        values = new
+        if change <= _SHARE * model.tolerance * float(np.ptp(values)):
+            converged = True
+            break
+    status = (
+        f"Path and heat agree to {max(change, 1e-9):.1g} K."
+        if converged
+        else f"Path and heat still differ by {change:.2g} K."
+    )
+    if not steady.converged:
+        status += f" {steady.status}"
+    return WarmUp(
+        time,
+        converged,
+        status,
+        steady,
+        change,
+        thermal.solves + steady.solves,
+        values,
+        path.power(values),
+    )
+
+
+class _Path:
+    """The table of heat over theta, and the integration with it."""
+
+    def __init__(self, thermal: HeatProblem, steady: HeatSolution) -> None:
+        self.thermal, self.conduction = thermal, thermal.conduction
+        heat = thermal.heat
+        self.start = self.conduction.uniform(heat.ambient if heat.start is None else heat.start)
+        rise = steady.state.new - self.start
+        if not steady.converged:
+            shape = steady.state.rise / max(steady.state.hottest, 1e-12)
+            rise = _RUNAWAY * shape
+        self.goal = rise
+        weights = self.conduction.capacity
+        size = float(weights @ rise[:-2])
+        self.weights = weights / size if abs(size) > 1e-9 * weights.sum() else 0.0 * weights
+        self.nodes = np.array(_NODES)
+        self.near = steady.state.solution
+        self.states: list[State] = []
+        self._rows: Any = None
+
+    def guess(self, share: float) -> Array:
+        """Return temperatures on the straight way to the steady state, (n+2,)."""
+        return self.start + share * self.goal
+
+    def theta(self, values: Array) -> Array:
+        """Return how far on the way temperatures (..., n+2) are."""
+        return np.asarray((values[..., :-2] - self.start[:-2]) @ self.weights)
+
+    def tabulate(self, temperatures: list[Array]) -> None:
+        """Solve the nips of the table."""
+        if not self.thermal.follows:
+            temperatures = temperatures[:1]
+        self.states = [
+            self.thermal.at(one, self.thermal.divided(one, self.near, _ALLOWED))
+            for one in temperatures
+        ]
+        self._interpolate()
+
+    def _interpolate(self) -> None:
+        rows = np.array([_packed(state) for state in self.states])
+        self._rows = rows if len(rows) == 1 else PchipInterpolator(self.nodes, rows, axis=0)
+
+    def table(self, theta: float) -> Array:
+        """Return the heat of the nip at theta, as `_packed` orders it."""
+        if isinstance(self._rows, np.ndarray):
+            return np.asarray(self._rows[0])
+        return np.asarray(self._rows(min(max(theta, 0.0), 1.0)))
+
+    def follow(self, values: Array) -> None:
+        """Solve the nips of the table again at the temperatures of a path, as far as it goes."""
+        theta = self.theta(values)
+        rising = np.maximum.accumulate(theta)
+        keep = np.concatenate([[True], np.diff(rising) > 0.0])
+        reached = float(rising[-1])
+        for i, node in enumerate(self.nodes):
+            if node > reached:
+                continue
+            here = np.array([np.interp(node, rising[keep], column) for column in values[keep].T])
+            self.states[i] = self.thermal.at(here, self.thermal.divided(here, self.near, _ALLOWED))
+        self._interpolate()
+
+    def power(self, values: Array) -> Array:
+        """Return the heat of the nip along a path, (nt,) [W/m]."""
+        rows = np.array([self.table(theta) for theta in np.atleast_1d(self.theta(values))])
+        return np.asarray(rows[:, -1])
+
+    @property
+    def slowest(self) -> float:
+        """Slowest time constant of conduction [s]."""
+        matrix, _ = self.conduction.system(self.thermal_over)
+        rates = np.linalg.eigvals(self._rates(matrix)).real
+        return float(1.0 / np.min(np.abs(rates)))
+
+    @property
+    def thermal_over(self) -> Exchange:
+        """Exchange of the steady nip."""
+        state = self.states[-1] if self.states else None
+        return self._first_over if state is None else state.sources.over
+
+    @cached_property
+    def _first_over(self) -> Exchange:
+        return self.thermal.at(self.start, self.thermal.whole()).sources.over
+
+    def _rates(self, matrix: Array) -> Array:
+        """Return the Jacobian of the cells, with the surfaces eliminated, (n, n) [1/s]."""
+        n = self.conduction.cells
+        inner = matrix[:n, :n] - matrix[:n, n:] @ np.linalg.solve(matrix[n:, n:], matrix[n:, :n])
+        return np.asarray(-inner / self.conduction.capacity[:, None])
+
+    def integrate(self, time: Array) -> Array:
+        """Return temperatures of cells and surfaces at some times, (nt, n+2) [degC]."""
+        conduction, n = self.conduction, self.conduction.cells
+
+        def slope(_: float, cells: Array) -> Array:
+            row = self.row(cells)
+            matrix, right = conduction.system(_over(row, n))
+            outside = np.linalg.solve(matrix[n:, n:], right[n:] - matrix[n:, :n] @ cells)
+            flow = right[:n] + row[:n] - matrix[:n, :n] @ cells - matrix[:n, n:] @ outside
+            return np.asarray(flow / conduction.capacity)
+
+        def jacobian(_: float, cells: Array) -> Array:
+            return self._rates(conduction.system(_over(self.row(cells), n))[0])
+
+        done = solve_ivp(
+            slope,
+            (0.0, float(time[-1])),
+            self.start[:-2],
+            method="BDF",
+            t_eval=time,
+            jac=jacobian,
+            rtol=_RTOL,
+            atol=_ATOL,
+        )
+        if not done.success:
+            raise ConvergenceError(f"The warm-up could not be integrated: {done.message}")
+        return np.array([np.concatenate([cells, self._surfaces(cells)]) for cells in done.y.T])
+
+    def _surfaces(self, cells: Array) -> Array:
+        """Return the temperatures of both surfaces, which store no heat, (2,) [degC]."""
+        n = self.conduction.cells
+        matrix, right = self.conduction.system(_over(self.row(cells), n))
+        return np.asarray(np.linalg.solve(matrix[n:, n:], right[n:] - matrix[n:, :n] @ cells))
+
+    def row(self, cells: Array) -> Array:
+        """Return the heat of the nip at temperatures of the cells, as `_packed` orders it."""
+        return self.table(float((cells - self.start[:-2]) @ self.weights))
+
+
+def _over(row: Array, n: int) -> Exchange:
+    return Exchange(row[n : n + 4].reshape(2, 2), row[n + 4 : n + 6], np.zeros(2), 0.0)
+
+
+def _packed(state: State) -> Array:
+    """Return sources in cells, exchange matrix, offset and power of a nip in one row."""
+    over, solution = state.sources.over, state.solution
+    power = (solution.dissipation_viscous or 0.0) + (solution.dissipation_friction or 0.0)
+    return np.concatenate([state.sources.cells, over.matrix.ravel(), over.offset, [power]])

@@ -7,6 +7,7 @@ import sys
 from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 from typer.testing import CliRunner
@@ -233,3 +234,22 @@ def test_fields_inside_the_layers(tmp_path):
 def test_fields_in_a_format_unknown(tmp_path):
     case = str(EXAMPLE)
     assert ".vtr" in refused("solve", case, "--fields", str(tmp_path / "fields.csv"))
+
+
+def test_the_tree_of_a_face_is_made_once(monkeypatch, quick, case, tmp_path):
+    along = SimpleNamespace(converged=True)
+    made = []
+
+    def parts(solution):
+        made.append(solution)
+        return {"face": {"load": 1.0}}
+
+    monkeypatch.setattr("rollnip.cli.app._along_the_face", lambda problem, model: along)
+    monkeypatch.setattr("rollnip.face.report.face_parts", parts)
+    out = tmp_path / "result.json"
+    printed = run("solve", case, "--out", str(out), "--json")
+    assert printed.exit_code == 0
+    assert made == [along]
+    assert (
+        json.loads(printed.stdout)["face"] == json.loads(out.read_text())["face"] == {"load": 1.0}
+    )

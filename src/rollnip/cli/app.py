@@ -112,14 +112,15 @@ def solve(
         with named(problem.source):
             solution = solve_nip(problem.nip, model, on_failure="return")
         along = _along_the_face(problem, model)
+        part = _face_part(along) if json or out is not None else None
         if out is not None:
-            write_result(solution, out, _face_part(along))
+            write_result(solution, out, part)
         if fields is not None:
             write_fields(solution, fields)
         if plot is not None:
             save_figure(plot_overview(solution), plot)
         if json:
-            write(result_text(solution, _face_part(along)))
+            write(result_text(solution, part))
         elif not quiet:
             from rollnip.cli.summary import print_summary
 

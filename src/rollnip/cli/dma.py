@@ -13,7 +13,7 @@ from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures, named, read_option
 from rollnip.cli.dma_files import convert, show
-from rollnip.cli.options import Force
+from rollnip.cli.options import Force, Frequency, InstrumentFile, Sheet, Temperature
 
 if TYPE_CHECKING:
     from rollnip.dma import DmaData, DmaFit, DmaMethod, TimeData, TimeFit
@@ -33,7 +33,7 @@ dma.command()(convert)
 
 @dma.command()
 def fit(
-    file: Annotated[Path, typer.Argument(help="Text file or workbook of an instrument.")],
+    file: InstrumentFile,
     out: Annotated[
         Path | None, typer.Option(help="Write the material: name.toml, for [materials] of a case.")
     ] = None,
@@ -82,15 +82,9 @@ def fit(
     poisson: Annotated[
         float, typer.Option(help="Poisson's ratio, which turns G into E and goes into the case.")
     ] = 0.5,
-    temperature: Annotated[
-        str | None, typer.Option(help="Temperature of all data, where there is no such column.")
-    ] = None,
-    frequency: Annotated[
-        str | None, typer.Option(help="Frequency of all data, where there is no such column.")
-    ] = None,
-    sheet: Annotated[
-        str | None, typer.Option(help="Sheet of a workbook to read; by default, all sheets.")
-    ] = None,
+    temperature: Temperature = None,
+    frequency: Frequency = None,
+    sheet: Sheet = None,
     table: Annotated[
         list[int] | None,
         typer.Option(help="Number of a table to use, as `dma show` counts them; may be repeated."),

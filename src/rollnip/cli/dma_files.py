@@ -11,21 +11,17 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures, read_option
-from rollnip.cli.options import Force
+from rollnip.cli.options import Force, Frequency, InstrumentFile, Sheet, Temperature
 
 if TYPE_CHECKING:
     from rollnip.materials import Prony
 
 
 def show(
-    file: Annotated[Path, typer.Argument(help="Text file or workbook of an instrument.")],
-    temperature: Annotated[
-        str | None, typer.Option(help="Temperature of all data, where there is no such column.")
-    ] = None,
-    frequency: Annotated[
-        str | None, typer.Option(help="Frequency of all data, where there is no such column.")
-    ] = None,
-    sheet: Annotated[str | None, typer.Option(help="Sheet of a workbook to read.")] = None,
+    file: InstrumentFile,
+    temperature: Temperature = None,
+    frequency: Frequency = None,
+    sheet: Sheet = None,
 ) -> None:
     """Print how a file is understood: tables, columns, units, ranges, and what is left out."""
     with clear_failures():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -11,6 +12,17 @@ Force = Annotated[
     typer.Option(
         "--force", help="Overwrite files that rollnip did not make, or that changed since."
     ),
+]
+
+InstrumentFile = Annotated[Path, typer.Argument(help="Text file or workbook of an instrument.")]
+Temperature = Annotated[
+    str | None, typer.Option(help="Temperature of all data, where there is no such column.")
+]
+Frequency = Annotated[
+    str | None, typer.Option(help="Frequency of all data, where there is no such column.")
+]
+Sheet = Annotated[
+    str | None, typer.Option(help="Sheet of a workbook to read; by default, all sheets.")
 ]
 
 WORKERS = typer.Option(help="Number of processes; by default, one for each core.", min=1)

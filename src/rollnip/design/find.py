@@ -7,6 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from rollnip._errors import InvalidInputError
+from rollnip._frames import Column, Frame, Framed, numbers
+from rollnip._html import html_table
 from rollnip._units import base_unit, format_quantity
 from rollnip.design.curve import Curve, Jump, Point, slope_at
 from rollnip.design.quantities import (
@@ -30,8 +32,8 @@ _LEAST, _MOST = 3, 200
 _FLAT = 1e-9  # relative change of the result below which a parameter has no influence
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Found:
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
+class Found(Framed):
     """The answer of `find`, in base units (mm, N, MPa, s).
 
     Attributes
@@ -77,10 +79,33 @@ class Found:
     case: Mapping[str, Any]
     message: str
 
+    def __repr__(self) -> str:
+        return f"<Found: {self.message}>"
+
+    def _repr_html_(self) -> str:
+        rows = [
+            [format_quantity(x, self.unit, digits=_SHOWN), _result(y, self.quantity_unit)]
+            for x, y in self.points
+        ]
+        return html_table("Found", (self.path, self.quantity), rows, [self.message])
+
+    def _frame(self) -> Frame:
+        """Return every case solved on the way: the parameter and the result."""
+        columns: dict[str, Column] = {
+            self.path: numbers(x for x, _ in self.points),
+            self.quantity: numbers(y for _, y in self.points),
+        }
+        units = {self.path: self.unit, self.quantity: self.quantity_unit}
+        return Frame(columns, units, {"message": self.message, "case": dict(self.case)})
+
     def as_dict(self) -> dict[str, Any]:
         """Return all fields as plain values, for JSON."""
         found: dict[str, Any] = json_tree({name: getattr(self, name) for name in self.__slots__})
         return found
+
+
+def _result(value: float | None, unit: str) -> str:
+    return "not solved" if value is None else format_quantity(value, unit, digits=_SHOWN)
 
 
 @dataclass(frozen=True, slots=True)

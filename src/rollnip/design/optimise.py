@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any, Literal
 
+from rollnip._frames import Column, Frame, Framed, numbers
 from rollnip._html import html_table
 from rollnip._units import format_quantity
 from rollnip.design.aims import Limit, LimitKept, Maximise, Objective, standing
@@ -72,7 +73,7 @@ class SearchEnd:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class Optimum:
+class Optimum(Framed):
     """The answer of `optimise`.
 
     Attributes
@@ -119,6 +120,17 @@ class Optimum:
             for one in self.chosen
         ]
         return html_table("Optimum", ("parameter", "value", "at bound"), rows, [self.message])
+
+    def _frame(self) -> Frame:
+        """Return every solved case: parameters, objective, and 1 where all limits are kept."""
+        columns: dict[str, Column] = {
+            one.path: numbers(values[one.path] for values, _, _ in self.trials)
+            for one in self.chosen
+        }
+        columns[self.quantity] = numbers(value for _, value, _ in self.trials)
+        columns["is_feasible"] = numbers(kept for _, _, kept in self.trials)
+        units = {one.path: one.unit for one in self.chosen} | {self.quantity: self.unit}
+        return Frame(columns, units, {"message": self.message, "case": dict(self.case)})
 
     def as_dict(self) -> dict[str, Any]:
         """Return all fields as plain values, for JSON."""

@@ -7,6 +7,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from rollnip._errors import InvalidInputError
+from rollnip._frames import Column, Frame, Framed, numbers
 from rollnip._html import html_table
 from rollnip.design.aims import Limit
 from rollnip.design.quantities import json_tree
@@ -137,7 +138,7 @@ class Chance:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class Tolerance:
+class Tolerance(Framed):
     """The answer of `tolerance`.
 
     Attributes
@@ -179,6 +180,16 @@ class Tolerance:
         chances = [f"{one.text}: {100.0 * one.value:.1f} %" for one in self.chances]
         heads = ("result", "unit", "mean", "standard deviation")
         return html_table("Tolerance", heads, rows, [*chances, *self.notes])
+
+    def _frame(self) -> Frame:
+        """Return every solved sample: parameters and results."""
+        columns: dict[str, Column] = {
+            path: numbers(sample[i] for sample in self.samples) for i, path in enumerate(self.paths)
+        }
+        columns |= {one.quantity: numbers(one.values) for one in self.scatters}
+        units = dict(zip(self.paths, self.units, strict=True))
+        units |= {one.quantity: one.unit for one in self.scatters}
+        return Frame(columns, units, {"seed": self.seed})
 
     def as_dict(self) -> dict[str, Any]:
         """Return all fields as plain values, for JSON."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +20,63 @@ Array = NDArray[np.float64]
 _LEAST = 4  # measurements
 
 
+class Measured:
+    """Base class of measurements of a material at temperatures: their check, and their isotherms.
+
+    A measurement has a ``temperature``, and positive values in the arrays that ``_POSITIVE`` names.
+    """
+
+    __slots__ = ()
+
+    temperature: Array
+    poisson: float
+    source: str
+    rows: tuple[str, ...]
+
+    _POSITIVE: ClassVar[tuple[str, ...]] = ()
+
+    def __post_init__(self) -> None:
+        count = getattr(self, self._POSITIVE[0]).size
+        if count < _LEAST:
+            raise InvalidInputError(
+                f"`{self.source}` must hold at least {_LEAST} measurements, got {count}."
+            )
+        for name in (*self._POSITIVE, "temperature"):
+            values = getattr(self, name)
+            if values.shape != (count,):
+                raise InvalidInputError(f"`{name}` must hold {count} values, got {values.shape}.")
+            good = np.isfinite(values) & ((values > 0.0) | (name == "temperature"))
+            if not np.all(good):
+                first = int(np.flatnonzero(~good)[0])
+                raise InvalidInputError(
+                    f"`{name}` must be positive and finite, got {values[first]:g} in "
+                    f"{self.source}, {self.row(first)}."
+                )
+        checked_temperature("temperature", float(np.min(self.temperature)))
+        require_finite("poisson", self.poisson)
+
+    def row(self, index: int) -> str:
+        """Return the place of a measurement in its source, as messages name it."""
+        return self.rows[index] if self.rows else f"measurement {index + 1}"
+
+    def isotherms(self, width: float = 1.0) -> list[NDArray[np.int64]]:
+        """Indices of the measurements of each temperature, coldest first.
+
+        Temperatures within ``width`` [K] of the coldest of a group count as one.
+        """
+        order = np.argsort(self.temperature, kind="stable")
+        groups: list[list[int]] = []
+        for index in order:
+            first = groups[-1][0] if groups else index
+            if groups and self.temperature[index] - self.temperature[first] <= width:
+                groups[-1].append(int(index))
+            else:
+                groups.append([int(index)])
+        return [np.array(group, dtype=np.int64) for group in groups]
+
+
 @dataclass(frozen=True, eq=False, slots=True)
-class DmaData:
+class DmaData(Measured):
     """A complex Young's modulus measured at frequencies and temperatures.
 
     Attributes
@@ -48,53 +103,12 @@ class DmaData:
     source: str = "data"
     rows: tuple[str, ...] = ()
 
-    def __post_init__(self) -> None:
-        count = self.frequency.size
-        if count < _LEAST:
-            raise InvalidInputError(
-                f"`{self.source}` must hold at least {_LEAST} measurements, got {count}."
-            )
-        for name in ("frequency", "temperature", "storage", "loss"):
-            values = getattr(self, name)
-            if values.shape != (count,):
-                raise InvalidInputError(f"`{name}` must hold {count} values, got {values.shape}.")
-            good = np.isfinite(values) & ((values > 0.0) | (name == "temperature"))
-            if not np.all(good):
-                raise InvalidInputError(
-                    f"`{name}` must be positive and finite, got {values[~good][0]:g} in "
-                    f"{self.source}, {self.row(int(np.flatnonzero(~good)[0]))}."
-                )
-        checked_temperature("temperature", float(np.min(self.temperature)))
-        require_finite("poisson", self.poisson)
+    _POSITIVE: ClassVar[tuple[str, ...]] = ("frequency", "storage", "loss")
 
     @property
     def kind(self) -> Literal["dynamic"]:
         """The kind of measurement: moduli over frequency."""
         return "dynamic"
-
-    def row(self, index: int) -> str:
-        """Return the place of a measurement in its source, as messages name it."""
-        return self.rows[index] if self.rows else f"measurement {index + 1}"
-
-    def isotherms(self, width: float = 1.0) -> list[NDArray[np.int64]]:
-        """Indices of the measurements of each temperature, coldest first.
-
-        Temperatures within ``width`` [K] of the coldest of a group count as one.
-        """
-        return isotherms_of(self.temperature, width)
-
-
-def isotherms_of(temperature: Array, width: float) -> list[NDArray[np.int64]]:
-    """Indices of the temperatures within ``width`` of the coldest of a group, coldest first."""
-    order = np.argsort(temperature, kind="stable")
-    groups: list[list[int]] = []
-    for index in order:
-        first = groups[-1][0] if groups else index
-        if groups and temperature[index] - temperature[first] <= width:
-            groups[-1].append(int(index))
-        else:
-            groups.append([int(index)])
-    return [np.array(group, dtype=np.int64) for group in groups]
 
 
 def read_dma(

@@ -5,24 +5,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._errors import InvalidInputError, require_finite
-from rollnip.dma.data import isotherms_of, modulus_of
+from rollnip._errors import InvalidInputError
+from rollnip.dma.data import Measured, modulus_of
 from rollnip.dma.heads import Modulus
 from rollnip.dma.reading import read_tables
-from rollnip.materials.shift import checked_temperature
 
 Array = NDArray[np.float64]
 
-_LEAST = 4  # measurements
-
 
 @dataclass(frozen=True, eq=False, slots=True)
-class TimeData:
+class TimeData(Measured):
     """A relaxation modulus E(t) or creep compliance D(t) = strain/stress in tension.
 
     Attributes
@@ -31,15 +28,12 @@ class TimeData:
     temperature : (n,) [degC].
     values : (n,) [MPa] of a relaxation modulus, [1/MPa] of a compliance.
     kind : "relaxation" or "creep".
-    poisson : with which shear data were, or would be, converted.
-    source : name of the file or other source.
-    rows : where each measurement stands in the source, for messages; empty where it is not known.
+    poisson, source, rows : as in `DmaData`.
 
     Raises
     ------
     InvalidInputError
-        where there are fewer than four measurements, shapes differ, or a value is not positive
-        and finite.
+        as `DmaData`, or where ``kind`` is another.
     """
 
     time: Array
@@ -50,27 +44,12 @@ class TimeData:
     source: str = "data"
     rows: tuple[str, ...] = ()
 
+    _POSITIVE: ClassVar[tuple[str, ...]] = ("time", "values")
+
     def __post_init__(self) -> None:
-        count = self.time.size
-        if count < _LEAST:
-            raise InvalidInputError(
-                f"`{self.source}` must hold at least {_LEAST} measurements, got {count}."
-            )
         if self.kind not in ("relaxation", "creep"):
             raise InvalidInputError(f'`kind` must be relaxation or creep, got "{self.kind}".')
-        for name in ("time", "temperature", "values"):
-            values = getattr(self, name)
-            if values.shape != (count,):
-                raise InvalidInputError(f"`{name}` must hold {count} values, got {values.shape}.")
-            good = np.isfinite(values) & ((values > 0.0) | (name == "temperature"))
-            if not np.all(good):
-                first = int(np.flatnonzero(~good)[0])
-                raise InvalidInputError(
-                    f"`{name}` must be positive and finite, got {values[first]:g} in "
-                    f"{self.source}, {self.row(first)}."
-                )
-        checked_temperature("temperature", float(np.min(self.temperature)))
-        require_finite("poisson", self.poisson)
+        Measured.__post_init__(self)
 
     @property
     def frequency(self) -> Array:
@@ -86,14 +65,6 @@ class TimeData:
     def loss(self) -> Array:
         """(n,) the values again: nothing is measured beside them."""
         return self.values
-
-    def row(self, index: int) -> str:
-        """Return the place of a measurement in its source, as messages name it."""
-        return self.rows[index] if self.rows else f"measurement {index + 1}"
-
-    def isotherms(self, width: float = 1.0) -> list[NDArray[np.int64]]:
-        """Indices of the measurements of each temperature, coldest first; see `DmaData`."""
-        return isotherms_of(self.temperature, width)
 
 
 def read_time_data(

@@ -72,7 +72,7 @@ def interval(one: Estimate) -> tuple[str, str]:
 
     An end that is only the bound is written with the sign of the inequality.
     """
-    low, high = (one.low, one.high) if one.profile is None else one.profile
+    low, high = one.interval
     digits = _decimals(one)
     texts = [f"{low:.{digits}f}", f"{high:.{digits}f}"]
     if digits == 0 or not one.standard_error < abs(one.value):

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._frames import Column, Frame, Framed, numbers
 from rollnip._html import html_table
 from rollnip._units import format_quantity
 from rollnip.identification.costs import Measurements
@@ -47,13 +48,18 @@ class Estimate:
     log: bool = False
 
     @property
+    def interval(self) -> tuple[float, float]:
+        """The interval from the profile of the likelihood, or else from the covariance."""
+        return (self.low, self.high) if self.profile is None else self.profile
+
+    @property
     def is_told(self) -> bool:
         """True where the data determine the value: its standard error is smaller than its range."""
         return self.standard_error < self.bounds[1] - self.bounds[0]
 
 
 @dataclass(frozen=True, slots=True)
-class FittedSet:
+class FittedSet(Framed):
     """One set of measurements beside its predictions.
 
     Attributes
@@ -99,6 +105,18 @@ class FittedSet:
             band,
         )
 
+    def _frame(self) -> Frame:
+        """Return a row for each measurement, beside its prediction."""
+        columns: dict[str, Column] = {
+            self.against: self.at,
+            "measured": self.measured,
+            "predicted": self.predicted,
+            "standard_error": self.standard_error,
+            "prediction_error": self.prediction_error,
+        }
+        units = dict.fromkeys(list(columns)[1:], self.unit)
+        return Frame(columns, units, {"name": self.name, "quantity": self.quantity})
+
     @property
     def residuals(self) -> Array:
         """(n,) measured less predicted, over the standard error."""
@@ -120,7 +138,7 @@ class Start:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class Fit:
+class Fit(Framed):
     """A fit of unknown values to measurements.
 
     Attributes
@@ -180,12 +198,29 @@ class Fit:
         level = f"{100.0 * self.confidence:g} %"
         rows = []
         for one in self.estimates:
-            low, high = (one.low, one.high) if one.profile is None else one.profile
+            low, high = one.interval
             numbers = (one.value, one.standard_error, low, high)
             shown = [format_quantity(number, digits=4) for number in numbers]
             rows.append([one.path, self.units.get(one.path, ""), *shown])
         heads = ("unknown", "unit", "value", "std. error", f"{level} from", "to")
         return html_table("Fit", heads, rows, self.warnings)
+
+    def _frame(self) -> Frame:
+        """Return a row for each unknown: its value, standard error and interval.
+
+        The interval is that of the profile, where there is one.
+        """
+        ends = [one.interval for one in self.estimates]
+        columns: dict[str, Column] = {
+            "path": tuple(one.path for one in self.estimates),
+            "unit": tuple(self.units.get(one.path, "") for one in self.estimates),
+            "value": numbers(one.value for one in self.estimates),
+            "standard_error": numbers(one.standard_error for one in self.estimates),
+            "low": numbers(low for low, _ in ends),
+            "high": numbers(high for _, high in ends),
+        }
+        about = {"confidence": self.confidence, "warnings": list(self.warnings)}
+        return Frame(columns, {}, about | {"case": dict(self.case)})
 
     def _said(self, one: Estimate) -> str:
         value, error = (format_quantity(x, digits=4) for x in (one.value, one.standard_error))

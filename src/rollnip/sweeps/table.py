@@ -9,7 +9,6 @@ import csv
 import json
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +18,7 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip._extras import require_extra
 from rollnip._files import check_target, write_whole
+from rollnip._frames import Frame, Framed
 from rollnip._units import parse_quantity
 from rollnip.model import Model
 from rollnip.sweeps.row import SCALARS
@@ -35,7 +35,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True, eq=False, repr=False)
-class Table:
+class Table(Framed):
     """Results of a sweep, a row for each case, in the order of the study.
 
     Attributes
@@ -71,47 +71,8 @@ class Table:
         done = sum(status == "solved" for status in self.columns.get("status", ()))
         return f"<Table of {len(self)} cases, {done} solved: {', '.join(self.columns)}>"
 
-    def to_pandas(self) -> Any:
-        """Return a pandas DataFrame; units and case are in its ``attrs``.
-
-        Raises RollnipError where pandas is not installed.
-        """
-        frame = _module("pandas").DataFrame(dict(self.columns))
-        frame.attrs = {"units": dict(self.units), "case": dict(self.case)}
-        return frame
-
-    def to_polars(self) -> Any:
-        """Return a polars DataFrame. Raises RollnipError where polars is not installed."""
-        return _module("polars").DataFrame(
-            {name: _plain_column(column) for name, column in self.columns.items()}
-        )
-
-    def to_xarray(self) -> Any:
-        """Return an xarray Dataset over ``case``, units as attributes.
-
-        Raises RollnipError where xarray is not installed.
-        """
-        others = {name: column for name, column in self.columns.items() if name != "case"}
-        variables = {
-            name: ("case", _plain_column(column), {"units": self.units[name]})
-            if name in self.units
-            else ("case", _plain_column(column))
-            for name, column in others.items()
-        }
-        place = {"case": np.asarray(self.columns["case"]).astype(int)}
-        attributes = {"case": json.dumps(self.case)}
-        return _module("xarray").Dataset(variables, coords=place, attrs=attributes)
-
-
-def _plain_column(column: Array | tuple[str, ...]) -> Any:
-    return list(column) if isinstance(column, tuple) else column
-
-
-def _module(name: str) -> Any:
-    try:
-        return import_module(name)
-    except ModuleNotFoundError:
-        raise RollnipError(f"{name} is needed for this, and is not installed.") from None
+    def _frame(self) -> Frame:
+        return Frame(self.columns, self.units, {"case": dict(self.case)}, row="case")
 
 
 def check_table_target(path: Path) -> None:

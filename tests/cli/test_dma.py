@@ -90,6 +90,31 @@ def test_show_says_what_is_understood():
         assert said in result.stdout
 
 
+def test_show_as_json():
+    done = CliRunner().invoke(app, ["dma", "show", DATA, "--json"])
+    assert done.exit_code == 0
+    tree = json.loads(done.stdout)
+    (table,) = tree["tables"]
+    assert (table["kind"], table["rows"]) == ("dynamic", 117)
+    assert table["columns"]["temperature"] == {
+        "head": "temperature [degC]",
+        "unit": "degC",
+        "low": -20.0,
+        "high": 60.0,
+    }
+    assert set(table["columns"]) == {"frequency", "temperature", "storage", "tan delta"}
+
+
+def test_show_of_what_is_no_table_as_json_says_why(tmp_path):
+    path = tmp_path / "other.csv"
+    path.write_text("temperature [degC]; storage modulus [MPa]\n20; 3\n30; 2\n", "utf-8")
+    done = CliRunner().invoke(app, ["dma", "show", str(path), "--json"])
+    (table,) = json.loads(done.stdout)["tables"]
+    assert table["kind"] is None
+    assert table["problem"]
+    assert table["columns"] == {}
+
+
 def test_show_of_what_is_no_table_says_so(tmp_path):
     path = tmp_path / "notes.txt"
     path.write_text("nothing\n")

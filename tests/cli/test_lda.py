@@ -1,6 +1,7 @@
 """The commands lda: what they write and print, and how they leave."""
 
 import json
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -38,6 +39,36 @@ def test_a_file_is_the_same_bursts(folder, tmp_path):
     assert run("simulate", CASE, "--out", path, *options).exit_code == 0
     assert path.read_bytes() == (folder / "bursts.csv").read_bytes()
     assert list(tmp_path.iterdir()) == [path]
+
+
+def test_simulate_prints_the_bursts_as_json(tmp_path):
+    """Few bursts, written and printed: the same numbers, to the digits of the file."""
+    path = tmp_path / "a.csv"
+    options = ("--positions", 3, "--bursts", 10, "--seed", 2, "--json")
+    done = run("simulate", CASE, "--out", path, *options)
+    assert done.exit_code == 0, done.stderr
+    tree = json.loads(done.stdout)
+    assert (tree["simulated"], tree["seed"], tree["roller"]) == (True, 2, "upper")
+    assert tree["files"] == [str(path)]
+    lines = [line for line in path.read_text("utf-8").splitlines() if line[0] in "-0123456789"]
+    assert len(lines) == len(tree["x"]) == len(tree["velocity"]) == len(tree["snr"]) > 10
+    fringe = 632.8e-6 / (2.0 * math.sin(math.radians(5.0)))  # wavelength over 2 sin of half angle
+    for line, x, frequency, velocity in zip(
+        lines, tree["x"], tree["frequency"], tree["velocity"], strict=True
+    ):
+        assert float(line.split(",")[0]) == pytest.approx(x, abs=1e-6)
+        assert velocity == pytest.approx(frequency * fringe, rel=1e-9)
+    assert tree["velocity"][0] == pytest.approx(tree["roller_speed"], rel=0.1)
+
+
+def test_compare_as_json_says_what_the_text_says(folder):
+    text = run("compare", CASE, folder / "bursts.csv")
+    tree = json.loads(run("compare", CASE, folder / "bursts.csv", "--json").stdout)
+    assert f"{tree['shift']['value']:.4f} mm" in text.stdout
+    assert f"{tree['positions']} positions, SIMULATED" in text.stdout
+    assert tree["shift"]["low"] <= tree["shift"]["value"] <= tree["shift"]["high"]
+    assert tree["speed"]["low"] < tree["speed"]["value"] < tree["speed"]["high"]
+    assert tree["degrees_of_freedom"] == tree["positions"] - 2
 
 
 def test_estimate_prints_a_table(folder, tmp_path):

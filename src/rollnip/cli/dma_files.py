@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from json import dumps
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -22,6 +23,9 @@ def show(
     temperature: Temperature = None,
     frequency: Frequency = None,
     sheet: Sheet = None,
+    json: Annotated[
+        bool, typer.Option("--json", help="Print the same as JSON, ranges in base units.")
+    ] = False,
 ) -> None:
     """Print how a file is understood: tables, columns, units, ranges, and what is left out."""
     with clear_failures():
@@ -33,7 +37,8 @@ def show(
             frequency=read_option("--frequency", frequency, "frequency"),
             sheet=sheet,
         )
-        sys.stdout.write(reading.text())
+        text = dumps(reading.as_dict(), indent=2, allow_nan=False) + "\n"
+        sys.stdout.write(text if json else reading.text())
         sys.stdout.flush()
 
 

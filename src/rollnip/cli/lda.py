@@ -61,6 +61,7 @@ def simulate(
     shift: Annotated[str, _SHIFT] = "0 Hz",
     roller: Annotated[str, _ROLLER] = "upper",
     geometry: Annotated[str | None, _GEOMETRY] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print the bursts as JSON.")] = False,
     force: Force = False,
 ) -> None:
     """Simulate a measurement of a computed nip: bursts, noise, detection, frequencies.
@@ -87,6 +88,8 @@ def simulate(
                 solution, instrument, seeding, side=_side(known), positions=positions, seed=seed
             )
         _write_scan(scan, solution, out)
+        if json:
+            write(_json(_scan_tree(scan, seed, _scan_files(out))))
     _leave(solution)
 
 
@@ -298,6 +301,21 @@ def _write_scan(scan: Scan, solution: Solution, out: Path) -> None:
     _write_text(data, scan_csv(scan))
     _write_text(truth, truth_csv(scan, solution))
     save_record(scan, picture)
+
+
+def _scan_tree(scan: Scan, seed: int, files: list[Path]) -> dict[str, Any]:
+    """One entry per burst in mm, Hz and mm/s, and the files that were written."""
+    return {
+        "simulated": True,
+        "seed": seed,
+        "roller": scan.side,
+        "roller_speed": scan.roller_speed,
+        "x": scan.x.tolist(),
+        "frequency": scan.frequency.tolist(),
+        "velocity": scan.velocity.tolist(),
+        "snr": scan.snr.tolist(),
+        "files": [str(one) for one in files],
+    }
 
 
 def _profile_tree(profile: VelocityProfile, *, simulated: bool) -> dict[str, Any]:

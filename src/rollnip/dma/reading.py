@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
-from rollnip._units import format_quantity
 from rollnip.dma.heads import SHOWN, Head, Modulus, Quantity, scale_of
+from rollnip.dma.shown import KINDS, UNITS, counted, named_lines, shown, table_tree
 from rollnip.dma.tables import RawTable, column, find_tables, has_decimal_commas
 from rollnip.io.cells import Cells, read_cells
 
@@ -31,8 +31,6 @@ _OVER_TIME: tuple[tuple[Quantity, Kind], ...] = (
     ("relaxation", "relaxation"),
     ("compliance", "creep"),
 )
-_UNITS = {"frequency": "Hz", "temperature": "degC", "time": "s", "phase": "rad", "tan delta": ""}
-_LINES = 6  # named of those left out
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -118,7 +116,18 @@ class Reading:
 
     def text(self) -> str:
         """Return a description of the file as it was understood, for people."""
-        return "\n".join(_shown(self)) + "\n"
+        return "\n".join(shown(self)) + "\n"
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the description as plain values, for JSON: ranges in base units."""
+        return {
+            "source": self.source,
+            "encoding": self.encoding,
+            "separator": self.separator,
+            "decimal_comma": self.decimal_comma,
+            "passed": list(self.passed),
+            "tables": [table_tree(table) for table in self.tables],
+        }
 
 
 def read_tables(
@@ -192,7 +201,7 @@ def _understood(
     good = np.all([np.isfinite(column) for column in values.values()], axis=0)
     lost = [line for line, kept in zip(table.lines, good, strict=True) if not kept]
     if lost:
-        notes.append(f"left out: {_count(len(lost), 'row')} without a value ({_lines(lost)})")
+        notes.append(f"left out: {counted(len(lost), 'row')} without a value ({named_lines(lost)})")
     where = "line" if cells.encoding else f'sheet "{table.name}", row'
     rows = tuple(f"{where} {line}" for line, k in zip(table.lines, good, strict=True) if k)
     if not rows:
@@ -306,7 +315,7 @@ def _add_known(
         elif said is not None:
             values[key] = np.full(count, said[0])
             at = f"line {said[1]}" if said[1] else "the name of the sheet"
-            notes.append(f"{key} {said[0]:g} {_UNITS[key]} from {at}")
+            notes.append(f"{key} {said[0]:g} {UNITS[key]} from {at}")
         else:
             raise InvalidInputError(
                 f'{source}, line {table.line}: the table must have a column "{key}", or '
@@ -316,66 +325,4 @@ def _add_known(
 
 
 def _other(table: ReadTable) -> str:
-    return f"it holds {_KINDS[table.kind]}." if table.kind else table.problem
-
-
-_KINDS: dict[Kind, str] = {
-    "dynamic": "a sweep of frequency or temperature",
-    "relaxation": "a relaxation modulus over time",
-    "creep": "a creep compliance over time",
-}
-
-
-def _shown(reading: Reading) -> Iterator[str]:
-    how = [
-        one
-        for one in (reading.encoding, reading.separator and f"{reading.separator}-separated")
-        if one
-    ]
-    if reading.decimal_comma:
-        how.append("decimal commas")
-    yield f"{reading.source}" + (f": {', '.join(how)}" if how else "")
-    if reading.passed:
-        left = _count(len(reading.passed), "line")
-        yield f"  {left} outside of tables ({_lines(reading.passed)})"
-    for table in reading.tables:
-        yield f"{table.name}, heads in line {table.line}"
-        if table.kind is None:
-            yield f"  not used: {table.problem or table.fault}"
-            continue
-        yield f"  {_KINDS[table.kind]}, {_count(len(table.rows), 'row')}"
-        yield from _shown_columns(table)
-        yield from (f"  {note}" for note in table.notes)
-    if not reading.tables:
-        yield "  no table whose heads are known"
-
-
-def _shown_columns(table: ReadTable) -> Iterator[str]:
-    by_index = {index: quantity for quantity, index in table.used.items()}
-    for index, head in enumerate(table.heads):
-        if not head.text:
-            continue
-        quantity = by_index.get(index)
-        if quantity is None:
-            yield f"  {head.text:<28} passed over"
-            continue
-        values = table.values[quantity]
-        unit = "1/MPa" if quantity == "compliance" else _UNITS.get(quantity, "MPa")
-        low, high = (
-            format_quantity(float(v), unit, digits=4) for v in (values.min(), values.max())
-        )
-        name = SHOWN[quantity] + (f" {head.kind}" if head.kind else "")
-        told = f" (in {head.unit})" if head.unit else ""
-        several = np.unique(np.round(values)).size if quantity == "temperature" else 0
-        more = f", {_count(several, 'temperature')} to the degree" if several else ""
-        yield f"  {head.text:<28} {name}{told}: {low} to {high}{more}"
-
-
-def _count(number: int, name: str) -> str:
-    return f"{number} {name}{'' if number == 1 else 's'}"
-
-
-def _lines(lines: Sequence[int]) -> str:
-    shown = ", ".join(str(line) for line in lines[:_LINES])
-    word = "line" if len(lines) == 1 else "lines"
-    return f"{word} {shown}{', ...' if len(lines) > _LINES else ''}"
+    return f"it holds {KINDS[table.kind]}." if table.kind else table.problem

@@ -178,6 +178,61 @@ def contact_patch(
     )
 
 
+@pytest.mark.parametrize("material", [RUBBER, rn.Elastic(modulus=50.0, poisson=0.4)])
+def test_long_patch_is_the_plane_nip_in_its_middle(material):
+    """A cylinder pressed on a plane over 50 thicknesses, with friction and coupling."""
+    upper = rn.Roller(radius=50.0, layers=[rn.Layer(8.0, material)])
+    given = {"upper": upper, "lower": PLANE, "normal": rn.Approach(0.5), "friction": 0.5}
+    plane = rn.solve(
+        rn.Nip(tangential=rn.Creepage(0.01), **given),
+        rn.Model(geometry="linear", tolerance=1e-4),
+    )
+    long = rn.Patch(along=rn.Creepage(0.01), across_upper=rn.Across(face=400.0), **given)
+    got = rn.solve_patch(long, grid=(128, 9))
+    side, pressure, shear = got.grid.hx, got.pressure[4], got.shear_x[4]
+    assert np.sum(pressure) * side == pytest.approx(plane.load, rel=1e-3)
+    assert np.max(pressure) == pytest.approx(plane.peak_pressure, rel=1e-3)
+    # Edges fall between rectangles, and shear is of first order in the hundred of them.
+    assert np.sum(pressure > 0.0) * side == pytest.approx(plane.nip_width, rel=0.01)
+    assert np.sum(shear) * side == pytest.approx(plane.traction, rel=0.02)
+
+
+def on_a_thin_layer(material: rn.Elastic) -> PatchSolution:
+    """A ball of 100 mm pressed 0.05 mm into a plane with 0.1 mm of covering: a/d is 30 to 45."""
+    ball = rn.Roller(radius=100.0)
+    covering = rn.Roller(radius=np.inf, layers=[rn.Layer(0.1, material)])
+    patch = rn.Patch(
+        upper=ball,
+        lower=covering,
+        across_upper=rn.Across(radius=100.0),
+        normal=rn.Approach(0.05),
+        friction=0.0,
+    )
+    return rn.solve_patch(patch, grid=(80, 80))
+
+
+def test_thin_compressible_layer():
+    """Columns of the layer are pressed alone: p = M (delta - r^2/2R)/d (Johnson 1985, 5.8)."""
+    got = on_a_thin_layer(rn.Elastic(modulus=10.0, poisson=0.3))
+    stiffness = 10.0 * 0.7 / (1.3 * 0.4)
+    assert got.peak_pressure == pytest.approx(0.5 * stiffness, rel=0.01)
+    # What the edge adds is of order d/a, 3 %.
+    assert got.load == pytest.approx(stiffness / 0.1 * np.pi * 100.0 * 0.05**2, rel=0.05)
+
+
+@pytest.mark.slow
+def test_thin_incompressible_layer():
+    """The layer gives way sideways: -d^3/(3G) lap p = delta - r^2/2R, p and its slope 0 at r = a.
+
+    Hence a^2 = 4 R delta and p = 3 G (a^2 - r^2)^2/(32 R d^3); what is left out is of order d/a.
+    """
+    got = on_a_thin_layer(RUBBER)
+    a2, shear = 4.0 * 100.0 * 0.05, 5.0 / 3.0
+    assert got.length == pytest.approx(2.0 * np.sqrt(a2), rel=0.05)
+    peak = 3.0 * shear * a2**2 / (32.0 * 100.0 * 0.1**3)
+    assert got.peak_pressure == pytest.approx(peak, rel=0.05)
+
+
 def test_forces_given_are_met_and_give_back_the_creepages():
     given = wheel(along=rn.Creepage(0.004), across=rn.Creepage(-0.003), spin=1e-4)
     solved = rn.solve_patch(given, grid=(32, 32))
@@ -187,6 +242,7 @@ def test_forces_given_are_met_and_give_back_the_creepages():
     assert back.lateral_creepage == pytest.approx(-0.003, rel=1e-3)
 
 
+@pytest.mark.slow
 def test_mirror_in_y_turns_lateral_forces():
     """Lateral creepage and spin are as good to one side as to the other."""
     one = rn.solve_patch(wheel(across=rn.Creepage(0.01), spin=1e-3), grid=(32, 32))
@@ -196,6 +252,7 @@ def test_mirror_in_y_turns_lateral_forces():
     np.testing.assert_allclose(other.pressure, one.pressure[::-1], atol=2e-3)
 
 
+@pytest.mark.slow
 def test_swapping_the_rollers_turns_the_shear():
     one = wheel(along=rn.Creepage(0.01))
     other = replace(

@@ -95,7 +95,8 @@ class PairKernel:
     Attributes
     ----------
     half_space : closed-form part.
-    tables : one for each roller with layers; its sign of X is that of the roller.
+    tables : one for each roller with layers, with the sign of its X; like rollers share one, and
+        their X cancel: 0.
     """
 
     half_space: HalfSpace
@@ -104,7 +105,7 @@ class PairKernel:
     @property
     def couples(self) -> bool:
         """Return whether pressure shears the surfaces against each other."""
-        return self.half_space.x != 0.0 or bool(self.tables)
+        return self.half_space.x != 0.0 or any(sign != 0.0 for _, sign in self.tables)
 
 
 def pair_kernel(upper: Roller, lower: Roller, reach: float) -> PairKernel:

@@ -11,6 +11,7 @@ from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.nip import Approach
 from rollnip.patch.coefficients import Grid
+from rollnip.patch.kernels import pair_kernel
 from rollnip.patch.level import Level, solve_level
 from rollnip.patch.solution import FIGURES, PatchSolution, figures_of
 from rollnip.patches import Force, Patch
@@ -87,9 +88,25 @@ def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> P
                 break
     assert level is not None
     name, worst = _worst(patch, level, errors)
-    converged = level.settled and worst <= tolerance
+    is_cut = _is_cut(patch, level)
+    converged = bool(level.settled and worst <= tolerance and not is_cut)
     status = _status(level, name, worst, tolerance)
+    if is_cut:
+        status = "The contact reaches the rim of the grid; the figures are those of a part of it."
     return PatchSolution(patch, level, errors, tolerance, converged, status, tuple(sizes))
+
+
+def _is_cut(patch: Patch, level: Level) -> bool:
+    """Return whether the contact reaches a rim of the grid where no face ends."""
+    contact, grid = level.normal.pressure > 0.0, level.grid
+    ends = contact[:, 0].any() or contact[:, -1].any()
+    low, high = grid.y[0] - 0.5 * grid.hy, grid.y[-1] + 0.5 * grid.hy
+    rim = 1e-9 * grid.hy
+    return bool(
+        ends
+        or (contact[0].any() and low > -patch.half_face + rim)
+        or (contact[-1].any() and high < patch.half_face - rim)
+    )
 
 
 def _sizes(wanted: tuple[int, int] | None) -> list[tuple[int, int]]:
@@ -178,15 +195,21 @@ def patch_box(patch: Patch) -> Box:
 
     Raises InvalidInputError where the surfaces do not touch.
     """
-    frictionless = replace(patch, friction=0.0, along=Force(0.0), across=Force(0.0), spin=0.0)
-    box = _first_box(patch)
+    still = replace(patch, friction=0.0, along=Force(0.0), across=Force(0.0), spin=0.0)
+    box = _found_box(still, _first_box(patch))
+    if patch.friction > 0.0 and pair_kernel(patch.upper, patch.lower, 1.0).couples:
+        box = _found_box(patch, box)  # shear moves the contact
+    return box
+
+
+def _found_box(patch: Patch, box: Box) -> Box:
+    """Return the rectangle that the patch fills but for a narrow rim, looked for from another."""
     level = None
     for _ in range(_SEARCHES):
-        level = solve_level(frictionless, Grid.over(*box, _SEARCH, _SEARCH), 1e-3, None)
-        fitted, fits = _fitted(patch, level, box)
+        level = solve_level(patch, Grid.over(*box, _SEARCH, _SEARCH), 1e-3, level)
+        box, fits = _fitted(patch, level, box)
         if fits:
-            return fitted
-        box = fitted
+            return box
     raise InvalidInputError(
         "`patch` must touch over a bounded area, and none was found; check radii, layers and load."
     )

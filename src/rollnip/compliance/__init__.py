@@ -1,6 +1,6 @@
 """Compliance of layered coatings in the Fourier domain: pure functions of arrays."""
 
-from rollnip.compliance._across import shear_compliance
+from rollnip.compliance._across import shear_compliance, shear_fields
 from rollnip.compliance._flat import flat_compliance, half_space_limit
 from rollnip.compliance._ring import ring_compliance
 from rollnip.compliance._transfer import (
@@ -27,4 +27,5 @@ __all__ = [
     "ring_fields",
     "ring_transfer",
     "shear_compliance",
+    "shear_fields",
 ]

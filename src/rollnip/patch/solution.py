@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._errors import InvalidInputError
 from rollnip.patch.coefficients import Array, Grid
+from rollnip.patch.depth import PatchStress, Side, stress_at_depth
 from rollnip.patch.level import Level
 from rollnip.patches import Patch
 
@@ -180,6 +183,34 @@ class PatchSolution:
         """Power that slip turns into heat [N mm/s = mW]; None without a speed."""
         speed = self.patch.speed
         return None if speed is None else speed * self.friction_resistance
+
+    def stress(self, side: Side, z: Sequence[float]) -> PatchStress:
+        """Return the stresses in one roller at some depths.
+
+        Parameters
+        ----------
+        side :
+            "upper" or "lower".
+        z :
+            depths [mm] into that roller, at least half the longer side of a rectangle.
+
+        Returns
+        -------
+        PatchStress on the places of the grid, in the frame of that roller: x and y as above, z into
+        its own body. Under a half-space what is left of images of the patch, at three times the
+        size of the grid and more, adds up to three thousandths of the peak pressure.
+
+        Raises
+        ------
+        InvalidInputError
+            for an unknown side, a rigid roller, or a depth that is too small or outside the layers.
+        """
+        if side not in ("upper", "lower"):
+            raise InvalidInputError(f'`side` must be "upper" or "lower", got {side!r}.')
+        roller = self.patch.upper if side == "upper" else self.patch.lower
+        sign = 1.0 if side == "upper" else -1.0
+        tractions = np.stack([sign * self.shear_x, sign * self.shear_y, self.pressure])
+        return stress_at_depth(roller, self.grid, tractions, z)
 
     def _creepage(self, i: int) -> float | None:
         if self.level.rolling is not None:

@@ -1,0 +1,234 @@
+"""Stresses under a patch: the transformed tractions, carried down wave vector by wave vector.
+
+Along the wave vector and inwards the layers are in plane strain; across it they are sheared alone.
+With c and s the cosine and sine of the wave vector's angle, n along it and t across:
+
+    s_xx = c^2 s_nn + s^2 s_tt - 2 c s s_nt     s_xy = c s (s_nn - s_tt) + (c^2 - s^2) s_nt
+    s_yy = s^2 s_nn + c^2 s_tt + 2 c s s_nt     s_xz = c s_nz - s s_tz,  s_yz = s s_nz + c s_tz
+
+and s_tt = nu (s_nn + s_zz).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.fft import irfft2, next_fast_len, rfft2
+from scipy.interpolate import CubicSpline
+
+from rollnip._errors import InvalidInputError
+from rollnip.compliance import flat_fields, shear_fields
+from rollnip.patch.coefficients import Array, Grid
+from rollnip.rollers import Roller
+
+ComplexArray = NDArray[np.complex128]
+Side = Literal["upper", "lower"]
+
+_ROOM = 4
+"""Sides of the window over those of the grid: images of the patch lie at least three grids away."""
+_CELL = 16
+"""Wave vectors along each side of the cell around 0."""
+_TABLE = 1500
+"""Wave numbers at which the layers are computed."""
+
+
+@dataclass(frozen=True)
+class PatchStress:
+    """Stresses in one roller under a patch, in its own frame: z into the body, tension positive.
+
+    Attributes
+    ----------
+    z, y, x : (nz,), (ny,), (nx,) places [mm].
+    s_xx, s_yy, s_zz, s_xy, s_xz, s_yz : (nz, ny, nx) [MPa].
+    """
+
+    z: Array
+    y: Array
+    x: Array
+    s_xx: Array
+    s_yy: Array
+    s_zz: Array
+    s_xy: Array
+    s_xz: Array
+    s_yz: Array
+
+    @cached_property
+    def von_mises(self) -> Array:
+        """Equivalent stress of von Mises, (nz, ny, nx) [MPa]."""
+        normal = (
+            (self.s_xx - self.s_yy) ** 2
+            + (self.s_yy - self.s_zz) ** 2
+            + (self.s_zz - self.s_xx) ** 2
+        )
+        shear = self.s_xy**2 + self.s_xz**2 + self.s_yz**2
+        return np.asarray(np.sqrt(0.5 * normal + 3.0 * shear))
+
+    @cached_property
+    def principal(self) -> Array:
+        """Principal stresses, the largest tension first, (3, nz, ny, nx) [MPa]."""
+        rows = [
+            [self.s_xx, self.s_xy, self.s_xz],
+            [self.s_xy, self.s_yy, self.s_yz],
+            [self.s_xz, self.s_yz, self.s_zz],
+        ]
+        tensor = np.moveaxis(np.array(rows), (0, 1), (-2, -1))
+        return np.moveaxis(np.linalg.eigvalsh(tensor)[..., ::-1], -1, 0)
+
+    @cached_property
+    def max_shear(self) -> Array:
+        """Largest shear stress, (nz, ny, nx) [MPa]."""
+        return np.asarray(0.5 * (self.principal[0] - self.principal[2]))
+
+
+def stress_at_depth(
+    roller: Roller, grid: Grid, tractions: Array, depths: Sequence[float]
+) -> PatchStress:
+    """Return the stresses in a roller on the places of a grid at some depths.
+
+    Parameters
+    ----------
+    roller : elastic, not a bare rigid one.
+    grid : of the tractions.
+    tractions : (3, ny, nx) along x, along y and inwards [MPa], as they act on this roller.
+    depths : [mm], at least half the longer side of a rectangle.
+
+    Raises
+    ------
+    InvalidInputError
+        for a rigid roller, and for a depth too small for the grid or outside the layers.
+    """
+    if roller.is_rigid:
+        raise InvalidInputError("`side` must be a roller that deforms, got a bare rigid one.")
+    least = 0.5 * max(grid.hx, grid.hy)
+    for z in depths:
+        if not z >= least:
+            raise InvalidInputError(
+                f"`z` must be at least half a rectangle of the grid, {least:.3g} mm, got {z!r}; "
+                "solve on a finer grid to come closer to the surface."
+            )
+    window = _Window(grid, tractions)
+    parts = np.stack([window.stresses(roller, float(z)) for z in depths], axis=1)
+    return PatchStress(np.array(depths, dtype=float), grid.y, grid.x, *parts)
+
+
+@dataclass(frozen=True)
+class _Waves:
+    """Wave vectors and the tractions that go with each, shapes that broadcast together.
+
+    Attributes
+    ----------
+    kx, ky : [1/mm], not both 0.
+    tractions : along x, along y and inwards [MPa].
+    """
+
+    kx: Array
+    ky: Array
+    tractions: tuple[ComplexArray, ComplexArray, ComplexArray]
+
+    def stresses(self, table: CubicSpline, medium: tuple[float, float]) -> tuple[ComplexArray, ...]:
+        """Return s_xx, s_yy, s_zz, s_xy, s_xz and s_yz of every wave vector."""
+        k = np.hypot(self.kx, self.ky)
+        c, s = self.kx / k, self.ky / k
+        x, y, inward = self.tractions
+        along, across = c * x + s * y, -s * x + c * y
+        nn_x, zz_x, nz_x, nn_z, zz_z, nz_z, moved, passed = np.moveaxis(table(np.log(k)), -1, 0)
+        poisson, shear = medium
+        nn = 1j * nn_x * along + nn_z * inward
+        zz = 1j * zz_x * along + zz_z * inward
+        nz = nz_x * along + 1j * nz_z * inward
+        tt = poisson * (nn + zz)
+        nt, tz = 1j * shear * k * moved * across, -passed * across
+        twice = 2.0 * c * s * nt
+        return (
+            c * c * nn + s * s * tt - twice,
+            s * s * nn + c * c * tt + twice,
+            zz,
+            c * s * (nn - tt) + (c * c - s * s) * nt,
+            c * nz - s * tz,
+            s * nz + c * tz,
+        )
+
+
+class _Window:
+    """Transformed tractions on a window around the grid.
+
+    Over a half-space the wave of length 0 stands for a cell of wave vectors around it, in which
+    stresses go as |k|: it takes their mean over the cell. That is most of what images of the
+    patch would add. Over a rigid core stresses are smooth there, and die off before the images.
+    """
+
+    def __init__(self, grid: Grid, tractions: Array) -> None:
+        self.grid = grid
+        self.shape = (
+            int(next_fast_len(_ROOM * grid.ny)),
+            int(next_fast_len(_ROOM * grid.nx, real=True)),
+        )
+        kx = 2.0 * np.pi * np.fft.rfftfreq(self.shape[1]) / grid.hx
+        ky = 2.0 * np.pi * np.fft.fftfreq(self.shape[0]) / grid.hy
+        steps = kx[1], ky[1]
+        kx[0] = 1e-6 * kx[1]
+        fine = (np.arange(_CELL) + 0.5) / _CELL - 0.5
+        wide_x, wide_y = np.meshgrid(kx, ky)
+        spread = np.sinc(wide_x * grid.hx / (2.0 * np.pi))
+        spread = spread * np.sinc(wide_y * grid.hy / (2.0 * np.pi))
+        x, y, inward = (rfft2(t, self.shape, workers=1) * spread for t in tractions)
+        self.waves = _Waves(wide_x, wide_y, (x, y, inward))
+        cell_x, cell_y = np.meshgrid(fine * steps[0], fine * steps[1])
+        self.cell = _Waves(cell_x, cell_y, (x[:1, :1], y[:1, :1], inward[:1, :1]))
+
+    def stresses(self, roller: Roller, z: float) -> Array:
+        """Return s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at one depth, (6, ny, nx)."""
+        lowest = min(float(np.hypot(w.kx, w.ky).min()) for w in (self.waves, self.cell))
+        highest = float(np.hypot(self.waves.kx, self.waves.ky).max())
+        table, medium = _table(roller, z, lowest, highest), _medium(roller, z)
+        spectra = self.waves.stresses(table, medium)
+        rows, columns = self.grid.ny, self.grid.nx
+        fields = []
+        for part, mean in zip(spectra, self.cell.stresses(table, medium), strict=True):
+            if roller.core is not None:
+                part[0, 0] = np.mean(mean)
+            fields.append(irfft2(part, self.shape, workers=1)[:rows, :columns])
+        return np.stack(fields)
+
+
+def _table(roller: Roller, z: float, lowest: float, highest: float) -> CubicSpline:
+    """Return the real amplitudes of stress per unit traction over log k, at one depth.
+
+    s_nn/i, s_zz/i and s_nz of the traction along; s_nn, s_zz and s_nz/i of that inwards; the
+    displacement across and the traction left of that across.
+    """
+    k = np.geomspace(lowest, highest * 1.000001, _TABLE)
+    thickness = np.array([layer.thickness for layer in roller.layers])
+    young = np.array([layer.material.relaxed_modulus for layer in roller.layers])
+    poisson = np.array([layer.material.poisson for layer in roller.layers])
+    core, core_poisson = None, 0.5
+    if roller.core is not None:
+        core, core_poisson = np.asarray(roller.core.relaxed_modulus), roller.core.poisson
+    below = (thickness, young, poisson, core, core_poisson)
+    along = flat_fields(k, [z], 1.0, 0.0, *below)
+    inward = flat_fields(k, [z], 0.0, 1.0, *below)
+    moved, passed = shear_fields(k, z, *below)
+    parts = [
+        along.s_xx[0].imag,
+        along.s_zz[0].imag,
+        along.s_xz[0].real,
+        inward.s_xx[0].real,
+        inward.s_zz[0].real,
+        inward.s_xz[0].imag,
+        moved,
+        passed,
+    ]
+    return CubicSpline(np.log(k), np.stack(parts, axis=1))
+
+
+def _medium(roller: Roller, z: float) -> tuple[float, float]:
+    """Return Poisson ratio and shear modulus at a depth; on an interface those above it."""
+    materials = roller.materials
+    layer = int(np.searchsorted(np.array(roller.interfaces), z * (1.0 - 1e-12), side="left"))
+    material = materials[min(layer, len(materials) - 1)]
+    return material.poisson, material.relaxed_modulus / (2.0 * (1.0 + material.poisson))

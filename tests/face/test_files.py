@@ -1,6 +1,7 @@
 """Faces from case files and on the command line."""
 
 import json
+from dataclasses import replace
 from math import inf
 from pathlib import Path
 
@@ -10,7 +11,10 @@ from typer.testing import CliRunner
 import rollnip as rn
 from rollnip._results.case import case_tree
 from rollnip.cli.app import app
+from rollnip.face import with_crown
+from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
 from rollnip.io import case_hash, parse_case
+from rollnip.io.document import parse_document
 from rollnip.plots import plot_face
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "press-face.toml"
@@ -237,3 +241,65 @@ def test_the_picture_names_its_axes(straight, style):
     figure = plot_face(straight, style=style)
     labels = [ax.get_ylabel() for ax in figure.axes]
     assert labels == ["nip width [mm]", "line load [N/mm]", "traction [N/mm]", "over the ends [µm]"]
+
+
+def test_netcdf_holds_the_face(tmp_path):
+    """Every number of the JSON key "face" is in the netCDF file, with its unit."""
+    xr = pytest.importorskip("xarray")
+    path = tmp_path / "case.toml"
+    path.write_text(TEXT.replace("friction = 0.5", "friction = 0"))
+    for name in ("r.json", "r.nc"):
+        assert run("solve", path, "--out", tmp_path / name, "-q").exit_code == 0
+    tree = json.loads((tmp_path / "r.json").read_text())["face"]
+    with xr.open_dataset(tmp_path / "r.nc") as file:
+        assert file["face_load"].dims == ("y",)
+        assert file["face_load"].attrs["units"] == "N/mm"
+        assert list(file["y"].values) == tree["y"]
+        for key in FACE_PROFILES.keys() - {"y"}:
+            assert list(file[f"face_{key}"].values) == tree[key], key
+        for key in FACE_FIGURES.keys() - {"creepage"}:
+            assert float(file[f"face_{key}"]) == tree[key], key
+        assert list(file["face_bearing_forces_upper"].values) == tree["bearing_forces"]["upper"]
+        assert float(file["face_error_places"]) == tree["error"]["places"]
+        assert file.attrs["face_converged"] == 1
+
+
+def test_a_face_as_a_dataset(straight):
+    dataset = straight.to_xarray()
+    assert dataset["face_load"].values[0] == straight.load[0]
+    assert set(dataset.coords) == {"y"}
+
+
+def test_a_crown_is_found_for_an_evenness(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(TEXT.replace("friction = 0.5", "friction = 0"))
+    result = run(
+        "find", path, "upper.shaft.crown", "--for", "face.evenness=0.9",
+        "--between", "0 mm", "0.45 mm", "--json",
+    )  # fmt: skip
+    assert result.exit_code == 0, result.output
+    value = json.loads(result.stdout)["value"]
+    case = rn.read_case(path)
+    found = rn.solve_face(with_crown(case.nip, "upper", rn.Crown(value)), case.face, case.model)
+    assert found.evenness == pytest.approx(0.9, rel=1e-3)
+
+
+def test_load_along_crown_is_swept():
+    """The cases of a sweep are those that a face alone gives, to the last digit."""
+    tree = parse_document(TEXT.replace("friction = 0.5", "friction = 0"), "case.toml")
+    study = {
+        "case": tree,
+        "parameters": [
+            {"path": "upper.shaft.crown", "values": ["0.2 mm", "0.4 mm"]},
+            {"path": "nip.load", "values": ["4 N/mm", "8 N/mm"]},
+        ],
+        "results": ["face.evenness", "face.total_load"],
+    }
+    table = rn.sweep(study, workers=1)
+    assert set(table["status"]) == {"solved"}
+    for i, (crown, load) in enumerate([(0.2, 4.0), (0.2, 8.0), (0.4, 4.0), (0.4, 8.0)]):
+        case = parse_case(tree)
+        nip = replace(with_crown(case.nip, "upper", rn.Crown(crown)), normal=rn.LineLoad(load))
+        alone = rn.solve_face(nip, case.face, case.model)
+        assert table["face.evenness"][i] == alone.evenness
+        assert table["face.total_load"][i] == alone.total_load

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import pytest
 
+import rollnip as rn
+from rollnip.face import solve_face
+from rollnip.face.report import face_dict
 from rollnip.io import parse_case, result_dict
 from rollnip.solver import solve
 from rollnip.sweeps import SCALARS, STATUSES, evaluate, scalars
 from rollnip.sweeps import row as row_module
+
+PLAIN = {name for name in SCALARS if not name.startswith("face.")}  # of a cross-section
 
 CASE: dict[str, Any] = {
     "nip": {"load": 0.74, "traction": "0.05 N/mm", "friction": 2.7, "speed": "100 mm/s"},
@@ -33,7 +39,7 @@ def test_numbers_are_those_of_the_result() -> None:
     solution = solve(case.nip, case.model)
     tree = result_dict(solution)
     row = scalars(solution)
-    for name in SCALARS.keys() - {"max_surface_strain"}:
+    for name in PLAIN - {"max_surface_strain"}:
         table, _, key = name.rpartition(".")
         assert row[name] == (tree[table] if table else tree)[key], name
     inside = (solution.profiles.x > solution.contact[0][0]) & (
@@ -56,7 +62,34 @@ def test_no_scalar_of_the_result_is_left_out() -> None:
             f"{table}.{name}" for name, value in tree[table].items() if not isinstance(value, str)
         }
     # `schema` and `tolerance` are not of the solution; seconds are never the same twice
-    assert flat - {"schema", "tolerance", "converged", "solver.seconds"} == SCALARS.keys()
+    assert flat - {"schema", "tolerance", "converged", "solver.seconds"} == PLAIN
+    assert all(
+        scalars(solve(case.nip, case.model))[name] is None for name in SCALARS.keys() - PLAIN
+    )
+
+
+def test_the_face_of_a_case_is_in_its_row() -> None:
+    shaft = {"bearing_distance": "600 mm", "bore": "80 mm"}
+    tree = CASE | {
+        "nip": CASE["nip"] | {"friction": 0.0, "traction": 0.0},
+        "face": {"length": "500 mm"},
+        "upper": CASE["upper"] | {"shaft": shaft | {"crown": "0.05 mm"}},
+    }
+    row = evaluate(tree)
+    case = parse_case(tree)
+    assert row["status"] == "solved", row["message"]
+    expected = face_dict(solve_face(case.nip, case.face, case.model))
+    for name in SCALARS.keys() - PLAIN - {"face.creepage"}:
+        assert row[name] == expected[name.removeprefix("face.")], name
+
+
+def test_a_face_that_is_not_verified_is_no_solved_case() -> None:
+    case = parse_case(changed(friction=0.0, traction=0.0))
+    solution = solve(case.nip, case.model)
+    face = rn.Face(length=500.0)
+    along = replace(solve_face(case.nip, face, case.model), converged=False, status="Not so.")
+    row = scalars(solution, along)
+    assert (row["status"], row["message"], row["converged"]) == ("unverified", "Not so.", False)
 
 
 def test_the_same_case_is_the_same_row() -> None:

@@ -30,7 +30,7 @@ def test_rows_are_those_of_evaluate(tree: dict[str, Any]) -> None:
         row = evaluate(study.case(position))
         assert table["status"][position] == row["status"]
         assert table["message"][position] == row["message"]
-        for name in SCALARS:
+        for name in (name for name in SCALARS if not name.startswith("face.")):
             value = table[name][position]
             assert value == row[name] if row[name] is not None else np.isnan(value)
     assert list(table["status"]) == ["solved", "refused", "solved"] * 2

@@ -23,6 +23,12 @@ _SHOWN = (
     "load", "approach", "nip_width", "peak_pressure", "mean_pressure", "traction", "creepage",
     "dwell_time", "torque_upper", "torque_lower", "rolling_resistance",
 )  # fmt: skip
+_SHOWN_OF_FACE = (
+    "face.evenness",
+    "face.largest_departure",
+    "face.even_share",
+    "face.largest_scrub",
+)
 
 
 def optimum_report(found: Optimum, title: str = "") -> str:
@@ -48,6 +54,9 @@ def result_lines(row: Mapping[str, Any]) -> list[str]:
     for name in _SHOWN:
         if row.get(name) is not None:
             lines.append(f"  {name:20s}{_with_error(row, name)}")
+    for name in _SHOWN_OF_FACE:
+        if row.get(name) is not None:
+            lines.append(f"  {name:25s}{_shown(float(row[name]), QUANTITIES[name])}")
     warnings = str(row.get("warnings") or "")
     return [*lines, f"Note: {warnings}"] if warnings else lines
 

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from rollnip._results.case import case_tree, problem_hash
-from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
+from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES, FaceFigure
 from rollnip.face.solution import FaceSolution
 
 _SILENT = ("mean_load", "evenness")
@@ -31,6 +31,42 @@ def face_dict(solution: FaceSolution) -> dict[str, Any]:
         "warnings": list(solution.warnings),
     }
     return tree | {key: figure.values(solution) for key, figure in FACE_PROFILES.items()}
+
+
+def face_variables(tree: dict[str, Any]) -> tuple[dict[str, tuple[Any, ...]], dict[str, Any]]:
+    """Return the key "face" as variables and attributes of an xarray dataset, over ``y``.
+
+    Names begin with ``face_``; None is nan.
+    """
+    variables: dict[str, tuple[Any, ...]] = {}
+    for key, figure in FACE_PROFILES.items():
+        values = tree[key]
+        row = [None] * len(tree["y"]) if values is None else values
+        name = key if key == "y" else f"face_{key}"
+        variables[name] = ("y", _floats(row), _described(figure))
+    for key, figure in FACE_FIGURES.items():
+        variables[f"face_{key}"] = ((), _floats([tree[key]])[0], _described(figure))
+    for key, error in tree["error"].items():
+        about = {"units": "1", "long_name": f"relative error over the face: {key}"}
+        variables[f"face_error_{key}"] = ((), error, about)
+    for name, forces in tree["bearing_forces"].items():
+        about = {"units": "N", "long_name": f"forces on the bearings of the {name} roller"}
+        values = [None, None] if forces is None else forces
+        variables[f"face_bearing_forces_{name}"] = ("bearing", _floats(values), about)
+    attributes = {
+        "face_converged": int(tree["converged"]),
+        "face_status": tree["status"],
+        "face_warnings": "\n".join(tree["warnings"]),
+    }
+    return variables, attributes
+
+
+def _floats(values: list[float | None]) -> list[float]:
+    return [float("nan") if one is None else one for one in values]
+
+
+def _described(figure: FaceFigure) -> dict[str, str]:
+    return {"units": figure.unit, "long_name": figure.label, "comment": figure.sentence}
 
 
 def face_parts(solution: FaceSolution) -> dict[str, Any]:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._extras import require_extra
 from rollnip.face.law import NipLaw
 from rollnip.face.solve import Balance, FaceProblem, torque
 from rollnip.model import Model
@@ -213,6 +215,22 @@ class FaceSolution:
         """Largest departure of the traction from its mean [N/mm]: surfaces that rub each other."""
         mean = self.total_traction / self.face.length
         return float(np.max(np.abs(self.traction - mean)))
+
+    def to_xarray(self) -> Any:
+        """Return the face as an xarray Dataset over y: what the netCDF file of a result holds.
+
+        Raises
+        ------
+        RollnipError
+            where xarray is not installed.
+        """
+        from rollnip.face.report import face_dict, face_variables
+
+        require_extra("netcdf", "to_xarray")
+        import xarray as xr
+
+        variables, attributes = face_variables(face_dict(self))
+        return xr.Dataset(variables, attrs=attributes).set_coords("y")
 
     def bearings(self, roller: str) -> Bearings | None:
         """Return the bearing forces of the "upper" or "lower" roller; None without its shaft."""

@@ -7,6 +7,7 @@ from typing import Any
 
 from rollnip._extras import require_extra
 from rollnip._results.dataset import result_dataset
+from rollnip.face.report import face_variables
 
 
 def require_netcdf() -> None:
@@ -16,4 +17,8 @@ def require_netcdf() -> None:
 
 def write_netcdf(tree: dict[str, Any], path: Path) -> None:
     """Write a result tree; None becomes NaN, lists become variables, texts attributes."""
-    result_dataset(tree).to_netcdf(path, engine="h5netcdf")
+    dataset = result_dataset(tree)
+    if "face" in tree:
+        variables, attributes = face_variables(tree["face"])
+        dataset = dataset.assign(variables).set_coords("y").assign_attrs(attributes)
+    dataset.to_netcdf(path, engine="h5netcdf")

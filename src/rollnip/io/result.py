@@ -38,7 +38,7 @@ def write_result(
     path :
         ends in .json or .nc (netCDF, with the extra ``rollnip[netcdf]``).
     parts :
-        keys that a JSON file gets besides, such as "face".
+        keys that the file gets besides, such as "face".
 
     Raises
     ------
@@ -49,7 +49,7 @@ def write_result(
     target = Path(path)
     check_result_target(target)
     if target.suffix.lower() == ".nc":
-        tree = result_dict(solution)
+        tree = {**result_dict(solution), **(parts or {})}
         write_whole(target, lambda file: write_netcdf(tree, file))
     else:
         text = result_text(solution, parts)

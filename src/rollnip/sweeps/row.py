@@ -9,6 +9,8 @@ from math import isfinite
 from typing import Any
 
 from rollnip._errors import ConvergenceError, RollnipError
+from rollnip.face import FaceSolution, NipRows, solve_face
+from rollnip.face.figures import FACE_FIGURES
 from rollnip.figures import CLAIMED, FIGURES
 from rollnip.influence import KernelCache
 from rollnip.io import Case, case_hash, parse_case
@@ -24,8 +26,10 @@ SCALARS: Mapping[str, str] = {
     "solver.iterations": "1",
     "solver.residual": "1",
     "solver.geometry_change": "1",
+    **{f"face.{key}": figure.unit for key, figure in FACE_FIGURES.items()},
 }
-"""Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``."""
+"""Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``.
+Those of the face are None for a case without one."""
 
 STATUSES = ("solved", "unverified", "refused", "failed", "lost")
 """What became of a case; only of the first two there are numbers. "lost" is of sweeps alone: the
@@ -66,6 +70,12 @@ def own_kernels() -> KernelCache:
     return KernelCache()
 
 
+@cache
+def _own_rows() -> NipRows:
+    """Return this process's plane nips of faces, which neighbouring cases share."""
+    return NipRows(own_kernels())
+
+
 @dataclass(frozen=True, slots=True)
 class Ready:
     """A case that was read, to be solved.
@@ -97,8 +107,12 @@ def solved(one: Ready, kernels: KernelCache | None = None) -> tuple[Row, Solutio
         assert one.refusal is not None
         return one.refusal, None
     try:
-        solution = solve(one.case.nip, one.case.model, cache=kernels, on_failure="return")
-        return scalars(solution), solution
+        case = one.case
+        solution = solve(case.nip, case.model, cache=kernels, on_failure="return")
+        along = None
+        if case.face is not None:
+            along = solve_face(case.nip, case.face, case.model, rows=_own_rows())
+        return scalars(solution, along), solution
     except Exception as error:  # noqa: BLE001 - as above
         return _row_of(error), None
 
@@ -113,22 +127,26 @@ def _row_of(error: Exception) -> Row:
     return without_solution("failed", f"Unforeseen {type(error).__name__}: {said}")
 
 
-def scalars(solution: Solution) -> Row:
-    """The row of a solution, as `evaluate` returns it."""
+def scalars(solution: Solution, along: FaceSolution | None = None) -> Row:
+    """The row of a solution and of its face, as `evaluate` returns it."""
+    parts = (solution,) if along is None else (solution, along)
+    messages = [part.status for part in parts if not part.converged]
     row: Row = {
-        "status": "solved" if solution.converged else "unverified",
-        "message": "" if solution.converged else solution.status,
-        "converged": bool(solution.converged),
+        "status": "unverified" if messages else "solved",
+        "message": " ".join(messages),
+        "converged": not messages,
         "geometry": solution.model.geometry,
     }
-    row |= {name: _value(solution, name) for name in SCALARS}
-    return row | {"warnings": " ".join(solution.warnings)}
+    row |= {name: _value(solution, along, name) for name in SCALARS}
+    return row | {"warnings": " ".join(line for part in parts for line in part.warnings)}
 
 
-def _value(solution: Solution, name: str) -> float | None:
+def _value(solution: Solution, along: FaceSolution | None, name: str) -> float | None:
     if name in FIGURES:
         return FIGURES[name].value(solution)
     table, _, key = name.partition(".")
+    if table == "face":
+        return None if along is None else FACE_FIGURES[key].value(along)
     if table == "error":
         return CLAIMED[key].error(solution)
     return _number(getattr(solution.solver, key))

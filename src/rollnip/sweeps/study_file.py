@@ -65,12 +65,19 @@ class _Reader:
             title=self.table.title or str(self.case.get("title", "")),
             tree=self.case,
             axes=axes,
-            results=self._names("results", self.table.results, SCALARS),
+            results=self._names("results", self.table.results, self._scalars()),
             profiles=self._names("profiles", self.table.profiles or [], PROFILES),
             source=self.source,
         )
         self._check_cases(study)
         return study
+
+    def _scalars(self) -> dict[str, str]:
+        """Return the results that cases have: those of a face only where there is one."""
+        has_face = "face" in self.case
+        return {
+            name: unit for name, unit in SCALARS.items() if has_face or not name.startswith("face.")
+        }
 
     def _case(self) -> tuple[dict[str, Any], str]:
         given = self.table.case

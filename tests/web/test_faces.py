@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
+from rollnip.face import even_crown
 from rollnip.face.report import face_dict
 from rollnip.influence import KernelCache
 from rollnip.io import parse_case
@@ -108,7 +109,7 @@ def test_end_loads_tilt_the_nip(post, face_case):
 
 def test_the_crown_is_that_of_the_designer_in_python(post, face_case):
     case = parse_case(face_case)
-    best = rn.face.even_crown(case.nip, case.face, case.model)
+    best = even_crown(case.nip, case.face, case.model)
     answer = post("crown", {"case": face_case, "roller": "upper", "within": 0.1})
     assert answer["height"] == pytest.approx(best.height, rel=1e-6)
     assert answer["low"] < 6.0 < answer["high"]

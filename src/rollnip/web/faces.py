@@ -7,6 +7,9 @@ from collections import OrderedDict
 from dataclasses import replace
 from typing import Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip.face import (
     FaceSolution,
@@ -24,6 +27,8 @@ from rollnip.nip import LineLoad, Nip, Traction
 from rollnip.rollers import Roller
 from rollnip.shafts import STEEL, Crown, Face
 from rollnip.web.answers import SOURCE
+
+Array = NDArray[np.float64]
 
 _KEPT = 4  # tables, some ten kB each
 _FEW = 5  # places along the face where only its shafts are checked
@@ -52,14 +57,17 @@ class Faces:
         self._laws: OrderedDict[str, NipLaw] = OrderedDict()
 
     def face(self, case: Case) -> dict[str, Any]:
-        """Return the key "face" of the result of a case.
+        """Return the key "face" of the result of a case; with "crown", radii over those nominal.
 
         Raises
         ------
         CaseFileError
             where the case has no face, or something along it does not fit; says at which key.
         """
-        return face_dict(self._solved(case.nip, _face_of(case), case))
+        solution = self._solved(case.nip, _face_of(case), case)
+        rollers = {"upper": case.nip.upper, "lower": case.nip.lower}
+        crowns = {name: _crown(one, solution).tolist() for name, one in rollers.items()}
+        return face_dict(solution) | {"crown": crowns}
 
     def crown(self, case: Case, roller: Literal["upper", "lower"], within: float) -> dict[str, Any]:
         """Return the crown of one roller that evens out the load, and the loads that it serves.
@@ -110,6 +118,13 @@ def _face_of(case: Case) -> Face:
     if case.face is None:
         raise CaseFileError(f"{SOURCE}: face: is missing; add a table [face] with a length.")
     return case.face
+
+
+def _crown(roller: Roller, solution: FaceSolution) -> Array:
+    """Return the radius along the face over the nominal one, (n,) [mm]."""
+    if roller.shaft is None:
+        return np.zeros(solution.y.size)
+    return roller.shaft.radial_crown(solution.y, solution.face.length)
 
 
 def _section(nip: Nip) -> Nip:

@@ -6,6 +6,7 @@ import json
 import tomllib
 from dataclasses import dataclass
 from importlib.resources import files
+from math import radians
 from pathlib import Path
 from typing import Any, get_args
 
@@ -39,6 +40,7 @@ _SHOWN_RESULTS = {
     "power per volume": {"metric": ["mW/mm³", 1.0], "us": ["hp/in³", 1e3 * _HORSEPOWER / 25.4**3]},
     "share": {"metric": _SHARE, "us": _SHARE},
     "angle": {"metric": _DEGREE, "us": _DEGREE},
+    "angle of axes": {"metric": ["deg", radians(1.0)], "us": ["deg", radians(1.0)]},
     "roller force": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
     "air pressure": {"metric": ["bar", 0.1], "us": ["psi", 4.4482216152605 / 25.4**2]},
 }

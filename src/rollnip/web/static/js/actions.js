@@ -30,7 +30,7 @@ const REFUSALS = {
   preview: "refuse.computing",
 };
 
-/** Actions on `this.store`, `this.snapshot`, `this.tabs`, `this.printing`. */
+/** Actions on `this.store`, `this.snapshot`, `this.tabs`, `this.faces`, `this.printing`. */
 export class Actions {
   /** Open a case from anywhere; the one at hand can be had back with undo. */
   async open(tree, title = null) {
@@ -145,17 +145,21 @@ export class Actions {
     });
   }
 
-  /** {tree, result, ...} of the design at hand. Throws where what is shown is not its answer. */
+  /** {tree, result, face, ...} of the design at hand. Throws where what is shown is not its answer. */
   get answer() {
     const standing = this.standing();
-    if (standing === "settled") return this.snapshot;
-    throw new Error(say(REFUSALS[standing]));
+    if (standing !== "settled") throw new Error(say(REFUSALS[standing]));
+    const { tree } = this.snapshot;
+    const face = this.faces.of(tree);
+    if (tree.face && !face && !this.faces.failureOf(tree)) throw new Error(say("refuse.computing"));
+    return { ...this.snapshot, face };
   }
 
   /** The same with the surfaces as computed. */
   get drawnAnswer() {
-    if (!this.answer.isPlaced) throw new Error(say("refuse.computing"));
-    return this.answer;
+    const { answer } = this;
+    if (!answer.isPlaced) throw new Error(say("refuse.computing"));
+    return answer;
   }
 
   async saveCsv(what) {
@@ -170,9 +174,9 @@ export class Actions {
   /** Everything that was computed, as the command line gives it, with the case and what is known. */
   async saveJson() {
     await this.attempt(say("json.failed"), async () => {
-      const { tree, known } = this.answer;
+      const { tree, known, face } = this.answer;
       const result = await post("/api/solve", tree);
-      const text = JSON.stringify({ case: tree, result, known }, null, 1);
+      const text = JSON.stringify({ case: tree, result, known, ...(face ? { face } : {}) }, null, 1);
       download(fileName(tree, "json"), text, "application/json");
     });
   }

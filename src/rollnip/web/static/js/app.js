@@ -3,17 +3,16 @@
 import { Actions } from "./actions.js";
 import { announce, clearAlarm, alarm, showAnswers, showStanding, unsoundAlarm } from "./answers.js";
 import { isAbort, onOutage, post, sentencesOf } from "./api.js";
-import { CompareView, MOST_KEPT } from "./compare.js";
-import { CurveView } from "./curves.js";
+import { MOST_KEPT } from "./compare.js";
 import { defaultCase, designOf, nameOf } from "./design.js";
 import { button, byId, toast } from "./dom.js";
 import { Drawings } from "./drawings.js";
-import { FindView } from "./find.js";
+import { sameNip } from "./face.js";
+import { FaceRunner } from "./facerunner.js";
 import { icon } from "./icons.js";
 import { Inputs } from "./inputs.js";
-import { InsideView } from "./inside.js";
 import { designItems, examplesDialog, menu, shareItems } from "./menus.js";
-import { MeasuredView, measuredIn } from "./measured.js";
+import { measuredIn } from "./measured.js";
 import { paletteOf } from "./palette.js";
 import { same, setAt } from "./paths.js";
 import { modulusOf } from "./materials.js";
@@ -29,7 +28,7 @@ import { say } from "./texts.js";
 import { Theme } from "./theme.js";
 import { Units } from "./units.js";
 import { VIEW, viewOf } from "./view.js";
-import { WhatIfView } from "./whatif.js";
+import { viewsOf } from "./views.js";
 
 const IDLE = 300; // ms
 
@@ -58,8 +57,9 @@ export class App extends Actions {
       busy: (yes) => this.busy(yes),
     });
     this.inputs = new Inputs(byId("inputs"), this);
+    this.faces = new FaceRunner(this, () => this.faceTold());
     this.drawings = new Drawings(byId("drawings"), this);
-    this.tabs = new Tabs(this.views(), this);
+    this.tabs = new Tabs(viewsOf(this), this);
     this.examples = examplesDialog(examples, (example) => this.open(example.case, example.title));
     this.printing = new Printing(this);
     this.wire();
@@ -68,20 +68,6 @@ export class App extends Actions {
       this.stand();
     });
     this.store.listen((state, why) => this.changed(state, why));
-  }
-
-  views() {
-    return [
-      new CurveView("pressure", say("tab.pressure"), this),
-      new CurveView("gap", say("tab.gap"), this),
-      new CurveView("strain", say("tab.strain"), this),
-      new CurveView("speed", say("tab.speed"), this),
-      new InsideView(this),
-      new WhatIfView(this),
-      new FindView(this),
-      new MeasuredView(this),
-      new CompareView(this),
-    ];
   }
 
   /** Header, shortcuts, links pasted into the address. */
@@ -212,18 +198,19 @@ export class App extends Actions {
       byId(system).setAttribute("aria-pressed", String(state.view.system === system));
     this.tabs.refresh();
     if (why === "view") this.showAll();
-    else if (why !== "design" || !this.isRenamed(state.case)) this.ask(state.case, why);
+    else if (why === "opened" || !this.keepsAnswer(state.case, why)) this.ask(state.case, why);
     this.stand();
   }
 
-  /** Whether only the name is another: the answer is the same one then, and is kept. */
-  isRenamed(tree) {
+  /** Whether only the name or the face is another: the answer of the nip is the same one then. */
+  keepsAnswer(tree, why) {
     const before = this.snapshot;
-    if (!before?.isPlaced || this.standing() !== "computing" || this.reading > 0 || this.runner.exact)
-      return false;
-    if (before.state !== "settled" || !same(setAt(tree, "title", ""), setAt(before.tree, "title", "")))
-      return false;
+    const standing = this.standing();
+    if (!before?.isPlaced || before.state !== "settled" || this.runner.exact) return false;
+    if ((standing !== "computing" && standing !== "settled") || !sameNip(tree, before.tree)) return false;
     this.snapshot = { ...before, tree, result: { ...before.result, title: tree.title } };
+    clearTimeout(this.idle);
+    if (why === "live") this.idle = setTimeout(() => this.store.rest(), IDLE);
     this.tabs.open.show(this.snapshot);
     this.remember();
     if (!this.snapshot.known) this.learn(tree);
@@ -290,7 +277,7 @@ export class App extends Actions {
     const known = this.snapshot?.tree === tree ? this.snapshot.known : null;
     this.snapshot = { tree, result, state, surfaces, isPlaced: false, known };
     this.failure = null;
-    this.inputs.complain([]);
+    this.complainAt();
     byId("drawings").classList.add("old");
     showAnswers(this.snapshot, this.units());
     this.stand();
@@ -328,8 +315,23 @@ export class App extends Actions {
 
   failed(tree, error) {
     this.failure = { tree, error };
-    this.inputs.complain(error.details ?? []);
+    this.complainAt();
     this.stand();
+  }
+
+  /** The complaints of the server, about the nip and about its face, at their inputs. */
+  complainAt() {
+    const face = this.faces.failureOf(this.store.state.case)?.details ?? [];
+    this.inputs.complain([...(this.failure?.error.details ?? []), ...face]);
+  }
+
+  /** The face of the design at hand is there, is refused, or is not there yet. */
+  faceTold() {
+    const { case: tree } = this.store.state;
+    const isThere = !tree.face || this.faces.of(tree) || this.faces.failureOf(tree);
+    document.documentElement.dataset.face = isThere ? "rest" : "waiting";
+    this.complainAt();
+    this.tabs.open.refresh?.();
   }
 
   /** Each complaint at its input and, in words, above everything. */
@@ -350,7 +352,7 @@ export class App extends Actions {
       this.drawings.show(this.snapshot);
       this.tabs.open.show(this.snapshot);
     }
-    if (this.failure) this.inputs.complain(this.failure.error.details ?? []);
+    this.complainAt();
   }
 
   recolour() {

@@ -12,13 +12,14 @@ import { joined, typable } from "./units.js";
 const STEPS = 500; // of a slider
 const DIGITS = 3; // a slider gives round values in the unit shown
 const BOX_DIGITS = 5;
-const ASKED = { share: "ratio", "roller force": "force", "air pressure": "pressure" };
+const ASKED = { "angle of axes": "angle", share: "ratio", "roller force": "force", "air pressure": "pressure" };
 
 /** A control of the number at `path`. `app` is {store, units()}. */
 export class Control {
-  constructor(path, app) {
+  constructor(path, app, label = null) {
     this.path = path;
     this.app = app;
+    this.label = label; // another than that of the input
     this.sent = null;
     this.tried = null; // the text that was last sent to be read
     this.asked = 0; // how many texts were sent to be read
@@ -31,9 +32,15 @@ export class Control {
     return inputAt(this.path, this.app.store.state.case);
   }
 
+  /** Id of the box, and how those of its slider and notes begin. */
+  get id() {
+    return idOf(this.path);
+  }
+
   build() {
-    const { label, hint } = this.input;
-    const id = idOf(this.path);
+    const { hint } = this.input;
+    const label = this.label ?? this.input.label;
+    const { id } = this;
     const described = `${id}-unit ${id}-wrong${hint ? ` ${id}-hint` : ""}`;
     this.box = el("input", {
       id,

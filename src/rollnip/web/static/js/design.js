@@ -1,5 +1,6 @@
 // What a design is: the tree of a case file with plain numbers (mm, N, MPa, s). Pure functions.
 
+import { byMeanLoad, shaftOf } from "./face.js";
 import { getAt, setAt, steps } from "./paths.js";
 import { say } from "./texts.js";
 
@@ -30,13 +31,20 @@ export function defaultCase(system = "metric") {
  */
 export function withSize(tree, path, value, keeps = {}) {
   const [side, key, i, last] = steps(path);
-  const changed = setAt(tree, path, value);
+  const changed = withLength(setAt(tree, path, value), path, value);
   const { radius, layers } = tree[side] ?? {};
   if (keeps[side] !== "core" || typeof radius !== "number" || layers.length === 0) return changed;
   if (key === "radius")
     return setAt(changed, `${side}.layers[0].thickness`, tidy(layers[0].thickness + value - radius));
   if (key !== "layers" || last !== "thickness") return changed;
   return setAt(changed, `${side}.radius`, tidy(radius + value - layers[i].thickness));
+}
+
+/** Face width and length of the face are one size. */
+function withLength(tree, path, value) {
+  if (path === "face.length" && tree.nip.face_width !== undefined)
+    return setAt(tree, "nip.face_width", value);
+  return path === "nip.face_width" && tree.face ? setAt(tree, "face.length", value) : tree;
 }
 
 /** Without the last digits, which sums of decimals leave. */
@@ -61,7 +69,8 @@ export function designOf(tree) {
   const roller = (side) => {
     const layers = (side.layers ?? []).map((layer) => ({ ...layer, material: material(layer.material) }));
     const core = side.core === undefined || side.core === RIGID ? {} : { core: material(side.core) };
-    return { radius: side.radius, ...core, layers };
+    const shaft = side.shaft ? { shaft: shaftOf(side.shaft) } : {};
+    return { radius: side.radius, ...core, layers, ...shaft };
   };
   const { materials: _named, ...rest } = tree;
   const whole = {
@@ -104,7 +113,7 @@ export function driving(tree) {
 export function pressBy(tree, kind, result) {
   const { load: _load, approach: _approach, ...nip } = tree.nip;
   const value = result?.[kind] ?? (kind === "load" ? 4 : 0.4);
-  return { ...tree, nip: { ...nip, [kind]: rounded(value) } };
+  return { ...byMeanLoad(tree), nip: { ...nip, [kind]: rounded(value) } };
 }
 
 /** Change the kind of driving; traction and creepage start from what the nip has now. */

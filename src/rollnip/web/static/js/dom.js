@@ -63,6 +63,13 @@ function optionOf(option) {
   return el("optgroup", { label: option.group }, ...option.options.map(optionOf));
 }
 
+/** A checkbox with its label. */
+export function checkbox(id, text, value, act) {
+  const box = el("input", { type: "checkbox", id, on: { change: () => act(box.checked) } });
+  box.checked = value;
+  return el("label", { class: "row", for: id }, box, text);
+}
+
 /** Say something once: shown for some seconds, and read out. */
 export function toast(text) {
   const box = byId("toast");

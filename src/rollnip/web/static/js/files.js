@@ -4,9 +4,11 @@ import { image } from "./charts.js";
 import { nameOf } from "./design.js";
 import { pairPicture, words } from "./drawing.js";
 import { svg } from "./dom.js";
+import { facePaths } from "./face.js";
+import { faceRows } from "./faceview.js";
 import { bandOf } from "./known.js";
 import { getAt } from "./paths.js";
-import { ANSWERS, flat, inputsOf, totalsOf } from "./quantities.js";
+import { ANSWERS, faceLabel, flat, inputAt, inputsOf, totalsOf } from "./quantities.js";
 import { sectionPicture, windowOf } from "./section.js";
 import { say } from "./texts.js";
 
@@ -51,7 +53,7 @@ export function profilesCsv(result, units) {
 }
 
 /** The key figures as CSV: with what is known about each, the inputs, the model, the warnings. */
-export function figuresCsv({ tree, result, known }, units) {
+export function figuresCsv({ tree, result, known, face }, units) {
   const all = flat(result);
   const shown = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined);
   const rows = shown.map(({ key, label, dimension }) => {
@@ -66,16 +68,24 @@ export function figuresCsv({ tree, result, known }, units) {
     const value = units.shown(getAt(tree, path) * factor, dimension);
     return [say("csv.input", { label }), plainNumber(value), units.of(dimension).name];
   });
-  const warnings = result.warnings.map((text, i) => [say("csv.warning", { number: i + 1 }), text]);
+  const along = face ? faceRows(face, units).map(({ label, text, unit }) => [label, text, unit]) : [];
+  const shafts = facePaths(tree).map((path) => {
+    const { dimension, factor } = inputAt(path, tree);
+    const value = plainNumber(units.shown(getAt(tree, path) * factor, dimension));
+    return [say("csv.input", { label: faceLabel(path, tree) }), value, units.of(dimension).name];
+  });
+  const warnings = [...result.warnings, ...(face?.warnings ?? [])].map((text, i) => [say("csv.warning", { number: i + 1 }), text]);
   return table(
     [
       [say("csv.figure"), say("csv.value"), say("csv.unit"), say("csv.error"), say("csv.low"), say("csv.high")],
       ...rows,
       ...totals,
+      ...along,
       [say("csv.converged"), String(result.converged)],
       [say("csv.geometry"), result.geometry],
       [say("csv.design"), nameOf(tree)],
       ...inputs,
+      ...shafts,
       ...warnings,
     ].map((row) => [...row, ...Array(6 - row.length).fill("")]),
   );

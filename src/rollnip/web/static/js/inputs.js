@@ -1,7 +1,8 @@
 // The column of inputs. It is built anew only where the shape of a design changes.
 
 import { driveBy, driving } from "./design.js";
-import { el, select } from "./dom.js";
+import { checkbox, el, select } from "./dom.js";
+import { faceGroup } from "./facegroup.js";
 import { Control } from "./control.js";
 import { idOf, setAt } from "./paths.js";
 import { choosePress, pressControls, pressKind, pressKinds } from "./press.js";
@@ -58,6 +59,7 @@ export class Inputs {
       rollerGroup("lower", tree, this),
       this.pressingGroup(tree),
       this.runningGroup(tree),
+      faceGroup(tree, this),
       this.advancedGroup(tree),
     );
     if (focused && document.activeElement?.id !== focused) document.getElementById(focused)?.focus();
@@ -97,11 +99,11 @@ export class Inputs {
     return this.controls.some((control) => control.isUnread && control.node.isConnected);
   }
 
-  pressingGroup() {
+  pressingGroup(tree) {
     const kind = pressKind(this.app);
     return group(
       say("group.press"),
-      choices("press", say("press.by"), pressKinds(), kind, (value) => choosePress(this.app, value)),
+      choices("press", say("press.by"), pressKinds(tree), kind, (value) => choosePress(this.app, value)),
       ...pressControls(kind, this),
     );
   }
@@ -151,8 +153,8 @@ export class Inputs {
           act: geometry,
         }),
         el("p", { class: "note", text: note }),
-        isWhole ? null : checkbox("in-has-width", say("face.totals"), hasWidth, width),
-        hasWidth && !isWhole ? this.control("nip.face_width") : null,
+        isWhole || tree.face ? null : checkbox("in-has-width", say("face.totals"), hasWidth, width),
+        hasWidth && !isWhole && !tree.face ? this.control("nip.face_width") : null,
         ...["upper", "lower"].flatMap((side) => [coreEditor(side, tree, this), this.planeBox(side, tree)]),
       ],
       "group",
@@ -198,11 +200,4 @@ export function choices(name, label, options, value, act) {
     return el("label", {}, radio, text);
   });
   return el("div", { class: "choices", role: "radiogroup", "aria-label": label }, ...buttons);
-}
-
-/** A checkbox with its label. */
-export function checkbox(id, text, value, act) {
-  const box = el("input", { type: "checkbox", id, on: { change: () => act(box.checked) } });
-  box.checked = value;
-  return el("label", { class: "row", for: id }, box, text);
 }

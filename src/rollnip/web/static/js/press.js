@@ -1,7 +1,8 @@
 // What presses the rollers together: a line load, an approach, a force, or cylinders.
 
 import { Control } from "./control.js";
-import { pressBy, pressing } from "./design.js";
+import { pressBy, pressing, withSize } from "./design.js";
+import { byEndLoads } from "./face.js";
 import { setAt } from "./paths.js";
 import { say } from "./texts.js";
 
@@ -18,14 +19,16 @@ const CYLINDERS = ["pressure", "bore", "count", "ratio"];
 /** "load", "approach", "force" or "cylinders". */
 export function pressKind(app) {
   const { case: tree, view } = app.store.state;
+  if (tree.face?.end_loads) return "ends";
   if (pressing(tree) === "approach") return "approach";
   const isWhole = view.press !== "load" && tree.nip.face_width !== undefined;
   return isWhole ? view.press : "load";
 }
 
-/** The kinds of pressing as [key, text]. */
-export function pressKinds() {
-  return ["load", "approach", "force", "cylinders"].map((key) => [key, say(`press.${key}`)]);
+/** The kinds of pressing as [key, text]; forces at the ends need bearings. */
+export function pressKinds(tree) {
+  const ends = tree.face && tree.upper.shaft ? ["ends"] : [];
+  return ["load", "approach", "force", "cylinders", ...ends].map((key) => [key, say(`press.${key}`)]);
 }
 
 /** Take another kind of pressing; the nip stays as it is. */
@@ -34,15 +37,18 @@ export function choosePress(app, kind) {
   store.state = { ...store.state, view: { ...store.state.view, press: kind } };
   const wanted = kind === "approach" ? "approach" : "load";
   const { case: now } = store.state;
-  const tree = pressing(now) === wanted ? now : pressBy(now, wanted, app.result());
+  if (kind === "ends") return store.design({ case: byEndLoads(now, app.result()?.load ?? now.nip.load) });
+  const isThere = pressing(now) === wanted && !now.face?.end_loads;
+  const tree = isThere ? now : pressBy(now, wanted, app.result());
   const isWhole = kind === "force" || kind === "cylinders";
-  const face = tree.nip.face_width ?? (isWhole ? FACE[store.state.view.system] : undefined);
-  store.design({ case: setAt(tree, "nip.face_width", face) });
+  const face = tree.nip.face_width ?? (isWhole ? (tree.face?.length ?? FACE[store.state.view.system]) : undefined);
+  return store.design({ case: setAt(tree, "nip.face_width", face) });
 }
 
 /** The controls of a kind of pressing. */
 export function pressControls(kind, panel) {
   if (kind === "load" || kind === "approach") return [panel.control(`nip.${kind}`)];
+  if (kind === "ends") return [0, 1].map((end) => panel.control(`face.end_loads[${end}]`));
   const names = kind === "force" ? ["force"] : CYLINDERS;
   const controls = names.map((name) => new PressControl(name, panel.app));
   const face = new FaceControl("nip.face_width", panel.app);
@@ -56,7 +62,7 @@ function lever({ bore, count, ratio }) {
 }
 
 /** A control of what makes the line load: the force is line load times face width. */
-class PressControl extends Control {
+export class PressControl extends Control {
   constructor(name, app) {
     super(`press.value.${name}`, app);
   }
@@ -97,6 +103,6 @@ class FaceControl extends Control {
   treeWith(value) {
     const tree = this.app.store.state.case;
     const force = tree.nip.load * tree.nip.face_width;
-    return setAt(setAt(tree, "nip.face_width", value), "nip.load", force / value);
+    return setAt(withSize(tree, this.path, value), "nip.load", force / value);
   }
 }

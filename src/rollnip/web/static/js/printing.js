@@ -9,7 +9,7 @@ import { say } from "./texts.js";
 export class Printing {
   constructor(app) {
     this.app = app;
-    this.filled = null; // {answer, system} of the report as it stands
+    this.filled = null; // {snapshot, face, system} of the report as it stands
     addEventListener("beforeprint", () => this.begin());
     addEventListener("afterprint", () => delete document.documentElement.dataset.report);
   }
@@ -18,11 +18,13 @@ export class Printing {
   fill() {
     document.documentElement.dataset.report = "yes";
     const answer = this.app.drawnAnswer;
+    const { snapshot } = this.app;
     const units = this.app.units();
-    if (this.filled?.answer === answer && this.filled.system === units.system) return;
+    const made = { snapshot, face: answer.face, system: units.system };
+    if (this.filled && Object.keys(made).every((key) => made[key] === this.filled[key])) return;
     const date = new Date().toISOString().slice(0, 10);
     fillReport(answer, units, paletteOf("light"), date);
-    this.filled = { answer, system: units.system };
+    this.filled = made;
   }
 
   /** A browser does not wait: what is not there yet is said instead. */

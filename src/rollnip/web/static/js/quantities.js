@@ -142,6 +142,36 @@ const TERMS = {
   relaxation_time: { ...MATERIAL.relaxation_time, hint: null },
 };
 
+const END = { dimension: "roller force", low: 10, high: 500000, log: true, hint: say("hint.ends") };
+const FACE = {
+  length: { label: say("face.length"), dimension: "length", low: 50, high: 12000, log: true },
+  skew: { label: say("face.skew"), dimension: "angle of axes", low: 0, high: 0.02, hint: say("hint.skew") },
+  nip_angle: { label: say("face.angle"), dimension: "angle of axes", low: 0, high: Math.PI, hint: say("hint.angle") },
+  "end_loads[0]": { ...END, label: say("face.end-first") },
+  "end_loads[1]": { ...END, label: say("face.end-second"), hint: null },
+};
+const SHAFT = {
+  bearing_distance: {
+    label: say("face.bearings"),
+    dimension: "length",
+    low: 60,
+    high: 15000,
+    log: true,
+    hint: say("hint.bearings"),
+  },
+  bore: { label: say("face.bore"), dimension: "length", low: 0, high: 1000, hint: say("hint.bore") },
+  journal_diameter: { label: say("face.journal"), dimension: "length", low: 5, high: 1000, log: true },
+  modulus: { label: say("face.modulus"), dimension: "pressure", low: 10000, high: 400000, log: true },
+  density: { label: say("face.density"), dimension: "density", low: 1000, high: 12000 },
+  "crown.height": {
+    label: say("face.crown"),
+    dimension: "length",
+    low: -0.5,
+    high: 1.5,
+    hint: say("hint.crown"),
+  },
+};
+
 const POINTS = {
   temperature: { ...MATERIAL.temperature },
   factor: { label: say("input.factor"), dimension: "ratio", low: 1e-6, high: 1e6, log: true, hint: null },
@@ -151,6 +181,9 @@ const POINTS = {
 export function inputAt(path, tree) {
   const last = path.replace(/^.*?(shift\.[a-z0-9_]+|[a-z_]+)$/, "$1");
   const start = { path, factor: 1 };
+  if (path.startsWith("face.")) return { ...start, ...FACE[path.slice(5)] };
+  const [, shaft] = path.match(/\.shaft\.(.+)$/) ?? [];
+  if (shaft) return { ...start, ...SHAFT[shaft] };
   if (path.startsWith("nip.")) return { ...start, ...NIP[last], ...tractionRange(last, tree) };
   if (path.includes(".points[")) return { ...start, ...POINTS[last] };
   if (path.includes(".terms[")) return { ...start, ...TERMS[last] };
@@ -163,6 +196,13 @@ function tractionRange(name, tree) {
   const load = tree.nip.load ?? 5;
   const most = Number((0.98 * tree.nip.friction * load).toPrecision(3)) || 0.1;
   return { low: -most, high: most };
+}
+
+/** The name of an input of the face, with its roller. */
+export function faceLabel(path, tree) {
+  const [, side] = path.match(/^(upper|lower)\./) ?? [];
+  const input = inputAt(path, tree);
+  return side ? named(say(`roller.${side}`), input).label : input.label;
 }
 
 /** Every number of a design that can be varied, for what-if and the inverse: {path, label, ...}. */

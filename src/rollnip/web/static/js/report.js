@@ -3,10 +3,13 @@
 import { svgOf } from "./charts.js";
 import { driving, kindOf, nameOf } from "./design.js";
 import { byId, el } from "./dom.js";
+import { facePaths } from "./face.js";
+import { bentPicture, printPicture } from "./facedrawing.js";
+import { faceRows } from "./faceview.js";
 import { drawingOf } from "./files.js";
 import { bandOf, partsOf, rangeText } from "./known.js";
 import { PLOTS } from "./plots.js";
-import { ANSWERS, errorOf, flat, inputAt, totalsOf } from "./quantities.js";
+import { ANSWERS, errorOf, faceLabel, flat, inputAt, totalsOf } from "./quantities.js";
 import { say } from "./texts.js";
 import { joined, number } from "./units.js";
 import { getAt } from "./paths.js";
@@ -35,7 +38,6 @@ const GEOMETRIES = {
 const HARDNESS =
   say("assume.hardness");
 const ASSUMPTIONS = [
-  say("assume.plane"),
   say("assume.steady"),
   say("assume.material"),
 ];
@@ -74,6 +76,7 @@ export function fillReport(answer, units, palette, date) {
       ),
     ),
     el("div", { class: "two" }, ...pictures),
+    ...faceParts(answer, units, palette),
     el("h2", { text: say("report.assumptions") }),
     el("ul", {}, ...assumptionsOf(tree, result).map((text) => el("li", { text }))),
     ...warnings(result),
@@ -85,10 +88,30 @@ export function fillRefusal(name, why) {
   byId("report").replaceChildren(el("h1", { text: name }), el("p", { class: "alarm", text: why }));
 }
 
+/** The face: its figures, the bent rollers, the print of the nip. */
+function faceParts({ tree, face }, units, palette) {
+  if (!face) return [];
+  const look = { width: 680, palette, units };
+  const bent = bentPicture(tree, face, look);
+  const print = printPicture(face, look);
+  const rows = faceRows(face, units).map(({ label, text, unit }) => [label, joined(text, unit)]);
+  const inputs = facePaths(tree).map((path) => row(tree, path, units, faceLabel(path, tree)));
+  return [
+    el("h2", { text: say("report.face") }),
+    el("div", { class: "two" }, table(inputs), table(rows)),
+    bent.node,
+    el("p", { text: say("face.bent", { times: number(bent.times) }) }),
+    print.node,
+    el("p", { text: say("face.print", { times: number(print.times) }) }),
+    el("ul", {}, ...face.warnings.map((text) => el("li", { text }))),
+  ];
+}
+
 function assumptionsOf(tree, { geometry }) {
   const layers = [...tree.upper.layers, ...tree.lower.layers];
   const byHardness = layers.some(({ material: one }) => one.shore_a !== undefined);
-  return [GEOMETRIES[geometry], ...ASSUMPTIONS, ...(byHardness ? [HARDNESS] : [])];
+  const along = say(tree.face ? "assume.face" : "assume.plane");
+  return [GEOMETRIES[geometry], along, ...ASSUMPTIONS, ...(byHardness ? [HARDNESS] : [])];
 }
 
 function picture(node, label) {

@@ -18,6 +18,7 @@ export function inWords(message, path, units, input = null) {
   const isRadius = /(^|\.)radius$/.test(path ?? "");
   const doubled = (number) => (isRadius ? 2 : 1) * number;
   return message
+    .replace(/^`[a-z_.]+` (?=must|needs|need|is)/, "")
     .replace(MODEL, (_text, model) => say("said.model", { model: say(`geometry.${model}`) }))
     .replace(/`?approach`? must be smaller than the radius/, say("said.approach"))
     .replace(/of its radius\b/g, say("said.of-radius"))

@@ -10,6 +10,7 @@ export const VIEW = {
   families: {}, // kind of covering by path of a material
   measured: {}, // {modulus, band} by path of a material
   machine: { bore: 50, count: 2, ratio: 1 }, // cylinders that press [mm]
+  face: { curve: "load", roller: "upper" },
   press: "load",
   keeps: { upper: "diameter", lower: "diameter" },
 };

@@ -1,0 +1,101 @@
+// The nip along its rollers: what a design holds of it. Pure functions.
+
+import { getAt, same, setAt } from "./paths.js";
+
+export const SIDES = ["upper", "lower"];
+export const STEEL = { modulus: 206000, poisson: 0.3 };
+export const STEEL_DENSITY = 7850; // kg/m3
+const ROUND = { metric: 10, us: 12.7 }; // mm: sizes to begin with are multiples of it
+const LENGTHS = { metric: 1000, us: 1016 };
+const OVERHANG = 1.2; // bearing distance over face length, to begin with
+const JOURNAL = 0.45; // journal over core, to begin with
+
+/** The design with a face, and shafts in all rollers. */
+export function withFace(tree, system) {
+  const length = tree.nip.face_width ?? LENGTHS[system];
+  const whole = { ...tree, face: { length, skew: 0, nip_angle: 0 } };
+  return SIDES.reduce((one, side) => withShaft(one, side, system), whole);
+}
+
+/** The design with a shaft in a roller; a plane has none. */
+export function withShaft(tree, side, system) {
+  const core = coreDiameter(tree[side]);
+  if (core === null || tree[side].shaft) return tree;
+  const step = ROUND[system];
+  const shaft = {
+    bearing_distance: step * Math.ceil((OVERHANG * tree.face.length) / step),
+    bore: 0,
+    journal_diameter: journalFor(tree[side], system),
+    ...STEEL,
+    crown: { height: 0, shape: "parabolic" },
+  };
+  return setAt(tree, `${side}.shaft`, shaft);
+}
+
+/** A diameter of journals to begin with [mm]. */
+export function journalFor(roller, system) {
+  const step = ROUND[system];
+  return step * Math.max(1, Math.round((JOURNAL * coreDiameter(roller)) / step));
+}
+
+/** The design without its face; the mean load stays. */
+export function withoutFace(tree) {
+  const { face: _face, ...rest } = byMeanLoad(tree);
+  return SIDES.reduce((one, side) => setAt(one, `${side}.shaft`, undefined), rest);
+}
+
+/** The design under a mean line load instead of forces at its ends. */
+export function byMeanLoad(tree) {
+  const load = meanLoad(tree);
+  if (load === null) return tree;
+  return setAt(setAt(tree, "face.end_loads", undefined), "nip.load", load);
+}
+
+/** The design under forces at both ends that make a mean line load [N/mm]. */
+export function byEndLoads(tree, load) {
+  const { load: _load, approach: _approach, ...nip } = tree.nip;
+  const half = Number((0.5 * load * tree.face.length).toPrecision(4));
+  return setAt({ ...tree, nip }, "face.end_loads", [half, half]);
+}
+
+/** Line load that forces at the ends make in the mean [N/mm]; null where they are not given. */
+export function meanLoad(tree) {
+  const ends = tree.face?.end_loads;
+  return ends ? (ends[0] + ends[1]) / tree.face.length : null;
+}
+
+/** Diameter of the core under the coverings [mm]; null of a plane. */
+export function coreDiameter({ radius, layers }) {
+  if (typeof radius !== "number") return null;
+  return 2 * layers.reduce((rest, { thickness }) => rest - thickness, radius);
+}
+
+/** Whether two designs have the same cross-section under the same load, whatever bends. */
+export function sameNip(one, two) {
+  return same(sectionOf(one), sectionOf(two));
+}
+
+function sectionOf(tree) {
+  const { face: _face, title: _title, ...rest } = tree;
+  const bare = SIDES.reduce((one, side) => setAt(one, `${side}.shaft`, undefined), rest);
+  return { ...bare, mean: meanLoad(tree) };
+}
+
+/** Shaft and face of a case as the page holds them: every number that has a control. */
+export function shaftOf(shaft) {
+  const { crown = 0 } = shaft;
+  const whole = typeof crown === "number" ? { height: crown, shape: "parabolic" } : crown;
+  const crowned = whole.shape || whole.height === undefined ? whole : { ...whole, shape: "parabolic" };
+  return { bore: 0, ...STEEL, ...shaft, ...(shaft.modulus ? {} : { modulus: STEEL.modulus }), crown: crowned };
+}
+
+/** Paths of all numbers of the face of a design that have a control. */
+export function facePaths(tree) {
+  if (!tree.face) return [];
+  const ends = (tree.face.end_loads ?? []).map((_one, i) => `face.end_loads[${i}]`);
+  const names = ["bearing_distance", "bore", "journal_diameter", "modulus", "density", "crown.height"];
+  const shafts = SIDES.flatMap((side) => names.map((name) => `${side}.shaft.${name}`));
+  const weighs = SIDES.some((side) => tree[side].shaft?.density !== undefined);
+  const all = ["face.length", "face.skew", ...(weighs ? ["face.nip_angle"] : []), ...ends, ...shafts];
+  return all.filter((path) => typeof getAt(tree, path) === "number");
+}

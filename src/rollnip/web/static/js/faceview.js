@@ -1,0 +1,314 @@
+// Along the face: sliders for crown and load, the bent rollers, the print of the nip, curves, figures.
+
+import { isAbort, post, sentencesOf } from "./api.js";
+import { Chart, layoutOf, line, titled } from "./charts.js";
+import { Control } from "./control.js";
+import { button, el, select, withUnit } from "./dom.js";
+import { SIDES, facePaths, withFace } from "./face.js";
+import { bentPicture, printPicture } from "./facedrawing.js";
+import { getAt, placeInWords, same, setAt } from "./paths.js";
+import { PressControl, pressKind } from "./press.js";
+import { faceLabel } from "./quantities.js";
+import { inWords } from "./said.js";
+import { say } from "./texts.js";
+import { number } from "./units.js";
+
+const CURVES = [
+  ["load", "line load", "pressure"],
+  ["peak_pressure", "pressure", "pressure"],
+  ["nip_width", "length", "upper"],
+  ["traction", "line load", "shear"],
+];
+const NOISE = 1e-9; // of the mean load: a traction below it is rounding
+const WITHIN = 0.1;
+
+/** A second control of a value that has one among the inputs. */
+class LiveControl extends Control {
+  get id() {
+    return `face-${super.id}`;
+  }
+}
+
+class LiveForce extends PressControl {
+  get id() {
+    return `face-${super.id}`;
+  }
+}
+
+/** The view "Along the face". */
+export class FaceView {
+  constructor(app) {
+    this.id = "face";
+    this.title = say("face.title");
+    this.app = app;
+    this.controls = [];
+    const start = () => app.store.design({ case: withFace(app.store.state.case, app.store.state.view.system) });
+    this.none = el(
+      "div",
+      { class: "empty" },
+      el("p", { text: say("face.none") }),
+      button(say("face.give"), start, { kind: "main", id: "give-face" }),
+    );
+    this.sliders = el("div", { class: "face-sliders" });
+    this.said = el("p", { class: "wrong", id: "face-said", role: "status" });
+    this.bent = el("div");
+    this.print = el("div");
+    this.bentText = el("figcaption");
+    this.printText = el("figcaption");
+    this.pictures = el(
+      "div",
+      { class: "face-pictures" },
+      el("figure", { id: "face-bent" }, this.bent, this.bentText),
+      el("figure", { id: "face-print" }, this.print, this.printText),
+    );
+    this.chart = new Chart(el("div", { class: "chart low", id: "chart-face" }));
+    this.figures = el("div", { class: "figures", id: "face-figures" });
+    this.notes = el("ul", { class: "warnings", id: "face-notes" });
+    this.asks = el("div", { class: "ask" });
+    this.found = el("div", { role: "status", id: "crown-said" });
+    const exports = ["PNG", "SVG", "CSV"].map((format) =>
+      button(format, () => app.exportChart(format), {
+        kind: "small",
+        id: `face-${format.toLowerCase()}`,
+        label: say("chart.save", { format }),
+      }),
+    );
+    const foot = el("div", { class: "chart-foot" }, el("p", { class: "hint", text: say("face.foot") }), el("div", { class: "row" }, ...exports));
+    this.whole = el("div", { class: "face" }, this.sliders, this.said, this.pictures, this.notes, this.asks, this.chart.node, foot, this.figures, this.found);
+    this.node = el("div", {}, this.none, this.whole);
+    new ResizeObserver(() => this.drawn && this.draw(this.drawn.tree, this.drawn.face)).observe(this.pictures);
+  }
+
+  /** Called with every answer; the face of a design comes by itself. */
+  show() {
+    this.refresh();
+  }
+
+  /** Show the design at hand: its sliders, and its face where that is there. */
+  refresh() {
+    if (!this.node.isConnected) return;
+    const { case: tree, view } = this.app.store.state;
+    this.none.hidden = Boolean(tree.face);
+    this.whole.hidden = !tree.face;
+    if (!tree.face) return;
+    this.build(tree, view);
+    for (const control of this.controls) control.refresh(tree);
+    const failure = this.app.faces.failureOf(tree);
+    this.said.textContent = failure ? this.sentence(failure, tree) : "";
+    this.said.hidden = !failure;
+    const face = this.app.faces.of(tree);
+    if (face) this.draw(tree, face);
+    for (const node of [this.pictures, this.chart.node, this.figures]) node.classList.toggle("old", !face);
+    if (this.advice && !same(this.advice.tree, tree)) this.found.replaceChildren();
+  }
+
+  sentence(failure, tree) {
+    const units = this.app.units();
+    const known = facePaths(tree);
+    const place = (path) => (known.includes(path) ? `${faceLabel(path, tree)}: ` : placeInWords(path));
+    const said = failure.details.map(({ path, message }) => place(path) + inWords(message, path, units));
+    return said.join(" ") || failure.message;
+  }
+
+  /** Sliders and questions, anew where the shape of the design changed. */
+  build(tree, view) {
+    const crowned = SIDES.filter((side) => typeof getAt(tree, `${side}.shaft.crown.height`) === "number");
+    const kind = pressKind(this.app);
+    const key = JSON.stringify([crowned, kind, view.system, view.face, Boolean(view.crowned)]);
+    if (key === this.key) return;
+    this.key = key;
+    const focused = document.activeElement?.id;
+    const crowns = crowned.map((side) => new LiveControl(`${side}.shaft.crown.height`, this.app, say(`face.crown-${side}`)));
+    this.controls = [...crowns, ...this.loads(kind)];
+    this.sliders.replaceChildren(...this.controls.map(({ node }) => node));
+    const put = (change) => this.app.store.view({ face: { ...this.app.store.state.view.face, ...change } });
+    const rollers = SIDES.filter((side) => tree[side].shaft);
+    this.asks.replaceChildren(
+      select({
+        id: "face-curve",
+        label: say("face.show"),
+        options: CURVES.map(([name]) => [name, say(`face.curve-${name}`)]),
+        value: view.face.curve,
+        act: (curve) => put({ curve }),
+      }),
+      ...(rollers.length === 0 || kind === "approach"
+        ? []
+        : [
+            select({
+              id: "crown-roller",
+              label: say("crown.of"),
+              options: rollers.map((side) => [side, say(`roller.${side}`)]),
+              value: rollers.includes(view.face.roller) ? view.face.roller : rollers[0],
+              act: (roller) => put({ roller }),
+            }),
+            button(say("crown.go"), () => this.search(), { kind: "main", id: "crown-go" }),
+          ]),
+    );
+    if (focused) document.getElementById(focused)?.focus();
+  }
+
+  loads(kind) {
+    if (kind === "force" || kind === "cylinders") return [new LiveForce("force", this.app)];
+    const paths = kind === "ends" ? ["face.end_loads[0]", "face.end_loads[1]"] : [`nip.${kind}`];
+    return paths.map((path) => new LiveControl(path, this.app));
+  }
+
+  draw(tree, face) {
+    this.drawn = { tree, face };
+    const look = { palette: this.app.palette(), units: this.app.units(), width: this.pictures.clientWidth || 600 };
+    const bent = bentPicture(tree, face, look);
+    const print = printPicture(face, look);
+    this.bent.replaceChildren(bent.node);
+    this.print.replaceChildren(print.node);
+    const crossed = tree.face.skew === 0 ? "" : ` ${say("face.crossed")}`;
+    this.bentText.textContent = say("face.bent", { times: number(bent.times) }) + crossed;
+    this.printText.textContent = say("face.print", { times: number(print.times) });
+    this.chart.show(faceChart(face, this.curve, look.units, look.palette));
+    const notes = face.converged ? face.warnings : [face.status, ...face.warnings];
+    this.notes.replaceChildren(...notes.map((text) => el("li", { text: inWords(text, "", look.units) })));
+    this.figures.replaceChildren(...faceRows(face, look.units).map(figureOf));
+  }
+
+  get curve() {
+    return this.app.store.state.view.face.curve;
+  }
+
+  /** Whether what is drawn is of another design. */
+  isOld() {
+    return !this.app.faces.of(this.app.store.state.case);
+  }
+
+  figure({ tree }, palette) {
+    const face = this.app.faces.of(tree);
+    return face ? faceChart(face, this.curve, this.app.units(), palette) : null;
+  }
+
+  csvRows() {
+    return faceColumns(this.app.faces.of(this.app.store.state.case), this.app.units());
+  }
+
+  /** Ask which crown evens out the load. */
+  async search() {
+    const { case: tree, view } = this.app.store.state;
+    const chosen = tree[view.face.roller]?.shaft ? view.face.roller : SIDES.find((side) => tree[side].shaft);
+    this.asking?.abort();
+    this.asking = new AbortController();
+    this.advice = { tree };
+    this.found.replaceChildren(el("p", { class: "hint", text: say("crown.busy") }));
+    try {
+      const body = { case: tree, roller: chosen, within: WITHIN };
+      this.tell(tree, await post("/api/crown", body, this.asking.signal));
+    } catch (error) {
+      if (isAbort(error)) return;
+      this.found.replaceChildren(el("div", { class: "found not" }, el("p", { text: sentencesOf(error).join(" ") })));
+    }
+  }
+
+  tell(tree, best) {
+    if (!same(tree, this.app.store.state.case)) return this.found.replaceChildren();
+    const units = this.app.units();
+    const text = (value, dimension) => units.text(value, dimension, 3);
+    const use = () => {
+      const { case: now } = this.app.store.state;
+      const height = Number(best.height.toPrecision(3));
+      const path = `${best.roller}.shaft.crown`;
+      this.app.store.design({ case: setAt(now, path, { height, shape: "parabolic" }) });
+    };
+    const [low, high] = best.loads.map((value) => text(value, "line load"));
+    const served = servedText(best, text);
+    const skew = best.skew > 0 ? say("crown.skew", { skew: text(best.skew, "angle of axes") }) : "";
+    return this.found.replaceChildren(
+      el(
+        "div",
+        { class: "found" },
+        el("b", { text: say(`crown.found-${best.roller}`, { height: text(best.height, "length") }) }),
+        el("p", { text: `${say("crown.loads", { low, high })} ${served} ${skew}`.trim() }),
+        button(say("crown.use"), use, { kind: "main", id: "crown-use" }),
+      ),
+    );
+  }
+}
+
+function servedText({ served, low, high, within }, text) {
+  const share = number(100 * within);
+  if (!served) return say("crown.serves-none", { share });
+  const ends = { low: low === null ? "" : text(low, "line load"), high: high === null ? "" : text(high, "line load"), share };
+  if (low !== null && high !== null) return say("crown.serves", ends);
+  if (low !== null) return say("crown.serves-above", ends);
+  return high !== null ? say("crown.serves-below", ends) : say("crown.serves-all", ends);
+}
+
+/** A curve over the face. */
+export function faceChart(face, curve, units, palette) {
+  const [key, dimension, colour] = CURVES.find(([name]) => name === curve) ?? CURVES[0];
+  const name = say(`face.curve-${key}`);
+  const unit = units.name(dimension);
+  const x = units.list(face.y, "length");
+  const values = cleaned(face, key);
+  const data = [line(name, x, units.list(values, dimension), palette[colour], { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` })];
+  if (key === "load") {
+    const mean = units.shown(face.mean_load, dimension);
+    const style = { dash: "dot", width: 1.5, hoverinfo: "skip" };
+    data.push(line(say("face.mean"), [x[0], x[x.length - 1]], [mean, mean], palette.bound, style));
+  }
+  const layout = layoutOf(palette, titled(say("axis.face"), units.name("length")), titled(name, unit), {
+    along: units.name("length"),
+    yaxis: key === "traction" ? {} : { rangemode: "tozero" },
+    showlegend: key === "load",
+  });
+  return { data, layout, label: say("face.chart", { name }) };
+}
+
+/** A list over y; a traction that is rounding beside the load is none. */
+function cleaned(face, key) {
+  const values = face[key];
+  if (key !== "traction") return values;
+  return values.map((value) => (Math.abs(value) < NOISE * face.mean_load ? 0 : value));
+}
+
+/** What is said of a face, as {key, label, text, unit, error, hint}. */
+export function faceRows(face, units) {
+  const worst = Math.max(...Object.values(face.error));
+  const row = (key, value, dimension, digits = 4) => ({
+    key,
+    label: say(`face.${key}`),
+    ...units.format(value, dimension, digits),
+    hint: say(`face.${key}-hint`),
+  });
+  const rows = [
+    row("mean_load", face.mean_load, "line load"),
+    row("total_load", face.total_load, "roller force"),
+    row("evenness", 100 * face.evenness, "ratio", 3),
+    row("even_share", 100 * face.even_share, "ratio", 3),
+    row("largest_scrub", cleanedScrub(face), "line load", 3),
+    row("error", 100 * worst, "ratio", 2),
+  ];
+  const shares = ["evenness", "even_share", "error"];
+  return rows.map((one) => (shares.includes(one.key) ? { ...one, unit: "%" } : one));
+}
+
+function cleanedScrub({ largest_scrub: scrub, mean_load: mean }) {
+  return scrub < NOISE * mean ? 0 : scrub;
+}
+
+function figureOf({ key, label, hint, ...shown }) {
+  return el(
+    "dl",
+    { class: "figure" },
+    el("dt", { text: label }),
+    el("dd", { "data-face": key }, ...withUnit(shown)),
+    el("dd", { class: "note", text: hint }),
+  );
+}
+
+/** Everything over y as rows of a table, units in the head. */
+export function faceColumns(face, units) {
+  const columns = [
+    ["y", "y", "length"],
+    ...CURVES.map(([key, dimension]) => [say(`face.curve-${key}`), key, dimension]),
+    ...SIDES.map((side) => [say(`face.deflection-${side}`), `deflection_${side}`, "length"]),
+  ];
+  const head = columns.map(([name, , dimension]) => `${name} [${units.of(dimension).name}]`);
+  const lists = columns.map(([, key, dimension]) => units.list(cleaned(face, key), dimension));
+  return [head, ...face.y.map((_y, i) => lists.map((list) => list[i]))];
+}

@@ -1,0 +1,210 @@
+"""Along the face: bent rollers, the print of the nip, crowns; what is shown is the solver's."""
+
+import csv
+import io
+import json
+import tomllib
+from importlib.resources import files
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.browser.conftest import Designer, fragment, new_context
+from tests.browser.test_inputs import sent
+from tests.browser.test_standing import Gate, overhang
+
+import rollnip as rn
+from rollnip.face import even_crown
+from rollnip.io import parse_case
+
+pytestmark = pytest.mark.slow
+
+ROOT = Path(str(files("rollnip"))).parents[1]
+CASE = tomllib.loads((ROOT / "examples" / "press-face.toml").read_text(encoding="utf-8"))
+CASE["model"] = {"geometry": "linear"}
+UPPER = "in-upper-shaft"
+
+
+def at_rest(designer):
+    """Wait until the face of the design at hand is shown."""
+    designer.rest()
+    designer.until("document.documentElement.dataset.face === 'rest'", timeout=60_000)
+    return designer
+
+
+@pytest.fixture
+def face(designer):
+    page = designer.page
+    designer.resets += 1
+    state = {"case": CASE, "tab": "face", "turn": designer.resets}
+    with page.expect_response("**/api/solve*"):
+        page.evaluate("hash => { location.hash = hash; }", fragment(state))
+    yield at_rest(designer)
+    page.unroute_all(behavior="ignoreErrors")
+
+
+def answered(designer, act):
+    """The face that an action makes the server answer."""
+    with designer.page.expect_response("**/api/face") as response:
+        act()
+    at_rest(designer)
+    return response.value.json()
+
+
+def figure(designer, key):
+    return designer.number(f'[data-face="{key}"]')
+
+
+def test_load_width_and_pressure_are_those_of_the_solver(face):
+    case = parse_case(CASE)
+    solution = rn.solve_face(case.nip, case.face, case.model)
+    for key, name, expected in (
+        ("load", "Line load", solution.load),
+        ("peak_pressure", "Peak pressure", solution.peak_pressure),
+        ("nip_width", "Nip width", solution.nip_width),
+    ):
+        face.page.select_option("#face-curve", key)
+        drawn = face.trace("chart-face", name)
+        np.testing.assert_allclose(drawn["x"], solution.y, atol=1e-9)
+        np.testing.assert_allclose(drawn["y"], expected, rtol=1e-6)
+    assert figure(face, "evenness") == pytest.approx(100 * solution.evenness, rel=2e-3)
+    assert figure(face, "total_load") == pytest.approx(9600)
+
+
+def test_the_drawings_say_how_much_is_exaggerated_and_the_print_is_to_scale(face):
+    assert "times larger" in face.page.inner_text("#face-bent figcaption")
+    assert "times wider" in face.page.inner_text("#face-print figcaption")
+    heights = face.page.locator("#face-print path").evaluate_all(
+        "all => all.map(one => { const box = one.getBBox(); return [box.width, box.height]; })"
+    )
+    case = parse_case(CASE)
+    widest = rn.solve_face(case.nip, case.face, case.model).nip_width.max()
+    (stretched, true) = heights
+    assert true[1] / true[0] == pytest.approx(widest / 1600.0, rel=2e-2)
+    times = float(face.page.inner_text("#face-print figcaption").split(": ")[1].split()[0])
+    assert stretched[1] == pytest.approx(times * true[1], rel=2e-2)
+
+
+def test_a_crown_changes_the_face_and_asks_for_no_new_nip(face):
+    solves = []
+    face.page.on("request", lambda one: solves.append(one.url) if "/solve" in one.url else None)
+    before = figure(face, "evenness")
+    found = answered(face, lambda: face.type("face-in-upper-shaft-crown-height", "0.4 mm"))
+    assert figure(face, "evenness") == pytest.approx(100 * found["evenness"], rel=2e-3)
+    assert figure(face, "evenness") > before
+    assert float(face.page.input_value(f"#{UPPER}-crown-height")) == 0.4  # the same value's box
+    assert solves == []
+    answered(face, lambda: face.page.click("#undo"))
+    assert figure(face, "evenness") == pytest.approx(before)
+
+
+def test_the_slider_of_the_crown_moves_the_face_as_it_moves(face):
+    """Each answer is drawn before the next move; only the balance is solved anew."""
+    page = face.page
+    page.focus("#face-in-upper-shaft-crown-height-slider")
+    shown = [figure(face, "evenness")]
+    for _turn in range(6):
+        with page.expect_response("**/api/face"):
+            page.keyboard.press("ArrowRight")
+        face.until(
+            "before => Number(document.querySelector('[data-face=evenness]').firstChild"
+            ".textContent) !== before",
+            arg=shown[-1],
+        )
+        shown.append(figure(face, "evenness"))
+    assert shown == sorted(set(shown))
+
+
+def test_forces_at_the_ends_tilt_the_nip_and_go_back_to_a_mean_load(face):
+    answered(face, lambda: face.page.click("#in-press-ends"))
+    answered(face, lambda: face.type("face-in-face-end_loads-0", "4 kN"))
+    drawn = face.trace("chart-face", "Line load")["y"]
+    assert drawn[0] < drawn[-1]
+    tree = sent(face, lambda: face.page.click("#in-press-load"))
+    assert tree["nip"]["load"] == pytest.approx(8800 / 1600)
+    assert "end_loads" not in tree["face"]
+
+
+@pytest.mark.parametrize(
+    ("box", "text", "wanted"),
+    [
+        ("bearing_distance", "1000 mm", "at least the length of the face"),
+        ("bore", "190 mm", "smaller than the core"),
+        ("crown-height", "90 mm", "smaller than the covering"),
+        ("journal_diameter", "-3 mm", "must be positive"),
+    ],
+)
+def test_what_does_not_fit_is_said_at_its_field(face, box, text, wanted):
+    face.type(f"{UPPER}-{box}", text)
+    face.until(f"document.getElementById('{UPPER}-{box}-wrong').textContent !== ''")
+    assert wanted in face.page.inner_text(f"#{UPPER}-{box}-wrong")
+
+
+def test_the_crown_that_evens_it_out_can_be_taken(face):
+    case = parse_case(CASE)
+    best = even_crown(case.nip, case.face, case.model)
+    face.page.click("#crown-go")
+    face.page.wait_for_selector("#crown-use", timeout=60_000)
+    assert "keeps the line load within 10 %" in face.page.inner_text("#crown-said")
+    answered(face, lambda: face.page.click("#crown-use"))
+    crown = float(face.page.input_value(f"#{UPPER}-crown-height"))
+    assert crown == pytest.approx(best.height, rel=5e-3)
+    assert figure(face, "evenness") > 97
+
+
+def test_files_and_the_report_hold_the_face(face):
+    rows = {row[0]: row for row in csv.reader(io.StringIO(face.saved("csv-figures")))}
+    assert float(rows["Total load"][1]) == pytest.approx(9600)
+    assert rows["Input: Upper roller: crown"][1:3] == ["0.25", "mm"]
+    tree = json.loads(face.saved("save-json"))
+    assert tree["face"]["total_load"] == pytest.approx(9600)
+    with face.page.expect_download() as download:
+        face.page.click("#face-csv")
+    table = list(csv.reader(io.StringIO(Path(download.value.path()).read_text(encoding="utf-8"))))
+    assert len(table) == 1 + len(tree["face"]["y"])
+    face.page.evaluate("dispatchEvent(new Event('beforeprint'))")
+    text = face.page.text_content("#report")
+    face.page.evaluate("dispatchEvent(new Event('afterprint'))")
+    assert "Timoshenko" in text
+    assert "Smallest over largest line load" in text
+
+
+def test_a_face_of_older_inputs_looks_so_and_is_not_exported(face):
+    gate = Gate(face, "**/api/face")
+    face.type("face-in-upper-shaft-crown-height", "0.5 mm")
+    face.until("document.querySelector('.face-pictures').classList.contains('old')")
+    face.share("csv-figures")
+    face.toast("still being computed")
+    gate.open()
+    at_rest(face)
+    face.until("!document.querySelector('.face-pictures').classList.contains('old')")
+
+
+def test_a_first_face_is_one_click_and_goes_with_another(fresh):
+    page = fresh.page
+    fresh.tab("face")
+    assert not page.is_visible("#chart-face")
+    with page.expect_response("**/api/face"):
+        page.click("#give-face")
+    at_rest(fresh)
+    assert figure(fresh, "mean_load") == 4
+    assert page.is_visible("#face-bent svg")
+    page.click("#us")
+    assert " pli" in page.inner_text('[data-face="mean_load"]')
+    page.uncheck("#in-has-face")
+    fresh.rest()
+    assert not page.is_visible("#chart-face")
+    assert fresh.figure("load") == pytest.approx(4 / (4.4482216152605 / 25.4), rel=1e-3)
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_the_face_fits_a_phone(browser, base, scheme):
+    size = {"width": 390, "height": 844}
+    context = new_context(browser, viewport=size, color_scheme=scheme, locale="de-DE")
+    designer = Designer(context.new_page(), base).open(fragment({"case": CASE, "tab": "face"}))
+    at_rest(designer)
+    assert designer.page.is_visible("#face-print svg")
+    assert overhang(designer.page) <= 0
+    words = designer.page.inner_text("#panel").lower().split()
+    assert not set(words) & {"the", "and", "with", "crown", "load"}
+    context.close()

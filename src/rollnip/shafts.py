@@ -18,6 +18,7 @@ from rollnip._errors import (
 from rollnip.crowns import CoveringTable, Crown, CrownTable
 
 __all__ = [
+    "LARGEST_SKEW",
     "STEEL",
     "CoveringTable",
     "Crown",
@@ -34,7 +35,8 @@ __all__ = [
 Array = NDArray[np.float64]
 AnyCrown = Crown | CrownTable
 
-_LARGEST_SKEW = 0.1  # rad; the gap of crossed axes is then no parabola
+LARGEST_SKEW = 0.1
+"""Largest angle between the axes [rad]; beyond, the gap is no parabola."""
 STEEL = 206e3
 """Young's modulus of steel [MPa], the default of a shaft."""
 
@@ -221,7 +223,7 @@ class Face:
         object.__setattr__(self, "length", require_positive("length", self.length))
         object.__setattr__(self, "nip_angle", require_finite("nip_angle", self.nip_angle))
         skew = require_finite("skew", self.skew)
-        if abs(skew) > _LARGEST_SKEW:
+        if abs(skew) > LARGEST_SKEW:
             raise InvalidInputError(f"`skew` must lie between -0.1 and 0.1 rad, got {self.skew!r}.")
         object.__setattr__(self, "skew", skew)
         if self.end_loads is not None:

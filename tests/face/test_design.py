@@ -1,14 +1,16 @@
 """Crowns that even out, loads that a crown serves, and impressions that are read back."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from press_face import FACE, press
 
 import rollnip as rn
-from rollnip.face import Face, solve_face
+from rollnip.face import CoveringTable, Face, plain_wall, solve_face
 from rollnip.face.design import even_crown, load_range, with_crown
 from rollnip.face.impression import Impression, read_impressions
-from rollnip.shafts import Crown
+from rollnip.shafts import Crown, Shaft
 
 
 @pytest.fixture(scope="module")
@@ -50,9 +52,72 @@ def test_the_range_of_loads(crown):
 
 
 def rn_with_load(nip, load):
-    from dataclasses import replace
-
     return replace(nip, normal=rn.LineLoad(load))
+
+
+def test_the_skew_instead_does_as_well(crown):
+    """A skew opens the ends as a parabola does: the same evenness to 1 % of the load."""
+    skewed = crown.skewed
+    assert skewed.nip.upper.shaft.crown.height == 0.0
+    assert skewed.face.skew == crown.skew
+    assert abs(skewed.largest_departure - crown.solution.largest_departure) < 0.01
+
+
+def test_a_crown_over_a_covering_that_varies():
+    """A thinner covering in the middle gives way less: there the crown is lower."""
+    table = CoveringTable([-800.0, 0.0, 800.0], thickness=[12.0, 11.0, 12.0])
+    nip = replace(press(covering=table), friction=0.0)
+    found = even_crown(nip, FACE)
+    plain = even_crown(replace(press(), friction=0.0), FACE)
+    assert found.diameter[32] < plain.diameter[32] - 0.01
+    exact = solve_face(with_crown(nip, "upper", found.table), FACE, law=found.solution.law)
+    assert exact.largest_departure < 1e-3
+
+
+@pytest.mark.parametrize("face", [{"end_loads": (4700.0, 4900.0)}, {"bearing_offset": 0.1}])
+def test_a_crown_does_not_make_up_for_a_tilt(face):
+    with pytest.raises(rn.InvalidInputError, match="only where both sides of the face carry"):
+        even_crown(press(), Face(length=1600.0, **face))
+
+
+def test_the_wall_that_does_without_a_crown():
+    """The bore that leaves 10 %, against the face solved with it; a thinner one is worse."""
+    short = Face(length=900.0)
+    shaft = Shaft(bearing_distance=1200.0, bore=160.0)
+    nip = replace(press(), friction=0.0)
+    nip = replace(nip, upper=replace(nip.upper, shaft=shaft))
+    found = plain_wall(nip, short, within=0.1)
+    assert found.solid < 0.1
+    assert found.wall == pytest.approx(0.5 * (176.0 - found.bore))
+    bored = replace(nip, upper=replace(nip.upper, shaft=replace(shaft, bore=found.bore)))
+    assert solve_face(bored, short).largest_departure == pytest.approx(0.1, abs=2e-3)
+    stricter = plain_wall(nip, short, within=1e-4)
+    assert stricter.wall is None
+    assert stricter.solid == pytest.approx(found.solid, rel=1e-3)
+    with pytest.raises(rn.InvalidInputError, match="`within` must lie between 0 and 1"):
+        plain_wall(nip, short, within=2.0)
+
+
+def test_impressions_at_two_loads_tell_load_apart_from_modulus(straight):
+    """At two known loads the widths give crown, tilt and modulus; the offset of the bearings."""
+    y = np.linspace(-750.0, 750.0, 7)
+    impressions = []
+    for load in (4.0, 8.0):
+        own = 0.5 * load * 1600.0
+        true = solve_face(
+            with_crown(press(), "upper", Crown(0.2)),
+            Face(length=1600.0, end_loads=(own - 50.0, own + 50.0)),
+            stiffness=0.9,
+            law=straight.law,
+        )
+        impressions.append(Impression(y, np.interp(y, true.y, true.nip_width), 0.05, load))
+        offset = true.bearing_offset
+    reading = read_impressions(press(), FACE, impressions, ("crown", "tilt", "modulus"))
+    assert reading["crown"].value == pytest.approx(0.2, rel=1e-2)
+    assert reading["tilt"].value == pytest.approx(100.0, rel=1e-2)
+    assert reading["modulus"].value == pytest.approx(0.9, rel=1e-3)
+    assert reading.solutions[1].bearing_offset == pytest.approx(offset, rel=2e-2)
+    assert reading.bearing_offset > 0.0
 
 
 def test_an_impression_is_read_back(straight):
@@ -110,6 +175,11 @@ def test_the_shop_formula_is_shown_beside(straight):
     reading = read_impressions(press(), FACE, [Impression(y, widths, 0.05)], ("crown",))
     shop = (widths[0] ** 2 - widths[1] ** 2) * 350.0 / (2.0 * 200.0 * 150.0)
     assert reading.shop_crown == pytest.approx(shop)
+    # What is needed is the deflection under the even load; the formula misses it by its assumption.
+    bends = (straight.problem.upper + straight.problem.lower) @ np.full(65, 6.0)
+    needed = 2.0 * (bends[32] - bends[0]) - reading["crown"].value
+    assert reading.needed_crown == pytest.approx(needed, rel=1e-6)
+    assert reading.shop_error == pytest.approx(shop / needed - 1.0, rel=1e-6)
 
 
 @pytest.mark.parametrize(

@@ -69,22 +69,28 @@ def crown(
     with clear_failures(), one_run(force=force) as run:
         nip, along, model = _read(case)
         run.reserve({"--plot": plot})
-        from rollnip.face import even_crown, load_range, with_crown
+        from rollnip.face import even_crown, load_range, plain_wall, with_crown
         from rollnip.shafts import Crown
 
         name = _roller(roller)
         best = even_crown(nip, along, model, roller=name)
         crowned = with_crown(nip, name, Crown(best.height))
         law = best.solution.law
-        loads = load_range(crowned, along, model, within=within, law=law)
+        loads = load_range(_at_mean(crowned, along), along, model, within=within, law=law)
+        wall = plain_wall(nip, along, model, within=within, roller=name, law=law)
         _draw(best.solution, plot)
-        _print(_crown_dict(best, loads) if json else _crown_text(best, loads, within))
+        _print(_crown_dict(best, loads, wall) if json else _crown_text(best, loads, wall))
 
 
 @face.command()
 def read(
     case: CaseFile,
-    widths: Annotated[str, typer.Argument(help="CSV or workbook with the columns y and width.")],
+    widths: Annotated[
+        str,
+        typer.Argument(
+            help="CSV or workbook with the columns y and width, and load where it differs."
+        ),
+    ],
     unknown: Annotated[
         list[str] | None,
         typer.Option(
@@ -103,15 +109,19 @@ def read(
         from rollnip.io.columns import read_columns
 
         table = read_columns(widths)
-        impression = Impression(
-            table.samples("y", "length"),
-            table.samples("width", "length"),
-            parse_quantity(scatter, "length"),
-        )
+        y, found = table.samples("y", "length"), table.samples("width", "length")
+        spread = parse_quantity(scatter, "length")
+        impressions = [Impression(y, found, spread)]
+        if "load" in table.names:
+            loads = table.samples("load", "line load")
+            impressions = [
+                Impression(y[loads == one], found[loads == one], spread, float(one))
+                for one in sorted(set(loads.tolist()))
+            ]
         reading = read_impressions(
             nip,
             along,
-            [impression],
+            impressions,
             tuple(unknown or ("crown", "tilt")),  # type: ignore[arg-type]
             model,
             roller=_roller(roller),
@@ -151,36 +161,75 @@ def _print(what: dict[str, Any] | str) -> None:
     sys.stdout.flush()
 
 
-def _crown_dict(best: Any, loads: Any) -> dict[str, Any]:
+def _at_mean(nip: Nip, along: Face) -> Nip:
+    """Return the nip under its mean line load, which end loads may give."""
+    if along.end_loads is None:
+        return nip
+    from dataclasses import replace
+
+    from rollnip.face import face_problem
+    from rollnip.nip import LineLoad
+
+    total = face_problem(nip, along, 3).total
+    assert total is not None
+    return replace(nip, normal=LineLoad(total / along.length))
+
+
+def _crown_dict(best: Any, loads: Any, wall: Any) -> dict[str, Any]:
     from rollnip.face.report import face_dict
 
     span = None if loads is None else {"within": loads.within, "low": loads.low, "high": loads.high}
+    skewed = best.skewed
     return {
         "roller": best.roller,
         "height": best.height,
         "skew_instead": best.skew,
+        "departure_with_skew": None if skewed is None else skewed.largest_departure,
         "y": best.y.tolist(),
         "diameter": best.diameter.tolist(),
         "loads": span,
+        "without_crown": {
+            "within": wall.within,
+            "bore": wall.bore,
+            "wall": wall.wall,
+            "departure_if_solid": wall.solid,
+        },
         "face": face_dict(best.solution),
     }
 
 
-def _crown_text(best: Any, loads: Any, within: float) -> str:
-    found = best.solution
+def _crown_text(best: Any, loads: Any, wall: Any) -> str:
+    found, within = best.solution, 100 * wall.within
+    off = 100.0 * found.largest_departure
     lines = [
         f"Parabolic crown of the {best.roller} roller: {best.height:.4g} mm on the diameter",
-        f"  line load with it      {found.load.min():.4g} to {found.load.max():.4g} N/mm",
+        f"  line load with it      {found.load.min():.4g} to {found.load.max():.4g} N/mm, "
+        f"within {off:.2g} % of the mean",
         f"  even load asks for     {best.diameter[best.y.size // 2]:.4g} mm in the middle "
         "(table with --json)",
-        f"  skew instead           {best.skew * 57.29577951308232:.4g} degrees",
     ]
+    if best.skewed is not None:
+        skewed = 100.0 * best.skewed.largest_departure
+        lines.append(
+            f"  skew instead           {best.skew * 57.29577951308232:.4g} degrees, within "
+            f"{skewed:.2g} % of the mean"
+        )
     if loads is None:
-        lines.append(f"  no load is within {100 * within:g} % of its mean over the whole face")
+        lines.append(f"  no load is within {within:g} % of its mean over the whole face")
     else:
         low = "less" if loads.low is None else f"{loads.low:.4g}"
         high = "more" if loads.high is None else f"{loads.high:.4g}"
-        lines.append(f"  within {100 * within:g} % of the mean  from {low} to {high} N/mm")
+        lines.append(f"  within {within:g} % of the mean  from {low} to {high} N/mm")
+    if wall.wall is None:
+        lines.append(
+            f"  without a crown        not even a solid core: the load departs from its mean by "
+            f"{100.0 * wall.solid:.2g} %"
+        )
+    else:
+        lines.append(
+            f"  without a crown        a wall of {wall.wall:.4g} mm (bore {wall.bore:.4g} mm) "
+            f"keeps within {within:g} %"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -193,6 +242,8 @@ def _reading_dict(reading: Any) -> dict[str, Any]:
         "chi_squared": reading.chi_squared,
         "freedom": reading.freedom,
         "shop_crown": reading.shop_crown,
+        "needed_crown": reading.needed_crown,
+        "bearing_offset": reading.bearing_offset,
         "warnings": list(reading.warnings),
     }
 
@@ -202,6 +253,17 @@ def _reading_text(reading: Any) -> str:
     for one in reading.estimates:
         unit = "" if one.unit == "1" else f" {one.unit}"
         lines.append(f"  {one.name:10s} {one.value:10.4g}{unit}  ({one.low:.4g} to {one.high:.4g})")
-    lines.append(f"  the shop formula would add {reading.shop_crown:.4g} mm to the crown")
+    if reading.bearing_offset is not None and any(one.name == "tilt" for one in reading.estimates):
+        offset = reading.bearing_offset
+        side = ">" if offset > 0.0 else "<"
+        lines.append(
+            f"  the upper bearing at y {side} 0 has come {abs(offset):.3g} mm further than the "
+            "other"
+        )
+    lines.append(f"  an even load needs {reading.needed_crown:+.4g} mm more on the diameter")
+    shop = f"  the shop formula says {reading.shop_crown:+.4g} mm"
+    if reading.shop_error is not None:
+        shop += f", off by {100.0 * reading.shop_error:+.2g} %"
+    lines.append(shop)
     lines += [f"  note: {line}" for line in reading.warnings]
     return "\n".join(lines) + "\n"

@@ -1,7 +1,15 @@
 """The face: load, width and traction of a nip along rollers that bend, are crowned or crossed."""
 
 from rollnip.face.beam import Beam, FaceGrid, Journal
-from rollnip.face.design import EvenCrown, LoadRange, even_crown, load_range, with_crown
+from rollnip.face.design import (
+    EvenCrown,
+    LoadRange,
+    PlainWall,
+    even_crown,
+    load_range,
+    plain_wall,
+    with_crown,
+)
 from rollnip.face.find import solve_face
 from rollnip.face.impression import Estimate, Impression, Reading, read_impressions
 from rollnip.face.law import NipLaw
@@ -38,12 +46,14 @@ __all__ = [
     "NipLaw",
     "NipRows",
     "PivotArm",
+    "PlainWall",
     "Reading",
     "Shaft",
     "balance",
     "even_crown",
     "face_problem",
     "load_range",
+    "plain_wall",
     "read_impressions",
     "solve_face",
     "with_crown",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf
+from math import inf, sqrt
 from typing import Literal
 
 import numpy as np
@@ -12,13 +12,13 @@ from scipy.optimize import brentq, minimize_scalar
 
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.find import solve_face
-from rollnip.face.law import NipLaw
+from rollnip.face.law import NipLaw, slip_measure
 from rollnip.face.solution import FaceSolution
-from rollnip.face.solve import face_problem
+from rollnip.face.solve import FaceProblem, face_problem
 from rollnip.influence import KernelCache
 from rollnip.model import Model
-from rollnip.nip import LineLoad, Nip
-from rollnip.shafts import Crown, CrownTable, Face, skew_of_crown
+from rollnip.nip import LineLoad, Nip, Traction
+from rollnip.shafts import LARGEST_SKEW, Crown, CrownTable, Face, skew_of_crown
 
 Array = NDArray[np.float64]
 Name = Literal["upper", "lower"]
@@ -26,6 +26,8 @@ Name = Literal["upper", "lower"]
 _PLACES = 65
 _RANGE = 4.0  # ratio of the largest load examined to the crown's own, and of that to the smallest
 _LOADS = 17
+_BALANCED = 1e-9  # moment over load times length, below which both sides carry the same
+_THINNEST = 0.005  # wall over core diameter; thinner ones are no roller
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,7 +41,9 @@ class EvenCrown:
         everywhere, 0 at the ends [mm].
     height : of the parabolic crown that comes nearest [mm on the diameter].
     solution : the face with that parabola.
-    skew : angle between the axes [rad] that a straight roller would need instead.
+    skew : angle between the axes [rad] that a straight roller would need instead; 0 where the
+        crown is hollow, which no skew replaces.
+    skewed : the face with that skew and a straight roller; None where there is none.
     """
 
     roller: Name
@@ -48,6 +52,7 @@ class EvenCrown:
     height: float
     solution: FaceSolution
     skew: float
+    skewed: FaceSolution | None
 
     @property
     def table(self) -> CrownTable:
@@ -76,26 +81,26 @@ def even_crown(
     Raises
     ------
     InvalidInputError
-        where the roller has no shaft, or the mean load is not given.
+        where the roller has no shaft, the mean load is not given, or one side of the face is to
+        carry more than the other.
     """
     one = nip.upper if roller == "upper" else nip.lower
     if one.shaft is None:
         raise InvalidInputError(f"`{roller}.shaft` is needed for a crown on it.")
     straight = with_crown(nip, roller, Crown(0.0))
     problem = face_problem(straight, face, _PLACES)
-    total = problem.total
-    if total is None:
-        raise InvalidInputError("`load` or `end_loads` must be given to find a crown for it.")
-    mean = total / face.length
+    mean = _even_load(problem)
     needed = (problem.upper + problem.lower) @ np.full(_PLACES, mean) - problem.still
-    radial = needed - 0.5 * (needed[0] + needed[-1])
-    guess = 2.0 * float(radial[_PLACES // 2])
+    guess = 2.0 * _rise(needed)
     law = solve_face(with_crown(nip, roller, Crown(guess)), face, model, cache=cache).law
+    radial = needed + _local_approach(nip, problem, law, mean)
+    radial = radial - 0.5 * (radial[0] + radial[-1])
 
     def uneven(height: float) -> float:
-        found = solve_face(with_crown(nip, roller, Crown(height)), face, model, law=law)
-        return float(np.max(np.abs(found.load / found.mean_load - 1.0)))
+        crowned = with_crown(nip, roller, Crown(height))
+        return solve_face(crowned, face, model, law=law).largest_departure
 
+    guess = 2.0 * _rise(radial)
     reach = 0.3 * abs(guess) + 1e-6
     best = minimize_scalar(
         uneven,
@@ -105,9 +110,49 @@ def even_crown(
     )
     height = float(best.x)
     solution = solve_face(with_crown(nip, roller, Crown(height)), face, model, law=law)
-    radii = nip.upper.radius, nip.lower.radius
-    skew = skew_of_crown(height, face.length, radii) if height > 0.0 else 0.0
-    return EvenCrown(roller, problem.grid.y, 2.0 * radial, height, solution, skew)
+    skew, skewed = _skewed(straight, face, model, height, law)
+    return EvenCrown(roller, problem.grid.y, 2.0 * radial, height, solution, skew, skewed)
+
+
+def _even_load(problem: FaceProblem) -> float:
+    """Return the mean line load [N/mm]; raise where it is not given, or cannot be even."""
+    total, moment = problem.total, problem.moment
+    if total is None:
+        raise InvalidInputError("`load` or `end_loads` must be given to find a crown for it.")
+    if moment is None or abs(moment) > _BALANCED * abs(total) * problem.face.length:
+        raise InvalidInputError(
+            "a crown evens out a load only where both sides of the face carry the same: give equal "
+            "`end_loads`, and leave out `bearing_offset` and `bearing_middle`."
+        )
+    return total / problem.face.length
+
+
+def _rise(values: Array) -> float:
+    """Return the value in the middle less the mean of those at both ends."""
+    return float(values[values.size // 2] - 0.5 * (values[0] + values[-1]))
+
+
+def _local_approach(nip: Nip, problem: FaceProblem, law: NipLaw, load: float) -> Array:
+    """Return the approach that the covering at each place needs for the load, (n,) [mm]."""
+    share = 0.0
+    if isinstance(nip.tangential, Traction) and nip.friction > 0.0:
+        share = nip.tangential.traction / (nip.friction * load)
+    places = law.places(problem.coverings)
+    s = np.full(problem.grid.y.size, slip_measure(share))
+    return law.figure("approach", np.log(load / places.scale), s, places)
+
+
+def _skewed(
+    straight: Nip, face: Face, model: Model | None, height: float, law: NipLaw
+) -> tuple[float, FaceSolution | None]:
+    """Return the skew that replaces a crown [rad], and the face with it."""
+    if height <= 0.0:
+        return 0.0, None
+    skew = skew_of_crown(height, face.length, (straight.upper.radius, straight.lower.radius))
+    both = sqrt(face.skew**2 + skew**2)  # gaps of skews add up by their squares
+    if both > LARGEST_SKEW:
+        return skew, None
+    return skew, solve_face(straight, replace(face, skew=both), model, law=law)
 
 
 def with_crown(nip: Nip, roller: Name, crown: Crown | CrownTable) -> Nip:
@@ -158,8 +203,7 @@ def load_range(
     """
     if not isinstance(nip.normal, LineLoad):
         raise InvalidInputError("`load` must be given to look for a range about it.")
-    if not 0.0 < within < 1.0:
-        raise InvalidInputError(f"`within` must lie between 0 and 1, got {within!r}.")
+    _require_share(within)
     centre, kept = nip.normal.load, law
     even = replace(face, end_loads=None)
 
@@ -172,7 +216,7 @@ def load_range(
         ):  # more load, or more of it at one place, than the nip can be solved for
             return inf
         kept = found.law
-        return float(np.max(np.abs(found.load / found.mean_load - 1.0)))
+        return found.largest_departure
 
     loads = centre * np.geomspace(1.0 / _RANGE, _RANGE, _LOADS)
     values = np.array([uneven(float(load)) for load in loads])
@@ -190,3 +234,83 @@ def load_range(
     low = None if first == 0 else end(first - 1, first)
     high = None if last == loads.size - 1 else end(last, last + 1)
     return LoadRange(within, low, high, loads, values)
+
+
+@dataclass(frozen=True, slots=True)
+class PlainWall:
+    """The core that would do without a crown.
+
+    Attributes
+    ----------
+    roller : "upper" or "lower".
+    within : largest departure of the local load from the mean, over the mean, that is allowed.
+    bore : largest bore that keeps within it, straight [mm]; None where not even a solid core does.
+    wall : the core's wall with that bore [mm]; None likewise.
+    solid : largest departure with a solid core.
+    """
+
+    roller: Name
+    within: float
+    bore: float | None
+    wall: float | None
+    solid: float
+
+
+def plain_wall(
+    nip: Nip,
+    face: Face,
+    model: Model | None = None,
+    *,
+    within: float = 0.1,
+    roller: Name = "upper",
+    law: NipLaw | None = None,
+) -> PlainWall:
+    """Return the thinnest wall of one roller's core with which it needs no crown.
+
+    The other roller, the journals and the load stay as they are.
+
+    Parameters
+    ----------
+    nip, face, model : the problem.
+    within : largest departure of the local load from the mean, over the mean.
+    roller : whose core; its crown is taken off.
+    law : table of an earlier solution.
+
+    Raises
+    ------
+    InvalidInputError
+        where the roller has no shaft, or ``within`` is no share.
+    """
+    one = nip.upper if roller == "upper" else nip.lower
+    if one.shaft is None:
+        raise InvalidInputError(f"`{roller}.shaft` is needed for the wall of its core.")
+    _require_share(within)
+    core = 2.0 * (one.radius - one.coating_thickness)
+    kept = law
+
+    def uneven(bore: float) -> float:
+        nonlocal kept
+        assert one.shaft is not None
+        bored = replace(one, shaft=replace(one.shaft, crown=Crown(0.0), bore=bore))
+        straight = replace(nip, upper=bored) if roller == "upper" else replace(nip, lower=bored)
+        try:
+            found = solve_face(straight, face, model, law=kept)
+        except ConvergenceError:  # it bends so far that no table ends
+            return inf
+        kept = found.law
+        return found.largest_departure
+
+    solid, thinnest = uneven(0.0), _THINNEST * core
+    if solid > within:
+        return PlainWall(roller, within, None, None, solid)
+    if uneven(core - 2.0 * thinnest) <= within:
+        return PlainWall(roller, within, core - 2.0 * thinnest, thinnest, solid)
+    bore = brentq(
+        lambda at: min(uneven(float(at)), 10.0) - within, 0.0, core - 2.0 * thinnest, rtol=1e-4
+    )
+    return PlainWall(roller, within, float(bore), 0.5 * (core - float(bore)), solid)
+
+
+def _require_share(within: float) -> None:
+    if not 0.0 < within < 1.0:
+        raise InvalidInputError(f"`within` must lie between 0 and 1, got {within!r}.")

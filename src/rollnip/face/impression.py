@@ -29,6 +29,7 @@ from rollnip.shafts import Crown, Face
 Array = NDArray[np.float64]
 Unknown = Literal["load", "tilt", "crown", "modulus"]
 
+_NO_CROWN = 1e-3  # mm on the diameter, which no grinder holds
 _UNTOLD = 0.5  # relative half-width of an interval beyond which the data do not tell
 
 
@@ -100,6 +101,9 @@ class Reading:
     shop_crown : what the shop formula (N_e^2 - N_c^2)(D_u + D_l)/(2 D_u D_l) asks to be added to
         the crown on the diameter [mm]; N_e, N_c outermost and middlemost widths of the first
         impression.
+    needed_crown : what the fitted face needs to be added to it instead, for an even load [mm].
+    bearing_offset : how much further the upper bearing at y > 0 has come than the other, in the
+        first fitted face [mm]; None without a shaft of the upper roller.
     """
 
     estimates: tuple[Estimate, ...]
@@ -108,6 +112,15 @@ class Reading:
     freedom: int
     warnings: tuple[str, ...]
     shop_crown: float
+    needed_crown: float
+    bearing_offset: float | None
+
+    @property
+    def shop_error(self) -> float | None:
+        """Relative error of the shop formula; None where no crown is missing."""
+        if abs(self.needed_crown) < _NO_CROWN:
+            return None
+        return self.shop_crown / self.needed_crown - 1.0
 
     def __getitem__(self, name: str) -> Estimate:
         """Return the estimate of an unknown by its name."""
@@ -286,8 +299,23 @@ def _reading(
                 f"These widths do not tell the {label}: its interval is wider than itself."
             )
     return Reading(
-        tuple(estimates), tuple(solutions), chi2, freedom, tuple(notes), _shop(impressions[0], nip)
+        estimates=tuple(estimates),
+        solutions=tuple(solutions),
+        chi_squared=chi2,
+        freedom=freedom,
+        warnings=tuple(notes),
+        shop_crown=_shop(impressions[0], nip),
+        needed_crown=_needed(solutions[0]),
+        bearing_offset=solutions[0].bearing_offset,
     )
+
+
+def _needed(solution: FaceSolution) -> float:
+    """Return what is missing to the crown that makes the mean load even [mm on the diameter]."""
+    problem = solution.problem
+    bends = (problem.upper + problem.lower) @ np.full(problem.grid.y.size, solution.mean_load)
+    left = bends - problem.still
+    return float(2.0 * left[left.size // 2] - left[0] - left[-1])
 
 
 def _shop(impression: Impression, nip: Nip) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from rollnip.verification.bonded_layers import bonded_layers
 from rollnip.verification.case import VerificationCase
 from rollnip.verification.configuration_two import configuration_two
+from rollnip.verification.faces import faces
 from rollnip.verification.finite_strain import finite_strain
 from rollnip.verification.half_spaces import half_spaces
 from rollnip.verification.kernels import kernels
@@ -28,6 +29,7 @@ def all_cases() -> tuple[VerificationCase, ...]:
         *kernels(),
         *waves(),
         *finite_strain(),
+        *faces(),
         *laws(),
         *limits(),
     )

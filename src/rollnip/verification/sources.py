@@ -159,3 +159,23 @@ ONE_MATERIAL = Source(
 CORRESPONDENCE = Source(
     Kind.LAW, "Correspondence principle: V -> 0 is elastic with E0, V -> infinity with E0 + k"
 )
+
+END_LOADED_ROLLERS = Source(
+    Kind.CLOSED_FORM,
+    "M. Hetényi, Beams on Elastic Foundation, University of Michigan Press 1946: a finite beam "
+    "with a force at each end; here two rollers on each other",
+)
+BENDING = Source(
+    Kind.CLOSED_FORM,
+    "Slender beam on two supports, B apart, under an even load w over the length L between them: "
+    "w L^3 (12 B - 7 L)/(384 E I)",
+)
+EQUILIBRIUM_OF_FACE = Source(
+    Kind.LAW, "Equilibrium of rollers: the bearing forces of each balance the load of the nip"
+)
+IMPRESSION = Source(Kind.LAW, "Identity: the impression of a face is read as that face")
+TRADE_RULE = Source(
+    Kind.LAW,
+    "Rule of the trade for rubber-covered rollers: .005 in of deflection change the nip by 5 to "
+    "40 pli",
+)

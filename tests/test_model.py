@@ -12,7 +12,7 @@ def test_defaults():
     assert Model() == Model(geometry="finite", tolerance=1e-3)
 
 
-@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved", "finite"])
+@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved", "finite", "full"])
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-3, 0.1])
 def test_allowed(geometry, tolerance):
     model = Model(geometry=geometry, tolerance=tolerance)
@@ -21,7 +21,8 @@ def test_allowed(geometry, tolerance):
 
 @pytest.mark.parametrize("geometry", ["Curved", "", "flat", None, 3, ["linear"]])
 def test_unknown_geometry(geometry):
-    pattern = r'^`geometry` must be one of "linear", "corrected", "curved", "finite", got .*\.$'
+    known = r'"linear", "corrected", "curved", "finite", "full"'
+    pattern = rf"^`geometry` must be one of {known}, got .*\.$"
     with pytest.raises(InvalidInputError, match=pattern) as caught:
         Model(geometry=geometry)
     assert repr(geometry) in str(caught.value)

@@ -198,8 +198,8 @@ def summary_table() -> str:
 
 
 def case_table() -> str:
-    """Return every case with the deviations of `linear`, `curved` and `finite`, as Markdown."""
-    names = ("linear", "curved", "finite")
+    """Return every case with the deviations of `curved`, `finite` and `full`, as Markdown."""
+    names = ("curved", "finite", "full")
     head = ["case", "T/F"]
     for name in names:
         head += [f"{name}: δ", "edges", "peak", "ξ"]

@@ -7,7 +7,11 @@ from typing import Literal, get_args
 
 from rollnip._errors import InvalidInputError, require_positive, with_hints
 
-Geometry = Literal["linear", "corrected", "curved", "finite"]
+Geometry = Literal["linear", "corrected", "curved", "finite", "full"]
+FINITE: tuple[Geometry, ...] = ("finite", "full")
+"""Geometries of finite strain: tractions and displacements belong to present places."""
+RINGS: tuple[Geometry, ...] = ("curved", *FINITE)
+"""Geometries that bend the layers to rings."""
 
 _FINEST = 1e-6
 _COARSEST = 0.1
@@ -23,12 +27,15 @@ class Model:
     geometry :
         "linear": flat layers, parabolic gap. "corrected": flat layers, true distance of the
         deformed surfaces. "curved": ring layers and stretch to second order. "finite": ring
-        layers of finite strain, to second order throughout (docs/geometry.md).
+        layers of finite strain, to second order throughout. "full": finite strain of all orders,
+        for elastic layers on rigid cores (docs/geometry.md).
     tolerance :
         wanted relative accuracy of creepage, nip width, peak pressure, approach or load; between
         1e-6 and 0.1. "finite" gives approach and load to 0.001, the peak pressure to 0.0015, the
         nip width to 0.002 and the creepage to 0.01, which counts as met by a tolerance of 0.001 or
-        more; a finer one it cannot meet, and the solution says so.
+        more; a finer one it cannot meet, and the solution says so. "full" gives approach and load
+        to 0.0003, the peak pressure to 0.003, the nip width to 0.001 and the creepage to 0.005,
+        which counts likewise.
 
     Raises
     ------

@@ -16,7 +16,7 @@ from typing import Literal
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.influence import KernelCache
-from rollnip.model import Model
+from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.rolling import (
     PairKernels,
@@ -34,6 +34,11 @@ from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import Strains, validity_warnings
 
 _CLEARLY = 1.5  # times a limit that is known roughly
+_SIMPLER: dict[Geometry, Geometry] = {"full": "finite", "finite": "curved"}
+_BEYOND: dict[Geometry, str] = {
+    "full": "terms beyond the linear ones",
+    "finite": "second-order terms",
+}
 _DIVERGED = 0.1  # last change of second-order terms that approach no solution, relative
 
 
@@ -100,15 +105,22 @@ def _require_kinds(nip: object, model: object, on_failure: object) -> None:
 
 def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solution:
     """Solve one nip; ``start``: the clock at the call, from which the solver time counts [s]."""
-    kernels, final = _refined(nip, model, cache)
     left: tuple[str, ...] = ()
-    if model.geometry == "finite" and (cause := _without_solution(final)):
-        model = replace(model, geometry="curved")
-        kernels, final = _refined(nip, model, cache)
+    if model.geometry == "full" and (nip.is_viscoelastic or nip.has_half_space):
+        model = replace(model, geometry="finite")
         left = (
-            f'No solution of geometry "finite" was found: {cause}. '
-            'All figures are those of geometry "curved".',
+            'Geometry "full" is for elastic layers on rigid cores. '
+            'All figures are those of geometry "finite", of second order.',
         )
+    kernels, final = _refined(nip, model, cache)
+    causes = []
+    while model.geometry in FINITE and (cause := _without_solution(model, kernels, final)):
+        causes.append(f'No solution of geometry "{model.geometry}" was found: {cause}.')
+        model = replace(model, geometry=_SIMPLER[model.geometry])
+        kernels, final = _refined(nip, model, cache)
+    if causes:
+        causes[-1] += f' All figures are those of geometry "{model.geometry}".'
+        left = (*left, *causes)
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
@@ -134,8 +146,8 @@ def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solutio
     )
 
 
-def _without_solution(final: Round) -> str:
-    """Return why the iteration for the second order of "finite" has no solution; "" if it has one.
+def _without_solution(model: Model, kernels: PairKernels, final: Round) -> str:
+    """Return why the iteration for finite strain has no solution; "" if it has one.
 
     A solution that misses the tolerance counts as one: the model never depends on an error
     estimate.
@@ -144,9 +156,11 @@ def _without_solution(final: Round) -> str:
         return "its surfaces do not touch"
     if not final.geometry_change < _DIVERGED:
         return (
-            "its second-order terms did not come to rest (they last changed by "
+            f"its {_BEYOND[model.geometry]} did not come to rest (they last changed by "
             f"{final.geometry_change:.2g} of the first-order ones)"
         )
+    if not kernels.is_balanced:
+        return "its tractions have no equilibrium, or none that was found"
     return "" if final.settled else "contact, stick and slip did not settle"
 
 
@@ -204,10 +218,10 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     if reason := impossible(nip, model.geometry, final):
         return False, reason
     left = final.residual
-    moves = model.geometry == "finite" and final.geometry_change > 0.5 * left
+    moves = model.geometry in FINITE and final.geometry_change > 0.5 * left
     if not left <= model.tolerance and moves:
         return False, (
-            "The second-order terms of finite strain still change by "
+            f"The {_BEYOND[model.geometry]} of finite strain still change by "
             f"{final.geometry_change:.1e} (relative), which leaves the contact conditions violated "
             f"by {left:.1e}, more than the tolerance {model.tolerance:g}; try a smaller load, a "
             'larger tolerance or `geometry = "curved"`.'

@@ -14,7 +14,7 @@ import numpy as np
 from rollnip.compliance import flat_compliance
 from rollnip.influence import is_ring
 from rollnip.materials import LossFactor, Prony, Viscoelastic
-from rollnip.model import Model
+from rollnip.model import FINITE, RINGS, Model
 from rollnip.nip import Nip
 from rollnip.rollers import Layer, Roller
 from rollnip.rolling import Round, surface_strain_in_nip
@@ -99,12 +99,12 @@ def _nip_strain(nip: Nip, final: Round) -> str:
 
 
 def _thickness_ratio(name: str, roller: Roller, model: Model) -> str:
-    limit = THICKNESS_RATIO_FINITE if model.geometry == "finite" else THICKNESS_RATIO
+    limit = THICKNESS_RATIO_FINITE if model.geometry in FINITE else THICKNESS_RATIO
     if roller.radius == inf or roller.coating_thickness <= limit * roller.radius:
         return ""
     ratio = roller.coating_thickness / roller.radius
     covering = f"The covering of the {name} roller is {ratio:.2f} of its radius"
-    if model.geometry == "finite":
+    if model.geometry in FINITE:
         return f"{covering}; compared with finite elements was up to {limit:g}."
     return (
         f"{covering}; beyond {limit:g} the error of the creepage grows to some 20 % (at 0.4). "
@@ -223,7 +223,7 @@ def _stiff_skin(stretch: float, creepage: float) -> str:
 
 
 def _flat_half_space(name: str, roller: Roller, model: Model) -> str:
-    curved = model.geometry in ("curved", "finite") and roller.radius < inf and bool(roller.layers)
+    curved = model.geometry in RINGS and roller.radius < inf and bool(roller.layers)
     if not curved or roller.core is None or is_ring(roller, model.geometry):
         return ""
     return (

@@ -78,7 +78,9 @@ def solve(
     ] = None,
     geometry: Annotated[
         str | None,
-        typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file."),
+        typer.Option(
+            help="Geometry: linear, corrected, curved, finite or full; overrides the file."
+        ),
     ] = None,
     tolerance: Annotated[
         str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides the file.")

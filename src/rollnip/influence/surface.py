@@ -13,6 +13,7 @@ from rollnip.influence._weights import ComplexArray
 from rollnip.influence.hats import displacement_under
 from rollnip.influence.kernel import Array, Kernel, Window, half_space_kernel, tabulate
 from rollnip.materials import Material
+from rollnip.model import RINGS
 from rollnip.rollers import Roller
 
 
@@ -52,8 +53,8 @@ class SurfaceKernels:
 
 
 def is_ring(roller: Roller, geometry: str) -> bool:
-    """Return whether layers count as curved: finite radius, rigid core, "curved" or "finite"."""
-    curved = geometry in ("curved", "finite")
+    """Return whether layers count as curved: finite radius, rigid core, a geometry of rings."""
+    curved = geometry in RINGS
     return curved and not isinf(roller.radius) and roller.core is None
 
 
@@ -94,7 +95,7 @@ def surface_kernels(
     speed :
         rolling speed V [mm/s]; may be None where all materials are elastic.
     geometry :
-        "curved" and "finite" bend the layers to rings; the others keep them flat.
+        "curved", "finite" and "full" bend the layers to rings; the others keep them flat.
     window :
         lengths and wave numbers to tabulate.
     tolerance :

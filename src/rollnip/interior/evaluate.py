@@ -43,7 +43,8 @@ def interior_field(
     x :
         (nx,) or scalar places [mm], in any order.
     geometry :
-        "curved" and "finite" bend the layers on a rigid core to rings; others keep them flat.
+        "curved", "finite" and "full" bend the layers on a rigid core to rings; others keep
+        them flat.
     speed :
         V [mm/s]; needed where a material is viscoelastic.
     side :

@@ -36,7 +36,8 @@ def loss_per_distance(
     tractions :
         on its surface, in its own frame.
     geometry :
-        "curved" and "finite" bend the layers on a rigid core to rings; others keep them flat.
+        "curved", "finite" and "full" bend the layers on a rigid core to rings; others keep
+        them flat.
     speed :
         V [mm/s]; needed where a material is viscoelastic.
 

@@ -62,7 +62,7 @@ class DataTable(Table):
 class MethodTable(Table):
     """The settings of a fit."""
 
-    geometry: Literal["linear", "corrected", "curved", "finite"] | None = None
+    geometry: Literal["linear", "corrected", "curved", "finite", "full"] | None = None
     tolerance: Ratio | None = None
     tried: int | None = None
     followed: int | None = None

@@ -229,7 +229,7 @@ class NipTable(Table):
 class ModelTable(Table):
     """The model of the geometry."""
 
-    geometry: Literal["linear", "corrected", "curved", "finite"] | None = None
+    geometry: Literal["linear", "corrected", "curved", "finite", "full"] | None = None
 
 
 class SolverTable(Table):

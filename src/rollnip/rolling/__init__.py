@@ -1,6 +1,7 @@
 """The rolling contact of two rollers: assembly, rounds of refinement, the check afterwards."""
 
 from rollnip.rolling.assemble import stretch_excess, surface_depths
+from rollnip.rolling.beyond import with_second_order
 from rollnip.rolling.check import (
     Fields,
     fields_at,
@@ -30,7 +31,6 @@ from rollnip.rolling.surfaces import (
     PairKernels,
     hoop_curvature,
     pair_kernels,
-    with_second_order,
 )
 
 __all__ = [

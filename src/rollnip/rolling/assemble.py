@@ -17,7 +17,7 @@ from rollnip.geometry import (
     second_stretch,
 )
 from rollnip.interior import SurfaceTractions, loss_per_distance
-from rollnip.model import Geometry
+from rollnip.model import FINITE, RINGS, Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Displacements, Mesh, hoop_curvature
@@ -126,13 +126,13 @@ def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
     guess = first_guess(nip, mesh)
     clearance, length, offset = guess.clearance, guess.creep_length, guess.creep_offset
     lean = 0.0
-    if geometry in ("corrected", "finite"):
+    if geometry in ("corrected", *FINITE):
         depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
         approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
         clearance = depth - approximate
-    if geometry in ("curved", "finite") and nip.friction > 0.0:
+    if geometry in RINGS and nip.friction > 0.0:
         length, offset = _stretch_terms(nip, geometry, mesh, flat, u)
-    if geometry == "finite":
+    if geometry in FINITE:
         lean = _lean(nip, mesh, state, u)
     traction = guess.traction
     if isinstance(nip.tangential, Torque):
@@ -155,7 +155,7 @@ def _control(nip: Nip, second: SecondOrder) -> Control:
 def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> tuple[Array, Array]:
     """Return how far each surface lies from the tangent at first touch, before the approach [mm].
 
-    In "finite" u_z is that of the material that is at x now: the radius there is R - u_z.
+    At finite strain u_z is that of the material that is at x now: the radius there is R - u_z.
     """
     sides = (
         (nip.upper, u.x_upper, u.z_upper),
@@ -165,7 +165,7 @@ def surface_depths(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
     for roller, u_x, u_z in sides:
         if geometry == "corrected":
             depths.append(sagitta(x, roller.curvature, u_x, u_z))
-        elif geometry == "finite" and roller.core is None:
+        elif geometry in FINITE and roller.core is None:
             depths.append(sagitta(x, roller.curvature, np.zeros_like(x), u_z))
         else:
             depths.append(0.5 * roller.curvature * x * x + u_z)
@@ -180,9 +180,9 @@ def stretch_excess(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> 
     rollers = (nip.upper, nip.lower)
     hoops = np.array([[hoop_curvature(roller, geometry)] for roller in rollers])
     excess = linear_stretch(x[1:] - x[:-1], hoops, *u.rows)
-    if geometry in ("curved", "finite"):
+    if geometry in RINGS:
         excess += rotation_stretch(x[1:] - x[:-1], hoops, *u.rows)
-    if geometry == "finite":
+    if geometry in FINITE:
         for out, roller, hoop, u_x, u_z in zip(excess, rollers, hoops, *u.rows, strict=True):
             if roller.core is None and not roller.is_rigid:
                 out[:] = second_stretch(x, hoop, u_x, u_z)
@@ -225,10 +225,10 @@ def creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: fl
 def arc_ratio(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array | float:
     """Length of the deformed interface over dx in each interval, (n - 1,).
 
-    Only in "finite" is x a place, and the shear a force per length of the interface; elsewhere it
-    is a force per x.
+    Only at finite strain is x a place, and the shear a force per length of the interface;
+    elsewhere it is a force per x.
     """
-    if geometry != "finite":
+    if geometry not in FINITE:
         return 1.0
     middle, dx = 0.5 * (x[1:] + x[:-1]), x[1:] - x[:-1]
     tilt = u.z_lower - u.z_upper
@@ -261,8 +261,8 @@ def loss_inside(
 ) -> float:
     """Return the heat inside one of the rollers per distance of its surface [N/mm].
 
-    It is that of the linear fields under the tractions of the solution, in "finite" too, where it
-    leaves out a share as large as the strains.
+    It is that of the linear fields under the tractions of the solution, at finite strain too,
+    where it leaves out a share as large as the strains.
     """
     roller, sign = (nip.upper, 1.0) if side == "upper" else (nip.lower, -1.0)
     if not roller.is_viscoelastic:

@@ -8,7 +8,7 @@ import numpy as np
 
 from rollnip.contact import State, Zone
 from rollnip.influence import displacement_matrix, strain_matrix
-from rollnip.model import Geometry
+from rollnip.model import RINGS, Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import creep, stretch_excess, surface_depths
 from rollnip.rolling.largest import largest
@@ -201,7 +201,7 @@ def surface_strain(
         return np.zeros(x.size)
     p, q = final.pressure, final.shear if upper else -final.shear
     strain, slope = _of_surface(strain_matrix(surface.together, x, final.nodes), p, q)
-    if geometry not in ("curved", "finite"):
+    if geometry not in RINGS:
         return strain
     hoop = hoop_curvature(roller, geometry)
     u_x, u_z = _of_surface(displacement_matrix(surface.together, x, final.nodes), p, q)

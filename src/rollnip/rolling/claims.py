@@ -12,7 +12,7 @@ from math import inf, isfinite, isinf, isnan, nan
 import numpy as np
 
 from rollnip.contact import contact_intervals
-from rollnip.model import Geometry, Model
+from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.further import further_figures, further_sizes
 from rollnip.rolling.largest import largest
@@ -20,17 +20,21 @@ from rollnip.rolling.powers import Powers, rates_of
 from rollnip.rolling.round import Further, Round, creepage_scale
 
 FINEST_OF_FINITE = 1e-3
-"""The finest tolerance that "finite" can meet; below, its second order leaves more open."""
-# Relative change of the figures between grids of 12 to 32 points a half-width, docs/geometry.md.
-_SHARES = {
-    "approach": 1e-3,
-    "load": 1e-3,
-    "creepage": 1e-2,
-    "nip_width": 2e-3,
-    "peak_pressure": 1.5e-3,
+"""The finest tolerance that geometries of finite strain can meet; below, they leave more open."""
+_NAMES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
+# Relative change of these figures between grids of 12 to 32 points a half-width in "finite",
+# between meshes of 24 to 64 elements in "full" (docs/geometry.md).
+_SHARES: Mapping[Geometry, Mapping[str, float]] = {
+    "finite": dict(zip(_NAMES, (1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3), strict=True)),
+    "full": dict(zip(_NAMES, (3e-4, 3e-4, 5e-3, 1e-3, 3e-3), strict=True)),
+}
+_LEFT_BY: Mapping[Geometry, str] = {
+    "finite": 'the second order of "finite"',
+    "full": 'the finite elements of "full"',
 }
 # Likewise for `Further`, over `further_sizes`: the largest change in 70 random nips.
 _FURTHER_SHARES = np.array([5e-3, 2e-3, 2e-3, 2e-3, 3e-3, 3e-3, 2e-3, 7e-3])
+_VERB: Mapping[Geometry, str] = {"finite": "leaves", "full": "leave"}
 _WORDS = {
     "approach": "approach",
     "load": "load",
@@ -47,8 +51,8 @@ def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
     defined.
     """
     figures = final.figures
-    out = {name: getattr(final.error, name) for name in _SHARES}
-    for name in _SHARES if geometry == "finite" else ():
+    out = {name: getattr(final.error, name) for name in _NAMES}
+    for name in _NAMES if geometry in FINITE else ():
         out[name] = largest(out[name], model_share(name, geometry) * abs(getattr(figures, name)))
     if isinstance(nip.normal, LineLoad):
         out["load"] = abs(figures.load - nip.normal.load)
@@ -103,7 +107,7 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
 
 def _with_model(further: Further, nip: Nip, geometry: Geometry, final: Round) -> Further:
     """Return the errors, none of them less than that of the geometry model."""
-    if geometry != "finite" or final.further_error is None:
+    if geometry not in FINITE or final.further_error is None:
         return further
     figures = further_figures(nip, geometry, final.mesh, final.state, final.zones)
     left = _FURTHER_SHARES * further_sizes(nip, final, figures)
@@ -122,14 +126,14 @@ def _lost(further: Further, spent: Powers, nip: Nip, geometry: Geometry, final: 
 
 def model_share(name: str, geometry: Geometry) -> float:
     """Return the relative error of a figure that a geometry model leaves, however fine the mesh."""
-    return _SHARES[name] if geometry == "finite" else 0.0
+    return _SHARES[geometry][name] if geometry in FINITE else 0.0
 
 
 def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Return whether the claimed errors meet the tolerance, and a sentence on them.
 
-    In "finite" the error of the second-order model meets a tolerance of 1e-3 or more, and does not
-    meet a finer one.
+    At finite strain the error of the model meets a tolerance of 1e-3 or more, and does not meet a
+    finer one.
     """
     relative = _relative(nip, model.geometry, final)
     if not relative:
@@ -146,7 +150,7 @@ def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     if relative[worst] <= shares[worst] * (1.0 + 1e-9):
         return False, (
             f"The estimated error of the {_WORDS[worst]} is {100.0 * relative[worst]:.2g} %, more "
-            f'than the tolerance {model.tolerance:g}: no mesh makes the second order of "finite" '
+            f"than the tolerance {model.tolerance:g}: no mesh makes {_LEFT_BY[model.geometry]} "
             f"better. Ask for a tolerance of {FINEST_OF_FINITE:g} or more, or for geometry "
             '"curved" or "linear".'
         )
@@ -163,7 +167,7 @@ def _more(shares: Mapping[str, float], model: Model) -> str:
     if not larger:
         return ""
     named = ", ".join(f"{_WORDS[name]} {100.0 * share:g} %" for name, share in larger.items())
-    return f', and what the second order of "finite" leaves open ({named})'
+    return f", and what {_LEFT_BY[model.geometry]} {_VERB[model.geometry]} open ({named})"
 
 
 def _relative(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:

@@ -39,7 +39,7 @@ class Profiles:
     gap : (n,) distance of the surfaces [mm].
     slip_velocity : (n,) of the upper surface relative to the lower, along +x [mm/s]; nan outside
         the contact; None without speed or creepage.
-    strain_upper, strain_lower : (n,) du_x/dx of each surface ("curved", "finite": stretch less 1).
+    strain_upper, strain_lower : (n,) du_x/dx of each surface (of rings: stretch less 1).
     speed_upper, speed_lower : (n,) V_roller (1 + strain) [mm/s]; None without speed or creepage.
     """
 

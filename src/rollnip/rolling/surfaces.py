@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE, ContactState, Subdivision
+from rollnip.finite import FiniteResponse
 from rollnip.influence import (
     Ellipses,
     Kernel,
@@ -121,7 +122,7 @@ class PairKernels:
     Attributes
     ----------
     upper, lower : linear.
-    second_upper, second_lower : to second order; None also where the model leaves it out.
+    second_upper, second_lower : beyond the linear order; None also where the model leaves it out.
     held : second-order displacements to use whatever the tractions; None: always those of the
         tractions at hand.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
@@ -135,8 +136,8 @@ class PairKernels:
     lower: SurfaceKernels | None
     together: Kernel
     pressed: Ellipses
-    second_upper: SecondResponse | None = None
-    second_lower: SecondResponse | None = None
+    second_upper: SecondResponse | FiniteResponse | None = None
+    second_lower: SecondResponse | FiniteResponse | None = None
     held: SecondFields | None = None
     hoops: tuple[float, float] = (0.0, 0.0)
 
@@ -150,6 +151,12 @@ class PairKernels:
         """Return whether neither surface has a second-order displacement."""
         return self.second_upper is None and self.second_lower is None
 
+    @property
+    def is_balanced(self) -> bool:
+        """Return whether the last tractions had an equilibrium at finite strain, where asked."""
+        responses = self.second_upper, self.second_lower
+        return all(one.is_found for one in responses if isinstance(one, FiniteResponse))
+
     def second_fields(self, nodes: Array, pressure: Array, shear: Array) -> SecondFields:
         """Second-order displacements under tractions at nodes[1:-1], as functions."""
         functions: list[Field | None] = []
@@ -161,8 +168,10 @@ class PairKernels:
                 ends += [(0.0, 0.0)] * 2
                 continue
             own = nodes, pressure, sign * shear
-            inward = surface.inward_at(0.0, *own) if response.is_short else None
-            functions += response.displacement(*own, inward)
+            if isinstance(response, SecondResponse) and response.is_short:
+                functions += response.displacement(*own, surface.inward_at(0.0, *own))
+            else:
+                functions += response.displacement(*own)
             ends += [(float(response.x[0]), float(response.x[-1]))] * 2
         return SecondFields(tuple(functions), tuple(ends))
 
@@ -194,19 +203,6 @@ def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKerne
 def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
     """Return 1/R in the stretch of the surface; 0 where the layers are taken as flat."""
     return roller.curvature if is_ring(roller, geometry) else 0.0
-
-
-def with_second_order(
-    kernels: PairKernels, nip: Nip, geometry: Geometry, half_width: float, cache: KernelCache
-) -> PairKernels:
-    """Add what the second order of "finite" needs, on grids fit for a contact of that size."""
-    if geometry != "finite":
-        return kernels
-    upper, lower = (
-        None if roller.is_rigid or roller.core else cache.second(roller, nip.speed, half_width)
-        for roller in (nip.upper, nip.lower)
-    )
-    return replace(kernels, second_upper=upper, second_lower=lower)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.model import Model
+from rollnip.model import FINITE, Model
 from rollnip.nip import Approach, LineLoad, Nip
 from rollnip.rolling import MOST_PRESSED_IN, SolverInfo, half_width_guess, pair_kernels
 from rollnip.rough.contact import RoughContact, max_or_nan, rough_contact
@@ -46,7 +46,7 @@ def solve_rough(
         raise InvalidInputError(
             '`geometry` must be "linear" or "curved" with a measured profile, got "corrected".'
         )
-    if model.geometry == "finite":
+    if model.geometry in FINITE:
         model = replace(model, geometry="curved")
         notes = (
             "A measured profile is solved with linear elasticity: geometry is "

@@ -54,7 +54,7 @@ def evaluate(tree: Mapping[str, Any]) -> Row:
       verified), "refused" (the case is wrong) or "failed" (no solution was found);
     - ``message``: why, in one line; empty where solved;
     - ``converged``: whether the status is "solved";
-    - ``geometry``: the geometry solved with, which may be "curved" where "finite" was wanted;
+    - ``geometry``: the geometry solved with, which may be a simpler one than was wanted;
       None without a solution;
     - the names of `SCALARS`: numbers in the units given there, per axial length; None where not
       finite, not defined or not solved. ``max_surface_strain`` is the largest strain of either

@@ -93,7 +93,7 @@ function bare(tree) {
 
 /** The same nip while a slider moves: the finite geometry gives way to the faster curved one. */
 export function quickCase(tree) {
-  return tree.model.geometry === "finite" ? setAt(tree, "model.geometry", "curved") : tree;
+  return ["finite", "full"].includes(tree.model.geometry) ? setAt(tree, "model.geometry", "curved") : tree;
 }
 
 /** "load" or "approach". */

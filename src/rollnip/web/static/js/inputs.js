@@ -10,6 +10,7 @@ import { coreEditor, rollerGroup, swapper } from "./rollers.js";
 import { say } from "./texts.js";
 
 const GEOMETRIES = [
+  ["full", say("geometry.full")],
   ["finite", say("geometries.finite")],
   ["curved", say("geometry.curved")],
   ["corrected", say("geometry.corrected")],

@@ -30,6 +30,7 @@ const MODELS = {
   "loss-factor": say("report.loss-factor"),
 };
 const GEOMETRIES = {
+  full: say("assume.full"),
   finite: say("assume.finite"),
   curved: say("assume.curved"),
   corrected: say("assume.corrected"),

@@ -2,7 +2,7 @@
 
 import { say } from "./texts.js";
 
-const MODEL = /`?[Gg]eometry (?:= )?"(finite|curved|corrected|linear)"`?/g;
+const MODEL = /`?[Gg]eometry (?:= )?"(full|finite|curved|corrected|linear)"`?/g;
 const NUMBER = String.raw`([-\u2212]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)`;
 const UNITS = { mm: "length", "N/mm": "line load", MPa: "pressure", "mm/s": "speed" };
 const MEASURED = new RegExp(`${NUMBER} (N/mm|mm/s|mm|MPa)(?![\\w/])`, "g");

@@ -1,0 +1,227 @@
+"""Finite elements of a covering: nine nodes each, a rectangular mesh of arcs and depths.
+
+Frame of a roller: x along the nip, y into the roller, both zero at the point of first touch. A
+material point is known by its undeformed arc s along the surface and its depth z.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.rollers import Roller
+
+Array = NDArray[np.float64]
+Indices = NDArray[np.intp]
+
+_GAUSS = np.polynomial.legendre.leggauss(3)
+_ON_SURFACE = np.polynomial.legendre.leggauss(4)
+_ALONG, _DOWN = (grid.ravel() for grid in np.meshgrid(_GAUSS[0], _GAUSS[0], indexing="ij"))
+_AREA = np.multiply.outer(_GAUSS[1], _GAUSS[1]).ravel()
+LINEAR = np.stack((np.ones(9), _ALONG, _DOWN), axis=-1)
+"""Basis of volume and pressure in an element, at its nine points of Gauss, (9, 3)."""
+_FOLDS = 3.0  # of e in depth, from the surface to the nip width or the core
+_PER_FOLD = 1.2  # elements
+
+
+def quadratics(at: Array) -> tuple[Array, Array]:
+    """Return values and derivatives of the three quadratic shape functions on [-1, 1], (n, 3)."""
+    values = np.stack((0.5 * at * (at - 1.0), 1.0 - at * at, 0.5 * at * (at + 1.0)), axis=-1)
+    slopes = np.stack((at - 0.5, -2.0 * at, at + 0.5), axis=-1)
+    return values, slopes
+
+
+(_N_S, _D_S), (_N_Z, _D_Z) = quadratics(_ALONG), quadratics(_DOWN)
+_BY_ARC = (_D_S[:, :, None] * _N_Z[:, None, :]).reshape(9, 9)
+_BY_DEPTH = (_N_S[:, :, None] * _D_Z[:, None, :]).reshape(9, 9)
+
+
+@dataclass(frozen=True)
+class Depths:
+    """Division of a covering into elements over its depth.
+
+    Attributes
+    ----------
+    roller : with elastic layers on a rigid core.
+    ends : (rows + 1,) depths of the ends of elements, from the surface [mm].
+    owner : (rows,) the layer of each.
+    """
+
+    roller: Roller
+    ends: Array
+    owner: Indices
+
+    @classmethod
+    def of(cls, roller: Roller, half_width: float) -> Depths:
+        """Divide evenly in the logarithm of the depth, for a contact of about this size [mm]."""
+        little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_FOLDS)
+        marks = np.log1p(np.array([0.0, *roller.interfaces]) / little)
+        ends, owner = [0.0], []
+        for layer, (top, bottom) in enumerate(pairwise(marks)):
+            count = max(1, int(np.ceil(_PER_FOLD * (bottom - top))))
+            ends += (little * np.expm1(np.linspace(top, bottom, count + 1)))[1:].tolist()
+            owner += [layer] * count
+        return cls(roller, np.array(ends), np.array(owner))
+
+
+@dataclass(frozen=True)
+class Strip:
+    """Mesh of a part of a covering, bonded to the core and free at both ends.
+
+    Attributes
+    ----------
+    depths : division over the depth.
+    ends : (columns + 1,) arcs of the ends of elements [mm].
+    """
+
+    depths: Depths
+    ends: Array
+
+    @property
+    def columns(self) -> int:
+        """Number of elements along the surface."""
+        return self.ends.size - 1
+
+    @property
+    def rows(self) -> int:
+        """Nodes that may move in each column of nodes: all but the one on the core."""
+        return 2 * self.depths.owner.size
+
+    @property
+    def size(self) -> int:
+        """Number of unknown displacements."""
+        return 2 * self.rows * (2 * self.columns + 1)
+
+    @property
+    def band(self) -> int:
+        """Diagonals of a stiffness matrix on either side of the main one."""
+        return 4 * self.rows + 5
+
+    @cached_property
+    def arcs(self) -> Array:
+        """Arcs of the columns of nodes, (2 columns + 1,) [mm]."""
+        out = np.empty(2 * self.columns + 1)
+        out[::2], out[1::2] = self.ends, 0.5 * (self.ends[1:] + self.ends[:-1])
+        return out
+
+    @cached_property
+    def _grid(self) -> tuple[Array, Array, Array, Array]:
+        """Half length, half height, middle arc and middle depth of every element."""
+        z = self.depths.ends
+        half = np.meshgrid(0.5 * np.diff(self.ends), 0.5 * np.diff(z), indexing="ij")
+        middle = np.meshgrid(self.arcs[1::2], 0.5 * (z[1:] + z[:-1]), indexing="ij")
+        return half[0].ravel(), half[1].ravel(), middle[0].ravel(), middle[1].ravel()
+
+    @cached_property
+    def gradients(self) -> tuple[Array, Array, Array]:
+        """Derivatives of the shape functions by x and y, (elements, 9, 9), and volumes."""
+        half_s, half_z, s, z = (values[:, None] for values in self._grid)
+        curvature = self.depths.roller.curvature
+        shrink = 1.0 - curvature * (z + half_z * _DOWN)
+        angle = curvature * (s + half_s * _ALONG)
+        cos, sin = np.cos(angle)[..., None], np.sin(angle)[..., None]
+        by_arc = _BY_ARC / (half_s * shrink)[..., None]
+        by_depth = _BY_DEPTH / half_z[..., None]
+        volume = _AREA * half_s * half_z * shrink
+        return by_arc * cos - by_depth * sin, by_arc * sin + by_depth * cos, volume
+
+    @cached_property
+    def inverse_mass(self) -> Array:
+        """Inverse of the products of the basis `LINEAR` in every element, (elements, 3, 3)."""
+        volume = self.gradients[2]
+        return np.asarray(np.linalg.inv((LINEAR.T * volume[:, None, :]) @ LINEAR))
+
+    @cached_property
+    def unknowns(self) -> Indices:
+        """Unknowns of every element, (elements, 18), x and y of each node; -1 on the core."""
+        column = 2 * np.arange(self.columns)[:, None, None, None] + np.arange(3)[:, None]
+        row = 2 * np.arange(self.depths.owner.size)[:, None, None] + np.arange(3)
+        node = np.where(row < self.rows, column * self.rows + row, -1).reshape(-1, 9)
+        pair = np.stack((2 * node, 2 * node + 1), axis=-1)
+        pair[node < 0] = -1
+        return pair.reshape(-1, 18)
+
+    @cached_property
+    def slots(self) -> tuple[NDArray[np.bool_], Indices]:
+        """Entries of the element matrices that are kept, and their places in banded storage."""
+        unknowns = self.unknowns
+        row, column = np.broadcast_arrays(unknowns[:, :, None], unknowns[:, None, :])
+        kept = ((row >= 0) & (column >= 0)).ravel()
+        return kept, self.place(row.ravel()[kept], column.ravel()[kept])
+
+    def place(self, row: Indices, column: Indices) -> Indices:
+        """Return places in banded storage, columns one after the other, of matrix entries."""
+        return column * (3 * self.band + 1) + 2 * self.band + row - column
+
+    @cached_property
+    def layer(self) -> Indices:
+        """The layer of every element."""
+        return np.tile(self.depths.owner, self.columns)
+
+    @cached_property
+    def surface(self) -> Surface:
+        """The elements of the outer surface."""
+        return Surface.of(self)
+
+    def on_surface(self, displacement: Array) -> Array:
+        """Return the displacements of the nodes of the surface, (2 columns + 1, 2) [mm]."""
+        return displacement.reshape(-1, self.rows, 2)[:, 0]
+
+    def moved_to(self, other: Strip, displacement: Array) -> Array:
+        """Return displacements on a mesh of other columns, linear between the nodes here."""
+        old = displacement.reshape(self.arcs.size, -1)
+        at = np.clip(np.searchsorted(self.arcs, other.arcs) - 1, 0, self.arcs.size - 2)
+        share = (other.arcs - self.arcs[at]) / (self.arcs[at + 1] - self.arcs[at])
+        share = np.clip(share, 0.0, 1.0)[:, None]
+        return np.asarray(((1.0 - share) * old[at] + share * old[at + 1]).ravel())
+
+
+@dataclass(frozen=True)
+class Surface:
+    """Points of Gauss on the outer surface, of every element four.
+
+    Attributes
+    ----------
+    arcs : (columns, 4) [mm].
+    weights : (columns, 4) lengths [mm].
+    values, slopes : (columns, 4, 3) shape functions and their derivatives by the arc.
+    unknowns : (columns, 3, 2) of the three nodes.
+    """
+
+    arcs: Array
+    weights: Array
+    values: Array
+    slopes: Array
+    unknowns: Indices
+
+    @classmethod
+    def of(cls, strip: Strip) -> Surface:
+        """Return the points of a mesh."""
+        at, weight = _ON_SURFACE
+        values, slopes = quadratics(at)
+        half = 0.5 * np.diff(strip.ends)[:, None]
+        node = 2 * np.arange(strip.columns)[:, None] + np.arange(3)
+        return cls(
+            arcs=strip.arcs[1::2, None] + half * at,
+            weights=weight * half,
+            values=np.broadcast_to(values, (strip.columns, *values.shape)),
+            slopes=slopes / half[:, :, None],
+            unknowns=2 * strip.rows * node[:, :, None] + np.arange(2),
+        )
+
+
+def on_circle(arcs: Array, curvature: float) -> tuple[Array, Array]:
+    """Return x and y of points of an undeformed surface at some arcs [mm]."""
+    x = arcs * np.sinc(curvature * arcs / np.pi)
+    y = 0.5 * curvature * (arcs * np.sinc(0.5 * curvature * arcs / np.pi)) ** 2
+    return x, y
+
+
+def below_radius(x: Array, y: Array, curvature: float) -> Array:
+    """Return the radius of a roller less the distance of points (x, y) from its axle [mm]."""
+    twice = 2.0 * y - curvature * (x * x + y * y)
+    return np.asarray(twice / (1.0 + np.sqrt(1.0 - curvature * twice)))

@@ -1,0 +1,110 @@
+"""What finite strain adds to the linear displacement, against the linear and the second order."""
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+from rollnip.finite import Body, Depths, FiniteResponse, Strip, linear_surface, nodal
+from rollnip.influence import covering_window, displacement_under, second_response, surface_kernels
+
+RUBBER, FOAM = rn.Elastic(modulus=1.0, poisson=0.5), rn.Elastic(modulus=1.0, poisson=0.3)
+SKIN = rn.Elastic(modulus=20.0, poisson=0.4)
+HALF = 2.0
+BARE = rn.Roller(radius=25.0)
+
+
+def covered(*layers, radius=25.0):
+    return rn.Roller(radius=radius, layers=layers)
+
+
+COVERINGS = {
+    "rubber": covered(rn.Layer(2.0, RUBBER)),
+    "foam": covered(rn.Layer(3.0, FOAM)),
+    "thick": covered(rn.Layer(9.0, RUBBER)),
+    "skin": covered(rn.Layer(0.1, SKIN), rn.Layer(2.0, RUBBER)),
+    "plane": rn.Roller(radius=np.inf, layers=(rn.Layer(2.0, RUBBER),)),
+}
+
+
+def tractions(peak):
+    """Nodes, and pressure and shear without a jump of their derivative inside."""
+    nodes = HALF * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 61))
+    x = nodes[1:-1] / HALF
+    pressure = peak * np.sqrt(1.0 - x**2)
+    return nodes, pressure, 0.4 * pressure * (1.0 - x**2) * (0.5 + x)
+
+
+@pytest.mark.parametrize("roller", COVERINGS.values(), ids=COVERINGS)
+def test_linear_elements_are_the_linear_theory(roller):
+    """Ring layers harmonic by harmonic: 0.5 % of the largest displacement."""
+    nodes, p, q = tractions(0.1)
+    places = np.concatenate(
+        [np.linspace(-40, -2.5, 30), HALF * np.sin(np.linspace(-1.57, 1.57, 33))]
+    )
+    places = np.concatenate([places, np.linspace(2.5, 40, 30)])
+    body = Body(Strip(Depths.of(roller, HALF), places))
+    u_x, u_z = linear_surface(body, body.linear(nodal(nodes, p, q)))
+    inside = np.abs(places) < HALF
+    surface = surface_kernels(roller, None, "finite", covering_window((roller, BARE), None))
+    xx, zz, xz = displacement_under(
+        surface.together, places[inside], nodes, np.stack([p, q], axis=1)
+    )
+    largest = np.abs(zz[:, 0]).max()
+    np.testing.assert_allclose(u_x[inside], xx[:, 1] + xz[:, 0], atol=5e-3 * largest)
+    np.testing.assert_allclose(u_z[inside], zz[:, 0] - xz[:, 1], atol=5e-3 * largest)
+
+
+@pytest.mark.parametrize("roller", COVERINGS.values(), ids=COVERINGS)
+def test_begins_as_the_second_order(roller):
+    """At small strains all orders are the second one, which is derived by other means."""
+    nodes, p, q = tractions(0.004)
+    x = np.linspace(-0.9, 0.9, 19) * HALF
+    all_orders = np.stack([f(x) for f in FiniteResponse(roller, HALF).displacement(nodes, p, q)])
+    response = second_response(roller, None, HALF)
+    surface = surface_kernels(roller, None, "finite", covering_window((roller, BARE), None))
+    inward = surface.inward_at(0.0, nodes, p, q) if response.is_short else None
+    second = np.stack([f(x) for f in response.displacement(nodes, p, q, inward)])
+    np.testing.assert_allclose(all_orders, second, atol=0.05 * np.abs(second).max())
+
+
+def test_a_response_forgets_where_it_came_from():
+    """Tractions have one answer, whatever others were asked before: to the tolerance of steps."""
+    roller = COVERINGS["foam"]
+    nodes, p, q = tractions(0.1)
+    fresh = FiniteResponse(roller, HALF)
+    used = FiniteResponse(roller, HALF)
+    used.displacement(1.1 * nodes - 0.2, 1.2 * p, -q)
+    x = np.linspace(-1.0, 1.0, 9) * HALF
+    for one, other in zip(
+        fresh.displacement(nodes, p, q), used.displacement(nodes, p, q), strict=True
+    ):
+        np.testing.assert_allclose(one(x), other(x), atol=2e-5)
+
+
+def test_a_mirrored_load_has_a_mirrored_answer():
+    nodes, p, q = tractions(0.15)
+    x = np.linspace(-1.2, 1.2, 13) * HALF
+    response = [FiniteResponse(COVERINGS["rubber"], HALF) for _ in range(2)]
+    u_x, u_z = response[0].displacement(nodes, p, q)
+    v_x, v_z = response[1].displacement(-nodes[::-1], p[::-1], -q[::-1])
+    np.testing.assert_allclose(u_x(x), -v_x(-x), atol=1e-6)
+    np.testing.assert_allclose(u_z(x), v_z(-x), atol=1e-6)
+
+
+def test_what_has_no_equilibrium_keeps_the_last_answer():
+    nodes, p, q = tractions(0.1)
+    response = FiniteResponse(COVERINGS["rubber"], HALF)
+    before = response.displacement(nodes, p, q)
+    assert response.is_found
+    after = response.displacement(nodes, 100.0 * p, 300.0 * q)
+    assert not response.is_found
+    assert after is before
+    assert response.displacement(nodes, p, q) is not before
+    assert response.is_found
+
+
+def test_nothing_moves_without_pressure():
+    nodes, p, q = tractions(0.1)
+    u_x, u_z = FiniteResponse(COVERINGS["rubber"], HALF).displacement(nodes, 0.0 * p, 0.0 * q)
+    assert u_x(nodes) == pytest.approx(0.0)
+    assert u_z(nodes) == pytest.approx(0.0)

@@ -141,10 +141,10 @@ GROUPS = {
     "rubber, rolling freely or driven gently": lambda c: (
         is_incompressible(c) and not is_skinned(c) and abs(drive(c)) <= 0.1
     ),
-    "rubber, driven harder (|T|/F > 0.1)": lambda c: (
-        is_incompressible(c) and not is_skinned(c) and abs(drive(c)) > 0.1
+    "driven harder (|T|/F > 0.1)": lambda c: not is_skinned(c) and abs(drive(c)) > 0.1,
+    "compressible covering": lambda c: (
+        not is_incompressible(c) and not is_skinned(c) and abs(drive(c)) <= 0.1
     ),
-    "compressible covering": lambda c: not is_incompressible(c) and not is_skinned(c),
     "stiff skin": is_skinned,
 }
 """What the tables part the cases by; each case is in one group."""

@@ -14,7 +14,8 @@ CASES = [
     for case in json.loads((DATA / name).read_text(encoding="utf-8"))["results"]
 ]
 DRIVEN = json.loads((DATA / "finite_strain_fe_driven.json").read_text(encoding="utf-8"))["results"]
-RUBBER = [case for case in DRIVEN if case["case"] != "fuser"]
+RUBBER = [case for case in DRIVEN if case["case"] not in ("fuser", "press")]
+PRESS = [case for case in DRIVEN if case["case"] == "press"]
 FUSER = [case for case in DRIVEN if case["case"] == "fuser"]
 
 
@@ -67,6 +68,18 @@ def test_driven_rubber(case):
     assert leading == pytest.approx(case["contact_x"][1], rel=0.015)
     assert solution.peak_pressure == pytest.approx(case["peak_pressure"], rel=0.015)
     assert solution.creepage == pytest.approx(case["creepage"], abs=1.5e-3)
+
+
+@pytest.mark.parametrize("case", PRESS, ids=name_of)
+def test_press(case):
+    """Pressed in by a tenth and driven with 0.23 of the load: what the second order leaves."""
+    solution = solved(case, "finite")
+    assert solution.converged
+    trailing, leading = solution.contact[0]
+    assert solution.approach == pytest.approx(case["approach"], rel=0.015)
+    assert trailing == pytest.approx(case["contact_x"][0], rel=0.02)
+    assert leading == pytest.approx(case["contact_x"][1], rel=0.015)
+    assert solution.creepage == pytest.approx(case["creepage"], abs=3e-3)
 
 
 @pytest.mark.parametrize("case", FUSER, ids=name_of)

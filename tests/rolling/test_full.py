@@ -15,6 +15,10 @@ CASES = [
     for case in json.loads((DATA / f"finite_strain_fe{name}.json").read_text())["results"]
 ]
 QUICK = (("nu .3", 0.0), ("heavy", 2.7), ("two layers, mu .5", 0.5), ("IIb, mu .5", 0.5))
+SKINS = [
+    *(case for case in CASES if case["case"] == "fuser"),
+    *json.loads((DATA / "finite_strain_fe_skins.json").read_text())["results"],
+]
 FULL = rn.Model(geometry="full")
 
 
@@ -84,16 +88,17 @@ def test_all_other_cases(case):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("case", [c for c in CASES if c["case"] == "fuser"], ids=name_of)
-def test_fuser(case):
-    """A foil 900 times stiffer than what it covers: its peaks are not held."""
+@pytest.mark.parametrize("case", SKINS, ids=name_of)
+def test_stiff_skins(case):
+    """Top layers up to 900 times stiffer than what they cover: their peaks are not held."""
     solution = solved(case)
     assert solution.model.geometry == "full"
     trailing, leading = solution.contact[0]
-    assert solution.approach == pytest.approx(case["approach"], rel=1e-3)
+    assert solution.approach == pytest.approx(case["approach"], rel=2e-3)
     assert trailing == pytest.approx(case["contact_x"][0], rel=6e-3)
     assert leading == pytest.approx(case["contact_x"][1], rel=6e-3)
-    assert solution.creepage == pytest.approx(case["creepage"], abs=2e-4)
+    if "creepage" in case:
+        assert solution.creepage == pytest.approx(case["creepage"], abs=3e-4)
 
 
 def rolling(upper, lower, **others):

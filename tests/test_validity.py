@@ -44,6 +44,7 @@ def test_thick_covering():
 
 def test_a_second_order_that_is_large_or_fails():
     assert "changes the indentation" in warnings_of(nip(load=20.0), "finite")
+    assert "changes the indentation" not in warnings_of(nip(load=20.0), "full")
     beyond = solve(nip(load=60.0), Model(tolerance=1e-2))
     assert beyond.model.geometry == "curved"
     assert beyond.warnings[0].startswith(

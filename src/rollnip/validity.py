@@ -49,7 +49,7 @@ class Strains:
     ----------
     surface : largest strain of either surface in the contact, mean over an element.
     second : largest second-order indentation in the contact over the approach; 0 where there is
-        none.
+        none, and in "full".
     skin : third-order stretch of stiff top layers, as `_skin_stretch` estimates it; 0 where there
         are none, and but in "finite".
     """
@@ -62,6 +62,8 @@ class Strains:
     def of(cls, nip: Nip, model: Model, final: Round) -> Strains:
         """Return the strains of a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
+        if model.geometry == "full":  # of all orders: nothing is left out
+            return cls(surface, 0.0, 0.0)
         return cls(surface, _second_share(nip, final), _skin_stretch(nip, final))
 
 
@@ -71,7 +73,7 @@ def validity_warnings(nip: Nip, model: Model, final: Round, strains: Strains) ->
         _nip_strain(nip, final),
         *(_thickness_ratio(name, roller, model) for name, roller in _rollers(nip)),
         _contact_angle(nip, final),
-        _surface_strain(strains.surface),
+        "" if model.geometry == "full" else _surface_strain(strains.surface),
         _second_order(strains.second),
         _stiff_skin(strains.skin, final.figures.creepage),
         *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),

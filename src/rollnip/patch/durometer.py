@@ -1,0 +1,131 @@
+"""What a durometer reads on a covering: the Shore A indenter on layers of any thickness.
+
+The indenter of Shore A (ISO 48-4, ASTM D2240) is a cone of 35 degrees cut to a flat tip of 0.79 mm,
+on a shaft of 1.25 mm. A spring presses it with 0.55 N + 0.075 N S, S the hardness, where it stands
+out of its foot by 2.5 mm (1 - S/100). The reading is the S at which the covering, linearly
+elastic and without friction, carries that force at that depth.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, radians, tan
+
+import numpy as np
+from scipy.optimize import brentq
+
+from rollnip._blas import one_blas_thread
+from rollnip._errors import InvalidInputError
+from rollnip.materials import Material
+from rollnip.patch.coefficients import Array, Grid, coefficients
+from rollnip.patch.convolution import Convolutions
+from rollnip.patch.kernels import pair_kernel
+from rollnip.patch.normal import NormalProblem, solve_normal
+from rollnip.rollers import Layer, Roller
+
+_TIP = 0.395  # mm, radius of the flat end
+_SHAFT = 0.625  # mm, radius of the shaft
+_SLOPE = tan(radians(17.5))  # of the cone's side, radius over height
+_TRAVEL = 2.5  # mm
+_LEAST, _PER_POINT = 0.55, 0.075  # N
+_SIDES = 81
+_LOWEST, _HIGHEST = 1.0, 99.0
+_TOLERANCE = 1e-4
+
+
+@dataclass(frozen=True)
+class Indentation:
+    """The Shore A indenter on a covering of linear elasticity.
+
+    Attributes
+    ----------
+    products : displacements of the covering's surface.
+    """
+
+    products: Convolutions
+
+    @classmethod
+    def of(cls, layers: Sequence[Layer], core: Material | None = None) -> Indentation:
+        """Return the indentation of a covering, layers from the surface to the core.
+
+        Parameters
+        ----------
+        layers : elastic.
+        core : None for a rigid base, or the elastic material of a half-space below.
+
+        Raises
+        ------
+        InvalidInputError
+            where nothing would deform, or a material is viscoelastic.
+        """
+        covering = Roller(radius=inf, layers=layers, core=core)
+        if covering.is_rigid or covering.is_viscoelastic:
+            raise InvalidInputError(
+                "`layers` must be elastic and deform; take the modulus at the time of the reading."
+            )
+        grid = Grid.over((-_SHAFT, _SHAFT), (-_SHAFT, _SHAFT), _SIDES, _SIDES)
+        kernel = pair_kernel(covering, Roller(radius=inf), grid.reach)
+        return cls(Convolutions(grid, coefficients(kernel, grid)))
+
+    def force(self, depth: float) -> float:
+        """Return the force on the indenter at a depth [N]; depth [mm], positive."""
+        grid = self.products.grid
+        x, y = np.meshgrid(grid.x, grid.y)
+        problem = NormalProblem(self.products, _clearance(np.hypot(x, y)), None, depth)
+        with one_blas_thread():
+            state = solve_normal(problem, _TOLERANCE, None)
+        return float(np.sum(state.pressure)) * grid.element
+
+    def shore_a(self) -> float:
+        """Return the hardness that a durometer reads, between 1 and 99.
+
+        Raises
+        ------
+        InvalidInputError
+            for a covering so soft or so hard that the reading would lie beyond.
+        """
+
+        def wrong(hardness: float) -> float:
+            depth = _TRAVEL * (1.0 - hardness / 100.0)
+            return self.force(depth) - (_LEAST + _PER_POINT * hardness)
+
+        if not wrong(_LOWEST) > 0.0 > wrong(_HIGHEST):
+            raise InvalidInputError("`layers` must read between 1 and 99 Shore A.")
+        return float(brentq(wrong, _LOWEST, _HIGHEST, xtol=1e-3))
+
+
+def shore_a_reading(layers: Sequence[Layer], core: Material | None = None) -> float:
+    """Return what a Shore A durometer reads on a covering.
+
+    The strains under a durometer are large and the covering is taken as linearly elastic: the number
+    itself is an estimate, the *difference* between a sheet and a thick block of it is what this is for.
+
+    Parameters
+    ----------
+    layers :
+        of the covering, from the surface to the core; elastic.
+    core :
+        None for a rigid base, or the elastic material of a half-space below the layers.
+
+    Returns
+    -------
+    float
+        Shore A.
+
+    Raises
+    ------
+    InvalidInputError
+        where nothing would deform, a material is viscoelastic, or the reading lies beyond 1 to 99.
+
+    References
+    ----------
+    ISO 48-4:2018 and ASTM D2240 for the indenter and its spring.
+    """
+    return Indentation.of(layers, core).shore_a()
+
+
+def _clearance(r: Array) -> Array:
+    """Return the height of the indenter over its tip, (ny, nx) [mm]; inf beside the shaft."""
+    side = np.maximum(r - _TIP, 0.0) / _SLOPE
+    return np.where(r <= _SHAFT, side, inf)

@@ -29,6 +29,7 @@ Dimension = Literal[
     "frequency",
     "angle",
     "density",
+    "turn per length",
 ]
 
 
@@ -180,6 +181,7 @@ _DENSITY = _units(
         "lb/ft3": _POUND / (12 * _IN / 1000) ** 3,
     }
 )
+_TURN = _units({"1/mm": 1, "1/m": "1e-3", "rad/mm": 1, "rad/m": "1e-3", "1/in": 1 / _IN})
 _MOLAR = _units({"kJ/mol": 1, "J/mol": "1e-3", "kcal/mol": "4.184", "cal/mol": "4.184e-3"})
 
 _KINDS: dict[Dimension, _Kind] = {
@@ -195,6 +197,7 @@ _KINDS: dict[Dimension, _Kind] = {
     "frequency": _Kind("a frequency", "Hz", "10 Hz", _FREQUENCY),
     "angle": _Kind("an angle", "rad", "10 deg", _ANGLE),
     "density": _Kind("a density", "kg/m3", "7850 kg/m3", _DENSITY),
+    "turn per length": _Kind("an angle per length", "1/mm", "0.1 1/m", _TURN),
     "molar energy": _Kind("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
 }
 

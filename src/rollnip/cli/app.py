@@ -16,6 +16,7 @@ from rollnip.cli.fit import fit
 from rollnip.cli.lda import lda
 from rollnip.cli.options import Force
 from rollnip.cli.paper import paper
+from rollnip.cli.patch import patch
 from rollnip.cli.serve import serve
 from rollnip.cli.sweep import sweep
 from rollnip.cli.verify import verify
@@ -38,6 +39,7 @@ app.add_typer(lda)
 app.add_typer(dma)
 app.add_typer(sweep)
 app.add_typer(face)
+app.add_typer(patch)
 app.add_typer(paper)
 app.command()(fit)
 app.command()(find)

@@ -96,12 +96,10 @@ class Builder:
 
     def nip(self) -> Nip | None:
         """The problem; None where any part of it was refused."""
-        self._check_materials()
-        upper = self._roller("upper", self.table.upper)
-        lower = self._roller("lower", self.table.lower)
-        controls = self._controls(self.table.nip)
-        if upper is None or lower is None or controls is None or self.errors:
+        rollers, controls = self.rollers(), self._controls(self.table.nip)
+        if rollers is None or controls is None or self.errors:
             return None
+        upper, lower = rollers
         normal, tangential = controls
         table = self.table.nip
         return self._made(
@@ -146,6 +144,13 @@ class Builder:
         normal = self._made("nip", lambda: _normal(table, face))
         tangential = self._made("nip", lambda: _tangential(table))
         return None if normal is None or tangential is None else (normal, tangential)
+
+    def rollers(self) -> tuple[Roller, Roller] | None:
+        """The upper and the lower roller; None where any part of them was refused."""
+        self._check_materials()
+        upper = self._roller("upper", self.table.upper)
+        lower = self._roller("lower", self.table.lower)
+        return None if upper is None or lower is None or self.errors else (upper, lower)
 
     def _roller(self, path: str, table: RollerTable) -> Roller | None:
         profile = self._profile(f"{path}.profile", table.profile)

@@ -98,6 +98,8 @@ def case_schema(*, ref: str = "#/$defs/{model}") -> dict[str, Any]:
 
 
 def _checked(tree: dict[str, Any], source: str) -> CaseTable:
+    if "patch" in tree:
+        _refuse(source, ["patch: is a table of cases in three dimensions; use `rollnip patch`."])
     lines = wrong_controls(tree)
     try:
         table = CaseTable.model_validate(tree)

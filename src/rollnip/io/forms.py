@@ -45,6 +45,7 @@ class Quantity:
 Length = Annotated[float, Quantity("length")]
 Radius = Annotated[float, Quantity("length", infinite=True)]
 Force = Annotated[float, Quantity("force")]
+TurnPerLength = Annotated[float, Quantity("turn per length")]
 Density = Annotated[float, Quantity("density")]
 Angle = Annotated[float, Quantity("angle")]
 LineLoad = Annotated[float, Quantity("line load")]

@@ -98,8 +98,8 @@ class Indentation:
 def shore_a_reading(layers: Sequence[Layer], core: Material | None = None) -> float:
     """Return what a Shore A durometer reads on a covering.
 
-    The strains under a durometer are large and the covering is taken as linearly elastic: the number
-    itself is an estimate, the *difference* between a sheet and a thick block of it is what this is for.
+    The strains under a durometer are large, and the covering is taken as linearly elastic: the
+    number is an estimate. What it is for is the *difference* between a sheet and a thick block.
 
     Parameters
     ----------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -31,6 +31,9 @@ FIGURES = (
     "lateral_creepage",
 )
 """Figures with an error."""
+
+_LARGE = 0.5  # of a radius: length of a patch
+_DEEP = 0.15  # of the coverings: approach
 
 
 @dataclass(frozen=True)
@@ -174,9 +177,30 @@ class PatchSolution:
 
     @property
     def friction_resistance(self) -> float:
-        """Power that slip turns into heat over the rolling speed [N]."""
+        """Power that slip turns into heat over the rolling speed [N], from the balance of power.
+
+        What elastic rollers are given: F_x along + F_y across + M spin, and the pressure's moment
+        (1/R_upper + 1/R_lower) int p x. Its error is that to the sum of shear times slip.
+        """
+        figures, patch = self.figures, self.patch
+        if self.level.rolling is None:
+            return 0.0
+        along, across, spin = self.level.rolling.creepages
+        given = figures["traction_x"] * along + figures["traction_y"] * across
+        given += figures["spin_moment"] * spin
+        offset = float(np.sum(self.pressure * self.x)) * self.grid.element
+        return max(given + patch.curvature * offset, 0.0)
+
+    @property
+    def friction_resistance_error(self) -> float:
+        """Difference of the friction resistance to the sum of shear times slip [N]."""
         lost = -float(np.sum(self.level.shear * self.slip)) * self.grid.element
-        return max(lost, 0.0)
+        return abs(lost - self.friction_resistance)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What the model leaves out that may count here, one sentence each."""
+        return tuple(_reservations(self))
 
     @property
     def dissipation_friction(self) -> float | None:
@@ -217,6 +241,33 @@ class PatchSolution:
             return self.level.rolling.creepages[i]
         drive = (self.patch.along, self.patch.across)[i]
         return getattr(drive, "creepage", None)
+
+
+def _reservations(solution: PatchSolution) -> Iterator[str]:
+    patch = solution.patch
+    half = 0.5 * solution.width
+    for name, roller, across in (
+        ("upper", patch.upper, patch.across_upper),
+        ("lower", patch.lower, patch.across_lower),
+    ):
+        reach = across.half_face - across.end_radius
+        if roller.layers and half > reach - roller.coating_thickness:
+            yield (
+                f"The patch comes within a thickness of the end of the covered {name} face; the "
+                "covering counts as going on there, so the pressure at the end is too high."
+            )
+        if solution.length > _LARGE * roller.radius:
+            yield (
+                f"The patch is longer than {_LARGE:g} of the {name} radius; layers count as flat, "
+                "which is then off by some percent."
+            )
+    covering = patch.upper.coating_thickness + patch.lower.coating_thickness
+    cores = patch.upper.core is None and patch.lower.core is None
+    if cores and solution.approach > _DEEP * covering:
+        yield (
+            f"The approach is more than {100 * _DEEP:g} % of the coverings' thickness; strains "
+            "count as small, and approach and load are then off by more than 5 %."
+        )
 
 
 def figures_of(level: Level) -> dict[str, float]:

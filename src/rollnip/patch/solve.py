@@ -75,6 +75,8 @@ def solve_patch(
 
 def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> PatchSolution:
     box = patch_box(patch)
+    if wanted is not None:
+        box = _with_rim(patch, box, wanted)
     inner = _SHARE * tolerance
     level, errors = None, dict.fromkeys(FIGURES, inf)
     sizes: list[tuple[int, int]] = []
@@ -94,6 +96,16 @@ def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> P
     if is_cut:
         status = "The contact reaches the rim of the grid; the figures are those of a part of it."
     return PatchSolution(patch, level, errors, tolerance, converged, status, tuple(sizes))
+
+
+def _with_rim(patch: Patch, box: Box, sizes: tuple[int, int]) -> Box:
+    """Return a box with a free rectangle on each side of the patch where rectangles are few."""
+    spans = []
+    for (low, high), count in zip(box, sizes, strict=True):
+        middle, half = 0.5 * (low + high), 0.5 * (high - low)
+        half *= max(_MARGIN, 1.0 + 3.0 / count) / _MARGIN
+        spans.append((middle - half, middle + half))
+    return spans[0], _held(patch, spans[1])
 
 
 def _is_cut(patch: Patch, level: Level) -> bool:

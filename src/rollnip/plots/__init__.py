@@ -5,6 +5,7 @@ from rollnip.plots.field import plot_field
 from rollnip.plots.files import check_figure_target, save_figure
 from rollnip.plots.map import plot_map
 from rollnip.plots.overview import plot_overview
+from rollnip.plots.patch import plot_patch
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.scatter import plot_distribution, plot_shares
 from rollnip.plots.study import plot_curves, plot_pareto
@@ -23,6 +24,7 @@ __all__ = [
     "plot_map",
     "plot_overview",
     "plot_pareto",
+    "plot_patch",
     "plot_pressure",
     "plot_shares",
     "plot_speed",

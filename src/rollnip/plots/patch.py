@@ -1,0 +1,160 @@
+"""A picture of a solved patch: pressure, stick and slip with the shear, and the middle lines."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.colors import ListedColormap
+from matplotlib.figure import Figure
+from matplotlib.patches import Patch as Swatch
+
+from rollnip.patch.solution import PatchSolution
+from rollnip.plots.style import Palette, Style, palette_of
+
+_SIZE = (10.0, 7.0)  # inches
+_ARROWS = 17
+_LEVELS = 11
+
+
+def plot_patch(solution: PatchSolution, *, style: Style = "light") -> Figure:
+    """Return one page about a patch: pressure, stick and slip with shear, lines through the middle.
+
+    Parameters
+    ----------
+    solution : what `solve_patch` returned.
+    style : "light" or "dark".
+    """
+    palette = palette_of(style)
+    figure = Figure(figsize=_SIZE, layout="constrained", facecolor=palette.ground)
+    (pressure, zones), (along, across) = figure.subplots(2, 2, height_ratios=(1.6, 1.0))
+    _pressure(figure, pressure, solution, palette)
+    _zones(zones, solution, palette)
+    row, column = _middle(solution)
+    _line(
+        along,
+        (solution.x, solution.pressure[row], solution.shear_x[row]),
+        solution,
+        palette,
+        "shear along x",
+    )
+    _line(
+        across,
+        (solution.y, solution.pressure[:, column], solution.shear_y[:, column]),
+        solution,
+        palette,
+        "shear along y",
+    )
+    along.set_xlabel("x, rolling to the right [mm]")
+    across.set_xlabel("y, along the axis [mm]")
+    along.set_title(f"along x at y = {solution.y[row]:.3g} mm", loc="left", size=10)
+    across.set_title(f"along y at x = {solution.x[column]:.3g} mm", loc="left", size=10)
+    for ax in figure.axes:
+        ax.tick_params(colors=palette.ink)
+        for spine in ax.spines.values():
+            spine.set_color(palette.ink)
+        for text in (ax.title, ax.xaxis.label, ax.yaxis.label, *ax.texts):
+            text.set_color(palette.ink)
+    title = solution.patch.title or "Patch"
+    state = "" if solution.converged else " (NOT CONVERGED)"
+    figure.suptitle(f"{title}{state}", color=palette.ink, ha="left", x=0.02)
+    return figure
+
+
+def _middle(solution: PatchSolution) -> tuple[int, int]:
+    """Return the row and the column through the middle of the pressure."""
+    total = float(np.sum(solution.pressure))
+    y = float(np.sum(solution.pressure.sum(axis=1) * solution.y)) / total
+    x = float(np.sum(solution.pressure.sum(axis=0) * solution.x)) / total
+    return int(np.argmin(np.abs(solution.y - y))), int(np.argmin(np.abs(solution.x - x)))
+
+
+def _frame(ax: Axes, solution: PatchSolution, palette: Palette) -> None:
+    """Set the window of a map; to scale where the patch is not much longer than wide."""
+    grid = solution.grid
+    ax.set_facecolor(palette.ground)
+    ax.set_xlim(grid.x[0] - 0.5 * grid.hx, grid.x[-1] + 0.5 * grid.hx)
+    ax.set_ylim(grid.y[0] - 0.5 * grid.hy, grid.y[-1] + 0.5 * grid.hy)
+    if 0.5 < solution.length / max(solution.width, 1e-300) < 2.0:
+        ax.set_aspect("equal")
+    ax.set_xlabel("x, rolling to the right [mm]")
+    ax.set_ylabel("y [mm]")
+
+
+def _pressure(figure: Figure, ax: Axes, solution: PatchSolution, palette: Palette) -> None:
+    values = np.where(solution.pressure > 0.0, solution.pressure, np.nan)
+    filled = ax.pcolormesh(
+        solution.x, solution.y, values, cmap=palette.sequential, shading="nearest", rasterized=True
+    )
+    bar = figure.colorbar(filled, ax=ax)
+    bar.set_label("pressure [MPa]", color=palette.ink)
+    ax.set_title("pressure", loc="left", size=10)
+    _frame(ax, solution, palette)
+
+
+def _zones(ax: Axes, solution: PatchSolution, palette: Palette) -> None:
+    """Draw where the surfaces stick and slip, with the shear on the upper roller as arrows."""
+    colours = ListedColormap([palette.ground, palette.stick, palette.slip])
+    ax.pcolormesh(
+        solution.x,
+        solution.y,
+        solution.state,
+        cmap=colours,
+        vmin=-0.5,
+        vmax=2.5,
+        shading="nearest",
+        rasterized=True,
+    )
+    rows, columns = (
+        slice(count // (2 * _ARROWS), None, max(count // _ARROWS, 1))
+        for count in (solution.y.size, solution.x.size)
+    )
+    part = (rows, columns)
+    there = solution.pressure[part] > 0.0
+    x, y = np.meshgrid(solution.x[columns], solution.y[rows])
+    if np.any(solution.level.shear):
+        ax.quiver(
+            x[there],
+            y[there],
+            solution.shear_x[part][there],
+            solution.shear_y[part][there],
+            color=palette.shear,
+            pivot="mid",
+        )
+    ax.contour(
+        solution.x, solution.y, solution.pressure > 0.0, levels=[0.5], colors=palette.ink,
+        linewidths=0.8,
+    )  # fmt: skip
+    ax.legend(
+        handles=[
+            Swatch(facecolor=palette.stick, edgecolor=palette.muted, label="stick"),
+            Swatch(facecolor=palette.slip, edgecolor=palette.muted, label="slip"),
+        ],
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.16),
+        ncols=2,
+        frameon=False,
+        fontsize=8,
+        labelcolor=palette.ink,
+    )
+    ax.set_title("stick, slip, and shear on the upper roller", loc="left", size=10)
+    _frame(ax, solution, palette)
+
+
+def _line(
+    ax: Axes,
+    curves: tuple[np.ndarray[tuple[int], np.dtype[np.float64]], ...],
+    solution: PatchSolution,
+    palette: Palette,
+    name: str,
+) -> None:
+    """Draw pressure, traction bound and shear along one line through the patch."""
+    places, pressure, shear = curves
+    bound = solution.patch.friction * pressure
+    ax.set_facecolor(palette.ground)
+    ax.plot(places, pressure, color=palette.pressure, linewidth=1.8, label="pressure")
+    if solution.patch.friction > 0.0:
+        ax.plot(places, shear, color=palette.shear, linewidth=1.8, label=name)
+        for side in (bound, -bound):
+            ax.plot(places, side, color=palette.muted, linewidth=0.8, linestyle=":")
+    ax.set_ylabel("[MPa]")
+    ax.legend(fontsize=8, labelcolor=palette.ink, facecolor=palette.ground)

@@ -1,0 +1,179 @@
+"""Case files in three dimensions, the commands, JSON and the picture."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+import rollnip as rn
+from rollnip._errors import CaseFileError
+from rollnip.cli.app import app
+from rollnip.io.patch_case import parse_patch_case, read_patch_case
+from rollnip.patch.report import patch_dict, patch_lines
+from rollnip.plots import plot_patch
+
+EXAMPLES = sorted((Path(__file__).parents[2] / "examples" / "patch").glob("*.toml"))
+WHEEL = """
+title = "Wheel"
+[nip]
+load = "0.2 kN"
+traction = "10 N"
+lateral_creepage = "0.1 %"
+spin = "0.1 1/m"
+friction = 0.6
+speed = "1 m/s"
+[patch]
+grid = [16, 16]
+[upper]
+radius = "50 mm"
+lateral_radius = "200 mm"
+face = "40 mm"
+end_radius = "2 mm"
+[[upper.layers]]
+thickness = "8 mm"
+material = "rubber"
+[lower]
+radius = "inf"
+[materials.rubber]
+model = "elastic"
+modulus = "5 MPa"
+poisson = 0.5
+"""
+
+
+def test_a_case_is_the_problem_that_it_says():
+    case = parse_patch_case(WHEEL)
+    patch = case.patch
+    assert case.grid == (16, 16)
+    assert patch.normal == rn.Force(200.0)
+    assert patch.along == rn.Force(10.0)
+    assert patch.across == rn.Creepage(0.001)
+    assert patch.spin == pytest.approx(1e-4)
+    assert patch.speed == 1000.0
+    assert patch.across_upper == rn.Across(radius=200.0, face=40.0, end_radius=2.0)
+    assert patch.upper.layers[0].material == rn.Elastic(modulus=5.0, poisson=0.5)
+    assert patch.lower.curvature == 0.0
+
+
+WRONG = [
+    ("[patch]\ngrid = [16, 16]", "", "patch: is missing"),
+    ('load = "0.2 kN"', 'load = "0.2 kN/m"', "nip.load: must be a force"),
+    ('load = "0.2 kN"', "", "nip: must hold load or approach"),
+    ('traction = "10 N"', 'traction = "10 N"\ncreepage = 0.1', "only one of traction, creepage"),
+    ('traction = "10 N"', 'traction = "500 N"', "smaller than friction"),
+    ('spin = "0.1 1/m"', 'spin = "0.1 deg"', "nip.spin: must be an angle per length"),
+    ('face = "40 mm"', 'face = "3 mm"', "upper.end_radius: must have a `face`"),
+    ('face = "40 mm"', 'fase = "40 mm"', 'did you mean "face"'),
+    ('material = "rubber"', 'material = "ruber"', 'did you mean "rubber"'),
+    ("[16, 16]", "[16]", "patch.grid: must hold two"),
+    ('radius = "50 mm"', 'radius = "-50 mm"', "upper.radius: must be positive"),
+    ('radius = "50 mm"', 'radius = "50 mm"\nlateral_profile = "p.csv"', "upper.lateral_profile"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "message"), WRONG)
+def test_wrong_cases_are_one_line_with_the_key(old, new, message):
+    assert old in WHEEL
+    with pytest.raises(CaseFileError, match=r"^case: ") as caught:
+        parse_patch_case(WHEEL.replace(old, new))
+    assert message in str(caught.value)
+
+
+def test_a_measured_profile_along_the_axis(tmp_path):
+    (tmp_path / "p.csv").write_text("x [mm], height [um]\n-20, 0\n0, 5\n20, 0\n")
+    path = tmp_path / "case.toml"
+    text = WHEEL.replace('face = "40 mm"', 'face = "40 mm"\nlateral_profile = "p.csv"')
+    path.write_text(text)
+    depth = read_patch_case(path).patch.across_upper.depth(np.array([0.0, 10.0]))
+    np.testing.assert_allclose(depth, [-0.005, 0.25 - 0.0025])
+
+
+def test_plane_cases_send_patches_to_their_command(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(WHEEL)
+    with pytest.raises(CaseFileError, match="rollnip patch"):
+        rn.read_case(path)
+
+
+@pytest.fixture(scope="module")
+def solved():
+    case = parse_patch_case(WHEEL)
+    return rn.solve_patch(case.patch, grid=case.grid)
+
+
+def test_the_tree_holds_every_figure_and_field(solved):
+    tree = json.loads(json.dumps(patch_dict(solved, fields=True), allow_nan=False))
+    part = tree["patch"]
+    assert part["load"] == pytest.approx(200.0)
+    assert set(solved.figures) | {"spin", "friction_resistance"} <= set(part)
+    assert set(part["error"]) == set(solved.figures) | {"friction_resistance"}
+    assert len(tree["fields"]["y"]) == len(tree["fields"]["pressure"]) == 16
+    assert tree["fields"]["gap"][8][8] == pytest.approx(0.0, abs=1e-3)
+    assert "fields" not in patch_dict(solved)
+
+
+def test_the_summary_says_figures_with_units_and_errors(solved):
+    lines = list(patch_lines(solved))
+    assert lines[0] == "Wheel"
+    assert any("peak pressure" in line and "MPa  (+-" in line for line in lines)
+    assert any("friction power" in line and "W" in line for line in lines)
+
+
+@pytest.mark.parametrize("style", ["light", "dark"])
+def test_the_picture_has_four_panels(solved, style):
+    figure = plot_patch(solved, style=style)
+    titles = [ax.get_title(loc="left") for ax in figure.axes]
+    assert {"pressure", "stick, slip, and shear on the upper roller"} <= set(titles)
+    assert "Wheel" in figure.get_suptitle()
+
+
+def test_the_command_prints_json_and_draws(tmp_path):
+    path, picture = tmp_path / "case.toml", tmp_path / "patch.png"
+    path.write_text(WHEEL)
+    done = CliRunner().invoke(app, ["patch", "solve", str(path), "--json", "--plot", str(picture)])
+    assert done.exit_code == 1  # one grid claims no error, and so nothing is verified
+    tree = json.loads(done.stdout)
+    assert tree["converged"] is False
+    assert tree["status"].startswith("One grid alone tells no error")
+    assert picture.stat().st_size > 10_000
+
+
+def test_the_command_refuses_wrong_input(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(WHEEL.replace("friction = 0.6", "friction = -1"))
+    done = CliRunner().invoke(app, ["patch", "solve", str(path)])
+    assert done.exit_code == 2
+    assert "nip.friction: must be zero or positive" in done.stderr
+
+
+@pytest.mark.slow
+def test_hardness_of_a_covering(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(WHEEL)
+    done = CliRunner().invoke(app, ["patch", "hardness", str(path)])
+    assert done.exit_code == 0
+    covering, block = (float(line.split(": ")[1]) for line in done.stdout.splitlines())
+    assert block < covering < block + 3.0
+    assert CliRunner().invoke(app, ["patch", "hardness", str(path), "--roller", "x"]).exit_code == 2
+
+
+def test_there_are_examples():
+    assert {path.stem for path in EXAMPLES} >= {"polyurethane-wheel", "crowned-pull-roller"}
+
+
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_read_and_say_what_is_assumed(path):
+    assert read_patch_case(path).patch.title
+    assert "ssumed" in path.read_text("utf-8")
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
+def test_examples_solve(path):
+    solution = rn.solve_patch(read_patch_case(path).patch, tolerance=0.01)
+    assert solution.converged, solution.status
+    assert not solution.warnings

@@ -14,6 +14,7 @@ from math import floor, inf, isfinite, log10, pi, tau
 from typing import Literal
 
 from rollnip._errors import InvalidInputError
+from rollnip._heat_units import CONDUCTIVITY, EXPANSION, FILM, HEAT_CAPACITY
 
 Dimension = Literal[
     "length",
@@ -30,6 +31,10 @@ Dimension = Literal[
     "angle",
     "density",
     "turn per length",
+    "thermal conductivity",
+    "heat capacity",
+    "film coefficient",
+    "thermal expansion",
 ]
 
 
@@ -198,6 +203,14 @@ _KINDS: dict[Dimension, _Kind] = {
     "angle": _Kind("an angle", "rad", "10 deg", _ANGLE),
     "density": _Kind("a density", "kg/m3", "7850 kg/m3", _DENSITY),
     "turn per length": _Kind("an angle per length", "1/mm", "0.1 1/m", _TURN),
+    "thermal conductivity": _Kind(
+        "a thermal conductivity", "W/(m K)", "0.25 W/(m K)", _units(CONDUCTIVITY)
+    ),
+    "heat capacity": _Kind(
+        "a heat capacity per mass", "J/(kg K)", "1900 J/(kg K)", _units(HEAT_CAPACITY)
+    ),
+    "film coefficient": _Kind("a film coefficient", "W/(m2 K)", "30 W/(m2 K)", _units(FILM)),
+    "thermal expansion": _Kind("a thermal expansion", "1/K", "2e-4 1/K", _units(EXPANSION)),
     "molar energy": _Kind("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
 }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from rollnip._errors import InvalidInputError, require_not_negative, require_positive, with_hints
 from rollnip.materials import Thermal
@@ -95,7 +95,7 @@ class Cooling:
     """
 
     film: float
-    core: Core = field(default_factory=Insulated)
+    core: Core = Insulated()
     shell: Shell | None = None
 
     def __post_init__(self) -> None:

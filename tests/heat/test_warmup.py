@@ -78,6 +78,7 @@ def following():
     return rn.warm_up(press(lossy(shift=WLF)), cooled(), PLAIN)
 
 
+@pytest.mark.slow  # 40 nips with sub-layers, shared by three tests
 def test_it_ends_in_the_steady_state(following):
     assert following.converged, following.status
     steady = following.steady
@@ -88,6 +89,7 @@ def test_it_ends_in_the_steady_state(following):
     assert following.power[0] == pytest.approx(cold, rel=1e-6)
 
 
+@pytest.mark.slow  # 40 nips with sub-layers, shared by three tests
 def test_energy_over_time_is_what_the_rollers_hold(following):
     """Heat that arises less heat to the air is stored: an integral over the whole warm-up."""
     conduction = following.conduction
@@ -103,6 +105,7 @@ def test_energy_over_time_is_what_the_rollers_hold(following):
     assert kept == pytest.approx(stored, rel=0.01)
 
 
+@pytest.mark.slow  # 40 nips with sub-layers, shared by three tests
 def test_half_of_the_rise_comes_before_the_other_half(following):
     assert 0.0 < following.half_time < 0.5 * following.time[-1]
 

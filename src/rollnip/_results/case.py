@@ -8,6 +8,7 @@ from hashlib import sha256
 from math import isinf
 from typing import Any
 
+from rollnip.cooling import Coolant, Cooling, HeatBalance, Held
 from rollnip.materials import (
     WLF,
     Arrhenius,
@@ -54,11 +55,41 @@ def case_tree(nip: Nip, model: Model) -> dict[str, Any]:
     return tree
 
 
-def problem_hash(nip: Nip, model: Model, face: Face | None = None) -> str:
+def problem_hash(
+    nip: Nip, model: Model, face: Face | None = None, heat: HeatBalance | None = None
+) -> str:
     """Return 16 hexadecimal digits that tell problems apart; the title does not count."""
     problem = replace(nip, title="") if nip.title else nip
-    parts = (problem, model) if face is None else (problem, model, face)
+    parts: tuple[object, ...] = (problem, model) if face is None else (problem, model, face)
+    if heat is not None:
+        materials = (*nip.upper.materials, *nip.lower.materials)
+        parts = (*parts, heat, tuple(material.thermal for material in materials))
     return sha256(repr(parts).encode()).hexdigest()[:16]
+
+
+def heat_tree(heat: HeatBalance) -> dict[str, Any]:
+    """Return the tables of a heat balance: "heat", and "upper" and "lower" of the rollers."""
+    whole = _without_none({"ambient": heat.ambient, "start": heat.start})
+    if heat.sheet is not None:
+        whole["sheet"] = _flat(heat.sheet)
+    return {"heat": whole, "upper": _cooling(heat.upper), "lower": _cooling(heat.lower)}
+
+
+def _cooling(cooling: Cooling) -> dict[str, Any]:
+    tree: dict[str, Any] = {"film": cooling.film, "core": "insulated"}
+    if isinstance(cooling.core, Held):
+        tree["core"] = cooling.core.temperature
+    elif isinstance(cooling.core, Coolant):
+        tree["core"] = {"coolant": cooling.core.temperature, "film": cooling.core.film}
+    if cooling.shell is not None:
+        tree["shell"] = _flat(cooling.shell)
+    return tree
+
+
+def _flat(part: Any) -> dict[str, Any]:
+    """The fields of a part, its thermal properties among them."""
+    tree = {one.name: getattr(part, one.name) for one in fields(part) if one.name != "thermal"}
+    return tree | _plain(part.thermal)
 
 
 def _roller(roller: Roller) -> dict[str, Any]:
@@ -111,6 +142,10 @@ def _plain(part: Any) -> dict[str, Any]:
     if not is_dataclass(part):
         return {"description": repr(part)}
     tree: dict[str, Any] = {one.name: _value(getattr(part, one.name)) for one in fields(part)}
+    thermal = getattr(part, "thermal", None)
+    if thermal is not None:
+        del tree["thermal"]
+        tree |= _plain(thermal)
     if isinstance(part, Prony):
         tree["terms"] = [{"modulus": e, "relaxation_time": tau} for e, tau in part.terms]
     return tree

@@ -13,6 +13,7 @@ from rollnip.cli.design import find, optimise, pareto, tolerance
 from rollnip.cli.dma import dma
 from rollnip.cli.face import face
 from rollnip.cli.fit import fit
+from rollnip.cli.heat import heat
 from rollnip.cli.lda import lda
 from rollnip.cli.options import Force
 from rollnip.cli.paper import paper
@@ -40,6 +41,7 @@ app.add_typer(dma)
 app.add_typer(sweep)
 app.add_typer(face)
 app.add_typer(patch)
+app.command()(heat)
 app.add_typer(paper)
 app.command()(fit)
 app.command()(find)

@@ -29,7 +29,8 @@ class RollerHeat:
     temperature : (n,) there.
     surface_temperature : mean over a turn.
     bond_temperature : at the bond of the coverings to a rigid core; None without.
-    hot_spot, hot_spot_depth : highest temperature of the roller, and how deep it is [mm].
+    hot_spot, hot_spot_depth : highest temperature of the coverings down to their bond, and how
+        deep it is [mm]; of a roller without coverings that of all of it.
     power : all heat that arises in it.
     viscous, friction : its parts.
     to_air, to_core, to_nip : where it goes; to_nip: over the nip, into the other roller or a
@@ -165,14 +166,15 @@ class HeatSolution:
         index, values = SIDES.index(side), self.state.new
         r, temperature = profile(self.conduction, values, index)
         flow: Outflow = self.conduction.outflow(values, self.state.sources, index)
-        hottest = int(np.argmax(temperature))
+        bond = bond_temperature(self.conduction, values, index)
+        depth, hottest = _hottest(self.conduction.grids[index], r, temperature, bond)
         return RollerHeat(
             r=r,
             temperature=temperature,
             surface_temperature=self.conduction.surface(values, index),
-            bond_temperature=bond_temperature(self.conduction, values, index),
-            hot_spot=float(temperature[hottest]),
-            hot_spot_depth=float(r[-1] - r[hottest]) if r.size > 1 else 0.0,
+            bond_temperature=bond,
+            hot_spot=hottest,
+            hot_spot_depth=depth,
             power=flow.viscous + flow.friction,
             viscous=flow.viscous,
             friction=flow.friction,
@@ -181,3 +183,17 @@ class HeatSolution:
             to_nip=flow.to_nip,
             growth=self.state.growth[index].total,
         )
+
+
+def _hottest(grid: Grid, r: Array, temperature: Array, bond: float | None) -> tuple[float, float]:
+    """Return depth and temperature of the hottest place of the coverings, the bond if it is one."""
+    if r.size == 1:
+        return 0.0, float(temperature[0])
+    depth = r[-1] - r
+    if bond is not None:
+        thick = grid.roller.coating_thickness
+        covering = depth < thick
+        depth = np.append(thick, depth[covering])
+        temperature = np.append(bond, temperature[covering])
+    hottest = int(np.argmax(temperature))
+    return float(depth[hottest]), float(temperature[hottest])

@@ -3,6 +3,7 @@
 from rollnip.io.case import Case, case_hash, case_schema, parse_case, read_case
 from rollnip.io.columns import Columns, read_columns
 from rollnip.io.fields import check_fields_target, write_fields
+from rollnip.io.heat import heat_text, write_heat
 from rollnip.io.paths import dimension_at, value_at, with_values
 from rollnip.io.profile import read_profile
 from rollnip.io.result import check_result_target, result_dict, result_text, write_result
@@ -19,6 +20,7 @@ __all__ = [
     "check_fields_target",
     "check_result_target",
     "dimension_at",
+    "heat_text",
     "parse_case",
     "read_case",
     "read_columns",
@@ -29,5 +31,6 @@ __all__ = [
     "value_at",
     "with_values",
     "write_fields",
+    "write_heat",
     "write_result",
 ]

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, TypeVar
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip.cooling import HeatBalance
 from rollnip.io.build_face import ShaftBuilder, face_of
+from rollnip.io.build_heat import THERMAL_KEYS, heat_of, thermal_of
 from rollnip.io.messages import placed, unknown_name
 from rollnip.io.profile import read_profile
 from rollnip.io.tables import (
@@ -38,6 +41,7 @@ from rollnip.materials import (
     Shift,
     StandardLinearSolid,
     TabulatedShift,
+    Thermal,
     Viscoelastic,
     with_shore_a,
 )
@@ -173,6 +177,10 @@ class Builder:
         table = self.table.face
         return None if table is None else self._made("face", lambda: face_of(table))
 
+    def heat(self) -> HeatBalance | None:
+        """Return the heat balance; None where the case has none, or where it was refused."""
+        return heat_of(self.table, self.errors)
+
     def _profile(self, path: str, name: str | None) -> Profile | None:
         if name is None:
             return None
@@ -205,12 +213,16 @@ class Builder:
         return None
 
     def _material(self, path: str, table: AnyMaterial) -> Material | None:
+        before = len(self.errors)
+        thermal = self._made(path, lambda: thermal_of(table))
+        if len(self.errors) > before:
+            return None
         if isinstance(table, ElasticTable):
-            return self._made(path, lambda: _elastic(table))
+            return self._made(path, lambda: replace(_elastic(table), thermal=thermal))
         shift = self._shift(path, table)
         if shift is None and table.shift is not None:
             return None
-        return self._made(path, lambda: _viscoelastic(table, shift))
+        return self._made(path, lambda: _viscoelastic(table, shift, thermal))
 
     def _shift(self, path: str, table: ViscoelasticTable) -> Shift | None:
         shift = table.shift
@@ -268,8 +280,13 @@ def _vertical(table: ShiftTable) -> Vertical:
     return tuple((point.temperature, point.factor) for point in table.levels)
 
 
-def _viscoelastic(table: ViscoelasticTable, shift: Shift | None) -> Material:
-    values = table.model_dump(exclude={"model", "terms", "shift", "shore_a", "reading_time"})
+def _viscoelastic(
+    table: ViscoelasticTable, shift: Shift | None, thermal: Thermal | None
+) -> Material:
+    values = table.model_dump(
+        exclude={"model", "terms", "shift", "shore_a", "reading_time", *THERMAL_KEYS}
+    )
+    values["thermal"] = thermal
     if isinstance(table, PronyTable):
         values["terms"] = tuple((term.modulus, term.relaxation_time) for term in table.terms)
     given = [name for name in ("modulus", "shore_a") if getattr(table, name) is not None]

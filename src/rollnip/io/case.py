@@ -11,6 +11,7 @@ from pydantic import ValidationError
 
 from rollnip._errors import CaseFileError
 from rollnip._results.case import problem_hash
+from rollnip.cooling import HeatBalance
 from rollnip.io.build import Builder
 from rollnip.io.document import parse_document, read_document
 from rollnip.io.messages import form_error, wrong_controls
@@ -36,12 +37,15 @@ class Case:
         the file's name.
     face :
         the nip along its rollers; None where the case has no such table.
+    heat :
+        where its heat goes; None where the case has no such table.
     """
 
     nip: Nip
     model: Model
     source: str
     face: Face | None = None
+    heat: HeatBalance | None = None
 
 
 def read_case(path: str | Path) -> Case:
@@ -75,9 +79,10 @@ def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:
 def _built(tree: dict[str, Any], source: str, folder: Path | None) -> Case:
     builder = Builder(_checked(tree, source), folder)
     nip, model, face = builder.nip(), builder.model(), builder.face()
+    heat = builder.heat()
     if nip is None or model is None or builder.errors:
         _refuse(source, builder.errors)
-    return Case(nip=nip, model=model, source=source, face=face)
+    return Case(nip=nip, model=model, source=source, face=face, heat=heat)
 
 
 def case_hash(case: Case) -> str:
@@ -86,7 +91,7 @@ def case_hash(case: Case) -> str:
     The hash depends on the values in base units, not on how they were written, and not on the
     title, the name of the file or the version of rollnip.
     """
-    return problem_hash(case.nip, case.model, case.face)
+    return problem_hash(case.nip, case.model, case.face, case.heat)
 
 
 def case_schema(*, ref: str = "#/$defs/{model}") -> dict[str, Any]:

@@ -56,6 +56,10 @@ Temperature = Annotated[float, Quantity("temperature")]
 TemperatureDifference = Annotated[float, Quantity("temperature difference")]
 Time = Annotated[float, Quantity("time")]
 MolarEnergy = Annotated[float, Quantity("molar energy")]
+Conductivity = Annotated[float, Quantity("thermal conductivity")]
+HeatCapacity = Annotated[float, Quantity("heat capacity")]
+Film = Annotated[float, Quantity("film coefficient")]
+Expansion = Annotated[float, Quantity("thermal expansion")]
 
 
 class Table(BaseModel):

@@ -11,6 +11,15 @@ import tomli_w
 
 from rollnip._errors import RollnipError
 from rollnip._units import base_unit
+from rollnip.cooling import (
+    Coolant,
+    Cooling,
+    HeatBalance,
+    Held,
+    Insulated,
+    PassingSheet,
+    Shell,
+)
 from rollnip.io.case import Case, parse_case
 from rollnip.io.paths import dimension_at
 from rollnip.io.tables import CaseTable
@@ -23,6 +32,7 @@ from rollnip.materials import (
     Prony,
     StandardLinearSolid,
     TabulatedShift,
+    Thermal,
 )
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Roller
@@ -35,6 +45,7 @@ _TYPES = (
     *(Elastic, StandardLinearSolid, Prony, FractionalZener, LossFactor),
     *(WLF, Arrhenius, TabulatedShift),
     *(Shaft, Crown, Face),
+    *(Thermal, HeatBalance, Cooling, Insulated, Held, Coolant, Shell, PassingSheet),
 )
 
 
@@ -54,6 +65,12 @@ def case_python(case: Case) -> str:
             f"face = {_python(case.face, 0)}\n"
             f"along = rn.solve_face(nip, face, {model})\n"
             'print(f"line load {along.load.min():.4g} to {along.load.max():.4g} N/mm")\n'
+        )
+    if case.heat is not None:
+        along += (
+            f"heat = {_python(case.heat, 0)}\n"
+            f"warm = rn.solve_heat(nip, heat, {model})\n"
+            'print(f"hot spot {warm.upper.hot_spot:.4g} and {warm.lower.hot_spot:.4g} degC")\n'
         )
     return (
         "import rollnip as rn\n\n"

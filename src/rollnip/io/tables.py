@@ -34,6 +34,14 @@ from rollnip.io.tables_face import (
     JournalStepTable,
     ShaftTable,
 )
+from rollnip.io.tables_heat import (
+    CoolantTable,
+    HeatTable,
+    PassingSheetTable,
+    RollerHeatTable,
+    ShellTable,
+    ThermalTable,
+)
 
 
 def _tag(models: tuple[str, ...], *, names: bool = False) -> Callable[[Any], str | None]:
@@ -106,7 +114,7 @@ Shift = Annotated[
 ]
 
 
-class ElasticTable(Table):
+class ElasticTable(ThermalTable):
     """An elastic material; exactly one of modulus, shear_modulus, shore_a."""
 
     model: Literal["elastic"]
@@ -116,7 +124,7 @@ class ElasticTable(Table):
     poisson: Ratio
 
 
-class ViscoelasticTable(Table):
+class ViscoelasticTable(ThermalTable):
     """The keys that all viscoelastic materials share."""
 
     modulus: Pressure | None = Field(None, description="Relaxed modulus; or shore_a.")
@@ -211,6 +219,7 @@ class RollerTable(Table):
         "folder of the case file.",
     )
     shaft: ShaftTable | None = None
+    heat: RollerHeatTable | None = None
 
 
 class NipTable(Table):
@@ -248,6 +257,7 @@ class CaseTable(Table):
     model: ModelTable = ModelTable()
     solver: SolverTable = SolverTable()
     face: FaceTable | None = None
+    heat: HeatTable | None = None
     upper: RollerTable
     lower: RollerTable
     materials: dict[str, Material] = Field(default={})
@@ -261,6 +271,7 @@ TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIAL
     "lower": RollerTable,
     "layers": LayerTable,
     "face": FaceTable,
+    "heat": RollerHeatTable,
     "shaft": ShaftTable,
     "crown": CrownTableTable,
     "profiles": CrownTableTable,
@@ -274,4 +285,9 @@ TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIAL
     "<table>": TabulatedTable,
     "points": PointTable,
     "levels": PointTable,
+    "<coolant>": CoolantTable,
+    "<held>": CoolantTable,
+    "<insulated>": CoolantTable,
+    "shell": ShellTable,
+    "sheet": PassingSheetTable,
 }

@@ -3,6 +3,7 @@
 from rollnip.plots.face import plot_face
 from rollnip.plots.field import plot_field
 from rollnip.plots.files import check_figure_target, save_figure
+from rollnip.plots.heat import plot_heat
 from rollnip.plots.map import plot_map
 from rollnip.plots.overview import plot_overview
 from rollnip.plots.patch import plot_patch
@@ -21,6 +22,7 @@ __all__ = [
     "plot_face",
     "plot_field",
     "plot_gap",
+    "plot_heat",
     "plot_map",
     "plot_overview",
     "plot_pareto",

@@ -12,6 +12,8 @@ from rollnip._errors import ConvergenceError, RollnipError
 from rollnip.face import FaceSolution, NipRows, solve_face
 from rollnip.face.figures import FACE_FIGURES
 from rollnip.figures import CLAIMED, FIGURES
+from rollnip.heat import HeatSolution, solve_heat
+from rollnip.heat.report import HEAT_SCALARS, heat_scalar
 from rollnip.influence import KernelCache
 from rollnip.io import Case, case_hash, parse_case
 from rollnip.solution import Solution
@@ -27,9 +29,10 @@ SCALARS: Mapping[str, str] = {
     "solver.residual": "1",
     "solver.geometry_change": "1",
     **{f"face.{key}": figure.unit for key, figure in FACE_FIGURES.items()},
+    **{f"heat.{key}": unit for key, unit in HEAT_SCALARS.items()},
 }
 """Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``.
-Those of the face are None for a case without one."""
+Those of face and heat are None for a case without them."""
 
 STATUSES = ("solved", "unverified", "refused", "failed", "lost")
 """What became of a case; only of the first two there are numbers. "lost" is of sweeps alone: the
@@ -57,7 +60,8 @@ def evaluate(tree: Mapping[str, Any]) -> Row:
     - ``geometry``: the geometry solved with, which may be a simpler one than was wanted;
       None without a solution;
     - the names of `SCALARS`: numbers in the units given there, per axial length; None where not
-      finite, not defined or not solved. ``max_surface_strain`` is the largest strain of either
+      finite, not defined or not solved; those of ``heat`` where the case has such a table.
+      ``max_surface_strain`` is the largest strain of either
       surface in the contact, mean over an element;
     - ``warnings``: reservations, parted by blanks.
     """
@@ -109,10 +113,12 @@ def solved(one: Ready, kernels: KernelCache | None = None) -> tuple[Row, Solutio
     try:
         case = one.case
         solution = solve(case.nip, case.model, cache=kernels, on_failure="return")
-        along = None
+        along = warm = None
         if case.face is not None:
             along = solve_face(case.nip, case.face, case.model, rows=_own_rows())
-        return scalars(solution, along), solution
+        if case.heat is not None:
+            warm = solve_heat(case.nip, case.heat, case.model, cache=kernels)
+        return scalars(solution, along, warm), solution
     except Exception as error:  # noqa: BLE001 - as above
         return _row_of(error), None
 
@@ -127,9 +133,11 @@ def _row_of(error: Exception) -> Row:
     return without_solution("failed", f"Unforeseen {type(error).__name__}: {said}")
 
 
-def scalars(solution: Solution, along: FaceSolution | None = None) -> Row:
-    """The row of a solution and of its face, as `evaluate` returns it."""
-    parts = (solution,) if along is None else (solution, along)
+def scalars(
+    solution: Solution, along: FaceSolution | None = None, warm: HeatSolution | None = None
+) -> Row:
+    """The row of a solution, of its face and of its heat balance, as `evaluate` returns it."""
+    parts = [part for part in (solution, along, warm) if part is not None]
     messages = [part.status for part in parts if not part.converged]
     row: Row = {
         "status": "unverified" if messages else "solved",
@@ -137,11 +145,14 @@ def scalars(solution: Solution, along: FaceSolution | None = None) -> Row:
         "converged": not messages,
         "geometry": solution.model.geometry,
     }
-    row |= {name: _value(solution, along, name) for name in SCALARS}
-    return row | {"warnings": " ".join(line for part in parts for line in part.warnings)}
+    row |= {name: _value(solution, along, warm, name) for name in SCALARS}
+    lines = dict.fromkeys(line for part in parts for line in part.warnings)
+    return row | {"warnings": " ".join(lines)}
 
 
-def _value(solution: Solution, along: FaceSolution | None, name: str) -> float | None:
+def _value(
+    solution: Solution, along: FaceSolution | None, warm: HeatSolution | None, name: str
+) -> float | None:
     if name in FIGURES:
         return FIGURES[name].value(solution)
     table, _, key = name.partition(".")
@@ -149,6 +160,8 @@ def _value(solution: Solution, along: FaceSolution | None, name: str) -> float |
         return None if along is None else FACE_FIGURES[key].value(along)
     if table == "error":
         return CLAIMED[key].error(solution)
+    if table == "heat":
+        return None if warm is None else heat_scalar(warm, key)
     return _number(getattr(solution.solver, key))
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 _PACKAGE = Path(__file__).parents[1]
 # What only asks for solutions or shows them; all the rest of the package decides the numbers.
-_ASKS = {"design", "identification", "dma", "lda", "paper", "verification", "face"}
+_ASKS = {"design", "identification", "dma", "lda", "paper", "verification"}
 _SHOWS = {"cli", "web", "plots"}
 BESIDE = frozenset(_ASKS | _SHOWS)
 _DIGITS = 10

@@ -1,0 +1,231 @@
+"""Heat as a tree for JSON and as lines of text."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from math import isfinite
+from typing import Any
+
+import numpy as np
+
+from rollnip._results.case import case_tree, heat_tree, problem_hash
+from rollnip.heat.follow import Branch, BranchPoint
+from rollnip.heat.solution import HeatSolution, RollerHeat
+from rollnip.heat.state import SIDES
+from rollnip.heat.warmup import WarmUp
+from rollnip.solution import Solution
+
+_ROLLER = (
+    "surface_temperature",
+    "bond_temperature",
+    "hot_spot",
+    "hot_spot_depth",
+    "power",
+    "viscous",
+    "friction",
+    "to_air",
+    "to_core",
+    "to_nip",
+    "growth",
+)
+_NIP = ("nip_width", "peak_pressure", "load", "approach", "creepage", "rolling_resistance")
+
+_SWEPT = {
+    "hot_spot": "degC",
+    "bond_temperature": "degC",
+    "surface_temperature": "degC",
+    "power": "mW/mm",
+    "growth": "mm",
+}
+HEAT_SCALARS: Mapping[str, str] = {
+    **{f"{side}.{name}": unit for side in SIDES for name, unit in _SWEPT.items()},
+    "power": "mW/mm",
+    "nip_width": "mm",
+    "peak_pressure": "MPa",
+    "load": "N/mm",
+    "approach": "mm",
+    "creepage": "1",
+    "rolling_resistance": "1",
+}
+"""Figures of a heat balance with their units: of each roller, of all heat, and of the warm nip."""
+
+
+def heat_scalar(solution: HeatSolution, key: str) -> float | None:
+    """Return one of `HEAT_SCALARS`; None where it is not defined."""
+    side, _, name = key.rpartition(".")
+    if side:
+        value = getattr(solution.upper if side == "upper" else solution.lower, name)
+    else:
+        value = solution.power if key == "power" else getattr(solution.warm, key)
+    return None if value is None or not isfinite(value) else float(value)
+
+
+def heat_dict(solution: HeatSolution) -> dict[str, Any]:
+    """Return the key "heat" of a result: both rollers, balance, and the nip cold and warm."""
+    return {
+        "converged": solution.converged,
+        "status": solution.status,
+        "stable": solution.stable,
+        "balance": solution.balance,
+        "power": solution.power,
+        "to_sheet": solution.to_sheet,
+        "upper": _roller(solution.upper),
+        "lower": _roller(solution.lower),
+        "cold": _nip(solution.cold),
+        "warm": _nip(solution.warm),
+        "error": dict(solution.error),
+        "solves": solution.solves,
+        "sublayers": solution.sublayers,
+        "warnings": list(solution.warnings),
+    }
+
+
+def _roller(roller: RollerHeat) -> dict[str, Any]:
+    radii = [float(r) if isfinite(r) else None for r in roller.r]  # a plane has none
+    return {"r": radii, "temperature": roller.temperature.tolist()} | {
+        name: getattr(roller, name) for name in _ROLLER
+    }
+
+
+def _nip(solution: Solution) -> dict[str, Any]:
+    values = {name: getattr(solution, name) for name in _NIP}
+    return {
+        name: None if value is None or not isfinite(value) else float(value)
+        for name, value in values.items()
+    }
+
+
+def heat_parts(solution: HeatSolution) -> dict[str, Any]:
+    """Return the keys of a result that heat adds or changes: "case", "case_hash" and "heat"."""
+    tables = heat_tree(solution.heat)
+    case = case_tree(solution.nip, solution.model) | {"heat": tables["heat"]}
+    for side in SIDES:
+        case[side] = case[side] | {"heat": tables[side]}
+    digits = problem_hash(solution.nip, solution.model, heat=solution.heat)
+    return {"case": case, "case_hash": digits, "heat": heat_dict(solution)}
+
+
+def warm_up_dict(course: WarmUp) -> dict[str, Any]:
+    """Return the key "warm_up": temperatures over time."""
+    tree: dict[str, Any] = {
+        "converged": course.converged,
+        "status": course.status,
+        "time": course.time.tolist(),
+        "power": course.power.tolist(),
+        "half_time": course.half_time,
+        "error": course.error,
+    }
+    for side in SIDES:
+        bond = course.bond(side)
+        tree[side] = {
+            "hot_spot": course.hot_spot(side).tolist(),
+            "surface": course.surface(side).tolist(),
+            "bond": None if bond is None else bond.tolist(),
+        }
+    return tree
+
+
+def branch_dict(branch: Branch) -> dict[str, Any]:
+    """Return the key "branch": steady states over speed or load, and where the nip runs away."""
+    return {
+        "parameter": branch.parameter,
+        "unit": branch.unit,
+        "status": branch.status,
+        "reached": branch.reached,
+        "turning": None if branch.turning is None else _point(branch.turning),
+        "points": [_point(one) for one in branch.points],
+        "solves": branch.solves,
+    }
+
+
+def _point(point: BranchPoint) -> dict[str, Any]:
+    names = ("value", "rise", "hot_spot", "bond_upper", "bond_lower", "power", "stable")
+    return {name: getattr(point, name) for name in names}
+
+
+def heat_lines(solution: HeatSolution) -> Iterator[str]:
+    """Yield the summary of a nip in thermal balance, line by line."""
+    yield solution.nip.title or "Heat"
+    word = "converged and verified" if solution.converged else "NOT CONVERGED"
+    yield f"{word}: {solution.status}"
+    yield f"\nTemperatures{'upper':>27s} {'lower':>12s}"
+    for label, name, unit in (
+        ("hot spot", "hot_spot", "degC"),
+        ("its depth", "hot_spot_depth", "mm"),
+        ("surface", "surface_temperature", "degC"),
+        ("bond", "bond_temperature", "degC"),
+        ("growth of the radius", "growth", "mm"),
+    ):
+        yield _row(label, [getattr(solution.of(side), name) for side in SIDES], unit)
+    yield "\nHeat, per metre of roller"
+    for label, name in (
+        ("viscous loss", "viscous"),
+        ("friction", "friction"),
+        ("to the air", "to_air"),
+        ("to the core", "to_core"),
+        ("over the nip", "to_nip"),
+    ):
+        yield _row(label, [getattr(solution.of(side), name) for side in SIDES], "W/m")
+    if solution.heat.sheet is not None:
+        yield _row("taken by the sheet", [solution.to_sheet], "W/m")
+    yield f"\nNip{'cold':>36s} {'warm':>12s}"
+    for label, name, unit, factor in (
+        ("nip width", "nip_width", "mm", 1.0),
+        ("peak pressure", "peak_pressure", "MPa", 1.0),
+        ("load", "load", "N/mm", 1.0),
+        ("approach", "approach", "mm", 1.0),
+        ("creepage", "creepage", "%", 100.0),
+        ("rolling resistance", "rolling_resistance", "%", 100.0),
+    ):
+        pair = [getattr(one, name) for one in (solution.cold, solution.warm)]
+        yield _row(label, [None if one is None else factor * one for one in pair], unit)
+    for warning in solution.warnings:
+        yield f"Note: {warning}"
+
+
+def _row(label: str, values: list[float | None], unit: str) -> str:
+    shown = "".join(f" {'-' if one is None else _four(one):>12s}" for one in values)
+    return f"  {label:24s}{shown} {unit}"
+
+
+def _four(value: float) -> str:
+    return "0" if abs(value) < 1e-9 else f"{value:.4g}"
+
+
+def warm_up_lines(course: WarmUp) -> Iterator[str]:
+    """Yield the summary of a warm-up, line by line."""
+    yield f"\nWarm-up over {_span(float(course.time[-1]))}: {course.status}"
+    yield f"  {'time':24s} {'upper':>12s} {'lower':>12s}"
+    hottest = {side: course.hot_spot(side) for side in SIDES}
+    for share in (0.05, 0.1, 0.2, 0.5, 1.0):
+        time = share * float(course.time[-1])
+        row: list[float | None] = [
+            float(np.interp(time, course.time, hottest[side])) for side in SIDES
+        ]
+        yield _row(_span(time), row, "degC")
+    if course.half_time is not None:
+        yield f"  half of the rise after {_span(course.half_time)}"
+
+
+def _span(seconds: float) -> str:
+    return f"{seconds:.3g} s" if seconds < 180.0 else f"{seconds / 60.0:.3g} min"
+
+
+def branch_lines(branch: Branch, value: float | None) -> Iterator[str]:
+    """Yield the summary of a branch, line by line; ``value``: that of the case."""
+    yield f"\nSteady states by {branch.parameter}: {branch.status}"
+    yield f"  {branch.parameter + ' [' + branch.unit + ']':24s} {'hot spot':>12s} {'heat':>12s}"
+    for point in branch.points:
+        mark = "" if point.stable else "  not stable"
+        yield f"  {point.value:<24.5g} {point.hot_spot:12.4g} {point.power:12.4g}{mark}"
+    if branch.turning is None:
+        yield "  no thermal runaway was met"
+        return
+    turning = branch.turning
+    yield (
+        f"  thermal runaway at {turning.value:.4g} {branch.unit}, "
+        f"where the hot spot has {turning.hot_spot:.4g} degC"
+    )
+    margin = None if value is None else branch.margin(value)
+    if margin is not None and value is not None and margin > 0.0:
+        yield f"  the case, {value:.4g} {branch.unit}, is {100.0 * margin:.3g} % below it"

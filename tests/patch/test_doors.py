@@ -123,7 +123,7 @@ def test_the_summary_says_figures_with_units_and_errors(solved):
     assert any("friction power" in line and "W" in line for line in lines)
 
 
-@pytest.mark.parametrize("style", ["light", "dark"])
+@pytest.mark.parametrize("style", ["light", pytest.param("dark", marks=pytest.mark.slow)])
 def test_the_picture_has_four_panels(solved, style):
     figure = plot_patch(solved, style=style)
     titles = [ax.get_title(loc="left") for ax in figure.axes]

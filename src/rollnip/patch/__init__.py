@@ -3,18 +3,21 @@
 from rollnip.patch.coefficients import Grid
 from rollnip.patch.depth import PatchStress
 from rollnip.patch.durometer import Indentation, shore_a_reading
+from rollnip.patch.ends import FaceEnd, face_end
 from rollnip.patch.solution import PatchSolution
 from rollnip.patch.solve import solve_patch
 from rollnip.patches import Across, Force, Patch
 
 __all__ = [
     "Across",
+    "FaceEnd",
     "Force",
     "Grid",
     "Indentation",
     "Patch",
     "PatchSolution",
     "PatchStress",
+    "face_end",
     "shore_a_reading",
     "solve_patch",
 ]

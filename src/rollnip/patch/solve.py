@@ -24,6 +24,7 @@ _FINEST = 512
 _LARGEST = 1024
 """Most rectangles along a side that a caller may ask for."""
 _MARGIN = 1.06
+_ROUGH = 5e-3  # of the iterations while a place is looked for
 _SEARCHES = 60
 _EDGE = 0.25  # of a rectangle: the least error of a length
 _SHARE = 0.02  # of the wanted accuracy that the iterations may leave
@@ -218,7 +219,7 @@ def _found_box(patch: Patch, box: Box) -> Box:
     """Return the rectangle that the patch fills but for a narrow rim, looked for from another."""
     level = None
     for _ in range(_SEARCHES):
-        level = solve_level(patch, Grid.over(*box, _SEARCH, _SEARCH), 1e-3, level)
+        level = solve_level(patch, Grid.over(*box, _SEARCH, _SEARCH), _ROUGH, level)
         box, fits = _fitted(patch, level, box)
         if fits:
             return box

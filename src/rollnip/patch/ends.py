@@ -1,0 +1,118 @@
+"""The end of a face: what the nip is near the place where one roller ends on the other's covering.
+
+Far from the end the nip is the plane one. At a sharp end the covering that runs on beyond it helps
+to carry, so that the line load rises there. A nearly incompressible covering also gives way
+sideways, over about a third of the nip width, and carries less than in the plane nip. This is the
+end of the *contact*; a covering that itself ends there gives way further, which is not computed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+
+from rollnip._blas import one_blas_thread
+from rollnip._errors import InvalidInputError, require_not_negative
+from rollnip.nip import Approach
+from rollnip.patch.coefficients import Array, Grid
+from rollnip.patch.level import Level, solve_level
+from rollnip.patch.solve import patch_box
+from rollnip.patches import Across, Patch
+from rollnip.rollers import Roller
+
+_ALONG = 48
+"""Rectangles along x."""
+_ACROSS = 256
+"""Rectangles along y, over the whole face."""
+_FACE = 10.0
+"""Length of the face computed, in nip widths and thicknesses together."""
+_ITERATION = 1e-5
+
+
+@dataclass(frozen=True)
+class FaceEnd:
+    """A nip near the end of a face, over the distance from the end.
+
+    Attributes
+    ----------
+    distance : (n,) from the end into the face [mm], rising.
+    load, peak_pressure : (n,) over those far from the end.
+    line_load : far from the end [N/mm].
+    added_length : length of face that the end adds to the load of the plane nip [mm]; negative
+        where the end carries less.
+    error : of ``added_length``, from half as many rectangles [mm].
+    """
+
+    distance: Array
+    load: Array
+    peak_pressure: Array
+    line_load: float
+    added_length: float
+    error: float
+
+
+def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 0.0) -> FaceEnd:
+    """Return the nip near the end of the face of one of two rollers, without friction.
+
+    Parameters
+    ----------
+    upper, lower :
+        elastic; layers count as flat and run on beyond the end. Cores must be rigid: over a
+        half-space no nip is plane.
+    approach :
+        of the axles, the same along the face [mm].
+    end_radius :
+        with which the end is rounded [mm]; 0 is a sharp edge.
+
+    Raises
+    ------
+    InvalidInputError
+        where a core is a half-space, or the rollers do not make a patch.
+    """
+    end_radius = require_not_negative("end_radius", end_radius)
+    if upper.core is not None or lower.core is not None:
+        raise InvalidInputError(
+            "`core` must be rigid on both rollers: over a half-space the approach of a long face "
+            "grows with its length."
+        )
+    curvature = upper.curvature + lower.curvature
+    width = 2.0 * np.sqrt(2.0 * approach / curvature) if curvature > 0.0 else inf
+    reach = width + upper.coating_thickness + lower.coating_thickness
+    face = _FACE * float(reach) + 2.0 * end_radius
+    patch = Patch(
+        upper=upper,
+        lower=lower,
+        normal=Approach(approach),
+        friction=0.0,
+        across_upper=Across(face=face, end_radius=end_radius),
+    )
+    with one_blas_thread():
+        box = (patch_box(patch)[0], (-0.5 * face, 0.5 * face))
+        coarse = solve_level(patch, Grid.over(*box, _ALONG, _ACROSS // 2), _ITERATION, None)
+        fine = solve_level(patch, Grid.over(*box, _ALONG, _ACROSS), _ITERATION, coarse)
+    half = slice(0, _ACROSS // 2)
+    loads, peaks = _along_the_face(fine)
+    added = _added(fine)
+    return FaceEnd(
+        distance=fine.grid.y[half] + 0.5 * face,
+        load=loads[half] / loads[_ACROSS // 2],
+        peak_pressure=peaks[half] / peaks[_ACROSS // 2],
+        line_load=float(loads[_ACROSS // 2]),
+        added_length=added,
+        error=abs(added - _added(coarse)),
+    )
+
+
+def _along_the_face(level: Level) -> tuple[Array, Array]:
+    """Return line loads [N/mm] and largest pressures [MPa] over y."""
+    pressure = level.normal.pressure
+    return np.sum(pressure, axis=1) * level.grid.hx, np.max(pressure, axis=1)
+
+
+def _added(level: Level) -> float:
+    """Return the length that one end adds to the load [mm]."""
+    loads, _ = _along_the_face(level)
+    middle = loads[loads.size // 2]
+    return 0.5 * float(np.sum(loads / middle - 1.0)) * level.grid.hy

@@ -5,7 +5,17 @@ import pytest
 from scipy.optimize import brentq
 
 import rollnip as rn
-from rollnip.finite import Body, Depths, NoEquilibriumError, State, Strip, deformed_surface
+from rollnip.finite import (
+    Body,
+    Depths,
+    Gent,
+    NeoHookean,
+    NoEquilibriumError,
+    State,
+    Strip,
+    Yeoh,
+    deformed_surface,
+)
 from rollnip.finite.strip import below_radius, on_circle
 
 DEEP = 2.0
@@ -55,6 +65,34 @@ def test_a_sheared_layer():
     assert u_z == pytest.approx(0.0, abs=1e-3)
 
 
+@pytest.mark.parametrize("energy", [Yeoh(0.3, 0.1), Gent(4.0)], ids=["Yeoh", "Gent"])
+def test_a_stiffening_layer(energy):
+    """Simple shear: I1 - 3 = gamma^2, q = G w'(gamma^2) gamma."""
+    shear = 0.6
+    gamma = brentq(lambda g: shear / 2 * energy.slopes(np.asarray(g * g))[0] * g - 0.3, 0.0, 1.5)
+    body = Body(
+        long_strip(plane(rn.Layer(2.0, rn.Elastic(modulus=0.9, poisson=0.5)))), energy=energy
+    )
+    assert in_the_middle(body, settled(body, 0.0, 0.3))[0] == pytest.approx(2 * gamma, rel=2e-3)
+    assert gamma < 0.9
+
+
+def test_a_pressed_stiffening_layer():
+    """Uniaxial strain: P = G [w'(l^2 - 1) l - 1/l] + lambda ln(l)/l = -p."""
+    energy, young, nu, pressure = Yeoh(0.4, 0.2), 1.0, 0.3, 0.6
+    shear, lame = young / 2.6, young * nu / (1.3 * 0.4)
+
+    def balance(s):
+        slope = energy.slopes(np.asarray(s * s - 1.0))[0]
+        return shear * (slope * s - 1 / s) + lame * np.log(s) / s + pressure
+
+    stretch = brentq(balance, 0.2, 1.0)
+    roller = plane(rn.Layer(DEEP, rn.Elastic(modulus=young, poisson=nu)))
+    body = Body(long_strip(roller), energy=energy)
+    found = in_the_middle(body, settled(body, pressure, 0.0))[1]
+    assert found == pytest.approx(DEEP * (1.0 - stretch), rel=1e-4)
+
+
 @pytest.mark.parametrize("volumetric", ["log", "square"])
 def test_a_pressed_layer(volumetric):
     """Uniaxial strain: P_zz = G (l - 1/l) + U'(l) = -p, U' by the law of volume."""
@@ -81,13 +119,14 @@ def test_the_laws_of_volume_differ():
     assert 1.2 < found[1] / found[0] < 1.25
 
 
+@pytest.mark.parametrize("energy", [NeoHookean(), Yeoh(0.4, 0.2)], ids=["neo-Hookean", "Yeoh"])
 @pytest.mark.parametrize("poisson", [0.3, 0.5])
-def test_steps_follow_the_derivative(poisson):
+def test_steps_follow_the_derivative(poisson, energy):
     """Steps of Newton's method double the correct digits: the derivative is the whole one."""
     roller = rn.Roller(
         radius=25.0, layers=(rn.Layer(DEEP, rn.Elastic(modulus=1.0, poisson=poisson)),)
     )
-    body = Body(Strip(Depths.of(roller, 2.0), np.linspace(-8.0, 8.0, 25)))
+    body = Body(Strip(Depths.of(roller, 2.0), np.linspace(-8.0, 8.0, 25)), energy=energy)
 
     def tractions(x):
         bump = 0.15 * np.exp(-(x**2))

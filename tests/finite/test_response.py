@@ -4,7 +4,16 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.finite import Body, Depths, FiniteResponse, Strip, linear_surface, nodal
+from rollnip.finite import (
+    Body,
+    Depths,
+    FiniteResponse,
+    NeoHookean,
+    Strip,
+    Yeoh,
+    linear_surface,
+    nodal,
+)
 from rollnip.influence import covering_window, displacement_under, second_response, surface_kernels
 
 RUBBER, FOAM = rn.Elastic(modulus=1.0, poisson=0.5), rn.Elastic(modulus=1.0, poisson=0.3)
@@ -65,6 +74,19 @@ def test_begins_as_the_second_order(roller):
     inward = surface.inward_at(0.0, nodes, p, q) if response.is_short else None
     second = np.stack([f(x) for f in response.displacement(nodes, p, q, inward)])
     np.testing.assert_allclose(all_orders, second, atol=0.05 * np.abs(second).max())
+
+
+def test_a_material_that_stiffens_gives_less():
+    """Under the same tractions; at small ones there is no difference."""
+    roller = COVERINGS["rubber"]
+    u_z = []
+    for peak in (0.2, 0.01):
+        nodes, p, q = tractions(peak)
+        for energy in (NeoHookean(), Yeoh(0.5, 0.0)):
+            response = FiniteResponse(roller, HALF, energy=energy)
+            u_z.append(response.displacement(nodes, p, q)[1](np.zeros(1))[0])
+    assert u_z[1] < u_z[0] - 1e-3
+    assert u_z[3] == pytest.approx(u_z[2], abs=2e-6)
 
 
 def test_a_response_forgets_where_it_came_from():

@@ -1,8 +1,9 @@
 """Equilibrium of a covering under tractions that follow its surface, at any strain.
 
-The material is neo-Hookean,  psi = G/2 (I1 - 3 - 2 ln J) + U(J),  with nominal stress
+The energy is  psi = G/2 [w(I1 - 3) - 2 ln J] + U(J),  neo-Hookean where w(I) = I, with nominal
+stress
 
-    P = G F + c cof F,     c = U'(J) - G/J;
+    P = G w' F + c cof F,     c = U'(J) - G/J;
 
 U = lambda/2 (ln J)^2 ("log") or lambda/2 (J - 1)^2 ("square"). An incompressible layer has J = 1
 and c = pi - G with an unknown pi. Volume and pressure are linear in each element and not
@@ -23,6 +24,7 @@ from typing import Literal
 import numpy as np
 from scipy.linalg import lapack
 
+from rollnip.finite.energy import Energy, NeoHookean
 from rollnip.finite.strip import LINEAR, Array, Indices, Strip, on_circle
 
 Volumetric = Literal["log", "square"]
@@ -32,6 +34,7 @@ Tractions = Callable[[Array], tuple[Array, Array, Array, Array]]
 # An incompressible layer yields to its pressure by this over G while a step is computed, not in
 # the result: every step reduces what is left of J - 1 by about this factor.
 _YIELD = 1e-6
+_SOFT = NeoHookean()
 _STILL = 1e-3  # last step over the displacement; the one after it would be of its square
 _MOST_STEPS = 20
 _LEAST_VOLUME = 0.1  # J that a step may reach
@@ -68,10 +71,12 @@ class Body:
     ----------
     strip : the mesh.
     volumetric : law of the change of volume where a layer is compressible.
+    energy : how all layers stiffen with stretch.
     """
 
     strip: Strip
     volumetric: Volumetric = "log"
+    energy: Energy = _SOFT
 
     @cached_property
     def _constants(self) -> tuple[Array, Array, Array]:
@@ -139,7 +144,10 @@ class Body:
         c, step, rate = self._volume_terms(f_xx * f_yy - f_xy * f_yx, weighted, state.pressure)
         means = weighted @ swell
         rate = rate @ means
-        c, shear = c * volume, self._constants[0] * volume
+        slope, stiffer = self.energy.slopes(f_xx**2 + f_xy**2 + f_yx**2 + f_yy**2 - 2.0)
+        if not np.all(np.isfinite(slope)):
+            raise NoEquilibriumError
+        c, shear = c * volume, self._constants[0] * slope * volume
         force = np.empty((f_xx.shape[0], 9, 2))
         for i, (by, bx) in enumerate(((f_xy, f_xx), (f_yy, f_yx))):
             force[..., i] = (x_t @ (shear * bx)[..., None] + y_t @ (shear * by)[..., None])[..., 0]
@@ -151,6 +159,13 @@ class Body:
         stiff[:, :, 0, :, 1] = turn - turn.transpose(0, 2, 1)
         stiff[:, :, 1, :, 0] = -stiff[:, :, 0, :, 1]
         stiff = stiff.reshape(-1, 18, 18) + means.transpose(0, 2, 1) @ rate
+        if np.any(stiffer):  # dI = 2 F : dF
+            along = np.empty((*f_xx.shape, 9, 2))
+            along[..., 0] = f_xx[..., None] * by_x + f_xy[..., None] * by_y
+            along[..., 1] = f_yx[..., None] * by_x + f_yy[..., None] * by_y
+            along = along.reshape(*f_xx.shape, 18)
+            weight = 2.0 * self._constants[0] * stiffer * volume
+            stiff += along.transpose(0, 2, 1) @ (weight[..., None] * along)
         kept, slots = strip.slots
         length = (3 * strip.band + 1) * strip.size
         moves = strip.unknowns.ravel() >= 0

@@ -8,6 +8,7 @@ from rollnip.verification.configuration_two import configuration_two
 from rollnip.verification.faces import faces
 from rollnip.verification.finite_strain import finite_strain
 from rollnip.verification.half_spaces import half_spaces
+from rollnip.verification.heat import heat
 from rollnip.verification.kernels import kernels
 from rollnip.verification.laws import laws
 from rollnip.verification.limits import limits
@@ -30,6 +31,7 @@ def all_cases() -> tuple[VerificationCase, ...]:
         *waves(),
         *finite_strain(),
         *faces(),
+        *heat(),
         *laws(),
         *limits(),
     )

@@ -179,3 +179,22 @@ TRADE_RULE = Source(
     "Rule of the trade for rubber-covered rollers: .005 in of deflection change the nip by 5 to "
     "40 pli",
 )
+
+CONDUCTION = Source(
+    Kind.CLOSED_FORM,
+    "H. S. Carslaw & J. C. Jaeger, Conduction of Heat in Solids, Oxford 1959: steady rings and "
+    "slabs with even heat",
+)
+CONTACT_OF_HALF_SPACES = Source(
+    Kind.CLOSED_FORM,
+    "H. S. Carslaw & J. C. Jaeger, Conduction of Heat in Solids, Oxford 1959: two half-spaces "
+    "brought into contact",
+)
+EXPANSION = Source(Kind.LAW, "Identity: an incompressible covering has the volume of its expansion")
+ENERGY_OF_ROLLERS = Source(Kind.LAW, "Energy: in the steady state all heat of the nip leaves")
+PERFECT_COOLING = Source(Kind.LAW, "Limit: what is cooled without limit stays the cold nip")
+SEMENOV = Source(
+    Kind.CLOSED_FORM,
+    "N. Semenov, Z. Phys. 48 (1928) 571-582: one temperature, heat e^(beta T) against cooling in "
+    "proportion; the last steady state at a rise of 1/beta",
+)

@@ -217,6 +217,12 @@ def test_a_case_without_heat_says_what_to_add():
     assert "heat: is missing; add a table [heat]" in result.stderr
 
 
+def test_solve_says_that_it_leaves_the_temperatures_to_another_command(case_file):
+    result = run("solve", case_file)
+    assert result.exit_code == 0, result.output
+    assert "`rollnip heat` finds its temperatures" in result.stdout
+
+
 def test_rows_of_sweeps_hold_the_heat():
     import tomllib
 

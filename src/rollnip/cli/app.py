@@ -132,6 +132,8 @@ def solve(
 
             print_summary(solution)
             _print_face(along)
+            if problem.heat is not None:
+                write("\nThe case has a table [heat]: `rollnip heat` finds its temperatures.\n")
     if not solution.converged or (along is not None and not along.converged):
         raise typer.Exit(1)
 

@@ -76,6 +76,7 @@ class HandMade:
     warnings: tuple[str, ...]
     max_surface_strain: float | None = 0.04
     interfaces: tuple[InterfaceStress, ...] = ()
+    sheet: None = None
 
 
 @pytest.fixture

@@ -12,6 +12,7 @@ import pytest
 import rollnip as rn
 from rollnip.figures import CLAIMED, FIGURES, PROFILES, ROUNDING, Dimension
 from rollnip.io import result_dict
+from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.solution import Profiles, Solution
 from rollnip.sweeps import SCALARS
 
@@ -58,8 +59,12 @@ def test_tables_of_sweeps_hold_every_figure_with_its_unit():
     assert {name: SCALARS[name] for name in FIGURES} == {
         name: one.unit for name, one in FIGURES.items()
     }
+    assert {name: SCALARS[name] for name in SHEET_FIGURES} == {
+        name: one.unit for name, one in SHEET_FIGURES.items()
+    }
+    claimed = {name for name, one in SHEET_FIGURES.items() if one.claimed}
     assert {name for name in SCALARS if name.startswith("error.")} == {
-        f"error.{name}" for name in CLAIMED
+        f"error.{name}" for name in {*CLAIMED} | claimed
     }
 
 

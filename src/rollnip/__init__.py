@@ -58,6 +58,7 @@ if TYPE_CHECKING:
         PivotArm,
         Shaft,
     )
+    from rollnip.sheets import SHEETS, Sheet
     from rollnip.solution import Solution
     from rollnip.solver import solve
     from rollnip.sweeps import sweep
@@ -106,6 +107,7 @@ _HOMES = {
         "PivotArm",
         "Shaft",
     ),
+    "rollnip.sheets": ("SHEETS", "Sheet"),
     "rollnip.solution": ("Solution",),
     "rollnip.solver": ("solve",),
     "rollnip.sweeps": ("sweep",),
@@ -113,6 +115,7 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 
 __all__ = [
+    "SHEETS",
     "WLF",
     "Across",
     "Approach",
@@ -150,6 +153,7 @@ __all__ = [
     "RollnipError",
     "RollnipWarning",
     "Shaft",
+    "Sheet",
     "Shell",
     "Solution",
     "StandardLinearSolid",

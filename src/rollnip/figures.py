@@ -14,7 +14,16 @@ from typing import Any, Literal, NamedTuple
 
 from rollnip._units import format_quantity
 
-__all__ = ["CLAIMED", "FIGURES", "PROFILES", "ROUNDING", "Dimension", "Figure", "Section", "Total"]
+__all__ = [
+    "CLAIMED",
+    "FIGURES",
+    "PROFILES",
+    "ROUNDING",
+    "Dimension",
+    "Figure",
+    "Section",
+    "Total",
+]
 
 Dimension = Literal[
     "length",
@@ -27,7 +36,7 @@ Dimension = Literal[
     "share",
     "power per length",
 ]
-Section = Literal["nip", "drive", "losses"]
+Section = Literal["nip", "drive", "losses", "sheet"]
 
 ROUNDING = 1e-10
 """Share of its size below which a figure is a rounding error.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from types import NoneType
 
 from rollnip._errors import (
     InvalidInputError,
@@ -12,6 +13,7 @@ from rollnip._errors import (
     with_hints,
 )
 from rollnip.rollers import Roller
+from rollnip.sheets import Sheet
 
 _SMALLEST = 1e-15  # mm, N/mm; far below what can be measured, far above what underflows
 
@@ -102,6 +104,9 @@ class Nip:
         axial length [mm] for totals; None leaves everything per length.
     title :
         free text, carried into the result; without zero characters.
+    sheet :
+        what runs between the rollers; None: nothing. The traction is then what the lower roller
+        takes, and the creepage the difference of the rollers' speeds.
 
     Raises
     ------
@@ -120,6 +125,7 @@ class Nip:
     speed: float | None = None
     face_width: float | None = None
     title: str = ""
+    sheet: Sheet | None = None
 
     def __post_init__(self) -> None:
         self._check_types()
@@ -134,6 +140,8 @@ class Nip:
         self._check_controls()
         if self.has_profile:
             self._check_snapshot()
+        if self.sheet is not None:
+            self._check_sheet(self.sheet)
 
     @property
     def curvature(self) -> float:
@@ -144,6 +152,11 @@ class Nip:
     def is_viscoelastic(self) -> bool:
         """True where any material of either roller is viscoelastic."""
         return self.upper.is_viscoelastic or self.lower.is_viscoelastic
+
+    def friction_on(self, side: str) -> float:
+        """Return the friction coefficient on the "upper" or the "lower" roller."""
+        own = None if self.sheet is None else getattr(self.sheet, f"friction_{side}")
+        return self.friction if own is None else float(own)
 
     @property
     def has_half_space(self) -> bool:
@@ -161,11 +174,12 @@ class Nip:
             "lower": (Roller,),
             "normal": (LineLoad, Approach),
             "tangential": (Traction, Creepage, Torque),
+            "sheet": (Sheet, NoneType),
         }
         for name, types in wanted.items():
             value = getattr(self, name)
             if not isinstance(value, types):
-                names = " or ".join(kind.__name__ for kind in types)
+                names = " or ".join(kind.__name__.removesuffix("Type") for kind in types)
                 raise InvalidInputError(f"`{name}` must be {names}, got {value!r}.")
 
     def _check_rollers(self) -> None:
@@ -200,11 +214,60 @@ class Nip:
                 "modulus at the time that an asperity spends in the nip."
             )
 
+    def _check_sheet(self, sheet: Sheet) -> None:
+        if self.has_profile:
+            raise InvalidInputError(
+                "`sheet` must not go with a measured profile, which is a snapshot without "
+                "friction; leave one of them out."
+            )
+        for side in ("upper", "lower"):
+            if getattr(sheet, f"friction_{side}") is None and self.friction == 0.0:
+                raise InvalidInputError(
+                    f"`friction_{side}` of the sheet must be given and positive where the "
+                    "`friction` of the nip is 0: without friction nothing feeds the sheet."
+                )
+        covering = self.upper.coating_thickness + self.lower.coating_thickness
+        if not self.has_half_space and sheet.thickness >= covering:
+            raise InvalidInputError(
+                "`thickness` of the sheet must be smaller than the coverings are thick, "
+                f"{covering:g} mm in all, got {sheet.thickness!r}: the sheet is taken as thin."
+            )
+        if isinstance(self.normal, LineLoad):
+            self._check_pull(sheet, self.normal.load)
+
+    def _check_pull(self, sheet: Sheet, load: float) -> None:
+        upper, lower = (self.friction_on(side) * load for side in ("upper", "lower"))
+        pull = sheet.tension_in - sheet.tension_out
+        if abs(pull) >= upper + lower:
+            raise InvalidInputError(
+                "`tension_in` less `tension_out` must be smaller in size than the friction of both "
+                f"rollers carries, (mu_upper + mu_lower) * load = {upper + lower:.6g} N/mm, got "
+                f"{pull:.6g}: the sheet slips through."
+            )
+        if not isinstance(self.tangential, Traction):
+            return
+        traction = self.tangential.traction
+        if abs(traction) >= lower:
+            raise InvalidInputError(
+                f"`traction` must be smaller than the lower friction * load = {lower:.6g} N/mm in "
+                f"size (beyond it the sheet slides on the lower roller), got {traction!r}."
+            )
+        if abs(traction + pull) >= upper:
+            raise InvalidInputError(
+                "`traction` + `tension_in` - `tension_out` must be smaller than the upper friction "
+                f"* load = {upper:.6g} N/mm in size (beyond it the sheet slides on the upper "
+                f"roller), got {traction + pull:.6g}."
+            )
+
     def _check_controls(self) -> None:
         if isinstance(self.normal, Approach):
             self._check_approach(self.normal.approach)
         self._check_tangential()
-        if isinstance(self.normal, LineLoad) and isinstance(self.tangential, Traction):
+        if (
+            self.sheet is None
+            and isinstance(self.normal, LineLoad)
+            and isinstance(self.tangential, Traction)
+        ):
             limit = self.friction * self.normal.load
             if self.friction > 0.0 and abs(self.tangential.traction) >= limit:
                 raise InvalidInputError(
@@ -219,7 +282,7 @@ class Nip:
                 "`torque_lower` must not be prescribed on a plane (radius inf); "
                 "prescribe `traction` or `creepage`."
             )
-        if self.friction > 0.0 or isinstance(tangential, Creepage):
+        if self.friction > 0.0 or isinstance(tangential, Creepage) or self.sheet is not None:
             return
         name = "traction" if isinstance(tangential, Traction) else "torque_lower"
         value = getattr(tangential, name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import isinf, isnan, nan
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -72,6 +72,11 @@ class Solution(Presented):
     final: Round = field(repr=False)
     kernels: PairKernels = field(repr=False)
     max_surface_strain: float | None = field(default=None, kw_only=True, repr=False)
+
+    @property
+    def sheet(self) -> Any:
+        """What the solution says of its sheet, a `rollnip.sheet.SheetResult`; None without one."""
+        return None
 
     @property
     def load(self) -> float:

@@ -30,6 +30,7 @@ from rollnip.rolling import (
     with_second_order,
 )
 from rollnip.rough import solve_rough
+from rollnip.sheet import solve_sheet
 from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import Strains, validity_warnings
 
@@ -81,8 +82,13 @@ def solve(
     _require_kinds(nip, model, on_failure)
     if nip.has_profile:
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
+    cache = KernelCache() if cache is None else cache
     with one_blas_thread():
-        solution = _solved(nip, model, KernelCache() if cache is None else cache, start)
+        solution: Solution
+        if nip.sheet is None:
+            solution = _solved(nip, model, cache, start)
+        else:
+            solution = solve_sheet(nip, model, cache, _version())
     if on_failure == "raise" and not solution.converged:
         raise ConvergenceError(solution.status, solution)
     return solution

@@ -159,7 +159,7 @@ def test_schema_describes_every_table():
     schema = case_schema()
     json.dumps(schema)
     assert set(schema["properties"]) == {
-        "title", "nip", "model", "solver", "face", "heat", "upper", "lower", "materials"
+        "title", "nip", "model", "solver", "face", "heat", "sheet", "upper", "lower", "materials"
     }  # fmt: skip
     assert schema["additionalProperties"] is False
     thickness = schema["$defs"]["LayerTable"]["properties"]["thickness"]

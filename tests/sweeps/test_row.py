@@ -15,7 +15,11 @@ from rollnip.solver import solve
 from rollnip.sweeps import SCALARS, STATUSES, evaluate, scalars
 from rollnip.sweeps import row as row_module
 
-PLAIN = {name for name in SCALARS if not name.startswith(("face.", "heat."))}  # of a cross-section
+PLAIN = {  # of a cross-section without a sheet
+    name
+    for name in SCALARS
+    if not name.removeprefix("error.").startswith(("face.", "heat.", "sheet."))
+}
 
 CASE: dict[str, Any] = {
     "nip": {"load": 0.74, "traction": "0.05 N/mm", "friction": 2.7, "speed": "100 mm/s"},

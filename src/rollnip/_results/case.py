@@ -52,6 +52,8 @@ def case_tree(nip: Nip, model: Model) -> dict[str, Any]:
     tree["model"] = {"geometry": model.geometry}
     tree["solver"] = {"tolerance": model.tolerance}
     tree["upper"], tree["lower"] = _roller(nip.upper), _roller(nip.lower)
+    if nip.sheet is not None:
+        tree["sheet"] = _without_none(_plain(nip.sheet))
     return tree
 
 

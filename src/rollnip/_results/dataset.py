@@ -7,6 +7,7 @@ from typing import Any
 
 from rollnip.figures import CLAIMED, FIGURES, PROFILES, Figure
 from rollnip.interior import INTERFACE_FIGURES
+from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 
 _NAN = float("nan")
 _Variables = dict[str, tuple[Any, ...]]
@@ -27,6 +28,8 @@ def result_dataset(tree: dict[str, Any]) -> Any:
     }
     place = variables.pop("x")
     variables |= _scalars(tree) | _contact(tree["contact"]) | _zones(tree["zones"])
+    if "sheet" in tree:
+        variables |= _sheet(tree["sheet"], size)
     variables |= _interfaces(tree.get("interfaces", []))
     return xr.Dataset(
         variables,
@@ -105,6 +108,29 @@ def _zones(zones: list[dict[str, Any]]) -> _Variables:
             {"comment": "sign of the slip velocity; 0 in stick"},
         ),
     }
+
+
+def _sheet(sheet: dict[str, Any], size: int) -> _Variables:
+    found: _Variables = {}
+    for key, figure in SHEET_FIGURES.items():
+        name = key.partition(".")[2]
+        found[figure.name] = _scalar(sheet[name], _described(figure))
+        if figure.claimed:
+            about = {"units": figure.unit, "long_name": f"estimated error of the {figure.label}"}
+            found[f"error_{figure.name}"] = _scalar(sheet["error"][name], about)
+    for name, curve in SHEET_PROFILES.items():
+        if name != "x":
+            values = _floats(sheet["profiles"][name], size)
+            found[f"sheet_{name}"] = ("x", values, _described(curve))
+    lower = _zones(sheet["zones_lower"])
+    return found | {
+        f"lower_{name}": (f"lower_{dims[0]}", *rest) for name, (dims, *rest) in _tupled(lower)
+    }
+
+
+def _tupled(variables: _Variables) -> list[tuple[str, tuple[Any, ...]]]:
+    """Variables of one dimension with it as a tuple."""
+    return [(name, ((one[0],), *one[1:])) for name, one in variables.items()]
 
 
 def _interfaces(interfaces: list[dict[str, Any]]) -> _Variables:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from html import escape
 from typing import Any, NamedTuple
 
 from rollnip._units import format_quantity
 from rollnip.figures import FIGURES, ROUNDING, Figure
+from rollnip.sheet_figures import SHEET_FIGURES
 
 SIGNS = (
     "x points to the inlet (leading edge). Traction and creepage > 0: the upper roller drives. "
@@ -57,6 +58,8 @@ def sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
                 lines.append(line(figure, solution))
                 lines += _contact(solution) if figure.key == "nip_width" else ()
         yield heading, lines
+    if solution.sheet is not None:
+        yield "Sheet", [line(figure, solution) for figure in SHEET_FIGURES.values()]
     if solution.nip.face_width is not None:
         yield "Whole face", list(_totals(solution, solution.nip.face_width))
 
@@ -90,8 +93,8 @@ def text(solution: Any) -> str:
     lines = [solution.nip.title or "Nip", "".join(verdict(solution))]
     for heading, rows in sections(solution):
         lines += ["", heading, *map(_plain, rows)]
-    if solution.zones:
-        lines += ["", "Stick and slip", *map(_plain, zones(solution))]
+    for heading, rows in zone_sections(solution):
+        lines += ["", heading, *map(_plain, rows)]
     lines += ["", *(f"Note: {warning}" for warning in solution.warnings), SIGNS]
     return "\n".join(lines)
 
@@ -108,11 +111,28 @@ def html(solution: Any) -> str:
     return "".join([*parts, *(f"<p>{escape(note)}</p>" for note in notes)])
 
 
+def zone_sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
+    """Headings with a line for each zone of stick and slip; both interfaces of a sheet."""
+    if solution.sheet is None:
+        if solution.zones:
+            yield "Stick and slip", list(zones(solution))
+        return
+    above = {-1: "the upper roller is faster", 1: "the sheet is faster"}
+    below = {-1: "the sheet is faster", 1: "the lower roller is faster"}
+    yield "Stick and slip, upper side of the sheet", list(_zone_lines(solution.zones, above))
+    lower = solution.sheet.zones_lower
+    yield "Stick and slip, lower side of the sheet", list(_zone_lines(lower, below))
+
+
 def zones(solution: Any) -> Iterator[Line]:
     """A line for each zone of stick and slip."""
-    for zone in solution.zones:
+    yield from _zone_lines(solution.zones, FASTER)
+
+
+def _zone_lines(zones: Iterable[Any], faster: Mapping[int, str]) -> Iterator[Line]:
+    for zone in zones:
         ends = (format_quantity(end, digits=_DIGITS) for end in (zone.start, zone.stop))
-        yield Line(zone.state, " to ".join(ends), "mm", note=FASTER.get(zone.direction or 0, ""))
+        yield Line(zone.state, " to ".join(ends), "mm", note=faster.get(zone.direction or 0, ""))
 
 
 def _contact(solution: Any) -> Iterator[Line]:

@@ -9,6 +9,7 @@ from rollnip._results.case import case_tree, problem_hash
 from rollnip.figures import CLAIMED, FIGURES, PROFILES
 from rollnip.interior import INTERFACE_FIGURES
 from rollnip.rolling import Zone
+from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 
 SCHEMA = 1
 
@@ -41,6 +42,8 @@ def result_dict(solution: Any, *, interfaces: bool = True) -> dict[str, Any]:
     tree["error"] = {name: figure.error(solution) for name, figure in CLAIMED.items()}
     profiles = solution.profiles
     tree["profiles"] = {name: _numbers(getattr(profiles, name)) for name in PROFILES}
+    if solution.sheet is not None:
+        tree["sheet"] = _sheet(solution)
     tree["solver"] = {
         "elements": int(solution.solver.elements),
         "iterations": int(solution.solver.iterations),
@@ -57,6 +60,32 @@ def result_dict(solution: Any, *, interfaces: bool = True) -> dict[str, Any]:
             | {name: _number(getattr(interface, name)) for name in INTERFACE_FIGURES}
             for interface in solution.interfaces
         ]
+    return tree
+
+
+def _sheet(solution: Any) -> dict[str, Any]:
+    """What a solution says of its sheet."""
+    sheet = solution.sheet
+    tree: dict[str, Any] = {
+        key.partition(".")[2]: figure.value(solution) for key, figure in SHEET_FIGURES.items()
+    }
+    tree["zones_lower"] = [_zone(zone) for zone in sheet.zones_lower]
+    tree["bending_length"] = _number(sheet.bending_length)
+    grip = sheet.grip
+    tree["grip"] = {
+        "pull": _number(grip.pull),
+        "largest": _number(grip.largest),
+        "smallest": _number(grip.smallest),
+        "first": grip.first,
+        "use_upper": _number(grip.use_upper),
+        "use_lower": _number(grip.use_lower),
+    }
+    tree["error"] = {
+        key.partition(".")[2]: figure.error(solution)
+        for key, figure in SHEET_FIGURES.items()
+        if figure.claimed
+    }
+    tree["profiles"] = {name: _numbers(getattr(sheet.profiles, name)) for name in SHEET_PROFILES}
     return tree
 
 

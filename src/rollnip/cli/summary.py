@@ -9,7 +9,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from rollnip._results.summary import SIGNS, Line, sections, verdict, zones
+from rollnip._results.summary import SIGNS, Line, sections, verdict, zone_sections
 from rollnip._units import format_quantity
 from rollnip.cli.console import terminal
 from rollnip.solution import Solution
@@ -40,9 +40,9 @@ def _parts(solution: Solution) -> Iterator[RenderableType]:
     for heading, lines in sections(solution):
         yield Text(f"\n{heading}", style="bold")
         yield _table(lines)
-    if solution.zones:
-        yield Text("\nStick and slip", style="bold")
-        yield _table(zones(solution), label=6, value=18)
+    for heading, lines in zone_sections(solution):
+        yield Text(f"\n{heading}", style="bold")
+        yield _table(lines, label=6, value=18)
     if solution.interfaces:
         yield Text("\nInterfaces, each revolution", style="bold")
         yield _interfaces(solution)

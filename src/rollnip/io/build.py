@@ -24,6 +24,7 @@ from rollnip.io.tables import (
     NipTable,
     PronyTable,
     RollerTable,
+    SheetTable,
     ShiftTable,
     StandardLinearSolidTable,
     TabulatedTable,
@@ -52,6 +53,7 @@ from rollnip.model import Model
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Profile, Roller
 from rollnip.shafts import Face
+from rollnip.sheets import SHEETS, Sheet
 
 _OF_THE_WHOLE = {
     "title": "title",
@@ -59,6 +61,10 @@ _OF_THE_WHOLE = {
     "lower": "nip",
     "radius": "upper.radius, lower.radius",
     "profile": "upper.profile, lower.profile",
+    **{
+        name: f"sheet.{name}"
+        for name in ("sheet", "thickness", "tension_in", "friction_upper", "friction_lower")
+    },
 }
 _KINDS: dict[type[ViscoelasticTable], type[Viscoelastic]] = {
     StandardLinearSolidTable: StandardLinearSolid,
@@ -101,6 +107,7 @@ class Builder:
     def nip(self) -> Nip | None:
         """The problem; None where any part of it was refused."""
         rollers, controls = self.rollers(), self._controls(self.table.nip)
+        sheet = self._sheet(self.table.sheet)
         if rollers is None or controls is None or self.errors:
             return None
         upper, lower = rollers
@@ -117,6 +124,7 @@ class Builder:
                 speed=table.speed,
                 face_width=table.face_width,
                 title=self.table.title,
+                sheet=sheet,
             ),
             _OF_THE_WHOLE,
         )
@@ -180,6 +188,21 @@ class Builder:
     def heat(self) -> HeatBalance | None:
         """Return the heat balance; None where the case has none, or where it was refused."""
         return heat_of(self.table, self.errors)
+
+    def _sheet(self, table: SheetTable | None) -> Sheet | None:
+        if table is None:
+            return None
+        values = table.model_dump(exclude={"kind"}, exclude_none=True)
+        if table.kind is not None:
+            if table.kind not in SHEETS:
+                known = "the usual sheets"
+                self.errors.append(unknown_name("sheet.kind", table.kind, [*SHEETS], known))
+                return None
+            usual = SHEETS[table.kind]
+            return self._made("sheet", lambda: replace(usual, **values))
+        missing = [name for name in ("thickness", "modulus") if name not in values]
+        self.errors += [f"sheet.{name}: is missing." for name in missing]
+        return None if missing else self._made("sheet", lambda: Sheet(**values))
 
     def _profile(self, path: str, name: str | None) -> Profile | None:
         if name is None:

@@ -131,7 +131,11 @@ def _path(loc: Sequence[str | int]) -> str:
 def _suggestion(
     loc: Sequence[str | int], tables: Mapping[str, type[Table]], root: type[Table]
 ) -> str:
-    above = [tables[part] for part in loc[:-1] if isinstance(part, str) and part in tables]
+    walked = [part for part in loc[:-1] if isinstance(part, str)]
+    # The same key may name another table below another one: [sheet] and [heat.sheet].
+    paths = [".".join(walked[max(i - 1, 0) : i + 1]) for i in range(len(walked))]
+    found = [path if path in tables else part for path, part in zip(paths, walked, strict=True)]
+    above = [tables[name] for name in found if name in tables]
     table = above[-1] if above else root
     names = list(table.model_fields)
     near = get_close_matches(str(loc[-1]), names, n=1, cutoff=0.7)

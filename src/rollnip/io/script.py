@@ -37,6 +37,7 @@ from rollnip.materials import (
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Roller
 from rollnip.shafts import Crown, Face, Shaft
+from rollnip.sheets import Sheet
 
 _WIDTH = 88
 # What stands in `rollnip` itself under the same name.
@@ -44,7 +45,7 @@ _TYPES = (
     *(Nip, Roller, Layer, LineLoad, Approach, Traction, Creepage, Torque),
     *(Elastic, StandardLinearSolid, Prony, FractionalZener, LossFactor),
     *(WLF, Arrhenius, TabulatedShift),
-    *(Shaft, Crown, Face),
+    *(Shaft, Crown, Face, Sheet),
     *(Thermal, HeatBalance, Cooling, Insulated, Held, Coolant, Shell, PassingSheet),
 )
 

@@ -205,6 +205,24 @@ class LayerTable(Table):
     material: MaterialOrName
 
 
+class SheetTable(Table):
+    """The sheet that runs between the rollers."""
+
+    kind: str | None = Field(
+        None, description="Name of a usual sheet; keys beside it replace its values."
+    )
+    thickness: Length | None = None
+    modulus: Pressure | None = Field(None, description="In the plane, along the nip.")
+    poisson: Ratio | None = None
+    modulus_thickness: Pressure | None = Field(
+        None, description="Across the thickness; by default that in the plane."
+    )
+    tension_in: LineLoad = Field(0.0, description="On the inlet side, per width.")
+    tension_out: LineLoad = 0.0
+    friction_upper: Ratio | None = Field(None, description="By default that of the nip.")
+    friction_lower: Ratio | None = None
+
+
 class RollerTable(Table):
     """A roller: radius, core, and layers from the surface to the core."""
 
@@ -257,6 +275,7 @@ class CaseTable(Table):
     model: ModelTable = ModelTable()
     solver: SolverTable = SolverTable()
     face: FaceTable | None = None
+    sheet: SheetTable | None = None
     heat: HeatTable | None = None
     upper: RollerTable
     lower: RollerTable
@@ -271,6 +290,7 @@ TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIAL
     "lower": RollerTable,
     "layers": LayerTable,
     "face": FaceTable,
+    "sheet": SheetTable,
     "heat": RollerHeatTable,
     "shaft": ShaftTable,
     "crown": CrownTableTable,
@@ -289,5 +309,5 @@ TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIAL
     "<held>": CoolantTable,
     "<insulated>": CoolantTable,
     "shell": ShellTable,
-    "sheet": PassingSheetTable,
+    "heat.sheet": PassingSheetTable,
 }

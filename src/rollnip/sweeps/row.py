@@ -16,6 +16,7 @@ from rollnip.heat import HeatSolution, solve_heat
 from rollnip.heat.report import HEAT_SCALARS, heat_scalar
 from rollnip.influence import KernelCache
 from rollnip.io import Case, case_hash, parse_case
+from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.solution import Solution
 from rollnip.solver import solve
 
@@ -23,7 +24,9 @@ Row = dict[str, float | bool | str | None]
 
 SCALARS: Mapping[str, str] = {
     **{key: figure.unit for key, figure in FIGURES.items()},
+    **{key: figure.unit for key, figure in SHEET_FIGURES.items()},
     **{f"error.{name}": figure.unit for name, figure in CLAIMED.items()},
+    **{f"error.{key}": figure.unit for key, figure in SHEET_FIGURES.items() if figure.claimed},
     "solver.elements": "1",
     "solver.iterations": "1",
     "solver.residual": "1",
@@ -32,7 +35,7 @@ SCALARS: Mapping[str, str] = {
     **{f"heat.{key}": unit for key, unit in HEAT_SCALARS.items()},
 }
 """Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``.
-Those of face and heat are None for a case without them."""
+Those of face, heat and sheet are None for a case without them."""
 
 STATUSES = ("solved", "unverified", "refused", "failed", "lost")
 """What became of a case; only of the first two there are numbers. "lost" is of sweeps alone: the
@@ -155,7 +158,11 @@ def _value(
 ) -> float | None:
     if name in FIGURES:
         return FIGURES[name].value(solution)
+    if name in SHEET_FIGURES:
+        return SHEET_FIGURES[name].value(solution)
     table, _, key = name.partition(".")
+    if key in SHEET_FIGURES:
+        return SHEET_FIGURES[key].error(solution)
     if table == "face":
         return None if along is None else FACE_FIGURES[key].value(along)
     if table == "error":

@@ -73,10 +73,12 @@ class _Reader:
         return study
 
     def _scalars(self) -> dict[str, str]:
-        """Return the results that cases have: those of a face only where there is one."""
-        has_face = "face" in self.case
+        """Return the results that cases have: those of face, heat and sheet only where asked."""
+        absent = [f"{table}." for table in ("face", "heat", "sheet") if table not in self.case]
         return {
-            name: unit for name, unit in SCALARS.items() if has_face or not name.startswith("face.")
+            name: unit
+            for name, unit in SCALARS.items()
+            if not name.removeprefix("error.").startswith(tuple(absent))
         }
 
     def _case(self) -> tuple[dict[str, Any], str]:

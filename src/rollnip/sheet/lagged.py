@@ -1,0 +1,166 @@
+"""Terms of a sheet's contact that depend on its solution: stretch, path of the sheet, torque."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.geometry import linear_stretch
+from rollnip.model import Geometry
+from rollnip.nip import Nip, Torque, Traction
+from rollnip.rolling import Displacements, stretch_excess, surface_depths
+from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
+from rollnip.rolling.largest import largest
+from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.system import Lagged, SheetProblem, SheetState
+
+Array = NDArray[np.float64]
+
+_DEGREE = 8  # of the polynomial along the path of the sheet
+
+
+def first_lagged(problem: SheetProblem) -> Lagged:
+    """Return zero terms, and the prescribed traction; zero traction for a prescribed torque."""
+    n, tangential = problem.mesh.inner.size, problem.nip.tangential
+    traction = tangential.traction if isinstance(tangential, Traction) else None
+    traction = 0.0 if isinstance(tangential, Torque) else traction
+    return Lagged(np.zeros(n), np.zeros((2, n)), traction)
+
+
+def has_none(problem: SheetProblem, geometry: Geometry) -> bool:
+    """Return whether nothing depends on the solution."""
+    return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
+
+
+def lagged_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -> Lagged:
+    """Return the terms of a solution."""
+    first = first_lagged(problem)
+    if has_none(problem, geometry):
+        return first
+    nip, mesh = problem.nip, problem.mesh
+    flat = mesh.linear(state)
+    u = mesh.with_second(flat, state)
+    clearance, lean, offsets = first.clearance, 0.0, first.offsets
+    if geometry == "finite":
+        depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
+        approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
+        clearance = depth - approximate
+        lean = _lean(problem, state, u)
+    if geometry != "linear":
+        offsets = _offsets(problem, geometry, state, flat, u)
+    traction = first.traction
+    if isinstance(nip.tangential, Torque):
+        traction = _traction_for_torque(problem, geometry, state, u)
+    return Lagged(clearance, offsets, traction, lean)
+
+
+def change_of(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -> float:
+    """Return the largest change of the terms, relative to the first-order ones."""
+    nip, mesh = problem.nip, problem.mesh
+    half = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
+    strain = nip.curvature * half
+    approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
+    drift = new.offsets - old.offsets
+    rough = max(sqrt(float(row @ (row / mesh.dx)) / (2.0 * half)) for row in drift)
+    changes = [float(np.abs(new.clearance - old.clearance).max()) / approach, rough / strain]
+    if new.traction is not None and old.traction is not None:
+        load = float(mesh.weights @ state.pressure)
+        changes.append(abs(new.traction - old.traction) / (strain * load))
+    return largest(*changes)
+
+
+def sheet_rate(creepage_upper: float, creepage_lower: float) -> float:
+    """Return V_s/V."""
+    return 1.0 + 0.5 * (creepage_lower - creepage_upper)
+
+
+def path_turn(mesh: Mesh, nip: Nip, u: Displacements) -> Array:
+    """Return the change of the slope of the sheet's middle over each interval of nodes[1:], (n,).
+
+    The middle lies halfway between both surfaces: y = [(1/R_u - 1/R_l) x^2/2 + u_z,u - u_z,l]/2,
+    and its curvature d^2y/dx^2 is positive where its centre is on the upper side. A bare rigid
+    roller has the curvature itself. Elsewhere it is that of a polynomial through the displacements:
+    the path is as smooth as the sheet's bending stiffness makes it, and its curvature matters on
+    the scale of the nip.
+    """
+    if nip.upper.is_rigid or nip.lower.is_rigid:
+        own = nip.upper.curvature if nip.upper.is_rigid else -nip.lower.curvature
+        return np.asarray(own * mesh.dx)
+    fine = mesh.finer(u)
+    x, height = mesh.fine.nodes[1:-1], (fine.z_upper - fine.z_lower)[:-1]
+    middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
+    weights = np.sqrt(np.gradient(x))
+    path = np.polynomial.legendre.legfit((x - middle) / half, height, _DEGREE, w=weights)
+    slopes = np.polynomial.legendre.legval(
+        (mesh.inner - middle) / half, np.polynomial.legendre.legder(path) / half
+    )
+    bent = np.append(slopes[1:] - slopes[:-1], 0.0)  # the last interval lies outside
+    return np.asarray(0.5 * ((nip.upper.curvature - nip.lower.curvature) * mesh.dx + bent))
+
+
+def _offsets(
+    problem: SheetProblem,
+    geometry: Geometry,
+    state: SheetState,
+    flat: Displacements,
+    u: Displacements,
+) -> Array:
+    """Return what stretch, path and products of creepage and strain add to the linear creeps.
+
+    The creep of the upper interface is (V_u/V) stretch_u - (V_s/V) (1 + e - h kappa/2), of the
+    lower one (V_s/V) (1 + e + h kappa/2) - (V_l/V) stretch_l.
+    """
+    nip, mesh = problem.nip, problem.mesh
+    x = mesh.fine.nodes[1:]
+    hoops = np.array(mesh.kernels.hoops)[:, None]
+    excess = stretch_excess(x, nip, geometry, mesh.finer(u))
+    linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)
+    half = 0.5 * (state.creepage + state.creepage_lower)
+    rate = sheet_rate(state.creepage, state.creepage_lower)
+    turn = path_turn(mesh, nip, u)
+    bend = 0.5 * rate * problem.sheet.thickness * turn
+    strained = (rate - 1.0) * problem.strain_over(state)
+    upper = mesh.sums((1.0 + half) * excess[0] - linear[0])
+    lower = mesh.sums((1.0 - half) * excess[1] - linear[1])
+    return np.stack([upper - strained + bend, strained + bend - lower])
+
+
+def _lean(problem: SheetProblem, state: SheetState, u: Displacements) -> float:
+    """Return int q slope dx, shear and slope those of both surfaces on average."""
+    nip, mesh = problem.nip, problem.mesh
+    shear = 0.5 * (state.shear + state.shear_lower)
+    levers = mesh.weights @ (shear * mesh.inner)
+    undeformed = (nip.lower.curvature - nip.upper.curvature) * levers
+    return 0.5 * float(undeformed + mesh.work(shear, u.z_lower - u.z_upper))
+
+
+def pulls_of(
+    problem: SheetProblem, geometry: Geometry, state: SheetState, u: Displacements
+) -> tuple[float, float]:
+    """Return int q lambda ds of the upper and the lower surface [N/mm]; ``u`` at nodes[1:]."""
+    nip, mesh = problem.nip, problem.mesh
+    x, fine = mesh.fine.nodes[1:], mesh.finer(u)
+    lengths = x[1:] - x[:-1] + stretch_excess(x, nip, geometry, fine)
+    lengths = lengths * arc_ratio(x, nip, geometry, fine)
+    upper, lower = (mean_shear(mesh, side_state(state, side)) for side in (0, 1))
+    return float(lengths[0] @ upper), float(lengths[1] @ lower)
+
+
+def side_state(state: SheetState, side: int) -> SheetState:
+    """Return a solution whose ``shear`` is that of one interface, 0 the upper, 1 the lower."""
+    return state if side == 0 else replace(state, shear=state.shear_lower)
+
+
+def _traction_for_torque(
+    problem: SheetProblem, geometry: Geometry, state: SheetState, u: Displacements
+) -> float:
+    """Return T_l for which the lower torque R_l (w_l - int q_l lambda_l ds) is as prescribed."""
+    nip, mesh = problem.nip, problem.mesh
+    assert isinstance(nip.tangential, Torque)
+    _, pull = pulls_of(problem, geometry, state, u)
+    lost = loss_inside("lower", nip, geometry, mesh, side_state(state, 1))
+    wanted = nip.tangential.torque_lower * nip.lower.curvature
+    return lost - wanted - (pull - float(mesh.weights @ state.shear_lower))

@@ -1,0 +1,111 @@
+"""Torques, losses by slip on both interfaces, and the power that goes into the sheet.
+
+As without a sheet, M_u V_u/R_u = V_u (int q_u lambda_u ds + w_u) and
+M_l V_l/R_l = V_l (w_l - int q_l lambda_l ds), w the loss inside a roller per rolled distance. Of
+that power slip takes int q_u (creep of the upper interface) V and the like below, and the sheet
+takes the rest: V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] dx, which is the work
+against its tensions and the elastic energy that it carries away.
+"""
+
+from __future__ import annotations
+
+from dataclasses import astuple, dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import State
+from rollnip.model import Geometry
+from rollnip.rolling.assemble import loss_inside
+from rollnip.rolling.powers import rates_of
+from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state
+from rollnip.sheet.system import Lagged, SheetProblem, SheetState
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class SheetPowers:
+    """Losses and pulls per rolled distance and axial length; times V [mm/s] each is a power.
+
+    Attributes
+    ----------
+    friction_upper, friction_lower : lost by slip on either interface [N/mm].
+    lost_upper, lost_lower : inside each roller, per distance of its own surface [N/mm].
+    pull_upper, pull_lower : int q lambda ds of each roller [N/mm].
+    into_sheet : what the sheet takes [N/mm].
+    """
+
+    friction_upper: float
+    friction_lower: float
+    lost_upper: float
+    lost_lower: float
+    pull_upper: float
+    pull_lower: float
+    into_sheet: float
+
+    def array(self) -> Array:
+        """Return all of them in order, (7,)."""
+        return np.array(astuple(self))
+
+    @property
+    def driving_upper(self) -> float:
+        """Torque on the upper axle over the radius, M_u/R_u [N/mm]."""
+        return self.pull_upper + self.lost_upper
+
+    @property
+    def driving_lower(self) -> float:
+        """Torque on the lower axle over the radius, M_l/R_l [N/mm]."""
+        return self.lost_lower - self.pull_lower
+
+
+def sheet_powers(
+    problem: SheetProblem, geometry: Geometry, state: SheetState, lagged: Lagged
+) -> SheetPowers:
+    """Return torques over radii and losses of a solution."""
+    nip, mesh = problem.nip, problem.mesh
+    pulls = pulls_of(problem, geometry, state, mesh.displacements(state))
+    lost = [
+        loss_inside("upper", nip, geometry, mesh, state),
+        loss_inside("lower", nip, geometry, mesh, side_state(state, 1)),
+    ]
+    creeps = problem.gap_and_creeps(state, lagged)[1:]
+    friction = []
+    for side in (0, 1):
+        slips = state.both_states[side] > State.STICK
+        slips = slips[:-1] & slips[1:]
+        sheared = (problem.pressed @ state.shears[side])[:-1]  # int q dx over each interval
+        rate = creeps[side, :-1] / mesh.dx[:-1]
+        friction.append(float((sheared * rate)[slips].sum()))
+    return SheetPowers(
+        friction_upper=friction[0],
+        friction_lower=friction[1],
+        lost_upper=lost[0],
+        lost_lower=lost[1],
+        pull_upper=pulls[0],
+        pull_lower=pulls[1],
+        into_sheet=_into_sheet(problem, geometry, state),
+    )
+
+
+def _into_sheet(problem: SheetProblem, geometry: Geometry, state: SheetState) -> float:
+    """Return the power of the shears on the faces of the sheet over V [N/mm].
+
+    Its faces run at V_s (1 + e -+ h kappa/2). "linear" leaves out products of creepage and strain.
+    """
+    mesh = problem.mesh
+    both = problem.pressed @ np.stack([state.shear, state.shear_lower], axis=1)
+    pushed, sheared = both[:-1, 0] - both[:-1, 1], both[:-1].sum(axis=1)
+    strain = (problem.strain_over(state) / mesh.dx)[:-1]
+    rate = sheet_rate(state.creepage, state.creepage_lower)
+    taken = rate * float(pushed.sum())
+    if geometry == "linear":
+        return taken + float(pushed @ strain)
+    turn = path_turn(mesh, problem.nip, mesh.displacements(state))[:-1] / mesh.dx[:-1]
+    bent = 0.5 * problem.sheet.thickness * float(sheared @ turn)
+    return taken + rate * (float(pushed @ strain) - bent)
+
+
+def rates(geometry: Geometry, state: SheetState) -> tuple[float, float]:
+    """Return the speeds of both rollers over V, to the order of the model."""
+    return rates_of(geometry, state.creepage + state.creepage_lower)

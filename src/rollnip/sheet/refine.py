@@ -1,0 +1,244 @@
+"""Sizes of mesh, finer and finer, until the estimated errors of all figures are small enough."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import ceil, inf, log
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.model import Model
+from rollnip.nip import LineLoad, Nip
+from rollnip.rolling import Figures, PairKernels
+from rollnip.rolling.round import peak_pressure, scale_of_creepage
+from rollnip.sheet.powers import SheetPowers, sheet_powers
+from rollnip.sheet.search import Search, Standing, overlap, sheet_layer, violation
+from rollnip.sheet.zones import Zones
+
+Array = NDArray[np.float64]
+
+_FIRST_COUNT = 20
+_GROWTH = 1.6
+_MOST_COUNT = 190
+_SAFETY = 1.5
+_SOFT = 0.05  # over the half-width: length over which a sheet that is easy to begin with yields
+_EASED = 8.0  # ratio of the stiffnesses of sheets that are solved one after the other
+_WATCHED = 7  # of the figures: those that the tolerance is for
+# Least error of each figure over its scale, times the square of the number of elements; measured
+# on random nips against much finer meshes (tests judge others).
+_LEAST = np.array(
+    [
+        *(0.05, 0.1, 0.3, 0.5, 0.2, 0.3, 0.3),
+        *(0.6, 0.6, 1.5, 1.5),
+        *(1.0, 1.0, 0.2, 0.2, 0.6, 0.6, 0.6, 8.0, 1.0),
+    ]
+)
+
+
+@dataclass(frozen=True, slots=True)
+class SheetFigures:
+    """Figures of a solution, or their errors.
+
+    Attributes
+    ----------
+    values : (20,) in the order of `NAMES`. The tolerance is for the first seven: approach, load
+        (the pressure's, less what the shears take of it), creepage, nip width, peak pressure, and
+        the creepages of both interfaces. Then the tractions of both interfaces, the largest and the
+        smallest tension, `SheetPowers`, the place of the highest pressure, and the largest strain
+        of the sheet in size.
+    """
+
+    values: Array
+
+    @classmethod
+    def of(cls, stand: Standing, geometry: str) -> SheetFigures:
+        """Return the figures of a solution."""
+        problem, state = stand.problem, stand.state
+        mesh = problem.mesh
+        peak, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
+        tension = problem.tension_at(state)
+        strain = strain_at(stand)
+        spent = sheet_powers(problem, geometry, state, stand.lagged)  # type: ignore[arg-type]
+        weights = mesh.weights
+        first = [
+            state.approach,
+            float(weights @ state.pressure) - stand.lagged.lean,
+            state.creepage + state.creepage_lower,
+            stand.zones.width,
+            peak,
+            state.creepage,
+            state.creepage_lower,
+            float(weights @ state.shear),
+            float(weights @ state.shear_lower),
+            float(tension.max()),
+            float(tension.min()),
+        ]
+        last = [place, float(strain[np.argmax(np.abs(strain))])]
+        return cls(np.array([*first, *spent.array().tolist(), *last]))
+
+    def __getattr__(self, name: str) -> float:
+        if name in NAMES:
+            return float(self.values[NAMES.index(name)])
+        raise AttributeError(name)
+
+    @property
+    def watched(self) -> Figures:
+        """Return the figures of any nip."""
+        return Figures(*self.values[:5].tolist())
+
+    @property
+    def powers(self) -> SheetPowers:
+        """Return torques over radii and losses."""
+        return SheetPowers(*self.values[11:18].tolist())
+
+
+NAMES = (
+    "approach", "load", "creepage", "nip_width", "peak_pressure",
+    "creepage_upper", "creepage_lower",
+    "traction_upper", "traction_lower", "tension_max", "tension_min",
+    "friction_upper", "friction_lower", "lost_upper", "lost_lower", "pull_upper", "pull_lower",
+    "into_sheet", "peak_pressure_x", "strain_max",
+)  # fmt: skip
+
+
+def strain_at(stand: Standing) -> Array:
+    """Return the strain of the sheet at the nodes, (n,)."""
+    problem, state = stand.problem, stand.state
+    sheet = problem.sheet
+    tension = sheet.stretch_by_tension * problem.tension_at(state)
+    return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
+
+
+@dataclass(frozen=True, slots=True)
+class Refined:
+    """The last solution, its figures and their estimated errors.
+
+    Attributes
+    ----------
+    stand : the solution on the finest mesh.
+    figures, errors : see `SheetFigures`; errors inf where unknown.
+    residual : how badly it violates the conditions, see `violation` and `overlap`.
+    """
+
+    stand: Standing
+    figures: SheetFigures
+    errors: SheetFigures
+    residual: float
+
+
+def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Refined:
+    """Solve on ever finer meshes until the estimated errors are below the tolerance."""
+    search = Search(nip, model, kernels)
+    zones, stand, count = Zones.sticking(half_width), None, float(_FIRST_COUNT)
+    history: list[tuple[float, SheetFigures, Zones]] = []
+    best: Refined | None = None
+    for stiffer in _easier(nip, half_width):
+        eased = replace(search, nip=stiffer).begun(zones, _FIRST_COUNT)
+        zones = eased.zones
+    if model.geometry != "linear":
+        stand = search.begun(zones, _FIRST_COUNT)
+        zones = stand.zones
+    while count <= _MOST_COUNT:
+        stand = search.placed(zones, round(count), stand)
+        zones = stand.zones
+        figures = SheetFigures.of(stand, model.geometry)
+        here = (count, figures, zones)
+        errors = SheetFigures(_errors(nip, [*history, here]))
+        left = max(violation(stand), overlap(stand, kernels))
+        latest = Refined(stand, figures, errors, left)
+        if stand.settled:
+            history.append(here)
+            best = latest
+            if max(left, ratio(nip, figures, errors)) <= model.tolerance:
+                return latest
+        elif best is None:
+            best = latest
+        count *= _GROWTH
+    assert best is not None
+    return best
+
+
+def _easier(nip: Nip, half_width: float) -> list[Nip]:
+    """Return nips with stiffer sheets, the stiffest first, whose zones lead to those of the nip.
+
+    Under a sheet much softer than the coverings both interfaces pass on the same shear, and where
+    all sticks neither tells which of them slips.
+    """
+    sheet = nip.sheet
+    assert sheet is not None
+    times = _SOFT * half_width / sheet_layer(nip)
+    steps = ceil(log(times) / log(_EASED)) if times > 1.0 else 0
+    return [
+        replace(nip, sheet=replace(sheet, modulus=sheet.modulus * times ** ((steps - i) / steps)))
+        for i in range(steps)
+    ]
+
+
+def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:
+    """Return the largest relative error of the figures that the tolerance is for."""
+    relative = errors.values[:_WATCHED] / scales(nip, figures)[:_WATCHED]
+    if nip.has_half_space:
+        relative[0] = 0.0
+    worst = float(np.max(relative))
+    return worst if np.isfinite(worst) else inf
+
+
+def scales(nip: Nip, figures: SheetFigures) -> Array:
+    """Return the sizes that errors are relative to, (20,).
+
+    A creepage, traction, tension or loss that is zero by symmetry has no relative accuracy: each
+    size is at least a part of the largest value that the figure may have.
+    """
+    values = np.abs(figures.values)
+    load, slope = values[1], 0.5 * values[3] * nip.curvature
+    grip, work = 0.05 * load * min(nip.friction, 1.0), load * slope
+    viscous = [roller.is_viscoelastic for roller in (nip.upper, nip.lower)]
+    out = values.copy()
+    out[2] = scale_of_creepage(values[2], slope)
+    out[5:7] = scale_of_creepage(max(values[5], values[6]), slope)
+    out[7:9] = np.maximum(values[7:9], grip)
+    out[9:11] = max(values[9], values[10], grip)
+    out[11:13] = np.maximum(values[11:13], 0.05 * work * min(nip.friction, 1.0))
+    out[13:15] = np.where(viscous, np.maximum(values[13:15], 0.0025 * work), 0.0)
+    out[15:18] = np.maximum(values[15:18], work)
+    out[18] = values[3]
+    assert nip.sheet is not None
+    out[19] = max(values[19], nip.sheet.stretch_by_tension * out[9])
+    return np.asarray(out)
+
+
+def _errors(nip: Nip, history: list[tuple[float, SheetFigures, Zones]]) -> Array:
+    """Return the estimated errors from the changes between meshes.
+
+    The last change counts by the second order, or the first where the changes do not shrink so
+    fast; earlier changes by the second order. No error is less than the least of such meshes in
+    random nips.
+    """
+    count, figures, _ = history[-1]
+    if len(history) < 2:
+        return np.full(figures.values.size, inf)
+    steps = [np.abs(b.values - a.values) for (_, a, _), (_, b, _) in pairwise(history)]
+    ratios = [b / a for (a, _, _), (b, _, _) in pairwise(history)]
+    order = np.ones(figures.values.size)
+    if len(steps) > 1:
+        a, b, c = (1.0 / size**2 for size, _, _ in history[-3:])
+        order = np.where(steps[-1] > 1.05 * steps[-2] * (b - c) / (a - b), 1.0, 2.0)
+    error = steps[-1] * np.where(order > 1.0, _SAFETY, 1.0) / (ratios[-1] ** order - 1.0)
+    for step, grown, (size, _, _) in zip(steps[:-1], ratios[:-1], history[1:-1], strict=True):
+        error = np.maximum(error, _SAFETY * step / (grown**2 - 1.0) * (size / count) ** 2)
+    floor = _LEAST * scales(nip, figures) / count**2
+    prescribed = 1 if isinstance(nip.normal, LineLoad) else 0
+    floor[prescribed] = 0.0
+    return np.asarray(np.maximum(error, floor))
+
+
+SHARES_OF_FINITE = np.array(
+    [
+        *(1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3, 1e-2, 1e-2),
+        *(5e-3, 5e-3, 1e-2, 1e-2),
+        *(3e-3, 3e-3, 3e-3, 3e-3, 2e-3, 2e-3, 5e-3, 7e-3, 1e-2),
+    ]
+)
+"""Relative error that the second order of "finite" leaves in each figure, as for a bare nip."""

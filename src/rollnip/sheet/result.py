@@ -1,0 +1,115 @@
+"""What a solution says of its sheet: feed, tractions, tension, strain, slip below, grip."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.rolling import Zone
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class SheetProfiles:
+    """Distributions along the sheet, at the same places as those of the solution.
+
+    Attributes
+    ----------
+    x : (n,) [mm], towards the leading edge.
+    shear_lower : (n,) q_l on the sheet's underside along +x; on the lower roller it is -q_l [MPa].
+    tension : (n,) per width [N/mm]; outside the nip those that are prescribed.
+    strain : (n,) of the sheet's middle along the nip.
+    slip_velocity_lower : (n,) of the sheet relative to the lower surface, along +x [mm/s]; nan
+        outside the contact; None without speed.
+    """
+
+    x: Array
+    shear_lower: Array
+    tension: Array
+    strain: Array
+    slip_velocity_lower: Array | None
+
+
+@dataclass(frozen=True, slots=True)
+class Grip:
+    """How hard the sheet can be pulled before it slips through the nip.
+
+    The pull is the tension on the inlet side less that on the outlet side: what the rollers give
+    to the sheet, T_u - T_l. In full sliding each roller gives its friction times the load.
+
+    Attributes
+    ----------
+    pull : present [N/mm].
+    largest, smallest : pulls between which the nip holds the sheet [N/mm]; with a prescribed
+        traction or torque the lower roller's share stays as it is.
+    first : the side that slips first where the pull is raised; "both" where the rollers are
+        geared together, for then both slide before the sheet is lost.
+    use_upper, use_lower : traction of each interface over friction times load, in size.
+    """
+
+    pull: float
+    largest: float
+    smallest: float
+    first: Literal["upper", "lower", "both"]
+    use_upper: float
+    use_lower: float
+
+    @property
+    def reserve(self) -> float:
+        """Change of the pull, up or down, that makes the sheet slip through [N/mm]."""
+        return min(self.largest - self.pull, self.pull - self.smallest)
+
+
+@dataclass(frozen=True, slots=True)
+class SheetResult:
+    """The sheet of a solved nip. Units mm, N, MPa, s.
+
+    Attributes
+    ----------
+    creepage_upper, creepage_lower : (V_u - V_s)/V and (V_s - V_l)/V, V_s the speed of the sheet
+        free of tension.
+    feed_upper, feed_lower : V_s/V_u - 1 and V_s/V_l - 1: how much longer the fed sheet is than
+        what rolled off that roller, free of tension.
+    speed : V_s [mm/s]; None without speed.
+    traction_upper, traction_lower : T_u and T_l [N/mm].
+    tension_max, tension_min : in the nip [N/mm].
+    strain_max : the largest in size, with its sign.
+    friction_upper, friction_lower : losses by slip on either interface [N/s]; None without speed.
+    power : what the sheet takes: work against its tensions and the elastic energy that it carries
+        away [N/s]; None without speed.
+    zones_lower : stick and slip on the lower interface; directions are those of the slip velocity
+        of the sheet relative to the lower surface.
+    bending_length : over which its bending stiffness counts on these rollers, (D d/E)^(1/4) [mm].
+    grip : how hard it can be pulled.
+    profiles : along the sheet.
+    error : estimated errors by name, absolute.
+    """
+
+    creepage_upper: float
+    creepage_lower: float
+    feed_upper: float
+    feed_lower: float
+    speed: float | None
+    traction_upper: float
+    traction_lower: float
+    tension_max: float
+    tension_min: float
+    strain_max: float
+    friction_upper: float | None
+    friction_lower: float | None
+    power: float | None
+    zones_lower: tuple[Zone, ...]
+    bending_length: float
+    grip: Grip
+    profiles: SheetProfiles = field(repr=False)
+    error: Mapping[str, float] = field(repr=False)
+
+    @property
+    def grip_reserve(self) -> float:
+        """Change of the pull that makes the sheet slip through [N/mm]; see `Grip`."""
+        return self.grip.reserve

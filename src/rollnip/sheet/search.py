@@ -1,0 +1,310 @@
+"""The search for the zones of both interfaces and their ends, on meshes of one size.
+
+Edges and transitions lie at nodes, and the tractions at the first nodes beside them say where they
+move (`contact.Layout.moved`), which is Newton's method. Once the ends are about right, a solution
+tells whether its zones are right too; where they are not, stick and slip are sought node by node.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from math import inf, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import (
+    State,
+    States,
+    cosine_nodes,
+    crowding_of,
+    elements_of_zones,
+    subdivided,
+)
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rolling import PairKernels
+from rollnip.rolling.placing import boundary_layer
+from rollnip.rolling.surfaces import NO_SECOND_ORDER, pair_displacements
+from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
+from rollnip.sheet.system import (
+    SIGNS,
+    Factorised,
+    Lagged,
+    SheetProblem,
+    SheetState,
+    next_slip,
+    sheet_mesh_on,
+)
+from rollnip.sheet.zones import Zones
+
+Array = NDArray[np.float64]
+
+_SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
+_FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
+_PLACED = 0.1  # of the tolerance: what an end may be off, over the width
+_MOST_MESHES = 14
+_MOST_CHANGES = 5  # of zones, on meshes of one size
+_MOST_SLIPS = 30  # linear systems of one look for stick and slip
+_MOST_TURNS = 25
+_STILL = 0.1  # of the tolerance: last change of the lagged terms
+_OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
+_SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """A solution on a mesh, and where it stands in the search.
+
+    Attributes
+    ----------
+    zones : where it puts the zones.
+    problem, state, lagged : the solved problem.
+    change : last change of the lagged terms, relative.
+    off : how far ends were off, over the width.
+    steps : linear systems solved so far.
+    settled : whether zones and terms stand still.
+    """
+
+    zones: Zones
+    problem: SheetProblem
+    state: SheetState
+    lagged: Lagged
+    change: float
+    off: float
+    steps: int
+    settled: bool
+
+
+@dataclass(frozen=True)
+class Search:
+    """The search for the zones of a nip with a sheet, for one model."""
+
+    nip: Nip
+    model: Model
+    kernels: PairKernels
+
+    def begun(self, zones: Zones, count: int) -> Standing:
+        """Find a first solution, without terms that depend on it but a traction for a torque.
+
+        Ends of zones that are far off leave singular tractions, under which such terms mean
+        nothing.
+        """
+        plain = replace(self, model=replace(self.model, geometry="linear"))
+        stand = plain.placed(zones, count, None)
+        lagged = lagged_terms(stand.problem, self.model.geometry, stand.state)
+        return replace(stand, lagged=lagged)
+
+    def placed(self, zones: Zones, count: int, before: Standing | None) -> Standing:
+        """Find the solution on a mesh of some size with nodes at the ends of its zones."""
+        placed = _PLACED * self.model.tolerance
+        steps, changes, off = (0 if before is None else before.steps), 0, inf
+        known = 1.0 if before is None else min(before.off, 1.0)
+        elements: NDArray[np.intp] | None = None
+        crowding: tuple[float, ...] = ()
+        stand = before
+        earlier: tuple[Zones, Zones] | None = None
+        for _ in range(_MOST_MESHES):
+            zones = zones.without_slivers().aligned()
+            breaks = zones.breaks
+            crowd = self._crowding(breaks, known)
+            is_fine = crowd == self._crowding(breaks, 0.0)
+            if elements is None or crowd != crowding or elements.size != breaks.size - 1:
+                elements, crowding = elements_of_zones(breaks, count, crowd), crowd
+            problem = self._problem(zones, (elements, crowding), stand)
+            start = first_lagged(problem) if stand is None else carried(stand, problem)
+            stand = self._solved(problem, zones, start, steps, off)
+            steps = stand.steps
+            asked = zones.moved(problem, stand.state)
+            off = asked.distance(zones)
+            known = min(known, off)
+            rough = off > _FAIRLY_PLACED and not changes
+            if rough or violation(stand) <= self._slack:
+                if off <= placed and stand.settled and is_fine:
+                    return replace(stand, zones=asked, off=off)
+                there = asked if problem.is_squeezed else zones.hastened(asked, earlier)
+                earlier, zones = (zones, asked), there
+                continue
+            changes += 1
+            earlier = None
+            if changes > _MOST_CHANGES:
+                break
+            other = self._other(stand, asked)
+            stand, zones = (stand, asked) if other is None else other
+            steps, elements = stand.steps, None
+        assert stand is not None
+        return replace(stand, zones=zones, settled=False, off=off)
+
+    def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
+        """Return how nodes crowd at ends that are known to some share of the width."""
+        width = float(breaks[-1] - breaks[0])
+        return crowding_of(breaks, max(self.boundary, max(known, _SHORTEST_LAYER) * width))
+
+    @cached_property
+    def boundary(self) -> float:
+        """Length of the shortest boundary layer at the ends of zones [mm]."""
+        return min(boundary_layer(self.nip), sheet_layer(self.nip))
+
+    def _problem(
+        self,
+        zones: Zones,
+        shape: tuple[NDArray[np.intp], tuple[float, ...]],
+        before: Standing | None,
+    ) -> SheetProblem:
+        """Assemble the problem on a mesh with nodes at the ends of zones."""
+        nodes = cosine_nodes(zones.breaks, *shape)
+        kernels = self._holding(before)
+        mesh = sheet_mesh_on(nodes, kernels, subdivided(nodes, *shape))
+        return SheetProblem.on(self.nip, mesh)
+
+    def _holding(self, before: Standing | None) -> PairKernels:
+        """Return influence functions with the second order of the solution before."""
+        if self.kernels.is_linear:
+            return self.kernels
+        held = NO_SECOND_ORDER
+        if before is not None:
+            held = before.problem.mesh.second_fields(before.state)
+        return replace(self.kernels, held=held)
+
+    def _solved(
+        self, problem: SheetProblem, zones: Zones, lagged: Lagged, steps: int, off: float
+    ) -> Standing:
+        """Solve on one mesh with given zones, in turns of the lagged terms."""
+        system = Factorised.of(problem, zones.states_on(problem.mesh.inner))
+        change, still = 0.0, _STILL * self.model.tolerance
+        most = 2 if off > _FAIRLY_PLACED else _MOST_TURNS
+        for _ in range(most):
+            state = system.solved(lagged)
+            steps += 1
+            if has_none(problem, self.model.geometry):
+                break
+            updated = lagged_terms(problem, self.model.geometry, state)
+            change, lagged = change_of(updated, lagged, problem, state), updated
+            if not change > still:
+                break
+        settled = bool(change <= still and np.all(np.isfinite(state.pressure)))
+        return Standing(zones, problem, state, lagged, change, inf, steps, settled)
+
+    @property
+    def _slack(self) -> float:
+        return min(self.model.tolerance, _SLACK)
+
+    def _other(self, stand: Standing, edges: Zones) -> tuple[Standing, Zones] | None:
+        """Find other zones between known edges, node by node; None where there are none."""
+        problem, steps = stand.problem, stand.steps
+        states = next_slip(problem, stand.state, stand.lagged, self._slack)
+        seen: set[bytes] = set()
+        state = stand.state
+        for _ in range(_MOST_SLIPS):
+            state = problem.solve(_with_stick(states), stand.lagged)
+            steps += 1
+            ahead = next_slip(problem, state, stand.lagged, self._slack)
+            if np.array_equal(ahead, states):
+                break
+            seen.add(states.tobytes())
+            if ahead.tobytes() in seen:
+                first = np.flatnonzero((ahead != states).reshape(-1))[0]
+                single = states.copy()
+                single.reshape(-1)[first] = ahead.reshape(-1)[first]
+                ahead = single
+            states = ahead
+        zones = Zones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
+        if zones is None:
+            return None
+        return replace(stand, state=state, steps=steps), zones
+
+
+def violation(stand: Standing) -> float:
+    """Return how badly a solution violates the conditions of friction, relative.
+
+    The parts are shear beyond the traction bound over its largest value, and slip with its own
+    shear: the distance slipped so in a piece, over a twentieth of the nip's slope times its width
+    or the larger creepage times it.
+    """
+    state, problem = stand.state, stand.problem
+    creeps = problem.gap_and_creeps(state, stand.lagged)[1:]
+    peak, width = float(np.max(state.pressure)), float(np.ptp(problem.mesh.inner))
+    if not peak > 0.0:
+        return inf
+    slope = 0.5 * width * problem.nip.curvature
+    allowed = width * max(0.05 * slope, abs(state.creepage + state.creepage_lower))
+    parts = [0.0]
+    for side, friction in enumerate(problem.frictions):
+        states, bound = state.both_states[side], friction * np.maximum(state.pressure, 0.0)
+        over = (np.abs(state.shears[side]) - bound)[states == State.STICK]
+        parts.append(float(np.max(over, initial=0.0)) / (friction * peak))
+        signs = SIGNS.take(states)
+        slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
+        wrong = np.where(slips, np.maximum(-signs[:-1] * creeps[side, :-1], 0.0), 0.0)
+        parts.append(_longest_run(wrong) / allowed)
+    return max(parts)
+
+
+def overlap(stand: Standing, kernels: PairKernels) -> float:
+    """Return how far surfaces and sheet overlap outside the contact, and tension, relative.
+
+    Over the approach, or the depth of the gap at the edge; over the highest pressure.
+    """
+    problem, state = stand.problem, stand.state
+    nip, mesh = problem.nip, problem.mesh
+    width = stand.zones.width
+    away = width * _OUTSIDE
+    x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
+    acting = [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)]
+    made = pair_displacements(kernels, x, mesh.fine.nodes, np.stack(acting, axis=1))
+    lower = made[4, :, 0] + made[5, :, 2]
+    gap = 0.5 * nip.curvature * x**2 + made[1, :, 0] - made[2, :, 1] + lower - state.approach
+    clearance = np.interp(x, mesh.inner, stand.lagged.clearance)
+    sides = np.repeat([problem.sheet.tension_out, problem.sheet.tension_in], away.size)
+    gap += clearance + problem.sheet.stretch_by_pressure * sides
+    depth = 0.125 * nip.curvature * width**2
+    if not nip.has_half_space:
+        depth = max(depth, abs(state.approach))
+    peak = float(np.max(state.pressure))
+    pull = float(np.max(-state.pressure)) / peak if peak > 0.0 else inf
+    return max(0.0, float(np.max(-gap)) / depth, pull)
+
+
+def _longest_run(values: Array) -> float:
+    """Return the largest sum of a run of positive values."""
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    rest = np.maximum.accumulate(np.where(np.append(values, 0.0) > 0.0, 0.0, total))
+    return float(np.max(total - np.concatenate([[0.0], rest[:-1]])))
+
+
+def sheet_layer(nip: Nip) -> float:
+    """Return the length over which the sheet takes over a change of the shear [mm].
+
+    Over shorter lengths the surface of a roller yields less than the sheet is stretched by the
+    shears on it, over longer ones more: 1/(a E), a the strain of the sheet per tension and E the
+    glassy modulus of the surface. Beside a stiffer roller, a rigid one too, the shear through the
+    sheet's own thickness counts: sqrt(h/(3 G a)), about h.
+    """
+    sheet = nip.sheet
+    assert sheet is not None
+    by_tension = sheet.stretch_by_tension
+    through = sqrt(sheet.shear_by_thickness / (3.0 * by_tension))
+    materials = [roller.materials[0] for roller in (nip.upper, nip.lower) if roller.materials]
+    stiffest = max(material.glassy_modulus for material in materials)
+    along = 1.0 / (by_tension * stiffest)
+    rigid = nip.upper.is_rigid or nip.lower.is_rigid
+    return through if rigid else max(through, along)
+
+
+def _with_stick(states: States) -> States:
+    """Keep one node of each interface in stick: material sticks first where it comes in."""
+    out = states.copy()
+    for row in out:
+        if not (row == State.STICK).any():
+            row[np.flatnonzero(row != State.FREE)[-1]] = State.STICK
+    return out
+
+
+def carried(stand: Standing, problem: SheetProblem) -> Lagged:
+    """Return the lagged terms of a solution on another mesh."""
+    old, new, lagged = stand.problem.mesh, problem.mesh, stand.lagged
+    middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
+    offsets = [new.dx * np.interp(places, middles, row / old.dx) for row in lagged.offsets]
+    clearance = np.interp(new.inner, old.inner, lagged.clearance)
+    return replace(lagged, clearance=clearance, offsets=np.stack(offsets))

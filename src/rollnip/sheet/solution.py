@@ -1,0 +1,382 @@
+"""The result of a nip with a sheet: what `Solution` says, with two interfaces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from math import inf, isinf, nan
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import State
+from rollnip.contact import Zone as ContactZone
+from rollnip.interior import SurfaceTractions
+from rollnip.nip import Creepage, Nip, Torque, Traction
+from rollnip.rollers import Roller
+from rollnip.rolling import (
+    DeformedSurfaces,
+    Displacements,
+    Powers,
+    Profiles,
+    Round,
+    Zone,
+    claims,
+    fine_points,
+    stretch_excess,
+    surface_depths,
+    surface_strain,
+)
+from rollnip.rolling.surfaces import pair_displacements
+from rollnip.sheet.lagged import sheet_rate
+from rollnip.sheet.powers import SheetPowers, rates
+from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, Refined, scales
+from rollnip.sheet.result import Grip, SheetProfiles, SheetResult
+from rollnip.sheet.system import SheetState, frictions_of
+from rollnip.solution import Solution
+
+Array = NDArray[np.float64]
+_Side = Literal["upper", "lower"]
+_KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
+    State.STICK: ("stick", None),
+    State.SLIP_PLUS: ("slip", -1),
+    State.SLIP_MINUS: ("slip", 1),
+}
+
+
+@dataclass(frozen=True, repr=False)
+class SheetSolution(Solution):
+    """A solved nip with a sheet.
+
+    Everything that `Solution` says, with these differences: ``creepage`` is the difference of the
+    rollers' speeds, ``traction`` what the lower roller takes (T_l); ``shear``, ``zones`` and the
+    slip velocity are those of the upper interface, ``gap`` is the gap less the sheet.
+
+    Attributes
+    ----------
+    refined : the solution on the finest mesh and the estimated errors.
+    """
+
+    refined: Refined = field(kw_only=True, repr=False, compare=False)
+
+    @property
+    def sheet(self) -> SheetResult:
+        """What the solution says of the sheet."""
+        return self._sheet
+
+    @property
+    def creepage(self) -> float:
+        """Creepage xi = (V_u - V_l)/V, the sum of those of both interfaces."""
+        return self._state.creepage + self._state.creepage_lower
+
+    @property
+    def traction(self) -> float:
+        """Traction T_l [N/mm], what the lower roller takes; T_u is ``sheet.traction_upper``."""
+        return self._figure("traction_lower")
+
+    @property
+    def peak_pressure_x(self) -> float:
+        """Place of the highest pressure [mm]."""
+        return self._figure("peak_pressure_x")
+
+    @property
+    def power_in(self) -> float | None:
+        """Power of both axles, M_u V_u/R_u + M_l V_l/R_l [N/s]; None without speed.
+
+        It is the loss by friction, the viscous loss and what the sheet takes.
+        """
+        if self.nip.speed is None:
+            return None
+        spent, upper, lower = self._spent, self._figure("traction_upper"), self.traction
+        rate = rates(self.model.geometry, self._state)
+        creep = 0.5 * self.creepage if self.model.geometry == "linear" else 0.0
+        work = rate[0] * spent.driving_upper + rate[1] * spent.driving_lower
+        return self.nip.speed * (work + creep * (upper + lower))
+
+    @property
+    def error(self) -> dict[str, float]:
+        """Estimated errors, absolute, in the unit of each figure; nan where it is not defined."""
+        nip, geometry, final = self.nip, self.model.geometry, self.final
+        out = claims(nip, geometry, final)
+        mine = self._errors
+        speed = nan if nip.speed is None else nip.speed
+        load, length = self.load, self.nip_width
+        lost = mine["lost_upper"] + mine["lost_lower"]
+        torques = {"torque_upper": "upper", "torque_lower": "lower"}
+        for name, side in torques.items():
+            radius = nip.upper.radius if side == "upper" else nip.lower.radius
+            off = mine[f"pull_{side}"] + mine[f"lost_{side}"]
+            out[name] = nan if isinf(radius) else radius * off
+        half = 0.5 * self.creepage
+        traction = mine["traction_lower"]
+        if isinstance(nip.tangential, Traction):
+            traction = abs(self.traction - nip.tangential.traction)
+        return out | {
+            "traction": traction,
+            "dissipation_friction": speed * (mine["friction_upper"] + mine["friction_lower"]),
+            "dissipation_viscous": speed * lost,
+            "rolling_resistance": lost / load,
+            "peak_pressure_x": mine["peak_pressure_x"],
+            "mean_pressure": load / length * (out["nip_width"] / length + out["load"] / load),
+            "dwell_time": out["nip_width"] / speed,
+            "speed_ratio": out["creepage"] / (1.0 - half) ** 2,
+        }
+
+    @cached_property
+    def profiles(self) -> Profiles:
+        """Distributions in and outside the nip."""
+        x, u = self._points
+        speeds = self._roller_speeds
+        strains = [self._strain(x, side) for side in (0, 1)]
+        pressure = self._at(x, self.final.pressure)
+        upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
+        gap = upper + lower - self.final.state.approach + self._thinned(x, pressure)
+        return Profiles(
+            x=x,
+            pressure=pressure,
+            shear=self._at(x, self.final.shear),
+            gap=np.where(pressure > 0.0, 0.0, np.maximum(gap, 0.0)),
+            slip_velocity=self._slip(0),
+            strain_upper=strains[0],
+            strain_lower=strains[1],
+            speed_upper=None if speeds is None else speeds[0] * (1.0 + strains[0]),
+            speed_lower=None if speeds is None else speeds[1] * (1.0 + strains[1]),
+        )
+
+    @cached_property
+    def deformed_surfaces(self) -> DeformedSurfaces:
+        """Heights of both surfaces; between them lies the sheet, whose thickness is left out."""
+        x, u = self._points
+        upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
+        return DeformedSurfaces(x, upper - self.final.state.approach, -lower)
+
+    @cached_property
+    def _sheet(self) -> SheetResult:
+        state, speed = self._state, self.nip.speed
+        half = 0.5 * self.creepage
+        rate = sheet_rate(state.creepage, state.creepage_lower)
+        spent = self._spent
+
+        def power(value: float) -> float | None:
+            return None if speed is None else speed * value
+
+        return SheetResult(
+            creepage_upper=state.creepage,
+            creepage_lower=state.creepage_lower,
+            feed_upper=-state.creepage / (1.0 + half),
+            feed_lower=state.creepage_lower / (1.0 - half),
+            speed=power(rate),
+            traction_upper=self._figure("traction_upper"),
+            traction_lower=self.traction,
+            tension_max=self._figure("tension_max"),
+            tension_min=self._figure("tension_min"),
+            strain_max=self._figure("strain_max"),
+            friction_upper=power(spent.friction_upper),
+            friction_lower=power(spent.friction_lower),
+            power=power(spent.into_sheet),
+            zones_lower=self._zones(1),
+            bending_length=bending_length(self.nip),
+            grip=_grip(self.nip, self.load, self._figure("traction_upper"), self.traction),
+            profiles=self._sheet_profiles(),
+            error=self._sheet_errors(),
+        )
+
+    def _sheet_profiles(self) -> SheetProfiles:
+        x, _ = self._points
+        sheet, problem = self.nip.sheet, self.refined.stand.problem
+        assert sheet is not None
+        mesh, state = problem.mesh, self._state
+        tension = self._tension(x)
+        pressure = self._at(x, self.final.pressure)
+        strain = sheet.stretch_by_tension * tension + sheet.stretch_by_pressure * pressure
+        lower = self._at(x, mesh.acting(state.shear_lower))
+        return SheetProfiles(x, lower, tension, strain, self._slip(1))
+
+    def _sheet_errors(self) -> dict[str, float]:
+        """Return the errors of the figures of the sheet, by their names."""
+        mine, half = self._errors, 0.5 * self.creepage
+        speed = nan if self.nip.speed is None else self.nip.speed
+        names = ("creepage_upper", "creepage_lower", "traction_upper", "traction_lower")
+        out = {name: mine[name] for name in (*names, "tension_max", "tension_min", "strain_max")}
+        for name in ("friction_upper", "friction_lower"):
+            out[name] = speed * mine[name]
+        both = mine["creepage_upper"] + mine["creepage_lower"]
+        share = 0.5 * abs(self._state.creepage) * both
+        out["feed_upper"] = mine["creepage_upper"] / (1.0 + half) + share
+        share = 0.5 * abs(self._state.creepage_lower) * both
+        out["feed_lower"] = mine["creepage_lower"] / (1.0 - half) + share
+        return out
+
+    @cached_property
+    def _errors(self) -> dict[str, float]:
+        """Errors of all figures of the refinement, none less than the model's own."""
+        figures, values = self.refined.figures, self.refined.errors.values
+        share = SHARES_OF_FINITE if self.model.geometry == "finite" else 0.0
+        least = share * scales(self.nip, figures)
+        mine = dict(zip(NAMES, np.maximum(values, least).tolist(), strict=True))
+        if isinstance(self.nip.tangential, Creepage | Torque):
+            return mine
+        sheet = self.nip.sheet
+        assert sheet is not None
+        mine["traction_lower"] = abs(self.traction - self.nip.tangential.traction)
+        wanted = self.nip.tangential.traction + sheet.tension_in - sheet.tension_out
+        mine["traction_upper"] = abs(figures.traction_upper - wanted)
+        return mine
+
+    @cached_property
+    def zones(self) -> tuple[Zone, ...]:
+        """Stick and slip zones of the upper interface from trailing to leading edge."""
+        return self._zones(0)
+
+    def _zones(self, side: int) -> tuple[Zone, ...]:
+        layout = self.refined.stand.zones.sides[side]
+        return tuple(Zone(z.start, z.stop, *_KINDS[z.state]) for z in layout.zones)
+
+    @property
+    def _state(self) -> SheetState:
+        return self.refined.stand.state
+
+    @property
+    def _spent(self) -> SheetPowers:
+        return self.refined.figures.powers
+
+    def _figure(self, name: str) -> float:
+        return float(self.refined.figures.values[NAMES.index(name)])
+
+    @cached_property
+    def _powers(self) -> Powers:
+        spent = self._spent
+        return Powers(
+            friction=spent.friction_upper + spent.friction_lower,
+            lost_upper=spent.lost_upper,
+            lost_lower=spent.lost_lower,
+            pull_upper=spent.pull_upper,
+            pull_lower=spent.pull_lower,
+        )
+
+    def _tractions_on(self, roller: str) -> SurfaceTractions:
+        """Tractions on one surface in its own frame: (q_u, p) above and (-q_l, p) below."""
+        mesh, state = self.refined.stand.problem.mesh, self._state
+        shear = mesh.acting(state.shear if roller == "upper" else -state.shear_lower)
+        return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
+
+    def _of_side(self, side: int) -> Round:
+        """Return the last round with the shear of one interface."""
+        state = self._state
+        shear = state.shear if side == 0 else state.shear_lower
+        return replace(self.final, state=replace(state, shear=shear))
+
+    def _at(self, x: Array, traction: Array) -> Array:
+        return np.interp(x, self.final.x, traction, left=0.0, right=0.0)
+
+    def _strain(self, x: Array, side: int) -> Array:
+        name = ("upper", "lower")[side]
+        return surface_strain(
+            x, self.nip, self.model.geometry, self.kernels, self._of_side(side), side=name
+        )
+
+    def _tension(self, x: Array) -> Array:
+        """Return the tension of the sheet, exact at the nodes between which shears are linear."""
+        sheet, mesh, state = self.nip.sheet, self.refined.stand.problem.mesh, self._state
+        assert sheet is not None
+        nodes = self.final.nodes
+        pull = np.zeros(nodes.size)
+        pull[1:-1] = mesh.acting(state.shear - state.shear_lower)
+        pieces = 0.5 * np.diff(nodes) * (pull[1:] + pull[:-1])
+        beyond = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
+        values = sheet.tension_in - beyond
+        return np.interp(x, nodes, values, left=sheet.tension_out, right=sheet.tension_in)
+
+    def _thinned(self, x: Array, pressure: Array) -> Array:
+        """Return by how much the sheet is thinner than without load [mm]."""
+        sheet = self.nip.sheet
+        assert sheet is not None
+        return sheet.squeeze * pressure + sheet.stretch_by_pressure * self._tension(x)
+
+    @cached_property
+    def _points(self) -> tuple[Array, Displacements]:
+        """Places in and outside the nip, and the displacements of both surfaces there."""
+        x = fine_points(self.final)
+        mesh, state = self.refined.stand.problem.mesh, self._state
+        acting = np.stack(
+            [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)], axis=1
+        )
+        xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = pair_displacements(
+            self.kernels, x, mesh.fine.nodes, acting
+        )
+        four = [
+            xz_u[:, 0] + xx_u[:, 1],
+            zz_u[:, 0] - xz_u[:, 1],
+            xz_l[:, 0] - xx_l[:, 2],
+            zz_l[:, 0] + xz_l[:, 2],
+        ]
+        u = Displacements(np.stack(four))
+        return (x, u) if self.kernels.is_linear else (x, u + mesh.second_fields(state).at(x))
+
+    def _slip(self, side: int) -> Array | None:
+        """Return the slip velocity of the upper surface of an interface over the lower one."""
+        speed = self.nip.speed
+        if speed is None:
+            return None
+        x, u = self._points
+        stand = self.refined.stand
+        dx, state = np.diff(x), self._state
+        stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
+        sheet = self.nip.sheet
+        assert sheet is not None
+        strain = sheet.stretch_by_tension * self._tension(x)
+        strain += sheet.stretch_by_pressure * self._at(x, self.final.pressure)
+        mean = 0.5 * (strain[1:] + strain[:-1])
+        sign = 1.0 if side == 0 else -1.0
+        creepage = state.creepage if side == 0 else state.creepage_lower
+        rate = creepage + sign * (stretch - mean)
+        out = np.full(x.size, np.nan)
+        middle = 0.5 * (x[1:] + x[:-1])
+        for zone in stand.zones.sides[side].zones:
+            out[_inside(x, zone)] = 0.0
+            if zone.state != State.STICK:
+                within = _inside(x, zone)
+                out[within] = -speed * np.interp(x[within], middle, rate)
+        return out
+
+
+def _inside(x: Array, zone: ContactZone) -> NDArray[np.bool_]:
+    return np.asarray((x >= zone.start) & (x <= zone.stop))
+
+
+def bending_length(nip: Nip) -> float:
+    """Return (D d/E)^(1/4) on the softer covering, over which bending stiffness counts [mm].
+
+    D is the bending stiffness of the sheet, d and E thickness and relaxed modulus of the covering.
+    A half-space core takes the length (D/E)^(1/3).
+    """
+    assert nip.sheet is not None
+    stiffness = nip.sheet.bending_stiffness
+    lengths = [_on_covering(roller, stiffness) for roller in (nip.upper, nip.lower)]
+    return max(length for length in lengths if length < inf)
+
+
+def _on_covering(roller: Roller, stiffness: float) -> float:
+    if roller.is_rigid:
+        return inf
+    if not roller.layers:
+        assert roller.core is not None
+        return float((stiffness / roller.core.relaxed_modulus) ** (1.0 / 3.0))
+    yielding = sum(layer.thickness / layer.material.relaxed_modulus for layer in roller.layers)
+    return float((stiffness * yielding) ** 0.25)
+
+
+def _grip(nip: Nip, load: float, upper: float, lower: float) -> Grip:
+    mu_u, mu_l = frictions_of(nip)
+    geared = isinstance(nip.tangential, Creepage)
+    reach = (mu_u + mu_l) * load if geared else mu_u * load
+    kept = 0.0 if geared else lower
+    return Grip(
+        pull=upper - lower,
+        largest=reach - kept,
+        smallest=-reach - kept,
+        first="both" if geared else "upper",
+        use_upper=abs(upper) / (mu_u * load),
+        use_lower=abs(lower) / (mu_l * load),
+    )

@@ -1,0 +1,349 @@
+"""Two interfaces, one pressure: the linear system that given states of both interfaces make.
+
+Unknowns are the pressure p and the shears q_u on the upper and q_l on the lower roller's side of
+the sheet, the approach, and the creepages of both rollers against the sheet. The sheet's tension
+follows from the shears, dN/dx = q_u - q_l, and its strain is e = a N + b p with
+a = (1 - nu^2)/(E h) and b = nu (1 + nu)/E. Per interval, towards the leading edge:
+
+    gap          = clearance - delta + u_z,u + u_z,l + squeeze p + b N          = 0 in contact
+    creep, upper = xi_u dx + int (stretch_u - 1 - e_u) dx                       = 0 in stick
+    creep, lower = xi_l dx + int (e_l - (stretch_l - 1)) dx                     = 0 in stick
+
+e_u and e_l are the strains of the sheet's faces, which differ from e by the shear through its
+thickness: e_u = e - (h/G) d(q_u/3 + q_l/6)/dx, e_l = e + (h/G) d(q_u/6 + q_l/3)/dx. Beside a rubber
+covering this is nothing; on a bare rigid roller it keeps the shear continuous, over a length of
+about h, where stick ends.
+
+Slip: q = mu p sign(creep) on each interface, with its own coefficient mu.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack
+
+from rollnip.contact import ContactState, State, States, Subdivision
+from rollnip.nip import Creepage, LineLoad, Nip
+from rollnip.rolling import Displacements, PairKernels
+from rollnip.rolling.surfaces import Mesh, SecondFields, mesh_on
+from rollnip.sheet.matrices import influence, integrals, stable
+from rollnip.sheets import Sheet
+
+Array = NDArray[np.float64]
+
+SIGNS = np.array([0.0, 0.0, 1.0, -1.0])
+"""Signs of the shear in the states of a node, in their order."""
+_TINY = 1e-12  # mm/MPa
+_MUCH = 4.0
+
+
+@dataclass(frozen=True, slots=True)
+class SheetState(ContactState):
+    """A solution on a mesh; ``states``, ``shear`` and ``creepage`` are those of the upper side.
+
+    Attributes
+    ----------
+    states_lower : (n,) states of the nodes on the lower interface.
+    shear_lower : (n,) q_l [MPa].
+    creepage_lower : (V_s - V_l)/V. ``creepage`` is (V_u - V_s)/V.
+    """
+
+    states_lower: States
+    shear_lower: Array
+    creepage_lower: float
+
+    @property
+    def shears(self) -> Array:
+        """Return q_u and q_l, (2, n) [MPa]."""
+        return np.stack([self.shear, self.shear_lower])
+
+    @property
+    def both_states(self) -> States:
+        """Return the states of both interfaces, (2, n)."""
+        return np.stack([self.states, self.states_lower])
+
+
+class SheetMesh(Mesh):
+    """A mesh on which the lower roller has a shear of its own."""
+
+    __slots__ = ()
+
+    def linear(self, state: ContactState) -> Displacements:
+        """Return the displacements at nodes[1:], linear in the tractions."""
+        assert isinstance(state, SheetState)
+        xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = self.per_traction
+        p, above, below = state.pressure, state.shear, -state.shear_lower
+        return Displacements(
+            np.stack(
+                [
+                    xz_u @ p + xx_u @ above,
+                    zz_u @ p - xz_u @ above,
+                    xz_l @ p + xx_l @ below,
+                    zz_l @ p - xz_l @ below,
+                ]
+            )
+        )
+
+    def second_fields(self, state: ContactState) -> SecondFields:
+        """Return second-order displacements under a solution's tractions, as functions."""
+        assert isinstance(state, SheetState)
+        nodes, p = self.fine.nodes, self.acting(state.pressure)
+        upper = replace(self.kernels, second_lower=None)
+        lower = replace(self.kernels, second_upper=None)
+        above = upper.second_fields(nodes, p, self.acting(state.shear))
+        below = lower.second_fields(nodes, p, self.acting(state.shear_lower))
+        functions = above.functions[:2] + below.functions[2:]
+        return SecondFields(functions, above.ends[:2] + below.ends[2:])
+
+
+def sheet_mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision) -> SheetMesh:
+    """Evaluate the influence functions of both surfaces on a mesh."""
+    mesh = mesh_on(nodes, kernels, fine)
+    return SheetMesh(**{name: getattr(mesh, name) for name in Mesh.__slots__})
+
+
+@dataclass(frozen=True, slots=True)
+class Lagged:
+    """Terms that depend on the solution itself, taken from the last solution.
+
+    Attributes
+    ----------
+    clearance : (n,) added to the gap [mm].
+    offsets : (2, n) added to the creep of the upper and the lower interface [mm].
+    traction : T_l that gives the wanted torque [N/mm]; None where no torque is wanted.
+    lean : line load that the shears take from the pressure [N/mm].
+    """
+
+    clearance: Array
+    offsets: Array
+    traction: float | None
+    lean: float = 0.0
+
+
+@dataclass(frozen=True)
+class SheetProblem:
+    """The discrete problem on a mesh: everything that does not depend on the states.
+
+    Attributes
+    ----------
+    nip, sheet, mesh : the problem and where it is solved.
+    frictions : coefficients of the upper and the lower interface.
+    tension : (n, n) int_x^inf q dx at ``mesh.inner`` per nodal shear [mm].
+    over : (n, n) integral of ``tension`` over each interval [mm^2].
+    pressed : (n, n) int p dx over each interval per nodal pressure [mm].
+    own : (2, n) creep of each interval by the shear of its own node, without the tension that this
+        shear makes; negative [mm/MPa].
+    matrix : (3 n, 3 n) of gap, upper and lower creep per p, q_u and q_l [mm/MPa].
+    """
+
+    nip: Nip
+    sheet: Sheet
+    mesh: SheetMesh
+    frictions: tuple[float, float]
+    tension: Array
+    over: Array
+    pressed: Array
+    own: Array
+    matrix: Array
+
+    @classmethod
+    def on(cls, nip: Nip, mesh: SheetMesh) -> SheetProblem:
+        """Assemble the problem of a nip with a sheet on a mesh."""
+        sheet = nip.sheet
+        assert sheet is not None
+        at_nodes, over, pressed = integrals(mesh)
+        matrix = influence(mesh, sheet, (at_nodes, pressed))
+        n = mesh.inner.size
+        own = np.minimum(np.diagonal(matrix)[n:].reshape(2, n), -_TINY)
+        over = stable(mesh, sheet, over, own)
+        made = sheet.stretch_by_tension * over
+        blocks = matrix.reshape(3, n, 3, n)
+        for side, sign in ((1, 1.0), (2, -1.0)):
+            blocks[side, :, 1] += sign * made
+            blocks[side, :, 2] -= sign * made
+        return cls(nip, sheet, mesh, frictions_of(nip), at_nodes, over, pressed, own, matrix)
+
+    @property
+    def dx(self) -> Array:
+        """Return the lengths of the intervals [mm], (n,)."""
+        return self.mesh.dx
+
+    @property
+    def is_squeezed(self) -> bool:
+        """Return whether beside its edges the sheet gives way much more than both surfaces do."""
+        rollers = float(self.matrix[3, 3]) - self.sheet.squeeze
+        return self.sheet.squeeze > _MUCH * rollers
+
+    def right(self, lagged: Lagged) -> Array:
+        """Return what the tractions must make up for: (3, n) gaps and creeps, without unknowns."""
+        sheet, pulled = self.sheet, self.sheet.tension_in
+        stretch = sheet.stretch_by_tension * pulled * self.dx
+        gap = 0.5 * self.nip.curvature * self.mesh.inner**2 + lagged.clearance
+        gap += sheet.stretch_by_pressure * pulled
+        return np.stack([gap, lagged.offsets[0] - stretch, lagged.offsets[1] + stretch])
+
+    def tension_at(self, state: SheetState) -> Array:
+        """Return the tension of the sheet at ``mesh.inner``, (n,) [N/mm]."""
+        pulled = self.tension @ (state.shear - state.shear_lower)
+        return np.asarray(self.sheet.tension_in - pulled)
+
+    def strain_over(self, state: SheetState) -> Array:
+        """Return int e dx of the sheet over each interval, (n,) [mm]."""
+        tension = self.sheet.tension_in * self.dx - self.over @ (state.shear - state.shear_lower)
+        pressed = self.sheet.stretch_by_pressure * (self.pressed @ state.pressure)
+        return np.asarray(self.sheet.stretch_by_tension * tension + pressed)
+
+    def gap_and_creeps(self, state: SheetState, lagged: Lagged) -> Array:
+        """Return the gap at the nodes and the creep of both interfaces, (3, n) [mm]."""
+        tractions = np.concatenate([state.pressure, state.shear, state.shear_lower])
+        made = (self.matrix @ tractions).reshape(3, -1) + self.right(lagged)
+        made[0] -= state.approach
+        made[1] += state.creepage * self.dx
+        made[2] += state.creepage_lower * self.dx
+        return np.asarray(made)
+
+    def solve(self, states: States, lagged: Lagged, *, steps: int = 1) -> SheetState:
+        """Solve the linear system that given states of both interfaces make.
+
+        ``states``: (2, n). No condition is checked.
+
+        Raises
+        ------
+        numpy.linalg.LinAlgError
+            where the states leave the system singular.
+        """
+        return Factorised.of(self, states).solved(lagged, steps=steps)
+
+
+@dataclass(frozen=True, slots=True)
+class Factorised:
+    """The linear system that given states make, factorised."""
+
+    problem: SheetProblem
+    states: States
+    factors: Array
+    pivots: NDArray[np.intp]
+
+    @classmethod
+    def of(cls, problem: SheetProblem, states: States) -> Factorised:
+        """Factorise the system for given states (2, n)."""
+        factors, pivots, info = lapack.dgetrf(_matrix(problem, states).T, overwrite_a=1)
+        if info != 0:
+            raise np.linalg.LinAlgError("Singular matrix")
+        return cls(problem, states, factors, pivots)
+
+    def solved(self, lagged: Lagged, *, steps: int = 1) -> SheetState:
+        """Return the solution for these states."""
+        problem, states = self.problem, self.states
+        unknowns, info = lapack.dgetrs(
+            self.factors, self.pivots, _right_side(problem, states, lagged), trans=1
+        )
+        assert info == 0
+        contact, sticks = _places(states)
+        n, n_c = states.shape[1], contact.size
+        pressure = np.zeros(n)
+        pressure[contact] = unknowns[:n_c]
+        shears = _ratios(problem, states) * pressure
+        shears.reshape(-1)[sticks] = unknowns[n_c:-3]
+        approach, creepage, lower = unknowns[-3:].tolist()
+        return SheetState(
+            states=states[0],
+            pressure=pressure,
+            shear=shears[0],
+            approach=approach,
+            creepage=creepage,
+            steps=steps,
+            settled=True,
+            states_lower=states[1],
+            shear_lower=shears[1],
+            creepage_lower=lower,
+        )
+
+
+def frictions_of(nip: Nip) -> tuple[float, float]:
+    """Return the friction coefficients of the sheet on the upper and on the lower roller."""
+    return nip.friction_on("upper"), nip.friction_on("lower")
+
+
+def next_slip(problem: SheetProblem, state: SheetState, lagged: Lagged, slack: float) -> States:
+    """Return the states of both interfaces that creep and shear call for; (2, n).
+
+    Free nodes and those under tension keep theirs. Within ``slack`` of the highest pressure's
+    bound a node keeps its state.
+    """
+    creeps = problem.gap_and_creeps(state, lagged)[1:]
+    states = state.both_states
+    little = slack * float(np.abs(state.pressure).max())
+    kept = (states[0] != State.FREE) & (state.pressure >= -little)
+    out = states.copy()
+    for side, friction in enumerate(problem.frictions):
+        sought = state.shears[side] - creeps[side] / problem.own[side]
+        bound = friction * np.maximum(state.pressure, 0.0)
+        room = friction * little
+        plus = sought > bound + np.where(states[side] == State.SLIP_PLUS, -room, room)
+        minus = sought < -bound - np.where(states[side] == State.SLIP_MINUS, -room, room)
+        out[side, kept] = State.STICK
+        out[side, kept & plus] = State.SLIP_PLUS
+        out[side, kept & minus] = State.SLIP_MINUS
+    return out
+
+
+def _places(states: States) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Return the nodes in contact, and the places of sticking shears among both interfaces'."""
+    return (states[0] != State.FREE).nonzero()[0], (states == State.STICK).reshape(-1).nonzero()[0]
+
+
+def _ratios(problem: SheetProblem, states: States) -> Array:
+    """Return shear over pressure where interfaces slip, 0 elsewhere, (2, n)."""
+    return np.asarray(np.array(problem.frictions)[:, None] * SIGNS.take(states))
+
+
+def _matrix(problem: SheetProblem, states: States) -> Array:
+    """Return the matrix of gap in contact, creeps in stick, and the three prescribed quantities."""
+    n, (contact, sticks) = states.shape[1], _places(states)
+    n_c, size = contact.size, contact.size + sticks.size
+    rows = np.concatenate([contact, n + sticks])
+    ratios = _ratios(problem, states)
+    influence = problem.matrix.take(rows, axis=0)
+    for side, ratio in enumerate(ratios):
+        if ratio.any():
+            influence[:, :n] += influence[:, (1 + side) * n : (2 + side) * n] * ratio
+    matrix = np.zeros((size + 3, size + 3))
+    matrix[:size, :size] = influence.take(rows, axis=1)
+    matrix[:n_c, -3] = -1.0
+    in_upper = sticks < n
+    length = problem.dx[sticks % n]
+    matrix[n_c:size, -2] = np.where(in_upper, length, 0.0)
+    matrix[n_c:size, -1] = np.where(in_upper, 0.0, length)
+    weights = problem.mesh.weights
+    if isinstance(problem.nip.normal, LineLoad):
+        matrix[-3, :n_c] = weights[contact]
+    else:
+        matrix[-3, -3] = 1.0
+    # T_u - T_l, then T_l or the sum of the creepages.
+    pulls = np.zeros((2, size))
+    for side in (0, 1):
+        pulls[side, :n_c] = (weights * ratios[side])[contact]
+        pulls[side, n_c:] = np.where(in_upper == (side == 0), weights[sticks % n], 0.0)
+    matrix[-2, :size] = pulls[0] - pulls[1]
+    if isinstance(problem.nip.tangential, Creepage):
+        matrix[-1, -2:] = 1.0
+    else:
+        matrix[-1, :size] = pulls[1]
+    return matrix
+
+
+def _right_side(problem: SheetProblem, states: States, lagged: Lagged) -> Array:
+    contact, sticks = _places(states)
+    right, nip = problem.right(lagged), problem.nip
+    normal, tangential = nip.normal, nip.tangential
+    load = normal.load + lagged.lean if isinstance(normal, LineLoad) else normal.approach
+    last = tangential.creepage if isinstance(tangential, Creepage) else lagged.traction
+    assert last is not None
+    pulled = problem.sheet.tension_in - problem.sheet.tension_out
+    return np.concatenate(
+        [-right[0, contact], -right[1:].reshape(-1)[sticks], [load, pulled, last]]
+    )

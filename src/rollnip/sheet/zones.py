@@ -1,0 +1,216 @@
+"""Zones of stick and slip on both interfaces of a sheet, which share the edges of the contact."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import ContactState, Layout, States
+from rollnip.sheet.system import SheetProblem, SheetState
+
+Array = NDArray[np.float64]
+
+_TOGETHER = (
+    5e-4  # over the width: transitions of both interfaces so near to each other share a node
+)
+_SLOPES = 0.1, 3.0  # bounds of the move computed for an edge over how far it is off
+_SLIVER = 1e-3  # over the width: zones that are left out
+_OF_TRANSITIONS = 1.0 / 30.0  # of the distance of transitions, beside that of edges
+
+
+@dataclass(frozen=True, slots=True)
+class Zones:
+    """The zones of the upper and of the lower interface; both have the same edges.
+
+    Attributes
+    ----------
+    upper, lower : zones of either interface.
+    """
+
+    upper: Layout
+    lower: Layout
+
+    @classmethod
+    def sticking(cls, half_width: float) -> Zones:
+        """Return one zone of stick on both interfaces."""
+        return cls(Layout.sticking(half_width), Layout.sticking(half_width))
+
+    @property
+    def sides(self) -> tuple[Layout, Layout]:
+        """Return the zones of the upper and of the lower interface."""
+        return self.upper, self.lower
+
+    @property
+    def width(self) -> float:
+        """Return the width of the contact [mm]."""
+        return self.upper.width
+
+    @property
+    def edges(self) -> tuple[float, float]:
+        """Return the trailing and the leading edge [mm]."""
+        return self.upper.edges
+
+    @property
+    def is_proper(self) -> bool:
+        """Return whether all breaks are finite and every zone has a positive length."""
+        return self.upper.is_proper and self.lower.is_proper
+
+    @property
+    def breaks(self) -> Array:
+        """Return the breaks of both interfaces together, each once, (m,) [mm]."""
+        return np.unique(np.concatenate([side.breaks for side in self.sides]))
+
+    def is_like(self, other: Zones) -> bool:
+        """Return whether the other zones have the same states in the same order."""
+        pairs = zip(self.sides, other.sides, strict=True)
+        return all(np.array_equal(one.states, two.states) for one, two in pairs)
+
+    def distance(self, other: Zones) -> float:
+        """Return how far apart the breaks of like zones are, over the width.
+
+        Transitions count a thirtieth, for figures depend on them to second order.
+        """
+        moves = [np.abs(a.breaks - b.breaks) for a, b in zip(self.sides, other.sides, strict=True)]
+        edges = max(float(max(move[0], move[-1])) for move in moves)
+        inner = max(float(np.max(move[1:-1], initial=0.0)) for move in moves)
+        return max(edges, _OF_TRANSITIONS * inner) / other.width
+
+    def states_on(self, x: Array) -> States:
+        """Return the states of the nodes on both interfaces, (2, n)."""
+        return np.stack([side.states_on(x) for side in self.sides])
+
+    def aligned(self) -> Zones:
+        """Return these zones with transitions that nearly coincide moved onto their mean."""
+        near = _TOGETHER * self.width
+        places = [side.breaks.copy() for side in self.sides]
+        for i in range(1, places[0].size - 1):
+            apart = np.abs(places[1][1:-1] - places[0][i])
+            if apart.size and apart.min() < near:
+                j = 1 + int(np.argmin(apart))
+                places[0][i] = places[1][j] = 0.5 * (places[0][i] + places[1][j])
+        upper, lower = (Layout(p, s.states) for p, s in zip(places, self.sides, strict=True))
+        return Zones(upper, lower)
+
+    def moved(self, problem: SheetProblem, state: SheetState) -> Zones:
+        """Return the zones with their breaks moved to where a solution with them puts them.
+
+        A transition moves at most half way to its neighbours, and stays where the solution does not
+        say where it belongs: a zone that vanishes does so in several steps.
+        """
+        x = problem.mesh.inner
+        asked = [
+            side.moved(x, _as_contact(state, number), friction).breaks
+            for number, (side, friction) in enumerate(
+                zip(self.sides, problem.frictions, strict=True)
+            )
+        ]
+        edges = self.edges
+        if problem.is_squeezed:
+            trailing = _straight_edge(x[:4], state.pressure[:4])
+            leading = _straight_edge(x[:-5:-1], state.pressure[:-5:-1])
+        else:
+            trailing, leading = float(asked[0][0]), float(asked[0][-1])
+        if not (np.isfinite(trailing) and np.isfinite(leading) and trailing < leading):
+            trailing, leading = edges
+        sides = [
+            Layout(_held(side.breaks, wanted, (trailing, leading)), side.states)
+            for side, wanted in zip(self.sides, asked, strict=True)
+        ]
+        return Zones(sides[0], sides[1])
+
+    def hastened(self, asked: Zones, earlier: tuple[Zones, Zones] | None) -> Zones:
+        """Return the next zones: those asked for, with each edge by the secant of its last two.
+
+        ``earlier``: where the zones were on the mesh before, and where that solution put them.
+        Where the pressure does not rise as a square root from the edge, a sheet being squeezed
+        there, a solution moves its edges by a part of what is needed.
+        """
+        if earlier is None:
+            return asked
+        edges = []
+        for i in (0, -1):
+            here, there = float(self.upper.breaks[i]), float(earlier[0].upper.breaks[i])
+            step = float(asked.upper.breaks[i]) - here
+            before = float(earlier[1].upper.breaks[i]) - there
+            slope = (before - step) / (here - there) if here != there else 1.0
+            edges.append(here + step / min(max(slope, _SLOPES[0]), _SLOPES[1]))
+        pair = edges[0], edges[1]
+        sides = [Layout(_held(side.breaks, side.breaks, pair), side.states) for side in asked.sides]
+        return Zones(sides[0], sides[1]) if edges[0] < edges[1] else asked
+
+    def without_slivers(self) -> Zones:
+        """Return the zones without those too short to matter."""
+        sides = [_without_slivers(side, _SLIVER * self.width) for side in self.sides]
+        return Zones(sides[0], sides[1])
+
+    @classmethod
+    def found(
+        cls,
+        x: Array,
+        state: SheetState,
+        frictions: tuple[float, float],
+        edges: tuple[float, float],
+    ) -> Zones | None:
+        """Return the zones of nodal states in a contact with known edges; None if unclear."""
+        sides = [
+            Layout.found(x, _as_contact(state, number), friction, edges)
+            for number, friction in enumerate(frictions)
+        ]
+        upper, lower = sides
+        return None if upper is None or lower is None else cls(upper, lower)
+
+
+def _as_contact(state: SheetState, side: int) -> ContactState:
+    """Return one interface of a solution as if it were all of it."""
+    return ContactState(
+        states=state.both_states[side],
+        pressure=state.pressure,
+        shear=state.shears[side],
+        approach=state.approach,
+        creepage=state.creepage,
+        steps=state.steps,
+        settled=state.settled,
+    )
+
+
+def _straight_edge(x: Array, pressure: Array) -> float:
+    """Return where a pressure that rises in proportion to the distance begins; nan if nowhere.
+
+    ``x`` and ``pressure`` begin at the edge. So rises the pressure of a sheet that is squeezed
+    between surfaces stiffer than itself.
+    """
+    rise = (pressure[3] - pressure[2]) / (x[3] - x[2])
+    return float(x[2] - pressure[2] / rise) if rise * (x[3] - x[0]) > 0.0 else float("nan")
+
+
+def _held(breaks: Array, asked: Array, edges: tuple[float, float]) -> Array:
+    """Return the wanted breaks, each transition held between the middles of its zones."""
+    out = breaks.copy()
+    middles = 0.5 * (breaks[1:] + breaks[:-1])
+    wanted = np.where(np.isfinite(asked), asked, breaks)
+    out[1:-1] = np.clip(wanted[1:-1], middles[:-1], middles[1:])
+    out[0], out[-1] = edges
+    if not np.all(np.diff(out) > 0.0):  # an edge moved across a transition: keep the shares
+        share = (breaks - breaks[0]) / (breaks[-1] - breaks[0])
+        out = edges[0] + share * (edges[1] - edges[0])
+    return np.asarray(out)
+
+
+def _without_slivers(layout: Layout, least: float) -> Layout:
+    """Return a layout without zones shorter than ``least`` [mm], where their neighbours agree."""
+    breaks, states = layout.breaks.tolist(), layout.states.tolist()
+    number = 0
+    while len(states) > 1 and number < len(states):
+        if breaks[number + 1] - breaks[number] >= least:
+            number += 1
+        elif number in (0, len(states) - 1):
+            del breaks[1 if number == 0 else -2], states[number]
+            number = 0
+        elif states[number - 1] == states[number + 1]:
+            del breaks[number : number + 2], states[number : number + 2]
+            number = 0
+        else:
+            number += 1
+    return Layout(np.array(breaks), np.array(states, dtype=np.int8))

@@ -1,0 +1,92 @@
+"""Wrong sheets are refused in one sentence; doubtful ones are solved with a warning."""
+
+from dataclasses import replace
+
+import pytest
+from sheet_nips import RIGID, nip_with, paper
+
+import rollnip as rn
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [
+        ("thickness", 0.0),
+        ("modulus", -1.0),
+        ("poisson", 0.6),
+        ("modulus_thickness", 0.0),
+        ("tension_in", -0.1),
+        ("tension_out", -0.1),
+        ("friction_upper", 0.0),
+        ("friction_lower", -0.3),
+    ],
+)
+def test_values_outside_their_range_are_refused(name, value):
+    with pytest.raises(rn.InvalidInputError, match=rf"^`{name}` must .*got -?\d.*\.$"):
+        replace(paper(), **{name: value})
+
+
+@pytest.mark.parametrize(
+    ("sheet", "more", "said"),
+    [
+        (paper(tension_in=2.0), {}, "slips through"),
+        (paper(tension_in=1.0), {}, "slides on the upper roller"),
+        (paper(), {"tangential": rn.Traction(0.9)}, "slides on the lower roller"),
+        (paper(), {"friction": 0.0}, "`friction_upper` of the sheet must be given"),
+        (replace(paper(), thickness=5.0), {}, "thinner|smaller than the coverings are thick"),
+        ("paper", {}, "`sheet` must be Sheet or None"),
+    ],
+)
+def test_nips_that_cannot_hold_their_sheet_are_refused(sheet, more, said):
+    with pytest.raises(rn.InvalidInputError, match=said) as caught:
+        nip_with(sheet, **more)
+    assert "\n" not in str(caught.value)
+
+
+def test_friction_of_the_sheet_may_stand_in_for_that_of_the_nip():
+    sheet = paper(friction_upper=0.4, friction_lower=0.4)
+    solution = rn.solve(nip_with(sheet, friction=0.0), rn.Model(geometry="linear"))
+    assert solution.converged
+
+
+def test_a_torque_that_friction_cannot_hold_is_refused():
+    nip = nip_with(paper(), friction=0.1, tangential=rn.Torque(-50.0))
+    with pytest.raises(rn.InvalidInputError, match=r"^`torque_lower` asks the sheet"):
+        rn.solve(nip, rn.Model(geometry="linear"))
+
+
+def test_the_corrected_geometry_is_refused():
+    with pytest.raises(rn.InvalidInputError, match="with a sheet"):
+        rn.solve(nip_with(paper()), rn.Model(geometry="corrected"))
+
+
+def test_a_sheet_that_is_pushed_is_warned_of():
+    # Below free tension a rubber that bulges pushes the slipping sheet at the trailing edge.
+    solution = rn.solve(nip_with(paper(), friction=0.15), rn.Model(geometry="linear"))
+    assert solution.sheet.tension_min < -1e-3
+    assert any("pushed" in line for line in solution.warnings)
+
+
+def test_a_stiff_sheet_is_warned_of():
+    board = rn.SHEETS["board"]
+    solution = rn.solve(nip_with(board), rn.Model(geometry="linear"))
+    length = solution.sheet.bending_length
+    # (D d/E)^(1/4) on the softer covering, by hand
+    stiffness = 4500.0 * 0.4**3 / (12.0 * (1.0 - 0.3**2))
+    assert length == pytest.approx((stiffness * 2.0 / 0.91) ** 0.25, rel=1e-12)
+    assert any("bending stiffness" in line for line in solution.warnings)
+    thin = rn.solve(nip_with(rn.SHEETS["aluminium foil"]), rn.Model(geometry="linear"))
+    assert not any("bending stiffness" in line for line in thin.warnings)
+
+
+def test_a_bare_roller_on_either_side():
+    sheet = paper(tension_in=0.05)
+    for side in ("upper", "lower"):
+        solution = rn.solve(nip_with(sheet, friction=0.3, **{side: RIGID}))
+        assert solution.converged, side
+
+
+def test_usual_sheets_have_sources():
+    from rollnip.sheets import SHEET_SOURCES, SHEETS
+
+    assert list(SHEETS) == list(SHEET_SOURCES)

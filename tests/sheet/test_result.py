@@ -1,0 +1,145 @@
+"""What a solution says of its sheet, as figures, texts and files."""
+
+import json
+
+import numpy as np
+import pytest
+from sheet_nips import nip_with, paper
+
+import rollnip as rn
+from rollnip._results.tree import result_dict
+from rollnip.io import base_tree, case_python, case_toml, parse_case
+from rollnip.sheet_figures import SHEET_FIGURES
+from rollnip.sweeps.row import SCALARS, evaluate
+
+CASE = {
+    "nip": {"load": 1.78, "friction": 0.3, "speed": 100.0},
+    "model": {"geometry": "linear"},
+    "sheet": {"thickness": "0.1 mm", "modulus": "3.5 GPa", "tension_in": "0.2 N/mm"},
+    "upper": {
+        "radius": 50.0,
+        "layers": [
+            {"thickness": 2.0, "material": {"model": "elastic", "modulus": 0.91, "poisson": 0.5}}
+        ],
+    },
+    "lower": {"radius": 25.0},
+}  # fmt: skip
+
+
+def test_feed_is_the_sheet_over_either_roller(pulled):
+    sheet, speed = pulled.sheet, 100.0
+    upper, lower = speed * (1.0 + 0.5 * pulled.creepage), speed * (1.0 - 0.5 * pulled.creepage)
+    assert sheet.feed_upper == pytest.approx(sheet.speed / upper - 1.0, abs=1e-12)
+    assert sheet.feed_lower == pytest.approx(sheet.speed / lower - 1.0, abs=1e-12)
+    assert pulled.creepage == pytest.approx(sheet.creepage_upper + sheet.creepage_lower, abs=1e-12)
+
+
+def test_grip_is_what_friction_leaves(pulled):
+    grip = pulled.sheet.grip
+    # The lower roller takes nothing, so the upper one holds the sheet alone.
+    assert grip.pull == pytest.approx(0.15, abs=1e-9)
+    assert grip.largest == pytest.approx(0.3 * 1.78, rel=1e-6)
+    assert grip.smallest == pytest.approx(-0.3 * 1.78, rel=1e-6)
+    assert grip.reserve == pytest.approx(0.3 * 1.78 - 0.15, rel=1e-6)
+    assert grip.first == "upper"
+
+
+def test_just_below_the_grip_there_is_a_solution_and_the_upper_side_slides():
+    sheet = paper(tension_in=0.98 * 0.3 * 1.78)
+    solution = rn.solve(nip_with(sheet, friction=0.3), rn.Model(geometry="linear"))
+    assert solution.converged
+    stuck = sum(z.stop - z.start for z in solution.zones if z.state == "stick")
+    below = sum(z.stop - z.start for z in solution.sheet.zones_lower if z.state == "stick")
+    assert stuck < 0.2 * solution.nip_width < below
+
+
+def test_geared_rollers_hold_with_both():
+    nip = nip_with(paper(tension_in=0.6), friction=0.3, tangential=rn.Creepage(0.0))
+    solution = rn.solve(nip, rn.Model(geometry="linear"))
+    assert solution.converged
+    assert solution.sheet.grip.largest == pytest.approx(2.0 * 0.3 * 1.78, rel=1e-6)
+    assert solution.sheet.grip.first == "both"
+
+
+def test_json_holds_the_sheet(pulled):
+    tree = json.loads(json.dumps(result_dict(pulled), allow_nan=False))
+    sheet = tree["sheet"]
+    names = {key.partition(".")[2] for key in SHEET_FIGURES}
+    assert names <= set(sheet)
+    assert sheet["creepage_upper"] == pulled.sheet.creepage_upper
+    assert tree["traction"] == pytest.approx(sheet["traction_lower"])
+    assert len(sheet["profiles"]["x"]) == len(sheet["profiles"]["tension"])
+    assert sheet["profiles"]["x"] == tree["profiles"]["x"]
+    assert {zone["state"] for zone in sheet["zones_lower"]} <= {"stick", "slip"}
+    assert set(sheet["error"]) == {
+        one.key.partition(".")[2] for one in SHEET_FIGURES.values() if one.claimed
+    }
+    assert tree["case"]["sheet"]["tension_in"] == 0.2
+
+
+def test_without_a_sheet_a_result_has_no_such_key(pulled):
+    bare = rn.solve(nip_with(None), rn.Model(geometry="linear"))
+    assert bare.sheet is None
+    assert "sheet" not in result_dict(bare, interfaces=False)
+
+
+def test_summary_and_dataset_have_it(pulled):
+    text = pulled.summary()
+    assert "feed over the upper roller" in text
+    assert "Stick and slip, lower side of the sheet" in text
+    data = pulled.to_xarray()
+    assert float(data["sheet_tension_max"]) == pulled.sheet.tension_max
+    assert data["sheet_tension"].dims == ("x",)
+    assert data.sizes["lower_zone"] == len(pulled.sheet.zones_lower)
+
+
+def test_a_case_file_holds_it_in_any_unit():
+    sheet = parse_case(CASE).nip.sheet
+    assert sheet == rn.Sheet(thickness=0.1, modulus=3500.0, tension_in=0.2)
+    named = CASE | {"sheet": {"kind": "office paper", "tension_out": "0.1 N/mm"}}
+    found = parse_case(named).nip.sheet
+    assert (found.thickness, found.tension_out) == (rn.SHEETS["office paper"].thickness, 0.1)
+    assert parse_case(case_toml(CASE)).nip.sheet == sheet
+    assert base_tree(CASE)["sheet"]["modulus"] == 3500.0
+    assert "rn.Sheet(" in case_python(parse_case(CASE))
+
+
+@pytest.mark.parametrize(
+    ("table", "said"),
+    [
+        ({"thickness": 0.1}, "sheet.modulus: is missing."),
+        ({"kind": "ofice paper"}, 'did you mean "office paper"?'),
+        ({"thickness": 0.1, "modulus": 3500, "poison": 0.3}, 'did you mean "poisson"?'),
+        ({"thickness": 0.1, "modulus": 3500, "tension_in": -1}, "sheet.tension_in: must"),
+        ({"thickness": 0.1, "modulus": 3500, "tension_in": 5}, "sheet.tension_in: "),
+        ({"thickness": 3.0, "modulus": 3500}, "sheet.thickness: "),
+    ],
+)
+def test_a_wrong_table_is_one_line(table, said):
+    with pytest.raises(rn.CaseFileError) as caught:
+        parse_case(CASE | {"sheet": table})
+    assert said in str(caught.value)
+    assert "\n" not in str(caught.value)
+
+
+def test_sweeps_know_its_figures():
+    row = evaluate(CASE)
+    assert row["status"] == "solved", row["message"]
+    assert row["sheet.feed_upper"] > 0.0
+    assert row["error.sheet.feed_upper"] > 0.0
+    assert SCALARS["sheet.tension_max"] == "N/mm"
+    bare = {name: table for name, table in CASE.items() if name != "sheet"}
+    assert evaluate(bare)["sheet.feed_upper"] is None
+
+
+def test_stresses_inside_come_from_the_shear_of_that_side(pulled):
+    # At the surface the shear stress is the traction: -q_u above, q_l below (own frames).
+    x = pulled.nodes[np.argmax(pulled.pressure)]
+    upper = pulled.interior("upper", 1e-4, x).s_xz[0, 0]
+    lower = pulled.interior("lower", 1e-4, x).s_xz[0, 0]
+    profiles = pulled.profiles
+    above = np.interp(x, profiles.x, profiles.shear)
+    below = np.interp(x, profiles.x, pulled.sheet.profiles.shear_lower)
+    assert upper == pytest.approx(-above, abs=2e-3 * pulled.peak_pressure)
+    assert lower == pytest.approx(below, abs=2e-3 * pulled.peak_pressure)
+    assert abs(above - below) > 0.02 * pulled.peak_pressure

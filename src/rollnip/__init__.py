@@ -58,7 +58,7 @@ if TYPE_CHECKING:
         PivotArm,
         Shaft,
     )
-    from rollnip.sheets import SHEETS, Sheet
+    from rollnip.sheets import Sheet
     from rollnip.solution import Solution
     from rollnip.solver import solve
     from rollnip.sweeps import sweep
@@ -107,7 +107,7 @@ _HOMES = {
         "PivotArm",
         "Shaft",
     ),
-    "rollnip.sheets": ("SHEETS", "Sheet"),
+    "rollnip.sheets": ("Sheet",),
     "rollnip.solution": ("Solution",),
     "rollnip.solver": ("solve",),
     "rollnip.sweeps": ("sweep",),
@@ -115,7 +115,6 @@ _HOMES = {
 _HOME = {name: module for module, names in _HOMES.items() for name in names}
 
 __all__ = [
-    "SHEETS",
     "WLF",
     "Across",
     "Approach",

@@ -17,7 +17,7 @@ from rollnip._errors import (
 @with_hints(
     tension="give `tension_in` and `tension_out`, on the inlet and the outlet side.",
     friction="give `friction_upper` and `friction_lower`; both are the nip's by default.",
-    grammage="give `thickness`; rn.SHEETS has the usual ones.",
+    grammage="give `thickness`; `rn.Sheet.usual` knows the usual ones.",
 )
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Sheet:
@@ -68,6 +68,20 @@ class Sheet:
         if not -1.0 < poisson <= 0.5:
             raise InvalidInputError(f"`poisson` must lie in (-1, 0.5], got {self.poisson!r}.")
         object.__setattr__(self, "poisson", poisson)
+
+    @classmethod
+    def usual(cls, name: str) -> Sheet:
+        """Return a usual sheet of `SHEETS`, such as "office paper", without tension.
+
+        Raises
+        ------
+        InvalidInputError
+            where there is none of this name.
+        """
+        if name not in SHEETS:
+            known = ", ".join(SHEETS)
+            raise InvalidInputError(f"`name` must be one of {known}, got {name!r}.")
+        return SHEETS[name]
 
     @property
     def stretch_by_tension(self) -> float:

@@ -68,14 +68,14 @@ def test_a_sheet_that_is_pushed_is_warned_of():
 
 
 def test_a_stiff_sheet_is_warned_of():
-    board = rn.SHEETS["board"]
+    board = rn.Sheet.usual("board")
     solution = rn.solve(nip_with(board), rn.Model(geometry="linear"))
     length = solution.sheet.bending_length
     # (D d/E)^(1/4) on the softer covering, by hand
     stiffness = 4500.0 * 0.4**3 / (12.0 * (1.0 - 0.3**2))
     assert length == pytest.approx((stiffness * 2.0 / 0.91) ** 0.25, rel=1e-12)
     assert any("bending stiffness" in line for line in solution.warnings)
-    thin = rn.solve(nip_with(rn.SHEETS["aluminium foil"]), rn.Model(geometry="linear"))
+    thin = rn.solve(nip_with(rn.Sheet.usual("aluminium foil")), rn.Model(geometry="linear"))
     assert not any("bending stiffness" in line for line in thin.warnings)
 
 
@@ -84,6 +84,17 @@ def test_a_bare_roller_on_either_side():
     for side in ("upper", "lower"):
         solution = rn.solve(nip_with(sheet, friction=0.3, **{side: RIGID}))
         assert solution.converged, side
+
+
+def test_an_unknown_usual_sheet_is_refused():
+    with pytest.raises(rn.InvalidInputError, match="`name` must be one of office paper"):
+        rn.Sheet.usual("ofice paper")
+
+
+def test_geometry_full_says_that_it_is_finite():
+    solution = rn.solve(nip_with(paper()), rn.Model(geometry="full"))
+    assert solution.model.geometry == "finite"
+    assert any('"full" is for nips without a sheet' in line for line in solution.warnings)
 
 
 def test_usual_sheets_have_sources():

@@ -98,7 +98,7 @@ def test_a_case_file_holds_it_in_any_unit():
     assert sheet == rn.Sheet(thickness=0.1, modulus=3500.0, tension_in=0.2)
     named = CASE | {"sheet": {"kind": "office paper", "tension_out": "0.1 N/mm"}}
     found = parse_case(named).nip.sheet
-    assert (found.thickness, found.tension_out) == (rn.SHEETS["office paper"].thickness, 0.1)
+    assert (found.thickness, found.tension_out) == (rn.Sheet.usual("office paper").thickness, 0.1)
     assert parse_case(case_toml(CASE)).nip.sheet == sheet
     assert base_tree(CASE)["sheet"]["modulus"] == 3500.0
     assert "rn.Sheet(" in case_python(parse_case(CASE))

@@ -56,9 +56,16 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
             '`geometry` must be "linear", "curved" or "finite" with a sheet, got "corrected".'
         )
     _require_torque(nip)
+    simpler: tuple[str, ...] = ()
+    if model.geometry == "full":
+        model = replace(model, geometry="finite")
+        simpler = (
+            'Geometry "full" is for nips without a sheet: all figures are those of "finite".',
+        )
     kernels, refined, left = _refined(nip, model, cache)
     if left:
         model = replace(model, geometry="curved")
+    left = simpler + left
     _require_grip(nip, refined)
     final = as_round(nip, refined)
     converged, status = _verdict(nip, model, refined, final)

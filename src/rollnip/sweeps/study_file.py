@@ -73,7 +73,7 @@ class _Reader:
         return study
 
     def _scalars(self) -> dict[str, str]:
-        """Return the results that cases have: those of face, heat and sheet only where asked."""
+        """Return the results that cases have: those of face, heat and sheet where there is one."""
         absent = [f"{table}." for table in ("face", "heat", "sheet") if table not in self.case]
         return {
             name: unit

@@ -132,8 +132,7 @@ def solve(
 
             print_summary(solution)
             _print_face(along)
-            if problem.heat is not None:
-                write("\nThe case has a table [heat]: `rollnip heat` finds its temperatures.\n")
+            _print_hint(problem)
     if not solution.converged or (along is not None and not along.converged):
         raise typer.Exit(1)
 
@@ -161,6 +160,11 @@ def _print_face(along: FaceSolution | None) -> None:
         from rollnip.face.report import face_lines
 
         write("\n" + "\n".join(face_lines(along)) + "\n")
+
+
+def _print_hint(problem: Case) -> None:
+    if problem.heat is not None:
+        write("\nThe case has a table [heat]: `rollnip heat` finds its temperatures.\n")
 
 
 @app.command()

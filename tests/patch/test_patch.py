@@ -399,3 +399,23 @@ def test_shapes_across():
     assert np.all(np.isinf(depth[4:]))
     with pytest.raises(rn.InvalidInputError, match="end_radius"):
         rn.Across(end_radius=1.0)
+
+
+@pytest.mark.slow
+def test_a_stiff_skin_on_a_soft_covering_rolls():
+    """A skin 250 times as stiff as the covering below: shear spreads far beyond where it acts."""
+    skin = rn.Layer(0.2, rn.Elastic(modulus=500.0, poisson=0.4))
+    soft = rn.Layer(5.0, rn.Elastic(modulus=2.0, poisson=0.2))
+    patch = rn.Patch(
+        upper=rn.Roller(radius=50.0, layers=[skin, soft]),
+        lower=rn.Roller(radius=50.0),
+        across_upper=rn.Across(radius=200.0),
+        normal=rn.Force(50.0),
+        friction=0.5,
+        along=rn.Force(10.0),
+    )
+    got = rn.solve_patch(patch, grid=(64, 64))
+    assert got.level.settled
+    check_conditions(got)
+    assert got.traction_x == pytest.approx(10.0, rel=1e-3)
+    assert 0.0 < got.creepage < 0.02

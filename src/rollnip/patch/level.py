@@ -15,9 +15,12 @@ from rollnip.patch.normal import NormalProblem, NormalState, solve_normal
 from rollnip.patch.preconditioner import symbols
 from rollnip.patch.rolling import RollingProblem, RollingState, solve_rolling
 from rollnip.patches import Force, Patch
+from rollnip.rollers import Roller
 
 Mask = NDArray[np.bool_]
 
+_WAVES = 24
+"""Wave numbers at which the softness to shear is looked for."""
 _SAME = 10.0
 """Pressure and shear are taken to agree where a turn changes p by this times the tolerance."""
 _TURNS = 40
@@ -118,8 +121,7 @@ def _rolled(
     """Return shear and creepages under the pressures at hand."""
     contact = normal.pressure > 0.0
     rollers = (patch.upper, patch.lower)
-    highest = np.array([np.pi / min(products.grid.hx, products.grid.hy)])
-    softness = sum(float(waves_of(r, highest).s[0] * highest[0]) for r in rollers if not r.is_rigid)
+    softness = _softness(rollers, products.grid)
     problem = RollingProblem(
         products=products,
         bound=patch.friction * normal.pressure,
@@ -130,6 +132,13 @@ def _rolled(
         stiffness=1.0 / softness,
     )
     return solve_rolling(problem, tolerance, start[1])
+
+
+def _softness(rollers: tuple[Roller, Roller], grid: Grid) -> float:
+    """Return the largest creep per shear of a wave that the grid holds [1/MPa]."""
+    k = np.geomspace(np.pi / (grid.nx * grid.hx), np.pi / min(grid.hx, grid.hy), _WAVES)
+    made = sum(waves_of(roller, k).s * k for roller in rollers if not roller.is_rigid)
+    return float(np.max(made))
 
 
 def _force_of(drive: Creepage | Force) -> float | None:

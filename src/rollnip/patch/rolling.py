@@ -31,6 +31,9 @@ from rollnip.patch.linear import Cone, LinearSystem
 Mask = NDArray[np.bool_]
 
 _MOST_STEPS = 40
+_FARTHEST = 2.0
+"""Most that a step changes a creepage, in creeps at which the whole contact would slip: where
+little sticks, the force hardly says how fast the rest slips."""
 _LINEAR = 0.03
 """Share of the residual that a linear system may leave at first; later the square of Newton's."""
 _LEAST_LINEAR = 1e-6
@@ -50,7 +53,7 @@ class RollingProblem:
     creepages : along, across [1] and spin [1/mm]: given, or where to start.
     forces : along and across [N], each None where the creepage is given.
     symbols : (3, py, px) preconditioner: inverse of the compliance to shear over the wave vector.
-    stiffness : 1/kappa [MPa], of the size of the shear modulus.
+    stiffness : 1/kappa [MPa], shear per creep of the softest wave.
     """
 
     products: Convolutions
@@ -214,7 +217,8 @@ def solve_rolling(problem: RollingProblem, tolerance: float, start: Array | None
         change, turned = system.step(shear, short, float(np.clip(linear, _LEAST_LINEAR, _LINEAR)))
         products += system.products
         shear = problem.within(shear + change)
-        creepages = creepages + turned
+        largest = _FARTHEST * float(np.max(problem.bound)) / problem.stiffness
+        creepages = creepages + np.clip(turned, -largest, largest)
     along, across, spin = (float(v) for v in creepages)
     return RollingState(
         shear=shear,

@@ -69,6 +69,23 @@ def test_axe_finds_nothing_and_nothing_is_too_wide_in_any_view(seen):
     assert violations(page) == []
 
 
+def test_axe_finds_nothing_along_the_face(seen):
+    page = seen.page
+    seen.tab("face")
+    assert violations(page, "#panel") == []
+    page.click("#give-face")
+    seen.until("document.documentElement.dataset.face === 'rest'", timeout=60_000)
+    seen.rest()
+    page.wait_for_selector("#chart-face .main-svg")
+    page.evaluate("document.querySelectorAll('details').forEach(fold => { fold.open = true; })")
+    page.check("#in-upper-weighs")
+    seen.rest()
+    page.click("#crown-go")
+    page.wait_for_selector("#crown-use", timeout=60_000)
+    assert violations(page) == []
+    assert overhang(page) <= 0
+
+
 def test_the_answer_stays_in_sight_on_a_phone(browser, base):
     context = new_context(browser, **WINDOWS["phone"])
     designer = Designer(context.new_page(), base).open()

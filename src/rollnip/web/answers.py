@@ -6,6 +6,8 @@ import json
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from datetime import date, datetime, time
+from math import isfinite
 from typing import Any
 
 from rollnip._errors import RollnipError
@@ -37,6 +39,17 @@ class RefusedError(Exception):
 def json_bytes(tree: Any) -> bytes:
     """JSON without blanks; a number that is not finite is an error of the program."""
     return json.dumps(tree, allow_nan=False, separators=(",", ":")).encode()
+
+
+def as_json(value: Any) -> Any:
+    """A TOML tree as JSON holds it: dates and numbers without end become texts."""
+    if isinstance(value, dict):
+        return {name: as_json(part) for name, part in value.items()}
+    if isinstance(value, list):
+        return [as_json(part) for part in value]
+    if isinstance(value, date | datetime | time):
+        return value.isoformat()
+    return str(value) if isinstance(value, float) and not isfinite(value) else value
 
 
 def error_tree(error: str, details: Sequence[tuple[str, str]] = ()) -> dict[str, Any]:

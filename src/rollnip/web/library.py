@@ -13,6 +13,7 @@ from typing import Any, get_args
 from rollnip._units import Dimension, base_unit, conversions
 from rollnip.figures import FIGURES, ROUNDING, Figure
 from rollnip.materials import shore_a_band, shore_a_modulus
+from rollnip.web.answers import as_json
 
 _DATA = Path(str(files("rollnip.web"))) / "data"
 _HARDNESSES = (30, 40, 50, 60, 70, 80, 90)
@@ -74,15 +75,15 @@ class Library:
     def read(cls) -> Library:
         """Read it from the files of the package."""
         typical = [_example(path, "typical") for path in sorted((_DATA / "nips").glob("*.toml"))]
-        paper = [_example(path, "paper") for path in sorted(_paper_folder().glob("*.toml"))]
-        paper = [example for example in paper if not _names_a_file(example["case"])]
-        others = tomllib.loads((_DATA / "materials.toml").read_text(encoding="utf-8"))["material"]
+        others = [_example(path, _group(path)) for path in sorted(_cases_folder().glob("*.toml"))]
+        cases = [example for example in others if not _names_a_file(example["case"])]
+        kinds = tomllib.loads((_DATA / "materials.toml").read_text(encoding="utf-8"))["material"]
         rubbers = [_rubber(hardness) for hardness in _HARDNESSES]
         coverings = tomllib.loads((_DATA / "coverings.toml").read_text(encoding="utf-8"))
         families = [_family(table) for table in coverings["covering"]]
         return cls(
-            typical + paper,
-            families + rubbers + [_material(table) for table in others],
+            typical + cases,
+            families + rubbers + [_material(table) for table in kinds],
             _hardness_table(),
         )
 
@@ -92,12 +93,18 @@ def units() -> dict[str, Any]:
     return {
         dimension: {
             "base": base_unit(dimension),
-            "metric": _SHOWN[dimension][0],
-            "us": _SHOWN[dimension][1],
+            "metric": _shown(dimension)[0],
+            "us": _shown(dimension)[1],
             "units": {name: list(pair) for name, pair in conversions(dimension).items()},
         }
         for dimension in get_args(Dimension)
     }
+
+
+def _shown(dimension: Dimension) -> tuple[str, str]:
+    """Return the units of a dimension on the metric and the US page; else the base unit twice."""
+    base = base_unit(dimension)
+    return _SHOWN.get(dimension, (base, base))
 
 
 def figures_module() -> str:
@@ -133,6 +140,11 @@ def _capital(label: str) -> str:
     return label[0].upper() + label[1:]
 
 
+def _group(path: Path) -> str:
+    """Return "paper" for a case of the paper, "typical" for any other."""
+    return "paper" if path.stem.startswith(("configuration-", "figure-")) else "typical"
+
+
 def _names_a_file(case: dict[str, Any]) -> bool:
     """Return whether a roller has a measured profile, which the server does not read."""
     return any("profile" in case[roller] for roller in ("upper", "lower"))
@@ -146,7 +158,7 @@ def _example(path: Path, group: str) -> dict[str, Any]:
         if not line.startswith("#"):
             break
         head.append(line.removeprefix("#").strip())
-    case = tomllib.loads(text)
+    case = as_json(tomllib.loads(text))
     return {
         "name": path.stem.lstrip("0123456789-") if group == "typical" else path.stem,
         "title": case["title"],
@@ -156,7 +168,7 @@ def _example(path: Path, group: str) -> dict[str, Any]:
     }
 
 
-def _paper_folder() -> Path:
+def _cases_folder() -> Path:
     """Inside the package in a wheel, at the root of a source tree."""
     package = Path(str(files("rollnip")))
     inside = package / "examples"

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from collections import OrderedDict
 from collections.abc import Callable, Mapping
-from datetime import date, datetime, time
 from itertools import pairwise
 from math import isfinite
 from typing import Any
@@ -35,7 +34,7 @@ from rollnip.rollers import Roller
 from rollnip.solution import Solution
 from rollnip.solver import solve
 from rollnip.sweeps import scalars
-from rollnip.web.answers import SOURCE, Reply, error_tree, json_bytes, refusal
+from rollnip.web.answers import SOURCE, Reply, as_json, error_tree, json_bytes, refusal
 from rollnip.web.faces import Faces
 from rollnip.web.known import JUDGED, at_end, bands, is_judged, spread
 from rollnip.web.library import Library
@@ -231,7 +230,7 @@ class Tasks:
         return Reply(200, json_bytes(answer), case_hash(case))
 
     def _toml(self, body: Body) -> Reply:
-        tree = _as_json(parse_document(body["text"], SOURCE))
+        tree = as_json(parse_document(body["text"], SOURCE))
         if _depth(tree) > self._limits.depth:
             raise CaseFileError(f"{SOURCE}: is nested too deeply for a case file.")
         return Reply(200, json_bytes({"case": tree}))
@@ -358,14 +357,3 @@ def _depth(value: Any) -> int:
     """Return how deep tables and lists are nested in a value."""
     parts = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
     return 1 + max(map(_depth, parts), default=-1) if isinstance(value, dict | list) else 0
-
-
-def _as_json(value: Any) -> Any:
-    """A TOML tree as JSON holds it: dates and numbers without end become texts."""
-    if isinstance(value, dict):
-        return {name: _as_json(part) for name, part in value.items()}
-    if isinstance(value, list):
-        return [_as_json(part) for part in value]
-    if isinstance(value, date | datetime | time):
-        return value.isoformat()
-    return str(value) if isinstance(value, float) and not isfinite(value) else value

@@ -166,7 +166,7 @@ function roller(tree, side, units) {
 function material(tree, path, units) {
   const table = getAt(tree, path);
   const numbers = Object.keys(table)
-    .filter((name) => typeof table[name] === "number")
+    .filter((name) => typeof table[name] === "number" && inputAt(`${path}.${name}`, tree).label)
     .map((name) => row(tree, `${path}.${name}`, units));
   const shift = Object.keys(table.shift ?? {})
     .filter((name) => typeof table.shift[name] === "number")

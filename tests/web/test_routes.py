@@ -230,7 +230,7 @@ def test_examples_solve_and_verify(client):
     examples = client.get("/api/examples").json()
     names = [example["name"] for example in examples]
     assert len(set(names)) == len(names)
-    assert {example["group"] for example in examples} == {"paper", "typical"}
+    assert {example["group"] for example in examples} == {"paper", "typical", "more"}
     for example in examples:
         assert len(example["description"]) > 40
         problem = parse_case(example["case"])

@@ -61,7 +61,8 @@ class Library:
 
     Attributes
     ----------
-    examples : {"name", "title", "group": "paper" or "typical", "description", "case"} of each.
+    examples : {"name", "title", "group", "description", "case"} of each;
+        "group" is "typical", "more" or "paper".
     materials : {"name", "title", "description", "source", "material", "range"} of each; with
         "family" a kind of covering that comes in any hardness.
     hardness : moduli over Shore A: {"shore_a", "low", "likely", "high"}, lists.
@@ -141,8 +142,8 @@ def _capital(label: str) -> str:
 
 
 def _group(path: Path) -> str:
-    """Return "paper" for a case of the paper, "typical" for any other."""
-    return "paper" if path.stem.startswith(("configuration-", "figure-")) else "typical"
+    """Return "paper" for a case of the paper, "more" for any other."""
+    return "paper" if path.stem.startswith(("configuration-", "figure-")) else "more"
 
 
 def _names_a_file(case: dict[str, Any]) -> bool:

@@ -8,6 +8,7 @@ import { say } from "./texts.js";
 
 const GROUPS = [
   ["typical", say("examples.typical")],
+  ["more", say("examples.more")],
   ["paper", say("examples.paper")],
 ];
 

@@ -244,6 +244,7 @@ export const DE = {
   "shift.arrhenius": "Verschiebung mit der Temperatur: Arrhenius",
   "input.temperature": "Temperatur",
   "examples.typical": "Typische Walzenspalte",
+  "examples.more": "Weitere Fälle",
   "examples.paper": "Aus der Literatur: Braat und Kalker (1993)",
   "share.title": "Teilen",
   "share.link": "Link auf diese Seite kopieren",

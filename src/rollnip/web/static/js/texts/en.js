@@ -244,6 +244,7 @@ export const EN = {
   "shift.arrhenius": "Shift with temperature: Arrhenius",
   "input.temperature": "Temperature",
   "examples.typical": "Typical nips",
+  "examples.more": "Further cases",
   "examples.paper": "From the literature: Braat and Kalker (1993)",
   "share.title": "Share",
   "share.link": "Copy a link to this page",

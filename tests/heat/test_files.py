@@ -217,6 +217,27 @@ def test_a_case_without_heat_says_what_to_add():
     assert "heat: is missing; add a table [heat]" in result.stderr
 
 
+@pytest.mark.slow  # it is followed from cold to say where it ends
+def test_no_steady_state_is_a_sentence_and_exit_code_1(case_file):
+    """An entropic modulus rises with the temperature, and so does the heat at a given approach."""
+    material = TEXT.index("[materials.rubber]")
+    text = TEXT[:material].replace("load = 20", "approach = 0.8").replace("50 W", "5 W")
+    text = text.replace("speed = 3000", "speed = 8000") + (
+        '[materials.rubber]\nmodel = "loss-factor"\nmodulus = 5\nloss_factor = 0.2\n'
+        'poisson = 0.49\nthermal = "natural-rubber-filled"\nexpansion = 0\ntemperature = 23\n'
+        'shift = { model = "arrhenius", activation_energy = 60, reference = 23, '
+        'vertical = "entropic" }\n'
+    )
+    case_file.write_text(text, encoding="utf-8")
+    result = run("heat", case_file, "--json")
+    assert result.exit_code == 1, result.output
+    heat = json.loads(result.stdout)["heat"]
+    assert heat["converged"] is False
+    assert heat["stable"] is None
+    assert heat["error"] == {"temperature": None}
+    assert heat["status"].startswith("No steady state exists up to a rise of 400 K")
+
+
 def test_solve_says_that_it_leaves_the_temperatures_to_another_command(case_file):
     result = run("solve", case_file)
     assert result.exit_code == 0, result.output

@@ -73,7 +73,9 @@ def heat_dict(solution: HeatSolution) -> dict[str, Any]:
         "lower": _roller(solution.lower),
         "cold": _nip(solution.cold),
         "warm": _nip(solution.warm),
-        "error": dict(solution.error),
+        "error": {
+            name: value if isfinite(value) else None for name, value in solution.error.items()
+        },
         "solves": solution.solves,
         "sublayers": solution.sublayers,
         "warnings": list(solution.warnings),

@@ -3,21 +3,18 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
 from math import inf
 
 import numpy as np
 
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
 from rollnip.rolling.further import further_errors, further_figures
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
 from rollnip.rolling.surfaces import Array
 
-_SAFETY = 1.5  # on the estimate of the error from two meshes
-_SECOND = np.full(5, 2.0)  # order of the errors of Figures
 _OF_TWO = np.array([2.0, 2.0, 1.0, 2.0, 2.0])  # order for cubic elements, from two sizes
-_SLOW = 1.05  # times the change that second order predicts
 # Least relative error of each of Figures, times the square of the number of elements: measured on
 # random nips against ten times as many elements; linear elements, and cubic ones. These are of
 # higher order where tractions go as a square root at every end; where unlike surfaces stick up to
@@ -87,13 +84,13 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
         return Figures(inf, inf, inf, inf, inf)
-    order = _order(history) if kind.are_cubic else _SECOND
-    change = _error_over(history[-2], history[-1], order)
-    for coarse, fine in pairwise(history[:-1]):
-        earlier = _error_over(coarse, fine, _SECOND) * (fine.count / count) ** 2
-        if fine is not history[-2]:
-            earlier[_PEAK] = 0.0  # coarse meshes do not see the peaks under a stiff skin at all
-        change = np.maximum(change, earlier)
+    counts = np.array([size.count for size in history], dtype=float)
+    values = np.array([size.figures.array() for size in history])
+    values[:-3, _PEAK] = values[-3:, _PEAK][0]  # coarse meshes do not see peaks under a stiff skin
+    # The creepage depends most on an edge up to which unlike surfaces stick; from two sizes alone,
+    # which show no order, its order is taken as first.
+    order = _OF_TWO if len(history) < 3 else shown_order(counts, np.diff(values, axis=0))
+    change = errors_from_changes(counts, values, order if kind.are_cubic else np.full(5, 2.0))
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     floor = kind.least * scales / count**2
@@ -114,37 +111,7 @@ def zone_excess(history: list[Size], tolerance: float) -> float:
         return 0.0
     coarse, fine = history[-2:]
     lengths = np.diff(fine.breaks)
-    share = _share_left(coarse, fine, _SECOND[0])
+    share = share_left(np.array([coarse.count, fine.count]), np.array(2.0))
     change = share * np.abs(lengths - np.diff(coarse.breaks))
     allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
     return float(np.max(change / allowed))
-
-
-def _order(history: list[Size]) -> Array:
-    """Return the order in 1/elements of each figure's error: second, or first if meshes show it.
-
-    They show first order where unlike surfaces stick up to an edge: the last change is larger than
-    second order predicts from the one before. The creepage depends most on that edge; from two
-    sizes alone, which show no order, its order is taken as first.
-    """
-    if len(history) < 3:
-        return _OF_TWO
-    before, last = (np.abs(_difference(a, b)) for a, b in pairwise(history[-3:]))
-    first, second, third = (1.0 / size.count**2 for size in history[-3:])
-    slow = last > _SLOW * before * (second - third) / (first - second)
-    return np.where(slow, 1.0, 2.0)
-
-
-def _difference(coarse: Size, fine: Size) -> Array:
-    return fine.figures.array() - coarse.figures.array()
-
-
-def _error_over(coarse: Size, fine: Size, order: Array) -> Array:
-    """Return the error of each figure on the finer of two meshes, from their difference."""
-    return np.abs(_difference(coarse, fine)) * _share_left(coarse, fine, order)
-
-
-def _share_left(coarse: Size, fine: Size, order: Array) -> Array:
-    """Return the error of the finer of two meshes over their difference, for some order."""
-    safety = np.where(order > 1.0, _SAFETY, 1.0)  # first order is cautious enough
-    return np.asarray(safety / ((fine.count / coarse.count) ** order - 1.0))

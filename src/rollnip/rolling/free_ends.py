@@ -25,14 +25,13 @@ from rollnip.rolling.turns import converge, with_residual
 _FIRST_COUNT = 18
 _MOST_AT_FIRST = 50
 _FOR_ZONE = 4  # elements more for each zone
-_FEWEST_SIZES = 2  # of meshes before an error is believed
-# With memory the tractions have boundary layers as long as speed times relaxation time. Meshes all
-# too coarse for these agree on other edges.
-_FEWEST_WITH_MEMORY = 3
+# Sizes of mesh before an error is believed, and one more with memory: the tractions then have
+# boundary layers as long as speed times relaxation time, and meshes all too coarse for these agree
+# on other edges.
+_FEWEST_SIZES = 2
 _MOST_ELEMENTS = 200  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _FIRST_GROWTH = 1.6  # of the number of elements from size to size
-_LEAST_GROWTH, _LEAST_OF_MANY, _MANY = 1.35, 1.2, 100
-_MOST_GROWTH = 3.5
+_LEAST_GROWTH, _MOST_GROWTH = 1.2, 3.5
 _SMOOTH = 0.06  # times the root of the tolerance: error of the cubics, over the largest traction
 _ROUGHNESS_ORDER = 1.5  # its least order in 1/elements where cubics are of use
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
@@ -88,7 +87,7 @@ def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
     nip, model, too_few = placing.nip, placing.model, 0
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
-    fewest = _FEWEST_WITH_MEMORY if nip.is_viscoelastic else _FEWEST_SIZES
+    fewest = _FEWEST_SIZES + nip.is_viscoelastic
     while count <= most:
         known = bool(history)
         placed = placing.placed(stand, count, known=known)
@@ -119,8 +118,7 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
 
     The number grows in limited steps, up to that for which such an error can be claimed.
     """
-    least = _LEAST_GROWTH if count < _MANY else _LEAST_OF_MANY
-    growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), least)
+    growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), _LEAST_GROWTH)
     claimed = 1.02 * sqrt(float(np.max(CUBIC.least)) / tolerance) / count
     if claimed > growth:
         growth = claimed ** (1.0 / ceil(log(claimed) / log(_MOST_GROWTH)))

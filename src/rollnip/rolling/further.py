@@ -3,19 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import pairwise
 
 import numpy as np
 
 from rollnip.contact import ContactState, Zone, contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
+from rollnip.rolling.changes import errors_from_changes, shown_order
 from rollnip.rolling.powers import powers
 from rollnip.rolling.round import Further, Round, peak_pressure
 from rollnip.rolling.surfaces import Array, Mesh
 
-_SAFETY = 1.5  # on the error of second order from two meshes; first order is cautious enough
-_SLOW = 1.05  # times the change that second order predicts
 _LITTLE = 0.05  # of what a figure may be at most: the least size that its error counts against
 # Least error over the size, times the square of the number of elements: measured on random nips
 # against ten times as many elements (numbers 50000 to 50149 of tests/properties/population.py;
@@ -59,31 +57,13 @@ def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]
         return None
     counts = np.array([count for count, _ in sizes], dtype=float)
     values = np.array([figures.array() for _, figures in sizes])
-    steps = np.abs(np.diff(values, axis=0))
-    error = steps[-1] * _share_left(counts[-2:], _order(counts, steps))
-    for pair, step in zip(pairwise(counts[:-1]), steps[:-1], strict=True):
-        earlier = step * _share_left(np.array(pair), np.full(steps.shape[1], 2.0))
-        error = np.maximum(error, earlier * (pair[1] / counts[-1]) ** 2)
+    order = shown_order(counts, np.diff(values, axis=0)) if len(sizes) > 2 else np.ones(_LEAST.size)
+    error = errors_from_changes(counts, values, order)
     floor = _LEAST * further_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
     error = np.maximum(error, floor)
     if not isinstance(nip.tangential, Traction):
         error[1:3] = np.maximum(error[1:3], error[0])  # torques pass the traction on
     return Further(*error.tolist())
-
-
-def _order(counts: Array, steps: Array) -> Array:
-    """Return the order in 1/elements of each error: second, or first unless meshes show better."""
-    if len(steps) < 2:
-        return np.ones(steps.shape[1])
-    first, second, third = counts[-3:] ** -2.0
-    slow = steps[-1] > _SLOW * steps[-2] * (second - third) / (first - second)
-    return np.where(slow, 1.0, 2.0)
-
-
-def _share_left(counts: Array, order: Array) -> Array:
-    """Return the error of the finer of two meshes over the difference of the two."""
-    safety = np.where(order > 1.0, _SAFETY, 1.0)
-    return np.asarray(safety / ((counts[1] / counts[0]) ** order - 1.0))
 
 
 def further_sizes(nip: Nip, latest: Round, figures: Further) -> Array:

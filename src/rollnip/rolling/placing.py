@@ -56,8 +56,6 @@ _PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the wi
 COARSE_PLACEMENT_FACTOR = 3.0  # times `_PLACED` on the first size of mesh
 _SLACK = 1e-3  # shear over the bound counts as rounding up to the tolerance, and never beyond this
 _TURNS = 2  # of the second-order terms on one mesh, while ends still move, but not far
-# Expected change of the second order over the tolerance, up to which it is not evaluated anew.
-_QUIET = 1.0
 _LARGEST_RATIO = 0.9
 _NEARLY = 0.45  # Poisson ratio
 _PIECES = 6.0  # at least, in which tractions act along a thickness of such a covering
@@ -87,6 +85,11 @@ class SearchState:
     change: float = inf
     expected: float = inf
     off: float = _FAIRLY_PLACED
+
+    @property
+    def is_quiet(self) -> bool:
+        """Return whether further evaluations of the second order would change too little."""
+        return self.expected <= 1.0
 
 
 @dataclass(frozen=True)
@@ -168,7 +171,7 @@ class Placing:
             if self.kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
                 return None
             is_fine = crowd == crowding_of(layout.breaks, self.boundary)
-            is_placed = off <= placed and (self.kernels.is_linear or stand.expected <= _QUIET)
+            is_placed = off <= placed and (self.kernels.is_linear or stand.is_quiet)
             is_placed = is_placed and is_fine
             doubted = is_placed or (not known and off < _FAIRLY_PLACED)
             known = known or (doubted and not hasty)
@@ -206,7 +209,7 @@ class Placing:
     def _renewed(self, stand: SearchState) -> SearchState:
         """Evaluate the second order of the last solution and what follows, if it still moves."""
         before = stand.before
-        if self.kernels.is_linear or stand.expected <= _QUIET:
+        if self.kernels.is_linear or stand.is_quiet:
             return stand
         mesh = before.mesh.holding(held_from(self.kernels, before))
         second = second_order(self.nip, self.model.geometry, mesh, before.state)

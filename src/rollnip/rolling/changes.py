@@ -1,0 +1,54 @@
+"""What the changes of figures between sizes of mesh say of their errors."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+
+from rollnip.rolling.surfaces import Array
+
+_SAFETY = 1.5  # on an error of second order from two meshes; first order is cautious enough
+_SLOW = 1.05  # times the change that second order predicts
+
+
+def shown_order(counts: Array, steps: Array) -> Array:
+    """Return the order in 1/elements of each error: second, or first if three meshes show it.
+
+    They show first order where unlike surfaces stick up to an edge: the last change is larger than
+    second order predicts from the one before.
+
+    Parameters
+    ----------
+    counts : (s,) elements of three meshes or more, coarsest first.
+    steps : (s - 1, n) changes of the figures from mesh to mesh.
+    """
+    first, second, third = counts[-3:] ** -2.0
+    predicted = np.abs(steps[-2]) * (second - third) / (first - second)
+    return np.where(np.abs(steps[-1]) > _SLOW * predicted, 1.0, 2.0)
+
+
+def errors_from_changes(counts: Array, values: Array, order: Array) -> Array:
+    """Return the errors on the finest of some meshes, (n,).
+
+    Two meshes may agree by chance, so earlier changes count too, reduced by the second order.
+
+    Parameters
+    ----------
+    counts : (s,) elements of two meshes or more, coarsest first.
+    values : (s, n) figures on them.
+    order : (n,) of the errors, for the last change.
+    """
+    steps = np.abs(np.diff(values, axis=0))
+    second = np.full(order.size, 2.0)
+    error = steps[-1] * share_left(counts[-2:], order)
+    for pair, step in zip(pairwise(counts[:-1]), steps[:-1], strict=True):
+        earlier = step * share_left(np.array(pair), second) * (pair[1] / counts[-1]) ** 2
+        error = np.maximum(error, earlier)
+    return np.asarray(error)
+
+
+def share_left(counts: Array, order: Array) -> Array:
+    """Return the error of the finer of two meshes over the difference of the two."""
+    safety = np.where(order > 1.0, _SAFETY, 1.0)
+    return np.asarray(safety / ((counts[1] / counts[0]) ** order - 1.0))

@@ -13,6 +13,7 @@ import rollnip as rn
 from rollnip._errors import CaseFileError
 from rollnip.cli.app import app
 from rollnip.io.patch_case import parse_patch_case, read_patch_case
+from rollnip.io.patch_files import write_patch
 from rollnip.patch.report import patch_dict, patch_lines
 from rollnip.plots import plot_patch
 
@@ -140,6 +141,28 @@ def test_the_command_prints_json_and_draws(tmp_path):
     assert tree["converged"] is False
     assert tree["status"].startswith("One grid alone tells no error")
     assert picture.stat().st_size > 10_000
+
+
+@pytest.mark.parametrize("ending", ["json", "nc"])
+def test_files_hold_the_fields(solved, tmp_path, ending):
+    path = tmp_path / f"patch.{ending}"
+    write_patch(solved, path)
+    if ending == "json":
+        tree = json.loads(path.read_text())
+        np.testing.assert_allclose(tree["fields"]["pressure"], solved.pressure)
+        return
+    xarray = pytest.importorskip("xarray")
+    with xarray.open_dataset(path, engine="h5netcdf") as read:
+        np.testing.assert_allclose(read["pressure"], solved.pressure)
+        assert read["pressure"].dims == ("y", "x")
+        assert read["shear_x"].attrs["units"] == "MPa"
+        assert float(read["load"]) == pytest.approx(200.0)
+        assert read.attrs["status"] == solved.status
+
+
+def test_other_endings_are_refused(solved, tmp_path):
+    with pytest.raises(rn.RollnipError, match="json"):
+        write_patch(solved, tmp_path / "patch.txt")
 
 
 def test_the_command_refuses_wrong_input(tmp_path):

@@ -33,6 +33,9 @@ def solve(
     plot: Annotated[
         Path | None, typer.Option(help="Draw the patch: name.png, .svg or .pdf.")
     ] = None,
+    out: Annotated[
+        Path | None, typer.Option(help="Write the result with its fields: name.json or .nc.")
+    ] = None,
     tolerance: Annotated[
         str | None, typer.Option(help="Wanted relative accuracy, such as 0.01 or 1%.")
     ] = None,
@@ -46,7 +49,11 @@ def solve(
         from rollnip.io.patch_case import read_patch_case
 
         problem = read_patch_case(case)
-        run.reserve({"--plot": plot})
+        run.reserve({"--plot": plot, "--out": out})
+        if out is not None:
+            from rollnip.io.patch_files import check_patch_target
+
+            check_patch_target(out)
         from rollnip.patch import solve_patch
         from rollnip.patch.report import patch_dict, patch_lines
 
@@ -56,6 +63,10 @@ def solve(
             from rollnip.plots import plot_patch, save_figure
 
             save_figure(plot_patch(solution), plot)
+        if out is not None:
+            from rollnip.io.patch_files import write_patch
+
+            write_patch(solution, out)
         if json or fields:
             from json import dumps
 

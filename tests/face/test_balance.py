@@ -1,5 +1,6 @@
 """Faces in balance: Hetenyi, equilibrium, symmetry, limits."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from math import inf, pi
 
@@ -333,3 +334,70 @@ def test_pivot_arms():
 def test_faces_that_cannot_be(face, sentence):
     with pytest.raises(rn.InvalidInputError, match=sentence):
         Face(length=1600.0, **face)
+
+
+def test_end_loads_that_press_beyond_the_face_are_refused():
+    lifted = Face(length=1600.0, end_loads=(-1000.0, 9000.0))
+    with pytest.raises(rn.InvalidInputError, match="together they press at y = 1188 mm"):
+        solve_face(press(), lifted)
+
+
+def test_an_approach_at_which_nothing_touches_is_refused():
+    worn = press(profiles=(CrownTable([-800.0, 800.0], [-1.0, -1.0]),))
+    with pytest.raises(rn.InvalidInputError, match=r"`approach` must be larger than 0\.5 mm"):
+        solve_face(replace(worn, normal=rn.Approach(0.1)), FACE)
+
+
+def test_other_processes_give_the_same(straight):
+    """An executor solves the cross-sections: the same to the last bit, and progress is told."""
+    nip, told = replace(press(), friction=0.0), []
+    with ThreadPoolExecutor(1) as executor:
+        found = solve_face(
+            nip, FACE, executor=executor, progress=lambda done, of: told.append((done, of))
+        )
+    np.testing.assert_array_equal(found.load, solve_face(nip, FACE).load)
+    assert [done for done, _ in told[:5]] == [1, 2, 3, 4, 5]
+    assert all(done <= of for done, of in told)
+
+
+@pytest.mark.slow
+def test_one_bearing_far_too_low(rows):
+    """Nips at the corner of the table have no solution, and none of the face lies there."""
+    found = solve_face(press(), Face(length=1600.0, bearing_offset=2.0), rows=rows)
+    assert found.converged
+    assert found.law.unsolved.any()
+    assert found.load[0] == 0.0
+    assert found.mean_load == pytest.approx(6.0, rel=1e-9)
+    heavy = int(np.argmax(found.load))
+    fresh = rn.solve(
+        replace(
+            press(),
+            normal=rn.LineLoad(float(found.load[heavy])),
+            tangential=rn.Traction(float(found.traction[heavy])),
+        )
+    )
+    assert found.nip_width[heavy] == pytest.approx(fresh.nip_width, rel=2e-3)
+    assert found.approach[heavy] == pytest.approx(fresh.approach, rel=2e-3)
+
+
+@pytest.mark.slow
+def test_a_torque_that_friction_does_not_carry(straight):
+    with pytest.raises(rn.ConvergenceError, match=r"asks for -400 N\. Try a smaller torque"):
+        solve_face(replace(press(), tangential=rn.Torque(-400.0)), FACE, law=straight.law)
+
+
+@pytest.mark.slow
+def test_energy_with_a_covering_that_loses(rows):
+    """Both axles put in what friction and the layer lose, to 0.5 %."""
+    lossy = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.007, poisson=0.5)
+    nip = press()
+    nip = replace(nip, upper=replace(nip.upper, layers=(rn.Layer(12.0, lossy),)))
+    found = solve_face(nip, FACE, rows=rows)
+    lost = found.total_friction_loss + found.total_viscous_loss
+    assert found.power_upper + found.power_lower == pytest.approx(lost, rel=5e-3)
+
+
+@pytest.mark.slow
+def test_a_mean_load_that_no_covering_carries():
+    with pytest.raises(rn.ConvergenceError, match="The nip at 6000 N/mm"):
+        solve_face(press(load=6000.0), FACE)

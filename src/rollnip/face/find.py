@@ -16,7 +16,7 @@ from rollnip.face.law import NipLaw, slip_measure
 from rollnip.face.rows import NipRows
 from rollnip.face.solution import FaceSolution
 from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
-from rollnip.face.table import Lattice, Progress, nip_law
+from rollnip.face.table import Lattice, Progress, nip_law, require_solution
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Approach, Nip, Traction
@@ -231,6 +231,7 @@ class _Maker:
                 for axis in law.axes
             )
             if wider is None and finer is None and axes == law.axes:
+                _require_solved(law, found)
                 return law, found
             span = wider or finer or span
             law = self._table(span, axes)
@@ -274,7 +275,17 @@ class _Maker:
                     f"in the mean, got {nip.tangential.traction:.4g}."
                 )
             middle = slip_measure(share)
+        place = (mean / float(np.mean(scale)), middle)
+        require_solution(nip, self.model, place, self.rows)
         return _Span(low, high, (middle - _FIRST_SLIP, middle + _FIRST_SLIP))
+
+
+def _require_solved(law: NipLaw, found: Balance) -> None:
+    """Raise ConvergenceError where the face hangs on a nip that has no verified solution."""
+    section = found.section
+    heavy = section.load > _HEAVY * section.load.max()
+    if law.is_guess(section.log_load[heavy], section.s[heavy]).any():
+        raise ConvergenceError(law.fault)
 
 
 def _finer(law: NipLaw, span: _Span, wanted: float) -> _Span | None:

@@ -110,6 +110,8 @@ class NipLaw:
     axes : the coverings solved for; none: the nip's own.
     parts : the largest error between loads, and that between slips.
     faults : why the loads end where they do, below and above; empty where more could be solved.
+    unsolved : (m, k) which nips have no verified solution: the table goes on there as a line.
+    fault : why the first of them has none; empty where all were solved.
     solves : number of nips that were solved for the law.
     rows : keeps these nips, for a wider table.
     """
@@ -123,6 +125,8 @@ class NipLaw:
     axes: tuple[Axis, ...] = ()
     parts: tuple[float, float] = (0.0, 0.0)
     faults: tuple[str, str] = ("", "")
+    unsolved: NDArray[np.bool_] | None = None
+    fault: str = ""
     solves: int = 0
     rows: NipRows | None = field(default=None, repr=False, compare=False)
 
@@ -140,6 +144,17 @@ class NipLaw:
         elif name == "friction_loss":
             value = np.exp(log_load) * value**2
         return value * places.scale if name in FORCES else value
+
+    def is_guess(self, log_load: Array, s: Array) -> NDArray[np.bool_]:
+        """Return where figures hang on a nip without a verified solution, (n,)."""
+        if self.unsolved is None or not self.unsolved.any():
+            return np.zeros(log_load.size, dtype=bool)
+        i = np.clip(np.searchsorted(np.log(self.loads), log_load) - 1, 0, self.loads.size - 2)
+        if self.s.size == 1:
+            return np.asarray(self.unsolved[i, 0] | self.unsolved[i + 1, 0])
+        j = np.clip(np.searchsorted(self.s, s) - 1, 0, self.s.size - 2)
+        corners = [self.unsolved[i + a, j + b] for a in (0, 1) for b in (0, 1)]
+        return np.asarray(np.any(corners, axis=0))
 
     def slopes(self, name: str, section: Section, places: Places) -> tuple[Array, Array]:
         """Return the derivatives of a figure by the approach and by the creepage, each (n,)."""

@@ -126,7 +126,7 @@ def face_problem(nip: Nip, face: Face, count: int, stiffness: float = 1.0) -> Fa
     ones = np.ones(grid.y.size)
     # Weight bends the upper roller towards the lower one, and the lower one away from it.
     bent = -upper @ (weights[0] * ones) + lower @ (weights[1] * ones)
-    return FaceProblem(
+    problem = FaceProblem(
         nip,
         face,
         grid,
@@ -138,6 +138,8 @@ def face_problem(nip: Nip, face: Face, count: int, stiffness: float = 1.0) -> Fa
         coverings_of(nip, grid.y, face.length, stiffness),
         stiffness,
     )
+    _require_possible(problem)
+    return problem
 
 
 def _flexibility(roller: Roller, face: Face, grid: FaceGrid) -> Array:
@@ -159,6 +161,26 @@ def _crown(roller: Roller, grid: FaceGrid) -> Array:
     if roller.shaft is None:
         return np.zeros(grid.y.size)
     return roller.shaft.radial_crown(grid.y, grid.length)
+
+
+def _require_possible(problem: FaceProblem) -> None:
+    """Raise InvalidInputError where no face can be in balance, whatever its law."""
+    total, moment, length = problem.total, problem.moment, problem.face.length
+    if total is not None and moment is not None and total > 0.0:
+        place = moment / total
+        if abs(place) >= 0.5 * length:
+            raise InvalidInputError(
+                f"`end_loads` must press between the ends of the face, at most {0.5 * length:g} mm "
+                f"from its middle; together they press at y = {place:.4g} mm."
+            )
+    if isinstance(problem.nip.normal, Approach) and total is None:
+        tilt = problem.tilt or 0.0
+        needed = -float(np.max(problem.still + tilt * problem.grid.y))
+        if problem.nip.normal.approach <= needed:
+            raise InvalidInputError(
+                f"`approach` must be larger than {needed:.4g} mm, where the rollers first touch "
+                f"somewhere along the face, got {problem.nip.normal.approach:.4g}."
+            )
 
 
 def _require_covered(roller: Roller, crown: Array) -> None:
@@ -226,11 +248,24 @@ def balance(problem: FaceProblem, law: NipLaw) -> Balance:
     places = law.places(problem.coverings)
     middle_load = float(np.sqrt(law.loads[0] * law.loads[-1])) * float(np.mean(places.scale))
     system = _System(problem, law, places, law.approach_at(middle_load, 0.0, places.mean))
-    unknowns = _start(system)
+    with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+        found = _newton(system, _start(system))
+    if found is None:
+        raise ConvergenceError(_why_not(problem))
+    return found
+
+
+def _newton(system: _System, unknowns: Array) -> Balance | None:
+    """Return the face in balance; None where Newton's method does not settle."""
     wrong, slopes, section = _residual(system, unknowns)
     size = _size(wrong)
     for step in range(1, _MOST_STEPS + 1):
-        change = np.linalg.solve(slopes, -wrong)
+        if not (np.isfinite(size) and np.all(np.isfinite(slopes))):
+            return None
+        try:
+            change = np.linalg.solve(slopes, -wrong)
+        except np.linalg.LinAlgError:
+            return None
         share = 1.0
         while True:
             tried = unknowns + share * change
@@ -242,9 +277,23 @@ def balance(problem: FaceProblem, law: NipLaw) -> Balance:
         scale = max(float(np.mean(np.abs(unknowns[:-3]))), 1e-12)
         if float(np.max(np.abs(share * change[:-3]))) < _SETTLED * scale:
             middle, tilt, creepage = (float(v) for v in unknowns[-3:])
-            return Balance(unknowns[:-3], section, places, middle, tilt, creepage, step)
-    raise ConvergenceError(
-        "The balance of the face did not settle; try a smaller crown, skew or torque, or a larger "
+            return Balance(unknowns[:-3], section, system.places, middle, tilt, creepage, step)
+    return None
+
+
+def _why_not(problem: FaceProblem) -> str:
+    """Return why a face may have no balance, and what helps."""
+    nip = problem.nip
+    if isinstance(nip.tangential, Torque) and problem.total is not None:
+        carried = nip.friction * problem.total / problem.face.length * nip.lower.radius
+        return (
+            "The balance of the face did not settle; friction carries a torque on the lower axle "
+            f"of about {carried:.4g} N per width, `torque_lower` asks for "
+            f"{nip.tangential.torque_lower:.4g} N. Try a smaller torque, crown or skew, or a "
+            "larger load."
+        )
+    return (
+        "The balance of the face did not settle; try a smaller crown, skew or offset, or a larger "
         "load."
     )
 

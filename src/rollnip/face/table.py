@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import pairwise
+from itertools import pairwise, product
 from math import isnan
 
 import numpy as np
@@ -80,20 +80,29 @@ def nip_law(
     work = _Work(model, rows, progress, executor)
     nips = nips_of(nip, axes)
     work.solve([(one, (load, s)) for one in nips for load in lattice.loads for s in lattice.s])
-    loads, faults = _usable(work, nips, lattice)
-    table = {
-        name: np.array(
-            [[[work.row(one, (load, s))[i] for s in lattice.s] for load in loads] for one in nips]
-        )
-        for i, name in enumerate(NAMES)
-    }
-    law = NipLaw(nip, model, loads, lattice.s, table, {}, axes, faults=faults, rows=rows)
+    found = _usable(work, nips, lattice)
+    loads, slips = found.lattice.loads, found.lattice.s
+    table = {}
+    for i, name in enumerate(NAMES):
+        figures = [
+            [[work.value(one, (load, s), i) for s in slips] for load in loads] for one in nips
+        ]
+        table[name] = _continued(np.array(figures), loads)
+    law = NipLaw(
+        nip, model, loads, slips, table, {}, axes,
+        faults=found.faults, unsolved=found.unsolved, fault=found.fault, rows=rows,
+    )  # fmt: skip
     by_load, by_slip = _error_between(law, nips[0], work)
     error = {name: by_load[name] + by_slip[name] for name in by_load}
     for axis in axes:
         error[axis.name] = _error_of_axis(law, axis, work)
     parts = max(by_load.values()), max(by_slip.values())
     return replace(law, error=error, parts=parts, solves=work.done)
+
+
+def require_solution(nip: Nip, model: Model, place: Place, rows: NipRows) -> None:
+    """Raise ConvergenceError where one nip has no verified solution: then no table has one."""
+    _Work(model, rows, None, None).row(nip, place)
 
 
 class _Work:
@@ -131,28 +140,102 @@ class _Work:
             raise ConvergenceError(str(found))
         return found
 
+    def value(self, nip: Nip, place: Place, index: int) -> float:
+        """Return one figure of a nip; nan where it has none."""
+        found = self.rows.get(nip, self.model, place)
+        return found[index] if isinstance(found, tuple) else float("nan")
+
     def fault(self, nip: Nip, place: Place) -> str:
         """Return why a nip has no solution; empty where it has one."""
         found = self.rows.get(nip, self.model, place)
         return found if isinstance(found, str) else ""
 
 
-def _usable(work: _Work, nips: Sequence[Nip], lattice: Lattice) -> tuple[Array, tuple[str, str]]:
-    """Return the largest range of loads at which every nip has a solution, and why it ends."""
-    faults = [
-        next((f for one in nips for s in lattice.s if (f := work.fault(one, (load, s)))), "")
-        for load in lattice.loads
-    ]
-    best, start = (0, 0), 0
-    for i, fault in enumerate([*faults, "end"]):
-        if fault:
-            best = max(best, (i - start, start))
+@dataclass(frozen=True, slots=True)
+class _Usable:
+    """The part of a lattice that a table can be made of.
+
+    Attributes
+    ----------
+    lattice : its loads and slips.
+    unsolved : (m, k) which of its nips have no verified solution.
+    fault : why the first of them has none.
+    faults : why the loads end where they do, below and above; empty where the lattice ends.
+    """
+
+    lattice: Lattice
+    unsolved: NDArray[np.bool_]
+    fault: str
+    faults: tuple[str, str]
+
+
+def _usable(work: _Work, nips: Sequence[Nip], lattice: Lattice) -> _Usable:
+    """Return the largest ranges of loads and slips at which nips have solutions.
+
+    A column of slips needs two solved nips, from which the others follow as a line, and a load
+    one solved nip. ConvergenceError where this leaves too few for a table.
+    """
+    faults = np.array(
+        [
+            [next((f for one in nips if (f := work.fault(one, (load, s)))), "") for s in lattice.s]
+            for load in lattice.loads
+        ]
+    )
+    solved = faults == ""
+    columns = _longest(np.count_nonzero(solved, axis=0) >= 2)
+    rows = _longest(solved[:, columns].any(axis=1))
+    first_fault = str(next(iter(faults[~solved]), ""))
+    fewest = 4 if lattice.s.size > 1 else 1
+    kept = solved[rows, columns]
+    if kept.shape[0] < 4 or kept.shape[1] < fewest or np.any(np.count_nonzero(kept, axis=0) < 2):
+        raise ConvergenceError(first_fault)
+
+    def fault_of(row: int) -> str:
+        if not 0 <= row < lattice.loads.size:
+            return ""
+        return str(next((one for one in faults[row] if one), ""))
+
+    return _Usable(
+        Lattice(lattice.loads[rows], lattice.s[columns]),
+        ~kept,
+        str(next(iter(faults[rows, columns][~kept]), "")),
+        (fault_of(rows.start - 1), fault_of(rows.stop)),
+    )
+
+
+def _longest(wanted: NDArray[np.bool_]) -> slice:
+    """Return the longest run of what is wanted."""
+    best, start = slice(0, 0), 0
+    for i, one in enumerate([*wanted.tolist(), False]):
+        if not one:
+            if i - start > best.stop - best.start:
+                best = slice(start, i)
             start = i + 1
-    length, first = best
-    if length < 4:
-        raise ConvergenceError(next(fault for fault in faults if fault))
-    before = faults[first - 1] if first > 0 else ""
-    return lattice.loads[first : first + length], (before, [*faults, ""][first + length])
+    return best
+
+
+def _continued(values: Array, loads: Array) -> Array:
+    """Return a figure with what is missing filled by lines along the load, (states, m, k).
+
+    Through the two nearest nips of the same slip; what goes as a power of the load by logarithms,
+    the others over the load.
+    """
+    if not np.isnan(values).any() or np.isnan(values).all():
+        return values
+    place = np.log(loads)
+    out = values.copy()
+    for state, column in product(range(values.shape[0]), range(values.shape[2])):
+        row = values[state, :, column]
+        good = np.flatnonzero(~np.isnan(row))
+        if good.size < 2:
+            continue
+        by_log = bool(np.all(row[good] > 0.0))
+        line = np.log(row) if by_log else row / loads
+        for i in np.flatnonzero(np.isnan(row)):
+            a, b = good[np.argsort(np.abs(good - i))[:2]]
+            at = line[a] + (line[b] - line[a]) * (place[i] - place[a]) / (place[b] - place[a])
+            out[state, i, column] = np.exp(at) if by_log else at * loads[i]
+    return out
 
 
 def _error_between(law: NipLaw, nip: Nip, work: _Work) -> tuple[dict[str, float], dict[str, float]]:
@@ -185,8 +268,10 @@ def _worst(
     for load, s in places:
         if work.fault(nip, (load, s)):
             continue
-        fresh = dict(zip(NAMES, work.row(nip, (load, s)), strict=True))
         log_load, slip = np.array([np.log(load)]), np.array([s])
+        if law.is_guess(log_load, slip)[0]:
+            continue
+        fresh = dict(zip(NAMES, work.row(nip, (load, s)), strict=True))
         for name in CHECKED:
             found = float(law.figure(name, log_load, slip, here)[0])
             error[name] = max(error[name], abs(found / fresh[name] - 1.0))

@@ -16,6 +16,7 @@ from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
 from rollnip.io import case_hash, parse_case
 from rollnip.io.document import parse_document
 from rollnip.plots import plot_face
+from rollnip.plots.style import palette_of
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "press-face.toml"
 TEXT = EXAMPLE.read_text(encoding="utf-8")
@@ -239,6 +240,12 @@ def test_a_case_without_a_face_is_told_what_is_missing():
 @pytest.mark.parametrize("style", ["light", "dark"])
 def test_the_picture_names_its_axes(straight, style):
     figure = plot_face(straight, style=style)
+    title = next(
+        one
+        for one in figure.axes[0].texts + figure.axes[0].get_children()
+        if getattr(one, "get_text", str)() == "impression"
+    )
+    assert title.get_color() == palette_of(style).ink
     labels = [ax.get_ylabel() for ax in figure.axes]
     assert labels == ["nip width [mm]", "line load [N/mm]", "traction [N/mm]", "over the ends [µm]"]
 

@@ -58,7 +58,7 @@ def _impression(ax: Axes, solution: FaceSolution, palette: Palette) -> None:
             f"{width:.2f} mm", (y, 0.0), (shift, 0), textcoords="offset points",
             color=palette.ground, ha=side, va="center", size=9,
         )  # fmt: skip
-    ax.set_title("impression", loc="left", size=10)
+    ax.set_title("impression", loc="left", size=10, color=palette.ink)
 
 
 def _line(

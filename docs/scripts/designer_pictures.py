@@ -62,6 +62,17 @@ def compared(page: Page) -> None:
     page.wait_for_timeout(6000)  # until the message has gone
 
 
+def along_the_face(page: Page) -> None:
+    """The example of a press along its face, in the tab of the face."""
+    page.click("#open-examples")
+    page.click('[id="example-press-face"]')
+    rested(page)
+    page.click("#tab-face")
+    page.set_viewport_size({"width": DESKTOP["width"], "height": 2400})
+    page.wait_for_selector('html[data-face="rest"]', state="attached", timeout=60_000)
+    rested(page)
+
+
 def make_pictures() -> None:
     """Write the pictures."""
     arguments = ["--no-sandbox"] if os.geteuid() == 0 else []
@@ -76,6 +87,11 @@ def make_pictures() -> None:
         rested(page)
         page.locator("section.card:has(#charts-title)").screenshot(
             path=FIGURES / "designer_compare.png"
+        )
+        page = opened(browser, address, DESKTOP, "light")
+        along_the_face(page)
+        page.locator("section.card:has(#charts-title)").screenshot(
+            path=FIGURES / "designer_face.png"
         )
         page = opened(browser, address, PHONE, "dark")
         page.screenshot(path=FIGURES / "designer_phone.png")

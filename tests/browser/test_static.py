@@ -102,18 +102,22 @@ def test_both_languages_have_the_same_messages_with_the_same_holes():
 
 def test_the_german_names_of_figures_are_of_figures_that_there_are():
     from rollnip.figures import FIGURES
+    from rollnip.sheet_figures import SHEET_FIGURES
 
-    names = {figure.name for figure in FIGURES.values()} | {"whole"}
+    figures = [*FIGURES.values(), *SHEET_FIGURES.values()]
+    names = {figure.name for figure in figures} | {"whole"}
     german = {key.split(".")[1] for key in messages("de") if key.startswith("figure.")}
     assert german <= names
 
 
 def test_the_german_names_of_the_library_are_of_entries_that_there_are():
+    from rollnip.sheets import SHEETS
     from rollnip.web.library import Library
 
     library = Library.read()
     there = {f"example.{one['name']}" for one in library.examples}
     there |= {f"library.{one['name']}" for one in library.materials}
+    there |= {f"sheet.kind.{name}" for name in SHEETS}
     german = {key.removesuffix(".hint") for key in messages("library-de")}
     assert len(german) >= 30
     assert german <= there

@@ -13,6 +13,8 @@ from typing import Any, get_args
 from rollnip._units import Dimension, base_unit, conversions
 from rollnip.figures import FIGURES, ROUNDING, Figure
 from rollnip.materials import shore_a_band, shore_a_modulus
+from rollnip.sheet_figures import SHEET_FIGURES
+from rollnip.sheets import SHEETS, Sheet
 from rollnip.web.answers import as_json
 
 _DATA = Path(str(files("rollnip.web"))) / "data"
@@ -114,6 +116,8 @@ def figures_module() -> str:
     parts = {
         "ROUNDING": ROUNDING,
         "FIGURES": [_figure(FIGURES[key]) for key in keys],
+        "SHEET_FIGURES": [_figure(figure) for figure in SHEET_FIGURES.values()],
+        "SHEETS": [{"name": name, "sheet": _sheet(sheet)} for name, sheet in SHEETS.items()],
         "TOTALS": [
             {"key": one.name, "label": f"{_capital(one.label)}, whole face"}
             | {"units": _SHOWN_TOTALS[one.total.unit]}
@@ -124,6 +128,13 @@ def figures_module() -> str:
     }
     lines = (f"export const {name} = {json.dumps(part)};\n" for name, part in parts.items())
     return "".join(lines)
+
+
+def _sheet(sheet: Sheet) -> dict[str, float]:
+    """Return what a usual sheet is made of."""
+    names = ("thickness", "modulus", "poisson", "modulus_thickness")
+    values = {name: getattr(sheet, name) for name in names}
+    return {name: value for name, value in values.items() if value is not None}
 
 
 def _figure(figure: Figure) -> dict[str, Any]:

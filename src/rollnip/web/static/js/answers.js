@@ -7,6 +7,7 @@ import { say } from "./texts.js";
 import { number } from "./units.js";
 
 const SECONDS = ["peak_pressure", "approach", "dwell_time", "speed_ratio"];
+const FEEDS = ["sheet_feed_upper", "sheet_feed_lower"]; // where there is a sheet
 const ROOT = document.documentElement;
 
 /** Show {result, known}. */
@@ -20,7 +21,7 @@ export function showAnswers(snapshot, units) {
     el("span", { class: "error", id: "big-error" }),
   );
   byId("big-hint").textContent = ANSWERS[0].hint(all, units);
-  byId("seconds").replaceChildren(...SECONDS.map((key) => second(key, all, units, known)));
+  byId("seconds").replaceChildren(...[...SECONDS, ...(result.sheet ? FEEDS : [])].map((key) => second(key, all, units, known)));
   showKnown(snapshot, units);
   showFigures(all, units, known);
   showWarnings(result);

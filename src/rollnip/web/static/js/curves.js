@@ -12,9 +12,11 @@ const FEET = {
   strain:
     say("foot.strain"),
   speed: say("foot.speed"),
+  sheet: say("foot.sheet"),
 };
+const NONE = { speed: "foot.no-speed", sheet: "foot.no-sheet" };
 
-/** The view of a curve: "pressure", "gap", "strain" or "speed". */
+/** The view of a curve: "pressure", "gap", "strain", "speed" or "sheet". */
 export class CurveView {
   constructor(id, title, app) {
     this.id = id;
@@ -22,7 +24,7 @@ export class CurveView {
     this.app = app;
     const place = el("div", { class: "chart", id: `chart-${id}` });
     this.chart = new Chart(place);
-    this.none = el("p", { class: "empty", text: say("foot.no-speed") });
+    this.none = el("p", { class: "empty", text: NONE[id] ? say(NONE[id]) : "" });
     this.none.hidden = true;
     const exports = ["PNG", "SVG", "CSV"].map((format) =>
       button(format, () => app.exportChart(format), {

@@ -2,6 +2,7 @@
 
 import { byMeanLoad, shaftOf } from "./face.js";
 import { getAt, setAt, steps } from "./paths.js";
+import { sheetOf } from "./sheet.js";
 import { say } from "./texts.js";
 
 export const RIGID = "rigid";
@@ -73,10 +74,12 @@ export function designOf(tree) {
     return { radius: side.radius, ...core, layers, ...shaft };
   };
   const { materials: _named, ...rest } = tree;
+  const sheet = tree.sheet ? { sheet: sheetOf(tree.sheet) } : {};
   const whole = {
     model: { geometry: "finite" },
     title: "",
     ...rest,
+    ...sheet,
     upper: roller(tree.upper),
     lower: roller(tree.lower),
   };

@@ -7,6 +7,7 @@ import { Control } from "./control.js";
 import { idOf, setAt } from "./paths.js";
 import { choosePress, pressControls, pressKind, pressKinds } from "./press.js";
 import { coreEditor, rollerGroup, swapper } from "./rollers.js";
+import { sheetGroup } from "./sheet.js";
 import { say } from "./texts.js";
 
 const GEOMETRIES = [
@@ -60,6 +61,7 @@ export class Inputs {
       rollerGroup("lower", tree, this),
       this.pressingGroup(tree),
       this.runningGroup(tree),
+      sheetGroup(tree, this),
       faceGroup(tree, this),
       this.advancedGroup(tree),
     );

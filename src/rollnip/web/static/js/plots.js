@@ -9,7 +9,7 @@ const ENDS = say("axis.ends");
 const SIDE = 0.75; // nip widths shown outside the contact
 
 /** The charts by tab: each (result, units, palette, tree) -> {data, layout, label}. */
-export const PLOTS = { pressure: pressurePlot, gap: gapPlot, strain: strainPlot, speed: speedPlot };
+export const PLOTS = { pressure: pressurePlot, gap: gapPlot, strain: strainPlot, speed: speedPlot, sheet: sheetPlot };
 
 function pressurePlot(result, units, palette, tree) {
   const { profiles } = result;
@@ -26,7 +26,12 @@ function pressurePlot(result, units, palette, tree) {
       hovertemplate: `%{y:.4~g} ${name}`,
     }),
   );
-  data.push(line(say("curve.shear"), x, shear, palette.shear, { hovertemplate: `%{y:.4~g} ${name}` }));
+  data.push(line(say(result.sheet ? "curve.shear-upper" : "curve.shear"), x, shear, palette.shear, { hovertemplate: `%{y:.4~g} ${name}` }));
+  if (result.sheet) {
+    const lower = units.list(result.sheet.profiles.shear_lower, "pressure");
+    const style = { dash: "longdash", hovertemplate: `%{y:.4~g} ${name}` };
+    data.push(line(say("curve.shear-lower"), x, lower, palette.lower, style));
+  }
   if (tree.nip.friction > 0) {
     const style = { dash: "dash", width: 1.3, hoverinfo: "skip", legendgroup: "bound" };
     data.push(line(say("curve.bound"), x, bound, palette.bound, style));
@@ -112,6 +117,42 @@ function speedPlot(result, units, palette) {
     shapes: zonesOf(result, units, palette),
   });
   return { data, layout, label: say("chart.speed") };
+}
+
+/** Tension of the sheet; strain on an axis of its own. */
+function sheetPlot(result, units, palette) {
+  if (!result.sheet) return null;
+  const { profiles } = result.sheet;
+  const x = units.list(profiles.x, "length");
+  const unit = units.name("line load");
+  const data = [
+    line(say("curve.tension"), x, units.list(profiles.tension, "line load"), palette.pressure, {
+      width: 2.6,
+      hovertemplate: `%{y:.4~g} ${unit}`,
+    }),
+    line(say("curve.strain"), x, units.list(profiles.strain, "share"), palette.shear, {
+      dash: "dash",
+      yaxis: "y2",
+      hovertemplate: "%{y:.3~g} %",
+    }),
+  ];
+  const second = { text: titled(say("curve.strain"), "%"), standoff: 8 };
+  const layout = layoutOf(palette, along(units), titled(say("curve.tension"), unit), {
+    along: units.name("length"),
+    xaxis: { range: reach(result, units) },
+    yaxis2: {
+      title: second,
+      overlaying: "y",
+      side: "right",
+      showgrid: false,
+      zeroline: false,
+      tickformat: "~g",
+      automargin: true,
+      fixedrange: true,
+    },
+    shapes: contactShape(result, units, palette),
+  });
+  return { data, layout, label: say("chart.sheet") };
 }
 
 function begin({ profiles }, units) {

@@ -1,7 +1,9 @@
 // The inputs and the answers by name: how each is called, measured and explained.
 
-import { FIGURES, ROUNDING, TOTALS } from "./figures.js";
+import { meanLoad } from "./face.js";
+import { FIGURES, ROUNDING, SHEET_FIGURES, TOTALS } from "./figures.js";
 import { getAt } from "./paths.js";
+import { sheetPaths } from "./sheet.js";
 import { number } from "./units.js";
 import { firstInText, say, sayOr } from "./texts.js";
 
@@ -172,6 +174,32 @@ const SHAFT = {
   },
 };
 
+const TENSION = { dimension: "line load", low: 0, high: 2 };
+const SHEET = {
+  thickness: { label: say("sheet.thickness"), dimension: "length", low: 0.005, high: 5, log: true },
+  modulus: {
+    label: say("sheet.modulus"),
+    dimension: "pressure",
+    low: 10,
+    high: 210000,
+    log: true,
+    hint: say("hint.sheet-modulus"),
+  },
+  modulus_thickness: {
+    label: say("sheet.across"),
+    dimension: "pressure",
+    low: 1,
+    high: 210000,
+    log: true,
+    hint: say("hint.sheet-across"),
+  },
+  poisson: { label: say("input.poisson"), dimension: "ratio", low: 0, high: 0.5 },
+  tension_in: { ...TENSION, label: say("sheet.tension-in") },
+  tension_out: { ...TENSION, label: say("sheet.tension-out") },
+  friction_upper: { label: say("sheet.friction-upper"), dimension: "ratio", low: 0.02, high: 2 },
+  friction_lower: { label: say("sheet.friction-lower"), dimension: "ratio", low: 0.02, high: 2 },
+};
+
 const POINTS = {
   temperature: { ...MATERIAL.temperature },
   factor: { label: say("input.factor"), dimension: "ratio", low: 1e-6, high: 1e6, log: true, hint: null },
@@ -181,6 +209,7 @@ const POINTS = {
 export function inputAt(path, tree) {
   const last = path.replace(/^.*?(shift\.[a-z0-9_]+|[a-z_]+)$/, "$1");
   const start = { path, factor: 1 };
+  if (path.startsWith("sheet.")) return { ...start, ...SHEET[path.slice(6)] };
   if (path.startsWith("face.")) return { ...start, ...FACE[path.slice(5)] };
   const [, shaft] = path.match(/\.shaft\.(.+)$/) ?? [];
   if (shaft) return { ...start, ...SHAFT[shaft] };
@@ -193,7 +222,7 @@ export function inputAt(path, tree) {
 
 function tractionRange(name, tree) {
   if (name !== "traction") return {};
-  const load = tree.nip.load ?? 5;
+  const load = tree.nip.load ?? meanLoad(tree) ?? 5;
   const most = Number((0.98 * tree.nip.friction * load).toPrecision(3)) || 0.1;
   return { low: -most, high: most };
 }
@@ -210,7 +239,8 @@ export function inputsOf(tree) {
   const paths = Object.keys(NIP)
     .filter((name) => typeof tree.nip[name] === "number")
     .map((name) => `nip.${name}`);
-  const found = paths.map((path) => inputAt(path, tree));
+  const sheet = sheetPaths(tree).map((path) => named(say("sheet.title"), inputAt(path, tree)));
+  const found = [...paths.map((path) => inputAt(path, tree)), ...sheet];
   for (const side of ["upper", "lower"]) {
     if (typeof tree[side].radius === "number")
       found.push(named(say(`roller.${side}`), inputAt(`${side}.radius`, tree)));
@@ -247,7 +277,7 @@ const MEANINGS = {
 };
 
 /** The answers: key in the flat result, label, dimension, digits, and a hint in plain words. */
-export const ANSWERS = FIGURES.map((figure) => ({
+export const ANSWERS = [...FIGURES, ...SHEET_FIGURES].map((figure) => ({
   ...said(figure),
   hint: ({ [figure.key]: value }, units) => said(figure).hint + (MEANINGS[figure.key]?.(value, units) ?? ""),
 }));
@@ -255,9 +285,18 @@ export const ANSWERS = FIGURES.map((figure) => ({
 /** The result with every scalar on its first level, as sweeps give it; what is rounding only is zero. */
 export function flat(result) {
   const { friction, viscous } = result.dissipation;
-  const all = { ...result, dissipation_friction: friction, dissipation_viscous: viscous };
-  const cleaned = FIGURES.map(({ key, size }) => [key, isNoise(all[key], all, size) ? 0 : all[key]]);
+  const losses = { dissipation_friction: friction, dissipation_viscous: viscous };
+  const error = { ...result.error, ...ofSheet(result.sheet?.error) };
+  const all = { ...result, ...losses, ...ofSheet(result.sheet), error };
+  const cleaned = [...FIGURES, ...SHEET_FIGURES].map(({ key, size }) => [key, isNoise(all[key], all, size) ? 0 : all[key]]);
   return { ...all, ...Object.fromEntries(cleaned) };
+}
+
+/** Figures of the sheet, or their errors, under the names that figures of the nip stand beside. */
+function ofSheet(values) {
+  if (!values) return {};
+  const keys = SHEET_FIGURES.map(({ key }) => [key, values[key.replace(/^sheet_/, "")] ?? null]);
+  return Object.fromEntries(keys);
 }
 
 /** Whether a figure or its error is no more than what rounding leaves beside those of `size`. */
@@ -270,7 +309,7 @@ function isNoise(value, all, size) {
 /** An estimated error worth showing, or null. */
 export function errorOf(all, key) {
   const error = all.error?.[key];
-  const { size } = FIGURES.find((figure) => figure.key === key);
+  const { size } = ANSWERS.find((figure) => figure.key === key);
   return error && error > TINY * Math.abs(all[key]) && !isNoise(error, all, size) ? error : null;
 }
 

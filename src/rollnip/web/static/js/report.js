@@ -10,6 +10,7 @@ import { drawingOf } from "./files.js";
 import { bandOf, partsOf, rangeText } from "./known.js";
 import { PLOTS } from "./plots.js";
 import { ANSWERS, errorOf, faceLabel, flat, inputAt, totalsOf } from "./quantities.js";
+import { sheetPaths } from "./sheet.js";
 import { say } from "./texts.js";
 import { joined, number } from "./units.js";
 import { getAt } from "./paths.js";
@@ -146,6 +147,7 @@ function figures({ result, known }, units) {
 function inputs(tree, units) {
   const rows = Object.keys(tree.nip).map((name) => row(tree, `nip.${name}`, units));
   rows.push([say("drive.label"), DRIVES[driving(tree)]]);
+  if (tree.sheet) rows.push([say("sheet.title")], ...sheetPaths(tree).map((path) => row(tree, path, units)));
   for (const side of ["upper", "lower"]) rows.push(...roller(tree, side, units));
   return table(rows);
 }

@@ -16,6 +16,7 @@ export function viewsOf(app) {
     new CurveView("gap", say("tab.gap"), app),
     new CurveView("strain", say("tab.strain"), app),
     new CurveView("speed", say("tab.speed"), app),
+    new CurveView("sheet", say("tab.sheet"), app),
     new FaceView(app),
     new InsideView(app),
     new WhatIfView(app),

@@ -83,4 +83,10 @@ export const LIBRARY_DE = {
   "library.hard-chrome.hint": "Schicht aus einem dreiwertigen Bad, durch instrumentierte Eindringprüfung: 191 ± 13 GPa; Schichten aus sechswertigen Bädern sind steifer. Die Querdehnzahl ist angenommen.",
   "library.glass": "Kalknatronglas",
   "library.glass.hint": "Floatglas, Wert für die Bemessung.",
+  "sheet.kind.office paper": "Büropapier",
+  "sheet.kind.newsprint": "Zeitungspapier",
+  "sheet.kind.board": "Karton",
+  "sheet.kind.PET film": "PET-Folie",
+  "sheet.kind.PE film": "PE-Folie",
+  "sheet.kind.aluminium foil": "Aluminiumfolie",
 };

@@ -77,6 +77,11 @@ class HeatProblem:
     def __init__(
         self, nip: Nip, heat: HeatBalance, model: Model, cache: KernelCache | None = None
     ) -> None:
+        if nip.sheet is not None:
+            raise InvalidInputError(
+                "`sheet` of the nip must be left out for a heat balance, which takes one shear for "
+                "both rollers; the heat that a sheet carries away is `sheet` of the heat balance."
+            )
         _check(nip, heat)
         self.nip, self.heat, self.model = nip, heat, model
         self.cache = KernelCache() if cache is None else cache

@@ -9,6 +9,7 @@ from rollnip.plots.overview import plot_overview
 from rollnip.plots.patch import plot_patch
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.scatter import plot_distribution, plot_shares
+from rollnip.plots.sheet import plot_sheet
 from rollnip.plots.study import plot_curves, plot_pareto
 from rollnip.plots.style import new_axes
 from rollnip.plots.surfaces import plot_deformed_surfaces, plot_gap, plot_speed, plot_strain
@@ -29,6 +30,7 @@ __all__ = [
     "plot_patch",
     "plot_pressure",
     "plot_shares",
+    "plot_sheet",
     "plot_speed",
     "plot_strain",
     "save_figure",

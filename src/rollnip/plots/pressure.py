@@ -50,7 +50,7 @@ def plot_pressure(
         where the style is unknown.
     """
     ax, look = prepare(ax, style)
-    profiles, friction = solution.profiles, solution.nip.friction
+    profiles, friction = solution.profiles, solution.nip.friction_on("upper")
     zones = shade(ax, look, solution)
     ax.axhline(0.0, color=look.palette.muted, linewidth=look.thin)
     curves: list[Artist] = [
@@ -77,7 +77,7 @@ def plot_pressure(
 
 def _shear(ax: Axes, look: Look, solution: Solution) -> list[Artist]:
     """Shear and its bound on either side."""
-    profiles, friction = solution.profiles, solution.nip.friction
+    profiles, friction = solution.profiles, solution.nip.friction_on("upper")
     bound = friction * profiles.pressure
     dotted: dict[str, Any] = {
         "color": look.palette.muted,

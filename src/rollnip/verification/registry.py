@@ -13,6 +13,7 @@ from rollnip.verification.kernels import kernels
 from rollnip.verification.laws import laws
 from rollnip.verification.limits import limits
 from rollnip.verification.plates import plates
+from rollnip.verification.sheets import sheets
 from rollnip.verification.thin_layers import thin_layers
 from rollnip.verification.viscoelastic import viscoelastic
 from rollnip.verification.waves import waves
@@ -32,6 +33,7 @@ def all_cases() -> tuple[VerificationCase, ...]:
         *finite_strain(),
         *faces(),
         *heat(),
+        *sheets(),
         *laws(),
         *limits(),
     )

@@ -198,3 +198,11 @@ SEMENOV = Source(
     "N. Semenov, Z. Phys. 48 (1928) 571-582: one temperature, heat e^(beta T) against cooling in "
     "proportion; the last steady state at a rise of 1/beta",
 )
+NO_SHEET = Source(
+    Kind.LAW, "Identity: a sheet without stiffness leaves the nip without it, the smaller friction"
+)
+DIRECT_SHEET = Source(
+    Kind.PROGRAM,
+    "A sheet between two rollers by uniform elements and constant tractions, "
+    "tests/judges/sheet.py, extrapolated to first order; tests/data/sheet_direct.json",
+)

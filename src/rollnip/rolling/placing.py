@@ -43,9 +43,10 @@ from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from
 
 _LOOKING = HeldContact()
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
-_MORE_FOR_SECOND = 3  # for the second order of "finite", which is held while a mesh is solved on
 _MOST_CHANGES = 2  # changes of the zones, on meshes of one size
-_MORE_FOR_CHANGE = 3  # meshes, to place the new ends
+# Meshes more: to place the new ends after a change, and for the second order of "finite", which is
+# held while a mesh is solved on.
+_MORE_MESHES = 3
 _SLOPES = 0.5, 3.0  # bounds of the move computed for a break over how far it is off
 _FAIRLY_PLACED = 0.1  # over the width of the contact: good enough to see what slips
 # Largest ratio of how far ends are off, from mesh to mesh: Newton's method does better. It does not
@@ -154,7 +155,7 @@ class Placing:
         earlier: tuple[Layout, Layout] | None = None
         meshes = changes = 0
         most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
-        while meshes < most_meshes + _MORE_FOR_CHANGE * changes:
+        while meshes < most_meshes + _MORE_MESHES * changes:
             meshes += 1
             layout = stand.layout
             crowd = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
@@ -204,7 +205,7 @@ class Placing:
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
-        return most + (0 if self.kernels.is_linear else _MORE_FOR_SECOND)
+        return most + (0 if self.kernels.is_linear else _MORE_MESHES)
 
     def _renewed(self, stand: SearchState) -> SearchState:
         """Evaluate the second order of the last solution and what follows, if it still moves."""

@@ -115,6 +115,11 @@ def solve_face(
 def _require_plain(nip: Nip, face: Face) -> None:
     if nip.has_profile:
         raise InvalidInputError("`profile` and a face cannot be solved together.")
+    if nip.sheet is not None:
+        raise InvalidInputError(
+            "`sheet` and a face cannot be solved together; leave out the sheet for load and width "
+            "along the face, or the face for tension and feed in the mean."
+        )
     if face.end_loads is not None and isinstance(nip.normal, Approach):
         raise InvalidInputError("`end_loads` and `approach` exclude each other.")
     if nip.face_width is not None and abs(nip.face_width / face.length - 1.0) > 1e-9:

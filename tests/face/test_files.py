@@ -310,3 +310,19 @@ def test_load_along_crown_is_swept():
         alone = rn.solve_face(nip, case.face, case.model)
         assert table["face.evenness"][i] == alone.evenness
         assert table["face.total_load"][i] == alone.total_load
+
+
+def test_fewer_than_one_process_is_refused():
+    result = run("face", "solve", EXAMPLE, "--workers", "0")
+    assert result.exit_code == 2
+    assert "`--workers` must be 1 or more, got 0." in result.output
+
+
+@pytest.mark.slow
+def test_two_processes_give_the_same(tmp_path):
+    path = tmp_path / "case.toml"
+    path.write_text(TEXT.replace("friction = 0.5", "friction = 0"))
+    one, two = (
+        json.loads(run("face", "solve", path, "--json", "--workers", n).stdout) for n in ("1", "2")
+    )
+    assert one == two

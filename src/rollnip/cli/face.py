@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import sys
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -26,11 +29,24 @@ face = typer.Typer(
 CaseFile = Annotated[str, typer.Argument(help="Case file with [face] and shafts.")]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Plot = Annotated[Path | None, typer.Option(help="Draw the face: name.png, .svg or .pdf.")]
+Workers = Annotated[
+    int,
+    typer.Option(
+        help="Processes that solve cross-sections; several pay where coverings are viscoelastic "
+        "or vary along the face."
+    ),
+]
 Crowned = Annotated[str, typer.Option(help="Roller that has the crown: upper or lower.")]
 
 
 @face.command("solve")
-def solve(case: CaseFile, json: Json = False, plot: Plot = None, force: Force = False) -> None:
+def solve(
+    case: CaseFile,
+    json: Json = False,
+    plot: Plot = None,
+    workers: Workers = 1,
+    force: Force = False,
+) -> None:
     """Solve a nip along its face and print line load, width and scrub.
 
     The exit code is 0 where the solution was verified, 1 where it was not, 2 for wrong input.
@@ -41,7 +57,8 @@ def solve(case: CaseFile, json: Json = False, plot: Plot = None, force: Force = 
         from rollnip.face import solve_face
         from rollnip.face.report import face_dict, face_lines
 
-        solution = solve_face(nip, along, model)
+        with _processes(workers) as executor:
+            solution = solve_face(nip, along, model, executor=executor)
         _draw(solution, plot)
         _print(face_dict(solution) if json else "\n".join(face_lines(solution)) + "\n")
     if not solution.converged:
@@ -138,6 +155,21 @@ def _read(case: str) -> tuple[Nip, Face, Model]:
             f"{problem.source}: face: is missing; add a table [face] with a length."
         )
     return problem.nip, problem.face, problem.model
+
+
+@contextmanager
+def _processes(count: int) -> Iterator[Executor | None]:
+    """Yield processes that solve cross-sections; None for a single one, which is this."""
+    if count < 1:
+        raise InvalidInputError(f"`--workers` must be 1 or more, got {count}.")
+    if count == 1:
+        yield None
+        return
+    from concurrent.futures import ProcessPoolExecutor
+    from multiprocessing import get_context
+
+    with ProcessPoolExecutor(count, mp_context=get_context("spawn")) as executor:
+        yield executor
 
 
 def _roller(name: str) -> Any:

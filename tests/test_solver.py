@@ -9,7 +9,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.model import Model
-from rollnip.solver import solve
+from rollnip.solver import _too_thin, solve
 
 RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
 NIP = rn.Nip(
@@ -134,3 +134,24 @@ def test_first_solve_of_a_fresh_process_prepares_little():
     ratio, imported = done.stdout.splitlines()
     assert float(ratio) < 15.0
     assert {"matplotlib", "pydantic", "typer", "rich", "xarray"}.isdisjoint(imported.split())
+
+
+@pytest.mark.parametrize("friction", [0.0, pytest.param(0.3, marks=pytest.mark.slow)])
+def test_a_covering_too_thin_for_the_elements_says_so_and_what_helps(friction):
+    """It said "try a smaller tolerance": the finest mesh was reached, and a larger one helps."""
+    film = rn.Roller(radius=50.0, layers=[rn.Layer(1e-4, RUBBER)])
+    nip = replace(NIP, upper=film, normal=rn.LineLoad(3.0), friction=friction)
+    found = solve(nip, Model(geometry="linear", tolerance=1e-3))
+    assert not found.converged
+    assert "try a smaller" not in found.status
+    assert "accept it with a larger tolerance. The covering of the upper roller is" in found.status
+    times = 0.5 * found.nip_width / 1e-4
+    assert f"is {times:.0f} times thinner than half the nip width" in found.status
+    if friction:
+        assert solve(nip, Model(geometry="linear", tolerance=0.1)).converged
+    # foam as thin does not only flow sideways: it is no reason there
+    foam = rn.Roller(radius=50.0, layers=[rn.Layer(1e-4, rn.Elastic(modulus=1.0, poisson=0.3))])
+    assert _too_thin(nip, found.final)
+    assert not _too_thin(replace(nip, upper=foam), found.final)
+    thick = rn.Roller(radius=50.0, layers=[rn.Layer(1e-2, RUBBER)])
+    assert not _too_thin(replace(nip, upper=thick), found.final)

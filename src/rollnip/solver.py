@@ -40,6 +40,8 @@ _BEYOND: dict[Geometry, str] = {
     "full": "terms beyond the linear ones",
     "finite": "second-order terms",
 }
+_THIN = 0.025  # covering over half the nip width, below which hardly compressible ones are hard
+_HARDLY_COMPRESSIBLE = 0.49  # Poisson ratio
 _DIVERGED = 0.1  # last change of second-order terms that approach no solution, relative
 
 
@@ -235,10 +237,26 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     if not left <= model.tolerance:
         return False, (
             f"The contact conditions are violated by {left:.1e} (relative), more than the "
-            f"tolerance {model.tolerance:g}; try a smaller tolerance."
+            f"tolerance {model.tolerance:g}; accept it with a larger tolerance."
+            f"{_too_thin(nip, final)}"
         )
     is_met, words = verdict(nip, model, final)
     return is_met, f"Solved and verified: residual {left:.1e}, {words}" if is_met else words
+
+
+def _too_thin(nip: Nip, final: Round) -> str:
+    """Return a sentence on a covering that is too thin and incompressible for the elements."""
+    half = 0.5 * final.figures.nip_width
+    for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
+        if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:
+            continue
+        if min(layer.material.poisson for layer in roller.layers) >= _HARDLY_COMPRESSIBLE:
+            return (
+                f" The covering of the {name} roller is {half / roller.coating_thickness:.0f} "
+                "times thinner than half the nip width and hardly compressible: no mesh of this "
+                "program follows the pressure on it more closely."
+            )
+    return ""
 
 
 @cache  # reading it from the installed files takes as long as solving on a mesh

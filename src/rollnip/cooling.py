@@ -8,6 +8,17 @@ from rollnip._errors import InvalidInputError, require_not_negative, require_pos
 from rollnip.materials import Thermal
 from rollnip.materials.shift import checked_temperature
 
+__all__ = [
+    "Coolant",
+    "Cooling",
+    "Core",
+    "HeatBalance",
+    "Held",
+    "Insulated",
+    "PassingSheet",
+    "Shell",
+]
+
 
 @dataclass(frozen=True, slots=True)
 class Insulated:

@@ -91,6 +91,14 @@ def test_the_sentence_gives_the_estimate_and_the_creepage():
     assert "may change the creepage by about 0.003 (it is 0.003)." in said
 
 
+def test_what_the_sentence_advises_has_the_creepage():
+    sleeve = next(case for case in CASES if case["case"] == "sleeve")
+    full = rn.solve(nip_of(sleeve), rn.Model(geometry="full"))
+    assert full.model.geometry == "full"
+    assert full.creepage == pytest.approx(sleeve["creepage"], abs=1e-4)  # "finite": 1.4e-3 off
+    assert not any(SENTENCE in line for line in full.warnings)
+
+
 def test_no_other_geometry_no_soft_top_and_no_frictionless_nip_has_it():
     fuser = nip_of(next(case for case in CASES if case["case"] == "fuser"))
     skin, rubber = fuser.upper.layers

@@ -35,6 +35,8 @@ SKIN_CREEPAGE = 3e-4
 """Creepage by third-order stretch under stiff top layers, geometry "finite"; both this ..."""
 SKIN_SHARE = 0.03
 """... and this share of the creepage must be exceeded."""
+SHEET_SHARE = 0.6
+"""Share of an imposed strain that makes a top layer a sheet; below, the rubber evens it out."""
 TEMPERATURE_SPAN = 60.0
 """Distance of a temperature from the reference of its shift [K]."""
 TIME_SPAN = 10.0
@@ -179,7 +181,7 @@ def _skin_stretch(nip: Nip, final: Round) -> float:
         (nip.lower, (linear.x_lower, linear.z_lower), (present.x_lower, present.z_lower)),
     ):
         share = _sheet_share(roller.layers, 0.5 * final.figures.nip_width)
-        if share <= 0.0:
+        if share < SHEET_SHARE:
             continue
         turned, turned_first = (
             np.diff(u_z) / dx + 0.5 * roller.curvature * (u_x[1:] + u_x[:-1])
@@ -220,7 +222,7 @@ def _stiff_skin(stretch: float, creepage: float) -> str:
     return (
         "A stiff top layer bends and resists stretch like a sheet: terms of third order, which "
         f'geometry "finite" leaves out, may change the creepage by about {stretch:.1g} (it is '
-        f"{creepage:.2g})."
+        f'{creepage:.2g}). Geometry "full", for elastic layers on rigid cores, takes them in.'
     )
 
 

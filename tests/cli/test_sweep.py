@@ -214,9 +214,11 @@ def test_status_while_it_runs(study: Path, tmp_path: Path) -> None:
     process = start(study, tmp_path / "out.csv", start_new_session=True)
     wait_for_rows(tmp_path / "out.db", process)
     first = json.loads(sweep("status", tmp_path / "out.db", "--json").stdout)
-    time.sleep(2.0)
-    table = tmp_path / "so-far.csv"
-    second = json.loads(sweep("status", tmp_path / "out.db", "--out", table, "--json").stdout)
+    table, second = tmp_path / "so-far.csv", first
+    until = time.monotonic() + 120.0
+    while second["solved"] == first["solved"] and time.monotonic() < until:
+        time.sleep(0.1)
+        second = json.loads(sweep("status", tmp_path / "out.db", "--out", table, "--json").stdout)
     os.killpg(process.pid, signal.SIGINT)
     process.communicate(timeout=120)
     assert first["is_running"]

@@ -341,6 +341,27 @@ def test_claims_hold_against_a_finer_grid(share):
         assert abs(coarse.figures[name] - fine.figures[name]) <= error + fine.error[name], name
 
 
+@pytest.mark.slow
+def test_claims_of_forces_hold_where_two_grids_agree_by_chance():
+    """Creepages along and across with spin: single forces change little between two grids."""
+    patch = rn.Patch(
+        upper=rn.Roller(
+            radius=60.0, layers=[rn.Layer(5.46, rn.Elastic(modulus=2.52, poisson=0.45))]
+        ),
+        lower=rn.Roller(radius=30.0),
+        across_upper=rn.Across(radius=367.0),
+        normal=rn.Force(19.1),
+        friction=0.4715,
+        along=rn.Creepage(-0.0193),
+        across=rn.Creepage(-0.0136),
+        spin=0.001986,
+    )
+    coarse = rn.solve_patch(patch, grid=(40, 40))
+    fine = rn.solve_patch(patch, grid=(120, 120))
+    for name, error in coarse.error.items():
+        assert abs(coarse.figures[name] - fine.figures[name]) <= error, name
+
+
 def test_tolerance_is_met_and_said():
     got = rn.solve_patch(wheel(friction=0.0, along=rn.Force(0.0)), tolerance=2e-2)
     assert got.converged

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf, sqrt
+from math import hypot, inf, sqrt
 
 import numpy as np
 
@@ -26,6 +26,7 @@ _LARGEST = 1024
 _MARGIN = 1.06
 _ROUGH = 5e-3  # of the iterations while a place is looked for
 _SEARCHES = 60
+_SAFETY = 1.5
 _EDGE = 0.25  # of a rectangle: the least error of a length
 _SHARE = 0.02  # of the wanted accuracy that the iterations may leave
 
@@ -146,7 +147,8 @@ def _errors(patch: Patch, level: Level, before: Level, inner: float) -> dict[str
     """Return the change of each figure from the coarser grid, and what the iterations left.
 
     Edges lie between the rectangles, wherever the grid happens to be: two grids may agree on them
-    by chance, so a length is never claimed to better than a quarter of a rectangle.
+    by chance, so a length is never claimed to better than a quarter of a rectangle. Forces and
+    moment come from one field of shear: the error of each is that of all together.
     """
     fine, coarse = figures_of(level), figures_of(before)
     scales = _scales(patch, level)
@@ -157,6 +159,13 @@ def _errors(patch: Patch, level: Level, before: Level, inner: float) -> dict[str
     errors["length"] = max(errors["length"], _EDGE * level.grid.hx)
     errors["width"] = max(errors["width"], _EDGE * level.grid.hy)
     errors["area"] = max(errors["area"], 0.5 * _EDGE * sum(shares) * fine["area"])
+    arm = 0.5 * sqrt(fine["area"])
+    joint = _SAFETY * hypot(errors["traction_x"], errors["traction_y"], errors["spin_moment"] / arm)
+    errors["traction_x"] = errors["traction_y"] = joint
+    errors["spin_moment"] = joint * arm
+    errors["creepage"] = errors["lateral_creepage"] = max(
+        errors["creepage"], errors["lateral_creepage"]
+    )
     if isinstance(patch.normal, Force):
         errors["load"] = inner * scales["load"]
     else:

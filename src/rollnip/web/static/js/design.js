@@ -71,7 +71,7 @@ export function designOf(tree) {
     const layers = (side.layers ?? []).map((layer) => ({ ...layer, material: material(layer.material) }));
     const core = side.core === undefined || side.core === RIGID ? {} : { core: material(side.core) };
     const shaft = side.shaft ? { shaft: shaftOf(side.shaft) } : {};
-    return { radius: side.radius, ...core, layers, ...shaft };
+    return { ...side, core: undefined, ...core, layers, ...shaft };
   };
   const { materials: _named, ...rest } = tree;
   const sheet = tree.sheet ? { sheet: sheetOf(tree.sheet) } : {};

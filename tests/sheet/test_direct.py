@@ -63,7 +63,7 @@ def test_agrees_with_uniform_elements(name):
         tangential=rn.Creepage(case.creepage) if driven else rn.Traction(case.traction),
         sheet=_sheet(case),
     )
-    solution = rn.solve(nip, rn.Model(geometry="linear", tolerance=2e-3))
+    solution = rn.solve(nip, rn.Model(geometry="linear", tolerance=5e-3))
     assert solution.converged
     sheet = solution.sheet
     # Figures of the direct program are extrapolated to first order in its elements; what is left

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 _FIRST_COUNT = 20
 _GROWTH = 1.6
 _MOST_COUNT = 190
-_SAFETY = 1.5
+_SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
 _FEWEST_WITH_SLIP = 3  # sizes of mesh before an error is believed
 _SOFT = 0.05  # over the half-width: length over which a sheet that is easy to begin with yields
 _EASED = 8.0  # ratio of the stiffnesses of sheets that are solved one after the other
@@ -229,7 +229,9 @@ def _errors(nip: Nip, history: list[tuple[float, SheetFigures, Zones]]) -> Array
     if len(steps) > 1:
         a, b, c = (1.0 / size**2 for size, _, _ in history[-3:])
         order = np.where(steps[-1] > 1.05 * steps[-2] * (b - c) / (a - b), 1.0, 2.0)
-    error = steps[-1] * np.where(order > 1.0, _SAFETY, 1.0) / (ratios[-1] ** order - 1.0)
+    error = (
+        steps[-1] * np.where(order > 1.0, _SAFETY, _SAFETY_OF_FIRST) / (ratios[-1] ** order - 1.0)
+    )
     for step, grown, (size, _, _) in zip(steps[:-1], ratios[:-1], history[1:-1], strict=True):
         error = np.maximum(error, _SAFETY * step / (grown**2 - 1.0) * (size / count) ** 2)
     floor = _LEAST * scales(nip, figures) / count**2

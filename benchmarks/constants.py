@@ -142,7 +142,7 @@ def solved(nip, geometry, tolerance, cache):
     model = rn.Model(geometry=geometry, tolerance=tolerance)
     try:
         return rn.solve(nip, model, cache=cache)
-    except (rn.RollnipError, ArithmeticError, ValueError, IndexError, np.linalg.LinAlgError):
+    except (rn.RollnipError, ArithmeticError, TypeError, ValueError, IndexError):
         return None
 
 

@@ -79,8 +79,7 @@ def nip_law(
         )
     work = _Work(model, rows, progress, executor)
     nips = nips_of(nip, axes)
-    work.solve([(one, (load, s)) for one in nips for load in lattice.loads for s in lattice.s])
-    found = _usable(work, nips, lattice)
+    found = _usable(work, nips, _solved_up(work, nips, lattice))
     loads, slips = found.lattice.loads, found.lattice.s
     table = {}
     for i, name in enumerate(NAMES):
@@ -105,6 +104,22 @@ def require_solution(nip: Nip, model: Model, place: Place, rows: NipRows) -> Non
     _Work(model, rows, None, None).row(nip, place)
 
 
+def _solved_up(work: _Work, nips: Sequence[Nip], lattice: Lattice) -> Lattice:
+    """Solve the nips of a lattice from light to heavy, and return the part that was asked for.
+
+    It ends with the first load at which no nip has a solution after a load at which one had:
+    such nips are pressed in too far, and heavier ones more so.
+    """
+    has_begun = False
+    for count, load in enumerate(lattice.loads, 1):
+        work.solve([(one, (load, s)) for one in nips for s in lattice.s], of=lattice.loads.size)
+        is_solved = any(not work.fault(one, (load, s)) for one in nips for s in lattice.s)
+        if has_begun and not is_solved:
+            return Lattice(lattice.loads[:count], lattice.s)
+        has_begun = has_begun or is_solved
+    return lattice
+
+
 class _Work:
     """Solves nips that are not kept yet, here or in other processes."""
 
@@ -115,14 +130,14 @@ class _Work:
         self.progress, self.executor = progress, executor
         self.done = 0
 
-    def solve(self, wanted: Sequence[tuple[Nip, Place]]) -> None:
-        """Solve what is not kept."""
+    def solve(self, wanted: Sequence[tuple[Nip, Place]], of: int = 1) -> None:
+        """Solve what is not kept; there are about ``of`` such parts in all."""
         missing = [one for one in wanted if self.rows.get(one[0], self.model, one[1]) is None]
         for (nip, place), row in zip(missing, self._solved(missing), strict=True):
             self.rows.keep(nip, self.model, place, row)
             self.done += 1
             if self.progress is not None:
-                self.progress(self.done, max(self.done, len(missing)))
+                self.progress(self.done, max(self.done, of * len(wanted)))
 
     def _solved(self, missing: Sequence[tuple[Nip, Place]]) -> Iterator[Row | str]:
         if self.executor is None:

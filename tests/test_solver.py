@@ -5,6 +5,7 @@ import sys
 from dataclasses import replace
 from textwrap import dedent
 
+import numpy as np
 import pytest
 
 import rollnip as rn
@@ -155,3 +156,20 @@ def test_a_covering_too_thin_for_the_elements_says_so_and_what_helps(friction):
     assert not _too_thin(replace(nip, upper=foam), found.final)
     thick = rn.Roller(radius=50.0, layers=[rn.Layer(1e-2, RUBBER)])
     assert not _too_thin(replace(nip, upper=thick), found.final)
+
+
+def test_second_order_terms_that_run_away_on_the_way_leave_no_warning_of_numpy():
+    """Braked at 245 N/mm they overflow before the zones are right; warnings are errors here."""
+    solution = rn.solve(
+        rn.Nip(
+            upper=rn.Roller(
+                radius=100.0, layers=(rn.Layer(12.0, rn.Elastic(modulus=3.6, poisson=0.5)),)
+            ),
+            lower=rn.Roller(radius=75.0),
+            normal=rn.LineLoad(244.69193226422038),
+            tangential=rn.Traction(-98.65978708893365),
+            friction=0.5,
+        )
+    )
+    assert solution.model.geometry in ("finite", "curved")
+    assert np.isfinite(solution.nip_width)

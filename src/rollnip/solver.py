@@ -13,6 +13,8 @@ from importlib.metadata import PackageNotFoundError, version
 from time import perf_counter
 from typing import Literal
 
+import numpy as np
+
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.influence import KernelCache
@@ -85,7 +87,8 @@ def solve(
     if nip.has_profile:
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
     cache = KernelCache() if cache is None else cache
-    with one_blas_thread():
+    # Second-order terms that run away overflow; what is no number is never verified.
+    with one_blas_thread(), np.errstate(over="ignore", invalid="ignore"):
         solution: Solution
         if nip.sheet is None:
             solution = _solved(nip, model, cache, start)

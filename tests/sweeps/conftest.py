@@ -7,6 +7,8 @@ from typing import Any
 
 import pytest
 
+from rollnip.sweeps import SCALARS
+
 CASE: dict[str, Any] = {
     "title": "One coated roller",
     "nip": {"load": 0.74, "friction": 0.3, "speed": "100 mm/s"},
@@ -19,6 +21,17 @@ CASE: dict[str, Any] = {
     },
     "lower": {"radius": 25.0},
 }
+
+
+@pytest.fixture
+def plain() -> dict[str, str]:
+    """Figures of a bare cross-section, and their units."""
+    parts = ("face.", "heat.", "sheet.")
+    return {
+        name: unit
+        for name, unit in SCALARS.items()
+        if not name.removeprefix("error.").startswith(parts)
+    }
 
 
 @pytest.fixture

@@ -14,7 +14,6 @@ import pytest
 import rollnip as rn
 from rollnip._errors import RollnipError
 from rollnip.io import read_columns
-from rollnip.sweeps import SCALARS
 from rollnip.sweeps.version import own_version
 
 
@@ -50,13 +49,14 @@ def test_the_reader_of_tables_reads_it(tree: dict[str, Any], tmp_path: Path) -> 
     assert np.array_equal(read.numbers("upper.layers[0].thickness", "length"), [1, 1, 2.032, 2.032])
 
 
-def test_parquet_says_the_same_as_memory(tree: dict[str, Any], tmp_path: Path) -> None:
+def test_parquet_says_the_same_as_memory(
+    tree: dict[str, Any], plain: dict[str, str], tmp_path: Path
+) -> None:
     polars = pytest.importorskip("polars")
     table = rn.sweep(tree, workers=1, out=tmp_path / "a.parquet")
     frame = polars.read_parquet(tmp_path / "a.parquet")
     assert frame["case"].to_list() == list(range(6))
     assert frame["message"].to_list() == list(table["message"])
-    plain = {name: unit for name, unit in SCALARS.items() if not name.startswith("face.")}
     for name, unit in plain.items():
         column = frame[name if unit == "1" else f"{name} [{unit}]"].to_numpy()
         assert column.dtype == np.float64

@@ -70,7 +70,7 @@ def _rollers() -> tuple[VerificationCase, ...]:
             figure(
                 "load in the middle over the mean",
                 "",
-                centre,
+                round(float(centre), 12),  # 0 at pi, without the remainder of cos(pi/2)
                 _over_mean(_MIDDLE),
                 _CLOSED,
                 scale=1.0,

@@ -204,3 +204,24 @@ def test_totals_losses_and_lengths_per_thousand_are_in_the_units_chosen(designer
     horses = [text for text in whole.all_inner_texts() if " hp" in text]
     assert len(horses) == len(watts)
     page.click("#metric")
+
+
+def test_an_answer_given_up_while_it_is_read_is_no_complaint(designer):
+    """Such an answer has status 200; "The server answered 200." once hid what was just said."""
+    name = designer.page.evaluate(
+        """async () => {
+            const { post } = await import("/static/js/api.js");
+            const real = window.fetch;
+            const json = () => Promise.reject(new DOMException("given up", "AbortError"));
+            window.fetch = async () => ({ ok: true, status: 200, json });
+            try {
+                await post("/api/known", {});
+                return "an answer";
+            } catch (error) {
+                return error.name;
+            } finally {
+                window.fetch = real;
+            }
+        }"""
+    )
+    assert name == "AbortError"

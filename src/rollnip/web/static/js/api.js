@@ -103,7 +103,10 @@ function pause(time, signal) {
 }
 
 async function answer(response) {
-  const tree = await response.json().catch(() => null);
+  const tree = await response.json().catch((error) => {
+    if (isAbort(error)) throw error; // given up while the body was read: nothing to complain of
+    return null;
+  });
   if (response.ok && tree !== null) return tree;
   const said = tree?.error ?? say("server.status", { status: response.status });
   throw new ApiError(said, response.status, tree?.details ?? []);

@@ -2,7 +2,7 @@
 
 An independent judge of `rollnip.sheet`: nothing of rollnip is imported. One flat layer on a rigid
 base on either roller (or a bare rigid roller), linear geometry (theory, section 5, and the sheet of
-docs/sheet.md). Each roller's compliance is solved from its boundary conditions at every wave
+docs/decisions/0016). Each roller's compliance is solved from its boundary conditions at every wave
 number and brought back to space by the trapezoidal rule; pressure, both shears, the approach and
 both creepages are one linear system; contact, stick and slip are found node by node.
 

@@ -156,7 +156,7 @@ class PassingSheet:
 )
 @dataclass(frozen=True, slots=True, kw_only=True)
 class HeatBalance:
-    """Where the heat of a nip goes.
+    """The surroundings that take the heat of a nip.
 
     Parameters
     ----------

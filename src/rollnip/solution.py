@@ -75,7 +75,7 @@ class Solution(Presented):
 
     @property
     def sheet(self) -> Any:
-        """What the solution says of its sheet, a `rollnip.sheet.SheetResult`; None without one."""
+        """Results for the sheet, a `rollnip.sheet.SheetResult`; None without one."""
         return None
 
     @property

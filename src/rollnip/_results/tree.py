@@ -64,7 +64,7 @@ def result_dict(solution: Any, *, interfaces: bool = True) -> dict[str, Any]:
 
 
 def _sheet(solution: Any) -> dict[str, Any]:
-    """What a solution says of its sheet."""
+    """Return the figures of the sheet."""
     sheet = solution.sheet
     tree: dict[str, Any] = {
         key.partition(".")[2]: figure.value(solution) for key, figure in SHEET_FIGURES.items()

@@ -61,7 +61,7 @@ class FaceGrid:
 
 @dataclass(frozen=True, slots=True)
 class Journal:
-    """What a journal gives way by under the unit force of its bearing.
+    """Deflections of a journal under the unit force of its bearing.
 
     Attributes
     ----------

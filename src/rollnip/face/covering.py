@@ -33,7 +33,7 @@ _MOST_NODES = 9
 
 @dataclass(frozen=True, slots=True)
 class Coverings:
-    """What the coverings of a face are at its places.
+    """The coverings of a face at its places.
 
     Attributes
     ----------

@@ -144,7 +144,7 @@ def _require_same(law: NipLaw, problem: FaceProblem, model: Model) -> None:
 
 @dataclass(frozen=True, slots=True)
 class _Span:
-    """What a table reaches over, and how fine its lattice is.
+    """The range of a table, and how fine its lattice is.
 
     Attributes
     ----------

@@ -46,7 +46,7 @@ class Anderson:
 
 @dataclass(frozen=True, slots=True)
 class Settled:
-    """What an iteration came to.
+    """The outcome of an iteration.
 
     Attributes
     ----------

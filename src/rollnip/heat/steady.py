@@ -36,7 +36,7 @@ _LOW = 0.1  # of the speed, from which the warm branch is followed
 
 @dataclass
 class _Course:
-    """What an iteration has reached: its last state, its division, and what is left open [K]."""
+    """The progress of an iteration: its last state, its division, and what is left open [K]."""
 
     state: State
     cut: Divided

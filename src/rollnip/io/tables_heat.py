@@ -79,7 +79,7 @@ class RollerHeatTable(Table):
 
 
 class HeatTable(Table):
-    """Where the heat of the nip goes."""
+    """The surroundings that take the heat of the nip."""
 
     ambient: Temperature
     start: Temperature | None = Field(

@@ -71,7 +71,7 @@ class HalfSpace:
 
 @dataclass(frozen=True)
 class RadialTable:
-    """What layers add to the half-space of the top layer, over the distance from a point force.
+    """Addition of layers to the half-space of the top layer, over the distance from a point force.
 
     Attributes
     ----------

@@ -199,7 +199,7 @@ class PatchSolution:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """What the model leaves out that may count here, one sentence each."""
+        """Effects that the model leaves out and that may count here, one sentence each."""
         return tuple(_reservations(self))
 
     @property

@@ -62,7 +62,7 @@ class SheetSolution(Solution):
 
     @property
     def sheet(self) -> SheetResult:
-        """What the solution says of the sheet."""
+        """Results for the sheet."""
         return self._sheet
 
     @property

@@ -85,9 +85,26 @@ def test_the_page_itself_holds_no_text():
 
 
 def messages(language):
-    """The messages of a language by key."""
-    text = (STATIC / "js" / "texts" / f"{language}.js").read_text(encoding="utf-8")
-    return dict(re.findall(r'^  "([^"]+)": ["`](.*)["`],$', text, re.M))
+    """The messages of a language by key, of all its files but the library; of "library-de" alone."""
+    texts = STATIC / "js" / "texts"
+    own = [texts / "library-de.js"]
+    paths = own if language == "library-de" else {*texts.glob(f"*{language}.js")} - {*own}
+    found = [
+        pair
+        for path in paths
+        for pair in re.findall(
+            r'^  "([^"]+)": ["`](.*)["`],$', path.read_text(encoding="utf-8"), re.M
+        )
+    ]
+    assert len(dict(found)) == len(found), "a message stands in two files"
+    return dict(found)
+
+
+def test_every_file_of_messages_is_used():
+    together = (STATIC / "js" / "texts.js").read_text(encoding="utf-8")
+    for path in (STATIC / "js" / "texts").glob("*.js"):
+        (name,) = re.findall(r"^export const (\w+) =", path.read_text(encoding="utf-8"), re.M)
+        assert f"...{name}" in together, f"{path.name} is not among the messages of its language"
 
 
 def test_both_languages_have_the_same_messages_with_the_same_holes():

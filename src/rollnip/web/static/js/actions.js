@@ -151,7 +151,7 @@ export class Actions {
     if (standing !== "settled") throw new Error(say(REFUSALS[standing]));
     const { tree } = this.snapshot;
     const face = this.faces.of(tree);
-    if (tree.face && !face && !this.faces.failureOf(tree)) throw new Error(say("refuse.computing"));
+    if (!this.faces.isDone(tree)) throw new Error(say("refuse.computing"));
     return { ...this.snapshot, face };
   }
 

@@ -3,18 +3,19 @@
 import { Actions } from "./actions.js";
 import { announce, clearAlarm, alarm, showAnswers, showStanding, unsoundAlarm } from "./answers.js";
 import { isAbort, onOutage, post, sentencesOf } from "./api.js";
+import { Asker } from "./asker.js";
 import { MOST_KEPT } from "./compare.js";
 import { defaultCase, designOf, nameOf } from "./design.js";
 import { button, byId, toast } from "./dom.js";
 import { Drawings } from "./drawings.js";
 import { sameNip } from "./face.js";
-import { FaceRunner } from "./facerunner.js";
-import { icon } from "./icons.js";
+import { FACE_ROUTE } from "./faceview.js";
+import { wireHeader } from "./header.js";
 import { Inputs } from "./inputs.js";
-import { designItems, examplesDialog, menu, shareItems } from "./menus.js";
+import { examplesDialog } from "./menus.js";
 import { measuredIn } from "./measured.js";
 import { paletteOf } from "./palette.js";
-import { same, setAt } from "./paths.js";
+import { same } from "./paths.js";
 import { modulusOf } from "./materials.js";
 import { linkOf, stateIn } from "./permalink.js";
 import { Printing } from "./printing.js";
@@ -57,49 +58,17 @@ export class App extends Actions {
       busy: (yes) => this.busy(yes),
     });
     this.inputs = new Inputs(byId("inputs"), this);
-    this.faces = new FaceRunner(this, () => this.faceTold());
+    this.faces = new Asker(this, FACE_ROUTE, () => this.faceTold());
     this.drawings = new Drawings(byId("drawings"), this);
     this.tabs = new Tabs(viewsOf(this), this);
     this.examples = examplesDialog(examples, (example) => this.open(example.case, example.title));
     this.printing = new Printing(this);
-    this.wire();
+    wireHeader(this);
     onOutage((yes) => {
       this.isOut = yes;
       this.stand();
     });
     this.store.listen((state, why) => this.changed(state, why));
-  }
-
-  /** Header, shortcuts, links pasted into the address. */
-  wire() {
-    for (const id of ["undo", "redo", "theme"]) byId(id).append(icon(id));
-    byId("undo").addEventListener("click", () => this.store.undo());
-    byId("redo").addEventListener("click", () => this.store.redo());
-    for (const system of ["metric", "us"])
-      byId(system).addEventListener("click", () => this.measure(system));
-    byId("theme").addEventListener("click", () => this.theme.toggle());
-    byId("open-examples").addEventListener("click", () => this.examples.showModal());
-    menu("open-share", say("menu.share"), shareItems(this));
-    menu("open-designs", say("menu.designs"), designItems(this));
-    const title = byId("design-title");
-    title.addEventListener("change", () =>
-      this.store.design({ case: setAt(this.store.state.case, "title", title.value.trim()) }),
-    );
-    addEventListener("keydown", (event) => this.shortcut(event));
-    addEventListener("hashchange", () => this.begin(location.hash));
-    new IntersectionObserver(([entry]) =>
-      byId("mini").classList.toggle("shown", !entry.isIntersecting),
-    ).observe(byId("big"));
-  }
-
-  shortcut(event) {
-    const key = event.key.toLowerCase();
-    const writes = key !== "p" && event.target.matches?.('input[type="text"], textarea');
-    if (writes || !(event.ctrlKey || event.metaKey) || event.altKey) return undefined;
-    if (key !== "z" && key !== "y" && key !== "p") return undefined;
-    event.preventDefault();
-    if (key === "p") return this.report();
-    return key === "y" || event.shiftKey ? this.store.redo() : this.store.undo();
   }
 
   /** Show other units from now on; a start that nobody touched has round numbers in them. */
@@ -328,8 +297,7 @@ export class App extends Actions {
   /** The face of the design at hand is there, is refused, or is not there yet. */
   faceTold() {
     const { case: tree } = this.store.state;
-    const isThere = !tree.face || this.faces.of(tree) || this.faces.failureOf(tree);
-    document.documentElement.dataset.face = isThere ? "rest" : "waiting";
+    document.documentElement.dataset.face = this.faces.isDone(tree) ? "rest" : "waiting";
     this.complainAt();
     this.tabs.open.refresh?.();
   }

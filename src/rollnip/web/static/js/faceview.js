@@ -21,6 +21,18 @@ const CURVES = [
 ];
 const NOISE = 1e-9; // of the mean load: a traction below it is rounding
 const WITHIN = 0.1;
+const FIELDS = [
+  [/\.shaft\.crown$/, ".shaft.crown.height"],
+  [/^face\.end_loads$/, "face.end_loads[0]"],
+];
+
+/** How the face of a design is asked for. */
+export const FACE_ROUTE = {
+  path: "/api/face",
+  tab: "face",
+  isWanted: (tree) => Boolean(tree.face),
+  fieldOf: (path) => FIELDS.reduce((text, [found, field]) => text.replace(found, field), path),
+};
 
 /** A second control of a value that has one among the inputs. */
 class LiveControl extends Control {

@@ -1,11 +1,16 @@
-// The texts of the page in the language chosen: one file of messages for each language.
+// The texts of the page in the language chosen: files of messages, NAME-en.js and NAME-de.js for a view.
 
 import { DE } from "./texts/de.js";
 import { EN } from "./texts/en.js";
+import { FACE_DE } from "./texts/face-de.js";
+import { FACE_EN } from "./texts/face-en.js";
 import { LIBRARY_DE } from "./texts/library-de.js";
 import { remembered } from "./saved.js";
 
-const MESSAGES = { en: EN, de: { ...DE, ...LIBRARY_DE } };
+const MESSAGES = {
+  en: { ...EN, ...FACE_EN },
+  de: { ...DE, ...FACE_DE, ...LIBRARY_DE },
+};
 const HOLE = /\{(\w+)\}/g;
 
 /** The language of the page: as chosen in this browser, else German where the browser is German. */

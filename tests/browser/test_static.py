@@ -85,7 +85,7 @@ def test_the_page_itself_holds_no_text():
 
 
 def messages(language):
-    """The messages of a language by key, of all its files but the library; of "library-de" alone."""
+    """The messages of a language by key; those of the library stand apart, as "library-de"."""
     texts = STATIC / "js" / "texts"
     own = [texts / "library-de.js"]
     paths = own if language == "library-de" else {*texts.glob(f"*{language}.js")} - {*own}

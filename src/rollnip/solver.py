@@ -172,7 +172,7 @@ def _without_solution(model: Model, kernels: PairKernels, final: Round) -> str:
         )
     if not kernels.is_balanced:
         return "its tractions have no equilibrium, or none that was found"
-    return "" if final.settled else "contact, stick and slip did not settle"
+    return "" if final.stands_still else "contact, stick and slip did not settle"
 
 
 def _refined(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, Round]:
@@ -188,11 +188,11 @@ def _require_grip(nip: Nip, final: Round) -> None:
     wanted = final.problem.control.traction
     if wanted is None or has_grip(final):
         return
-    if isinstance(nip.tangential, Torque) and not final.settled:
+    if isinstance(nip.tangential, Torque) and not final.stands_still:
         return  # the traction that it takes is rough; `_verdict` says what it may be
     limit = nip.friction * final.figures.load
     given = isinstance(nip.normal, LineLoad)
-    if not given and not final.settled and abs(wanted) < _CLEARLY * limit:
+    if not given and not final.stands_still and abs(wanted) < _CLEARLY * limit:
         return  # the load is rough
     name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
     raise InvalidInputError(
@@ -210,14 +210,14 @@ def _may_spin(nip: Nip, final: Round) -> bool:
 
 def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Return whether the solution is valid, and a sentence that says so or what to do."""
-    if not final.settled and _may_spin(nip, final):
+    if not final.stands_still and _may_spin(nip, final):
         return False, (
             "Contact, stick and slip did not settle: a traction of about "
             f"{final.problem.control.traction:.4g} N/mm may be asked for, and friction * load "
             f"carries {nip.friction * final.figures.load:.4g} N/mm; lower it, or raise the load "
             "or the friction."
         )
-    if not final.settled:
+    if not final.stands_still:
         what = "Contact, stick and slip did not settle"
         if final.geometry_change > 0.1 * model.tolerance:
             name = "The geometry correction"

@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 import rollnip.verification as verification
 from rollnip.cli.app import app
 from rollnip.cli.verify import print_outcomes
-from rollnip.verification import Outcome, cases_about
+from rollnip.verification import VerificationResult, cases_about
 
 QUICK = "Viscoelastic strip"
 
@@ -27,7 +27,7 @@ def wrong(monkeypatch):
 
     def verify(cases):
         for case in cases:
-            yield Outcome(case, 1.1 * case.expected)
+            yield VerificationResult(case, 1.1 * case.expected)
 
     monkeypatch.setattr(verification, "verify", verify)
 
@@ -67,7 +67,7 @@ def test_json(wrong):
 
 
 def test_what_could_not_be_computed_is_null_in_json_and_said_in_the_table():
-    outcome = Outcome(cases_about(QUICK)[0], float("nan"), "It did not settle.")
+    outcome = VerificationResult(cases_about(QUICK)[0], float("nan"), "It did not settle.")
     tree = verification.document([outcome])
     assert (tree["cases"][0]["got"], tree["cases"][0]["error"]) == (None, None)
     json.dumps(tree, allow_nan=False)
@@ -83,7 +83,7 @@ def test_markdown():
 
 @pytest.mark.parametrize("width", [80, 100, 300])
 def test_the_table_fits(width):
-    outcomes = [Outcome(case, case.expected) for case in cases_about("")]
+    outcomes = [VerificationResult(case, case.expected) for case in cases_about("")]
     lines = shown(outcomes, width).splitlines()
     assert max(len(line) for line in lines) <= min(width, 100)
     # numbers are never cut

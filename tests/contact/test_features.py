@@ -7,8 +7,8 @@ import pytest
 
 from rollnip.contact import (
     ContactState,
+    ContactZone,
     State,
-    Zone,
     contact_intervals,
     contact_zones,
     graded_nodes,
@@ -133,6 +133,6 @@ def test_states_on_is_the_way_back():
     state = carter_on(x)
     back = states_on(x, contact_zones(x, state, 0.5))
     assert np.mean(back == state.states) > 0.96
-    zones = (Zone(-0.5, 0.0, State.SLIP_MINUS), Zone(0.5, 1.0, State.STICK))
+    zones = (ContactZone(-0.5, 0.0, State.SLIP_MINUS), ContactZone(0.5, 1.0, State.STICK))
     found = states_on(np.array([-0.6, -0.2, 0.2, 0.7]), zones)
     assert list(found) == [FREE, MINUS, FREE, STICK]

@@ -8,11 +8,11 @@ import pytest
 from rollnip.contact import (
     CREEP_TO_EDGE,
     ContactState,
+    ContactZone,
     GivenStates,
     HeldContact,
     Layout,
     State,
-    Zone,
     cosine_nodes,
     elements_of_zones,
     gap,
@@ -147,14 +147,14 @@ def test_where_slip_turns_to_stick_slack_goes_as_a_power_of_three_halves(short):
 
 
 def test_layouts_are_of_zones_that_touch_with_stick_between_slip():
-    zones = (Zone(-1.0, 0.0, PLUS), Zone(0.0, 1.0, STICK))
+    zones = (ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, STICK))
     layout = Layout.of(zones)
     assert layout is not None
     assert layout.zones == zones
     assert layout.width == 2.0
     assert Layout.of(()) is None
-    assert Layout.of((Zone(-1.0, 0.0, STICK), Zone(0.1, 1.0, STICK))) is None
-    assert Layout.of((Zone(-1.0, 0.0, PLUS), Zone(0.0, 1.0, MINUS))) is None
+    assert Layout.of((ContactZone(-1.0, 0.0, STICK), ContactZone(0.1, 1.0, STICK))) is None
+    assert Layout.of((ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, MINUS))) is None
     assert not Layout(np.array([0.0, np.nan, 1.0]), layout.states).is_proper
     assert not Layout(np.array([0.0, -0.1, 1.0]), layout.states).is_proper
 

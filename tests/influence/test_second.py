@@ -96,7 +96,7 @@ def test_a_short_grid_is_told_how_far_the_contact_moves(monkeypatch):
     inward = surface_kernels(roller, None, "finite", window).inward_at(0.0, nodes, p, 0.0 * p)
     short = second_response(roller, None, half_width)
     assert short.is_short
-    monkeypatch.setattr(second, "_DEEPEST", 80.0)
+    monkeypatch.setattr(second, "_LARGEST_DEPTH", 80.0)
     long = second_response(roller, None, half_width)
     assert not long.is_short
 

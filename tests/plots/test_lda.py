@@ -2,7 +2,15 @@ import numpy as np
 import pytest
 
 from rollnip._errors import RollnipError
-from rollnip.lda import Comparison, Fit, Instrument, Record, Scan, SpeedProfile, estimate_profile
+from rollnip.lda import (
+    Comparison,
+    FittedNumber,
+    Instrument,
+    Record,
+    Scan,
+    SpeedProfile,
+    estimate_profile,
+)
 from rollnip.plots.lda import (
     plot_comparison,
     plot_record,
@@ -15,7 +23,7 @@ from rollnip.plots.lda import (
 @pytest.fixture
 def comparison():
     x = np.linspace(-3.0, 3.0, 7)
-    fit = Fit(0.1, 0.01, 0.08, 0.12)
+    fit = FittedNumber(0.1, 0.01, 0.08, 0.12)
     return Comparison(
         x=x,
         strain=0.01 * x,

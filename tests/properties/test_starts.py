@@ -24,7 +24,9 @@ STARTS = {"narrow": (0.6, True), "wide": (1.6, True), "linear elements": (1.0, F
 
 def stands(nip, final):
     """Whether solve would call it converged."""
-    return final.settled and final.residual <= TOLERANCE and excess(nip, final, TOLERANCE) <= 1.0
+    return (
+        final.stands_still and final.residual <= TOLERANCE and excess(nip, final, TOLERANCE) <= 1.0
+    )
 
 
 def refined(case, kernels, start, free_ends):

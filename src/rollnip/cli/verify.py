@@ -15,7 +15,7 @@ from rollnip.cli.console import clear_failures, terminal
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
 
-    from rollnip.verification import Outcome
+    from rollnip.verification import VerificationResult
 
 _WIDTH = 100
 _NUMBER, _SHARE, _PASS = 12, 9, 4
@@ -53,7 +53,7 @@ def verify(
         raise typer.Exit(1)
 
 
-def _text(outcomes: Sequence[Outcome], *, as_json: bool) -> str:
+def _text(outcomes: Sequence[VerificationResult], *, as_json: bool) -> str:
     from json import dumps
 
     from rollnip.verification import document, markdown
@@ -63,7 +63,7 @@ def _text(outcomes: Sequence[Outcome], *, as_json: bool) -> str:
     return markdown(outcomes)
 
 
-def print_outcomes(outcomes: Sequence[Outcome], console: Console | None = None) -> None:
+def print_outcomes(outcomes: Sequence[VerificationResult], console: Console | None = None) -> None:
     """Print a table of outcomes, case by case, and a summary line.
 
     Parameters
@@ -88,14 +88,14 @@ def print_outcomes(outcomes: Sequence[Outcome], console: Console | None = None) 
     console.print(Text(f"\n{summary(outcomes)}", style="green" if passed else "bold red"))
 
 
-def _origin(outcome: Outcome) -> str:
+def _origin(outcome: VerificationResult) -> str:
     """Return the kind and the source of a figure, and the geometry it was solved in."""
     source = outcome.case.source
     geometry = f" Geometry {outcome.geometry}." if outcome.geometry else ""
     return f"{source.kind.value.capitalize()}: {source.text}.{geometry}"
 
 
-def _table(outcomes: Sequence[Outcome]) -> RenderableType:
+def _table(outcomes: Sequence[VerificationResult]) -> RenderableType:
     from rich.padding import Padding
     from rich.table import Table
     from rich.text import Text

@@ -1,20 +1,19 @@
 """Contact: which nodes touch, stick or slip, and where zones of them end."""
 
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
-from rollnip.contact.features import Zone, contact_intervals, contact_zones, states_on
+from rollnip.contact.features import ContactZone, contact_intervals, contact_zones, states_on
 from rollnip.contact.free_ends import GivenStates, HeldContact, Layout
+from rollnip.contact.graded import Demand, graded_nodes
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
 from rollnip.contact.mesh import (
     CREEP_TO_EDGE,
-    Demand,
     Subdivision,
     carry,
     cosine_nodes,
     crowding_of,
     cubic_error,
     elements_of_zones,
-    graded_nodes,
     more_elements,
     subdivided,
 )
@@ -35,6 +34,7 @@ __all__ = [
     "CREEP_TO_EDGE",
     "ContactProblem",
     "ContactState",
+    "ContactZone",
     "Control",
     "Convolution",
     "CoupledActiveSet",
@@ -50,7 +50,6 @@ __all__ = [
     "State",
     "States",
     "Subdivision",
-    "Zone",
     "carry",
     "contact_intervals",
     "contact_zones",

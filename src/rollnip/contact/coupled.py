@@ -27,7 +27,7 @@ from rollnip.contact.problem import (
 )
 
 _TINY = np.finfo(float).tiny
-_WELL_AWAY = 0.1  # from zero: what a change of one column may leave of the determinant
+_LEAST_DIVISOR = 0.1  # from zero: what a change of one column may leave of the determinant
 
 
 @dataclass(frozen=True, slots=True)
@@ -146,7 +146,7 @@ class LinearSystem:
         both = self._divided(np.stack([right, change], axis=1))
         first, more = both[:, 0], both[:, 1]
         divisor = 1.0 + float(more[-1])
-        if not divisor > _WELL_AWAY:
+        if not divisor > _LEAST_DIVISOR:
             return LinearSystem.of(problem, self.states)._unknowns(problem)
         return np.asarray(first - more * (first[-1] / divisor))
 

@@ -14,7 +14,7 @@ _SMOOTH = 2.0 / 3.0  # mu p - |q| where slip turns to stick: material that came 
 
 
 @dataclass(frozen=True, slots=True)
-class Zone:
+class ContactZone:
     """A piece of the contact in one state.
 
     Attributes
@@ -28,7 +28,7 @@ class Zone:
     state: State
 
 
-def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Zone, ...]:
+def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[ContactZone, ...]:
     """Return zones, trailing edge first; without friction each interval is one STICK zone.
 
     Pressure goes to zero as the square root of the distance to an edge, and mu p - |q| as the
@@ -48,7 +48,7 @@ def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Zone,
     return tuple(zones)
 
 
-def contact_intervals(zones: tuple[Zone, ...]) -> tuple[tuple[float, float], ...]:
+def contact_intervals(zones: tuple[ContactZone, ...]) -> tuple[tuple[float, float], ...]:
     """Join neighbouring zones to contact intervals (trailing, leading) [mm]."""
     intervals: list[tuple[float, float]] = []
     for zone in zones:
@@ -59,7 +59,7 @@ def contact_intervals(zones: tuple[Zone, ...]) -> tuple[tuple[float, float], ...
     return tuple(intervals)
 
 
-def states_on(x: Array, zones: tuple[Zone, ...]) -> States:
+def states_on(x: Array, zones: tuple[ContactZone, ...]) -> States:
     """Return the state of each of the nodes ``x``: of its zone, ends included, or FREE.
 
     A node between two zones belongs to the leading one.
@@ -84,17 +84,17 @@ def _split(
     states: States,
     interval: tuple[int, int],
     edges: tuple[float, float],
-) -> list[Zone]:
+) -> list[ContactZone]:
     """Cut one contact interval at its changes of state."""
     first, last = interval
     slack = friction * state.pressure - np.abs(state.shear)
-    zones: list[Zone] = []
+    zones: list[ContactZone] = []
     start = edges[0]
     for i in range(first, last + 1):
         if i < last and states[i + 1] == states[i]:
             continue
         stop = edges[1] if i == last else transition(x, slack, states, i)
-        zones.append(Zone(start, stop, State(states[i])))
+        zones.append(ContactZone(start, stop, State(states[i])))
         start = stop
     return zones
 

@@ -18,7 +18,7 @@ from math import isfinite, nan, sqrt
 import numpy as np
 
 from rollnip.contact.coupled import LinearSystem, next_slip, solve_states
-from rollnip.contact.features import Zone, transition
+from rollnip.contact.features import ContactZone, transition
 from rollnip.contact.problem import (
     FREE,
     STICK,
@@ -50,7 +50,7 @@ class Layout:
     states: States
 
     @classmethod
-    def of(cls, zones: tuple[Zone, ...]) -> Layout | None:
+    def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
         """Return the layout of zones; None where they do not touch, or slip both ways."""
         if not zones:
             return None
@@ -77,7 +77,7 @@ class Layout:
         ends = [transition(x, slack, state.states, i) for i in changes]
         breaks = [edges[0], *ends, edges[1]]
         states = [State(int(state.states[i])) for i in (*changes, last)]
-        return cls.of(tuple(map(Zone, breaks[:-1], breaks[1:], states)))
+        return cls.of(tuple(map(ContactZone, breaks[:-1], breaks[1:], states)))
 
     @classmethod
     def sticking(cls, half_width: float) -> Layout:
@@ -111,10 +111,10 @@ class Layout:
         return float(np.max(moves)) / other.width
 
     @property
-    def zones(self) -> tuple[Zone, ...]:
+    def zones(self) -> tuple[ContactZone, ...]:
         """Return the zones, from trailing to leading edge."""
         ends = zip(self.breaks[:-1], self.breaks[1:], self.states, strict=True)
-        return tuple(Zone(float(a), float(b), State(int(s))) for a, b, s in ends)
+        return tuple(ContactZone(float(a), float(b), State(int(s))) for a, b, s in ends)
 
     def ends(self, x: Array) -> Indices:
         """Return the indices of the nodes at the breaks."""

@@ -24,12 +24,12 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from rollnip.contact.grid import Convolution, GridProblem, GridState, InverseWithHoles
 from rollnip.contact.problem import Array, Indices, Mask
 
-_COARSEST = 256  # nodes of the first grid
-_COARSE = 1e-3  # correction at which a coarse grid is left
-_SHARE = 0.3  # of the nodes that the first contact set of all holds
-_MOST_DENSE = 1500  # nodes in contact
-_ROUNDING = 1e-9  # of the displacements: overlap that counts as none
-_DROP = 0.01  # of the correction within one contact set
+_COARSEST_NODES = 256  # nodes of the first grid
+_COARSE_CORRECTION = 1e-3  # correction at which a coarse grid is left
+_FIRST_CONTACT_SHARE = 0.3  # of the nodes that the first contact set of all holds
+_MOST_DENSE_NODES = 1500  # nodes in contact
+_OVERLAP_ROUNDING = 1e-9  # of the displacements: overlap that counts as none
+_INNER_REDUCTION = 0.01  # of the correction within one contact set
 
 
 @dataclass(frozen=True, slots=True)
@@ -63,7 +63,7 @@ class GridActiveSet:
         both to the tolerance: their difference says what the sampling leaves open.
         """
         strides = [1]
-        while problem.clearance[:: strides[-1]].size > _COARSEST:
+        while problem.clearance[:: strides[-1]].size > _COARSEST_NODES:
             strides.append(2 * strides[-1])
         state: GridState | None = None
         before: GridState | None = None
@@ -71,7 +71,7 @@ class GridActiveSet:
             before = state
             level = problem if stride == 1 else _every(problem, stride, coarser(stride))
             start = _first(level) if before is None else _between(before.pressure, level)
-            wanted = self.tolerance if stride <= 2 else max(_COARSE, self.tolerance)
+            wanted = self.tolerance if stride <= 2 else max(_COARSE_CORRECTION, self.tolerance)
             state = self.on_grid(level, start, wanted)
         assert state is not None
         return state, before
@@ -96,7 +96,7 @@ def _every(problem: GridProblem, stride: int, compliance: Convolution) -> GridPr
 
 def _first(problem: GridProblem) -> Array:
     """Return a first pressure for the coarsest grid: even, where the surfaces are nearest."""
-    limit = float(np.quantile(problem.clearance, _SHARE))
+    limit = float(np.quantile(problem.clearance, _FIRST_CONTACT_SHARE))
     if problem.approach is not None:
         limit = max(min(problem.approach, limit), float(np.min(problem.clearance)))
     return np.where(problem.clearance <= limit, 1.0, 0.0)
@@ -179,7 +179,7 @@ def _active_set(problem: GridProblem, start: Array, wanted: float, most: int) ->
             residual, correction = descent.correction(gap - depth)
             size = _relative(correction, pressure)
             first = size if np.isinf(first) else first
-            if size <= max(wanted, _DROP * first):
+            if size <= max(wanted, _INNER_REDUCTION * first):
                 break
             change, opened = descent.step(residual, correction)
             pressure, gap = pressure + change, gap + opened
@@ -217,7 +217,7 @@ def _growing(problem: GridProblem, most: int) -> GridState:
     depth = 0.0
     for steps in range(1, most + 1):
         inside = np.flatnonzero(contact)
-        if inside.size > _MOST_DENSE:
+        if inside.size > _MOST_DENSE_NODES:
             break
         solution = _dense(problem, inside)
         if solution is None:
@@ -233,9 +233,9 @@ def _growing(problem: GridProblem, most: int) -> GridState:
         pressure[inside] = wanted
         displacement = problem.compliance.of(pressure)
         gap = problem.clearance - depth + displacement
-        overlap = ~contact & (gap < -_ROUNDING * np.max(np.abs(displacement)))
+        overlap = ~contact & (gap < -_OVERLAP_ROUNDING * np.max(np.abs(displacement)))
         if not np.any(overlap):
-            return GridState(pressure, depth, steps, _ROUNDING, settled=True)
+            return GridState(pressure, depth, steps, _OVERLAP_ROUNDING, settled=True)
         deepest = (gap <= np.roll(gap, 1)) & (gap <= np.roll(gap, -1))
         contact |= overlap & deepest if np.any(overlap & deepest) else overlap
     return GridState(pressure, depth, steps, np.inf, settled=False)

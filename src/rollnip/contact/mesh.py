@@ -1,4 +1,4 @@
-"""Meshes graded to contact edges, to transitions between stick and slip, and to the tractions."""
+"""Meshes with nodes at the ends of zones, at cosine places between, and cubics through these."""
 
 from __future__ import annotations
 
@@ -14,60 +14,16 @@ from scipy.special import ellipj, ellipkm1
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-_SMALLEST_ZONE = 6  # elements in a zone, however short
-# Share of the nodes placed by the demand of a former solution; more of `_MANY` elements and up, for
-# tractions that so many do not resolve bend inside the zones rather than at their ends.
-_ASKED = 0.15
-_ASKED_OF_MANY = 0.4
-_MANY = 150
-# Share where the demand on some elements at cosine places is `_PEAKED` times their number or more:
-# peaks under a stiff skin, a few of its thicknesses wide.
-_ASKED_OF_PEAKS = 0.7
-_PEAKED = 2.0
-_FINER = 8  # places in an element at which the demand is looked at
+FEWEST_ELEMENTS_OF_A_ZONE = 6
 # Share taken off the creep from the last node to an edge per shear at that node: the square root of
 # the shear at the edge leaves it there although the shear is right. Half-plane (tests).
 CREEP_TO_EDGE = 0.02655
-_BESIDE = 1e-3  # elements: nodes beyond both ends of cosine places, where tractions end
-_PARTS, _MOST_PARTS = 2, 64  # of an element
-_MOST_VALUES = 500_000  # of displacements at nodes per traction of a piece, where parts are many
-_POINTS = 4  # of Gauss in each of these
-_LAYERS = 4.0  # lengths of a boundary layer up to which nodes at the end of a zone crowd
-_MOST_CROWDED = 2.0**-20
-_MARGIN = np.array([1.0, 2.0, 4.0, 8.0])  # nodes outside the contact, in edge elements
-
-
-@dataclass(frozen=True, slots=True)
-class Demand:
-    """Number of elements that tractions need: the integral of |f''|^(1/3) over each interval.
-
-    Linear interpolation of f errs by f'' h^2/12 on average; with a given number of elements the
-    integral of the error is smallest where h goes as |f''|^(-1/3).
-
-    Attributes
-    ----------
-    x : (n,) increasing places [mm].
-    total : (n,) elements needed from x[0] up to each place, in an arbitrary unit.
-    """
-
-    x: Array
-    total: Array
-
-    @classmethod
-    def of(cls, x: Array, *tractions: Array) -> Demand:
-        """Return the demand of nodal tractions (each (n,)), each relative to its largest value."""
-        density = np.zeros(x.size)
-        for values in tractions:
-            largest = np.max(np.abs(values))
-            if largest > 0.0:
-                density = np.maximum(density, _bend(x, values / largest) ** (1.0 / 3.0))
-        smooth = np.convolve(np.pad(density, 2, mode="edge"), [0.1, 0.2, 0.4, 0.2, 0.1], "valid")
-        steps = 0.5 * (smooth[1:] + smooth[:-1]) * np.diff(x)
-        return cls(x, np.concatenate([[0.0], np.cumsum(steps)]))
-
-    def up_to(self, places: Array) -> Array:
-        """Return the number of elements needed up to each place."""
-        return np.interp(places, self.x, self.total)
+_OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both ends of cosine places, in edge elements
+_PIECES_PER_ELEMENT, _MOST_PIECES_PER_ELEMENT = 2, 64
+_MOST_NODE_VALUES = 500_000  # pieces times the square of the nodes, where pieces are many
+_GAUSS_POINTS = 4  # in each piece
+_CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd where a zone is longer than so many boundary layers
+_STRONGEST_CROWDING = 2.0**-20
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,8 +78,8 @@ def subdivided(
     counts = tuple(elements.tolist())
     crowding = (1.0,) * len(counts) if crowding is None else crowding
     longest = float(np.max(np.diff(nodes)))
-    most = min(_MOST_PARTS, _MOST_VALUES // nodes.size**2)
-    parts = max(min(ceil(longest / shortest), most), _PARTS)
+    most = min(_MOST_PIECES_PER_ELEMENT, _MOST_NODE_VALUES // nodes.size**2)
+    parts = max(min(ceil(longest / shortest), most), _PIECES_PER_ELEMENT)
     values, acting, means = _cubics(counts, crowding, parts)
     finer = _cosine_values(tuple(parts * n for n in counts), crowding)
     finer = finer @ nodes[[1, *_ends(counts)]]
@@ -212,7 +168,7 @@ def _cubics(
     values[1 + rows, columns] = _cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
 
     # Means over x, by Gauss points in the number of the node.
-    points, weights = np.polynomial.legendre.leggauss(_POINTS)
+    points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
     number = (interval - ends[zone])[:, None, None] + inside
     slope = np.empty(number.shape)
@@ -250,8 +206,11 @@ def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
     breaks : (m,) ends of zones [mm].
     length : of the boundary layers [mm].
     """
-    wanted = [_LAYERS * length / (stop - start) for start, stop in pairwise(breaks.tolist())]
-    shares = (min(max(share, _MOST_CROWDED), 1.0) for share in wanted)
+    wanted = [
+        _CROWDED_LAYER_LENGTHS * length / (stop - start)
+        for start, stop in pairwise(breaks.tolist())
+    ]
+    shares = (min(max(share, _STRONGEST_CROWDING), 1.0) for share in wanted)
     return tuple(2.0 ** ceil(log2(share)) for share in shares)
 
 
@@ -267,7 +226,7 @@ def elements_of_zones(
     more = [1.0] * len(shares) if crowding is None else [more_elements(crowd) for crowd in crowding]
     return np.array(
         [
-            max(round(count * share / total), _SMALLEST_ZONE) * longer
+            max(round(count * share / total), FEWEST_ELEMENTS_OF_A_ZONE) * longer
             for share, longer in zip(shares, more, strict=True)
         ]
     ).astype(int)
@@ -324,77 +283,7 @@ def _cosine_values(elements: tuple[int, ...], crowding: tuple[float, ...]) -> Ar
         values[first : first + n + 1, zone] = 1.0 - cosine
         values[first : first + n + 1, zone + 1] = cosine
         first += n
-    values[0] = values[1] - _BESIDE * (values[2] - values[1])
-    values[-1] = values[-2] + _BESIDE * (values[-2] - values[-3])
+    values[0] = values[1] - _OUTER_NODE_DISTANCE * (values[2] - values[1])
+    values[-1] = values[-2] + _OUTER_NODE_DISTANCE * (values[-2] - values[-3])
     values.setflags(write=False)
     return values
-
-
-def graded_nodes(breaks: Array, count: int, demand: Demand | None = None) -> Array:
-    """Return nodes on zones between ``breaks``, dense at every break and where tractions bend.
-
-    Tractions go to zero as the square root of the distance to an edge or a transition; nodes
-    whose distance to it grows as a square (a cosine over the zone) then make the interpolation
-    error equal on all elements, and the whole of second order in 1/count. Most nodes are placed
-    so; the others follow the demand of a former solution, where there is one.
-
-    Parameters
-    ----------
-    breaks : (m,) increasing: outermost contact edges, further edges, transitions [mm].
-    count :
-        number of elements, about.
-    demand :
-        of a former solution; None: cosines alone.
-
-    Returns
-    -------
-    (n,) increasing nodes [mm], a few of them outside the outermost breaks.
-    """
-    lengths = np.diff(breaks)
-    shares = np.sqrt(lengths / lengths.sum())
-    shares /= shares.sum()
-    if demand is not None:
-        asked = np.diff(demand.up_to(breaks))
-        if asked.sum() > 0.0:
-            shares += _asked_share(count) * (asked / asked.sum() - shares)
-    counts = np.maximum(np.rint(count * shares), _SMALLEST_ZONE).astype(int)
-    parts = [breaks[:1]]
-    for start, stop, n in zip(breaks[:-1], breaks[1:], counts, strict=True):
-        parts.append(_zone_nodes(float(start), float(stop), int(n), demand, _asked_share(count)))
-    inner = np.concatenate(parts)
-    first, last = inner[1] - inner[0], inner[-1] - inner[-2]
-    return np.concatenate([inner[0] - first * _MARGIN[::-1], inner, inner[-1] + last * _MARGIN])
-
-
-def _asked_share(count: int) -> float:
-    return _ASKED if count < _MANY else _ASKED_OF_MANY
-
-
-def _zone_nodes(
-    start: float, stop: float, count: int, demand: Demand | None, share: float
-) -> Array:
-    """Return the nodes of one zone, without its first."""
-    cosine = 0.5 * (1.0 - np.cos(np.pi * np.arange(count + 1) / count))
-    if demand is None:
-        return start + (stop - start) * cosine[1:]
-    fine = np.linspace(0.0, 1.0, _FINER * count + 1)
-    places = start + (stop - start) * 0.5 * (1.0 - np.cos(np.pi * fine))
-    asked = demand.up_to(places) - demand.up_to(np.array([start]))
-    if not asked[-1] > 0.0:
-        return start + (stop - start) * cosine[1:]
-    asked /= asked[-1]
-    steps = 2 * _FINER  # two elements
-    if np.max(asked[steps:] - asked[:-steps]) > _PEAKED * fine[steps]:
-        share = _ASKED_OF_PEAKS
-    rank = fine + share * (asked - fine)
-    nodes = np.interp(np.arange(1, count + 1) / count, rank, places)
-    nodes[-1] = stop
-    return nodes
-
-
-def _bend(x: Array, values: Array) -> Array:
-    """Return |f''| at the nodes, from differences; 0 at both ends."""
-    slopes = np.diff(values) / np.diff(x)
-    bend = np.zeros(x.size)
-    bend[1:-1] = np.abs(np.diff(slopes)) / (0.5 * (x[2:] - x[:-2]))
-    return bend

@@ -10,7 +10,7 @@ from rollnip.contact.coupled import CoupledActiveSet, next_states, solve_states
 from rollnip.contact.path import CreepagePath
 from rollnip.contact.problem import ContactProblem, ContactState, State, States, unsolved
 
-_MOST_OF_A_NODE = 10  # linear systems at most, where one node changes at a time
+_MOST_STEPS_PER_NODE = 10  # linear systems at most, where one node changes at a time
 
 
 @dataclass(frozen=True, slots=True)
@@ -62,7 +62,7 @@ class Safeguarded:
         states = np.minimum(states, State.STICK)
         if not np.any(states):
             states[np.argmin(problem.clearance)] = State.STICK
-        for step in range(1, _MOST_OF_A_NODE * states.size + 1):
+        for step in range(1, _MOST_STEPS_PER_NODE * states.size + 1):
             solution = solve_states(problem, states, steps=step)
             wrong = np.flatnonzero(next_states(problem, solution, self.fast.rounding) != states)
             if wrong.size == 0:

@@ -9,7 +9,7 @@ from typing import Literal
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension, parse_quantity
 
-Quantity = Literal[
+MeasuredQuantity = Literal[
     "frequency",
     "temperature",
     "storage",
@@ -23,7 +23,7 @@ Quantity = Literal[
 ]
 Modulus = Literal["E", "G"]
 
-DIMENSIONS: dict[Quantity, Dimension] = {
+DIMENSIONS: dict[MeasuredQuantity, Dimension] = {
     "frequency": "frequency",
     "temperature": "temperature",
     "storage": "pressure",
@@ -35,7 +35,7 @@ DIMENSIONS: dict[Quantity, Dimension] = {
     "relaxation": "pressure",
     "compliance": "pressure",  # its reciprocal
 }
-SHOWN: dict[Quantity, str] = {
+SHOWN: dict[MeasuredQuantity, str] = {
     "frequency": "frequency",
     "temperature": "temperature",
     "storage": "storage modulus",
@@ -49,7 +49,7 @@ SHOWN: dict[Quantity, str] = {
 }
 ANGULAR = "angular "
 
-_NAMES: dict[Quantity, tuple[str, ...]] = {
+_NAMES: dict[MeasuredQuantity, tuple[str, ...]] = {
     "frequency": ("frequency", "freq", "freq.", "f", "frequenz", "messfrequenz", "prüffrequenz"),
     "temperature": (
         *("temperature", "temp", "temp.", "temperatur", "sample temperature"),
@@ -79,7 +79,7 @@ _ANGULAR_NAMES = (
     *("angular frequency", "ang. frequency", "ang frequency", "omega", "ω", "w"),
     *("kreisfrequenz", "winkelfrequenz", "angular freq", "angular freq."),
 )
-_SYMBOLS: dict[str, tuple[Quantity, Modulus | None]] = {
+_SYMBOLS: dict[str, tuple[MeasuredQuantity, Modulus | None]] = {
     "e'": ("storage", "E"),
     "g'": ("storage", "G"),
     "e''": ("loss", "E"),
@@ -147,7 +147,7 @@ class Head:
     """
 
     text: str
-    quantity: Quantity | None
+    quantity: MeasuredQuantity | None
     kind: Modulus | None = None
     unit: str | None = None
     angular: bool = False
@@ -259,7 +259,7 @@ def _bare(text: str) -> str:
     return text if match is None else match[1]
 
 
-def _named(name: str, unit: str | None) -> tuple[Quantity, Modulus | None, bool] | None:
+def _named(name: str, unit: str | None) -> tuple[MeasuredQuantity, Modulus | None, bool] | None:
     plain = " ".join(name.strip().translate(_PRIMES).lower().split())
     if plain == "t":  # temperature or time: the letter tells, or the unit
         is_time = unit in {"s", "ms", "min", "h", *_TIMES} or (not unit and name.strip() == "t")
@@ -292,7 +292,7 @@ def _bared(part: str) -> str:
     return trimmed[1:-1].strip() if closed else trimmed
 
 
-def _composed(plain: str) -> tuple[Quantity, Modulus | None, bool] | None:
+def _composed(plain: str) -> tuple[MeasuredQuantity, Modulus | None, bool] | None:
     """``speichermodul e'``, ``shear storage modulus``, ``e stor``, ``verlustfaktor tan delta``."""
     words = plain.split()
     for cut in range(1, len(words)):

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
-from rollnip.dma.heads import SHOWN, Head, Modulus, Quantity, scale_of
+from rollnip.dma.heads import SHOWN, Head, MeasuredQuantity, Modulus, scale_of
 from rollnip.dma.shown import KINDS, UNITS, counted, named_lines, shown, table_tree
 from rollnip.dma.tables import RawTable, column, find_tables, has_decimal_commas
 from rollnip.io.cells import Cells, read_cells
@@ -20,14 +20,14 @@ from rollnip.io.cells import Cells, read_cells
 Array = NDArray[np.float64]
 Kind = Literal["dynamic", "relaxation", "creep"]
 
-_WAYS: tuple[tuple[Quantity, Quantity], ...] = (
+_WAYS: tuple[tuple[MeasuredQuantity, MeasuredQuantity], ...] = (
     ("storage", "loss"),
     ("storage", "tan delta"),
     ("storage", "phase"),
     ("absolute", "phase"),
     ("absolute", "tan delta"),
 )
-_OVER_TIME: tuple[tuple[Quantity, Kind], ...] = (
+_OVER_TIME: tuple[tuple[MeasuredQuantity, Kind], ...] = (
     ("relaxation", "relaxation"),
     ("compliance", "creep"),
 )
@@ -55,8 +55,8 @@ class ReadTable:
     name: str
     line: int
     heads: tuple[Head, ...]
-    used: dict[Quantity, int]
-    values: dict[Quantity, Array]
+    used: dict[MeasuredQuantity, int]
+    values: dict[MeasuredQuantity, Array]
     rows: tuple[str, ...]
     kind: Kind | None
     modulus: Modulus | None
@@ -156,7 +156,7 @@ def read_tables(
     cells = _sheets(read_cells(path), sheet)
     raw, passed = find_tables(cells, Path(path).suffix.lower())
     comma = cells.separator != "comma" and has_decimal_commas(raw)
-    given: dict[Quantity, float] = {}
+    given: dict[MeasuredQuantity, float] = {}
     if temperature is not None:
         given["temperature"] = temperature
     if frequency is not None:
@@ -184,7 +184,7 @@ def _sheets(cells: Cells, wanted: str | None) -> Cells:
 
 
 def _understood(
-    table: RawTable, number: int, comma: bool, cells: Cells, given: dict[Quantity, float]
+    table: RawTable, number: int, comma: bool, cells: Cells, given: dict[MeasuredQuantity, float]
 ) -> ReadTable:
     name = f"table {number}" + (f", {table.name}" if table.name else "")
     empty = ReadTable(name, table.line, table.heads, {}, {}, (), None, None, (), "", "")
@@ -221,9 +221,9 @@ def _understood(
     )
 
 
-def _columns(table: RawTable, source: str) -> dict[Quantity, int]:
+def _columns(table: RawTable, source: str) -> dict[MeasuredQuantity, int]:
     """Return the column of each quantity; of several, the first whose name is not there twice."""
-    found: dict[Quantity, int] = {}
+    found: dict[MeasuredQuantity, int] = {}
     for index, head in enumerate(table.heads):
         quantity = head.quantity
         if quantity is None:
@@ -241,8 +241,8 @@ def _columns(table: RawTable, source: str) -> dict[Quantity, int]:
 
 
 def _kind(
-    columns: dict[Quantity, int], given: dict[Quantity, float], table: RawTable
-) -> tuple[Kind | None, dict[Quantity, int], str]:
+    columns: dict[MeasuredQuantity, int], given: dict[MeasuredQuantity, float], table: RawTable
+) -> tuple[Kind | None, dict[MeasuredQuantity, int], str]:
     """Kind of measurement, the columns that it uses, or what is lacking."""
     temperature = {k: i for k, i in columns.items() if k == "temperature"}
     way = next((way for way in _WAYS if all(one in columns for one in way)), None)
@@ -283,8 +283,8 @@ def _seen(table: RawTable) -> str:
 
 
 def _values(
-    table: RawTable, used: dict[Quantity, int], comma: bool, source: str
-) -> dict[Quantity, Array]:
+    table: RawTable, used: dict[MeasuredQuantity, int], comma: bool, source: str
+) -> dict[MeasuredQuantity, Array]:
     values = {}
     for quantity, index in used.items():
         head = table.heads[index]
@@ -295,15 +295,15 @@ def _values(
 
 
 def _add_known(
-    values: dict[Quantity, Array],
+    values: dict[MeasuredQuantity, Array],
     table: RawTable,
-    given: dict[Quantity, float],
+    given: dict[MeasuredQuantity, float],
     source: str,
 ) -> list[str]:
     """Add temperature and frequency of the whole table, where they have no column; say it."""
     notes: list[str] = []
     count = len(table.rows)
-    needed: tuple[Quantity, ...] = ("temperature", "frequency")
+    needed: tuple[MeasuredQuantity, ...] = ("temperature", "frequency")
     for key in needed[: 1 if "time" in values else 2]:
         if key in values and key in given:
             raise InvalidInputError(f"`{key}` must not be given: {source} has such a column.")

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from rollnip._units import format_quantity
-from rollnip.dma.heads import SHOWN, Quantity
+from rollnip.dma.heads import SHOWN, MeasuredQuantity
 
 if TYPE_CHECKING:
     from rollnip.dma.reading import Reading, ReadTable
@@ -73,7 +73,7 @@ def table_tree(table: ReadTable) -> dict[str, Any]:
     }
 
 
-def _unit(quantity: Quantity) -> str:
+def _unit(quantity: MeasuredQuantity) -> str:
     return "1/MPa" if quantity == "compliance" else UNITS.get(quantity, "MPa")
 
 

@@ -131,7 +131,7 @@ def _followed(thermal: HeatProblem, cold: State) -> _Course:
     try:
         for _ in range(_TRIES):
             near = from_cold(thermal, cold, above=above)
-            course = settled(thermal, near)
+            course = steady_course(thermal, near)
             if course.settled:
                 break
             above = _PAST * near.hottest
@@ -158,7 +158,7 @@ def _where_it_ends(thermal: HeatProblem) -> str:
     )
 
 
-def settled(thermal: HeatProblem, start: State) -> _Course:
+def steady_course(thermal: HeatProblem, start: State) -> _Course:
     """Iterate the temperatures from those that a state leads to, on sub-layers fine enough."""
     course = _Course(start, thermal.whole(), np.inf)
     allowed = COARSE

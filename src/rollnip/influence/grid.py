@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 # Spacings within which second differences are taken. There either way errs by some 1e-8 of G: the
 # differences by the 1e-11 of the table times the square of this number, the average by
 # 6/240 of its inverse fourth power (G goes as ln x).
-_NEAR = 32
+_NEAR_NODES = 32
 
 
 def grid_displacements(kernel: Kernel, spacing: float, count: int) -> Array:
@@ -35,7 +35,7 @@ def grid_displacements(kernel: Kernel, spacing: float, count: int) -> Array:
     (2 count - 1,) [mm/MPa], nothing but the convolution kernel of `displacement_matrix`.
     """
     step = np.arange(1.0 - count, count)
-    x, near = spacing * step, np.abs(step) <= _NEAR
+    x, near = spacing * step, np.abs(step) <= _NEAR_NODES
     out = np.empty(x.size)
     integral, value, inside, outside = kernel.double_integral, kernel.value, x[near], x[~near]
     out[near] = (
@@ -54,7 +54,7 @@ def grid_strains(kernel: Kernel, spacing: float, count: int) -> Array:
     means of G over a spacing, each by Simpson's rule.
     """
     step = np.arange(1.0 - count, count)
-    x, near = spacing * step, np.abs(step) <= _NEAR
+    x, near = spacing * step, np.abs(step) <= _NEAR_NODES
     out = np.empty(x.size)
     integral, value, inside, outside = kernel.integral, kernel.value, x[near], x[~near]
     out[near] = (

@@ -42,17 +42,20 @@ from rollnip.influence.surface import moduli
 from rollnip.rollers import Roller
 
 _SIZES_PER_OCTAVE = 4  # half-widths that have a table
-_PER_HALF_WIDTH = 18.0  # points of the grid on which fields at depth are multiplied
-_FINER = 2  # points for one of that on the grid of the surface, which is interpolated
-_FINEST = 16.5  # largest wave number, in pi per half-width; beyond, terms are not of second order
-_REACH = 6.0  # of the window beyond the contact, in thicknesses of a single elastic layer
-_FARTHEST = 10.0  # the largest such reach, for any layers
-_DEEPEST = 8.0  # thickness that counts at most, in half-widths
-_FOLDS = 3.0  # of e in depth, from the surface to twice the half-width or the core
-_PER_FOLD = 3.0  # depths, besides ...
-_FEWEST = 4  # ... so many in every layer
-_NEAR = 4.0  # half-widths beyond which present places are taken as those of the tangent
-_SOFT = 36.0  # exponent of the filter at the largest wave number
+_POINTS_PER_HALF_WIDTH = 18.0  # points of the grid on which fields at depth are multiplied
+# Points for one of that on the grid of the surface, which is interpolated.
+_SURFACE_POINTS_PER_POINT = 2
+# Largest wave number, in pi per half-width; beyond, terms are not of second order.
+_LARGEST_WAVE_NUMBER = 16.5
+# Of the window beyond the contact, in thicknesses of a single elastic layer.
+_ELASTIC_WINDOW_REACH = 6.0
+_LARGEST_WINDOW_REACH = 10.0  # the largest such reach, for any layers
+_LARGEST_DEPTH = 8.0  # thickness that counts at most, in half-widths
+_DEPTH_FOLDS = 3.0  # of e in depth, from the surface to twice the half-width or the core
+_DEPTHS_PER_FOLD = 3.0  # depths, besides ...
+_FEWEST_DEPTHS = 4  # ... so many in every layer
+_TANGENT_BEYOND = 4.0  # half-widths beyond which present places are taken as those of the tangent
+_FILTER_EXPONENT = 36.0  # exponent of the filter at the largest wave number
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,11 +229,11 @@ def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
 def _fit(x: Array, k: Array, curvature: float, half_width: float) -> tuple[Array, Array, Array]:
     """`SecondResponse.impulse`, ``angle`` and ``excess`` for a contact."""
     # What is too short is left out, softly, whatever the grid: it is not small of second order.
-    kept = np.exp(-_SOFT * (k * (half_width / (pi * _FINEST))) ** 6)
+    kept = np.exp(-_FILTER_EXPONENT * (k * (half_width / (pi * _LARGEST_WAVE_NUMBER))) ** 6)
     squares = -k * k
     squares[0] = 1.0
     impulse = k[1] / (2.0 * pi) * kept / squares
-    near = np.clip(x, -_NEAR * half_width, _NEAR * half_width)
+    near = np.clip(x, -_TANGENT_BEYOND * half_width, _TANGENT_BEYOND * half_width)
     angle = curvature * near
     return impulse, angle, angle * angle * near / 6.0
 
@@ -263,7 +266,9 @@ def second_table(roller: Roller, speed: float | None, size: float) -> SecondResp
     As it stands it is fitted to the smallest of them.
     """
     x = _grid(roller, size)
-    k = np.asarray(pi / -x[0] * np.arange(x.size // (2 * _FINER) + 1), dtype=float)
+    k = np.asarray(
+        pi / -x[0] * np.arange(x.size // (2 * _SURFACE_POINTS_PER_POINT) + 1), dtype=float
+    )
     z, weight, owner = _depths(roller, size)
     poisson = np.array([layer.material.poisson for layer in roller.layers])[owner]
     young = np.array([moduli(layer.material, _positive(k), speed) for layer in roller.layers])
@@ -298,18 +303,18 @@ def _grid(roller: Roller, size: float) -> Array:
     """
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
     window = 2.0 * (largest + _reach(roller) * _spread(roller, size))
-    step = size / _PER_HALF_WIDTH
+    step = size / _POINTS_PER_HALF_WIDTH
     turn = 2.0 * pi * roller.radius
     count = 2 * int(next_fast_len(int(np.ceil(0.5 * min(window, turn) / step)), real=True))
-    step = min(step, turn / count) / _FINER
-    half = _FINER * count // 2
+    step = min(step, turn / count) / _SURFACE_POINTS_PER_POINT
+    half = _SURFACE_POINTS_PER_POINT * count // 2
     return np.asarray(step * np.arange(-half, half), dtype=float)
 
 
 def _spread(roller: Roller, size: float) -> float:
     """Thickness that counts for the length of the grid [mm]."""
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
-    return float(min(max(roller.coating_thickness, 0.5 * largest), _DEEPEST * largest))
+    return float(min(max(roller.coating_thickness, 0.5 * largest), _LARGEST_DEPTH * largest))
 
 
 def _reach(roller: Roller) -> float:
@@ -318,9 +323,11 @@ def _reach(roller: Roller) -> float:
     A stiff layer on a soft one bends over its thickness times the cube root of the contrast.
     """
     if roller.is_viscoelastic:
-        return _FARTHEST
+        return _LARGEST_WINDOW_REACH
     young = [layer.material.relaxed_modulus for layer in roller.layers]
-    return min(_REACH * float(np.cbrt(max(young) / min(young))), _FARTHEST)
+    return min(
+        _ELASTIC_WINDOW_REACH * float(np.cbrt(max(young) / min(young))), _LARGEST_WINDOW_REACH
+    )
 
 
 def _positive(k: Array) -> Array:
@@ -334,11 +341,13 @@ def _depths(roller: Roller, half_width: float) -> tuple[Array, Array, Array]:
     In every layer Gauss points of the logarithm of the depth (and a little): fields that decay
     within any length from a hundredth of the contact up are polynomials in it.
     """
-    little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_FOLDS)
+    little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_DEPTH_FOLDS)
     marks = np.log1p(np.array([0.0, *roller.interfaces]) / little)
     z, weight, owner = [], [], []
     for i, (top, bottom) in enumerate(pairwise(marks)):
-        points, weights, _ = gauss_legendre(_FEWEST + int(np.ceil(_PER_FOLD * (bottom - top))))
+        points, weights, _ = gauss_legendre(
+            _FEWEST_DEPTHS + int(np.ceil(_DEPTHS_PER_FOLD * (bottom - top)))
+        )
         grown = little * np.exp(0.5 * (bottom + top) + 0.5 * (bottom - top) * points)
         z.append(grown - little)
         weight.append(0.5 * (bottom - top) * weights * grown)

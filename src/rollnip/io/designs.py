@@ -7,11 +7,11 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from rollnip.io.forms import Ratio, Table
+from rollnip.io.forms import FileTable, Ratio
 from rollnip.io.messages import checked_form
 
 
-class BoundsTable(Table):
+class BoundsTable(FileTable):
     """A parameter of an optimum."""
 
     path: str = Field(description="Of the key in the case: upper.layers[0].thickness.")
@@ -19,14 +19,14 @@ class BoundsTable(Table):
     high: Any = Field(description="Upper bound.")
 
 
-class ObjectiveTable(Table):
+class ObjectiveTable(FileTable):
     """The objective of an optimum: a result to minimise or one to maximise."""
 
     minimise: str | None = Field(default=None, description="Name of a result: peak_pressure.")
     maximise: str | None = Field(default=None, description="Name of a result.")
 
 
-class LimitTable(Table):
+class LimitTable(FileTable):
     """The limits of a result: at_least, at_most or both."""
 
     result: str = Field(description="Name of a result: nip_width.")
@@ -37,7 +37,7 @@ class LimitTable(Table):
     )
 
 
-class SearchTable(Table):
+class SearchTable(FileTable):
     """The settings of the search for an optimum."""
 
     solves: int | None = Field(
@@ -52,7 +52,7 @@ class SearchTable(Table):
     seed: int | None = Field(default=None, description="Of the random numbers; 0 by default.")
 
 
-class OptimiseTable(Table):
+class OptimiseTable(FileTable):
     """A whole file that asks for an optimum."""
 
     model_config = ConfigDict(title="rollnip optimise file")
@@ -65,7 +65,7 @@ class OptimiseTable(Table):
     search: SearchTable = SearchTable()
 
 
-class VariedTable(Table):
+class VariedTable(FileTable):
     """A parameter that scatters."""
 
     path: str = Field(description="Of the key in the case: upper.layers[0].thickness.")
@@ -83,14 +83,14 @@ class VariedTable(Table):
     )
 
 
-class CorrelationTable(Table):
+class CorrelationTable(FileTable):
     """The correlation of two parameters."""
 
     between: list[str] = Field(description="The paths of two parameters.")
     coefficient: Ratio = Field(description="Between -1 and 1.")
 
 
-class SamplingPlanTable(Table):
+class SamplingPlanTable(FileTable):
     """The settings of a tolerance computation."""
 
     count: int | None = Field(
@@ -107,7 +107,7 @@ class SamplingPlanTable(Table):
     seed: int | None = Field(default=None, description="Of the random numbers; 0 by default.")
 
 
-class ToleranceTable(Table):
+class ToleranceTable(FileTable):
     """A whole file that asks for tolerances."""
 
     model_config = ConfigDict(title="rollnip tolerance file")
@@ -126,13 +126,13 @@ class ToleranceTable(Table):
     sampling: SamplingPlanTable = SamplingPlanTable()
 
 
-_OPTIMISE: dict[str, type[Table]] = {
+_OPTIMISE: dict[str, type[FileTable]] = {
     "parameters": BoundsTable,
     "objective": ObjectiveTable,
     "limits": LimitTable,
     "search": SearchTable,
 }
-_TOLERANCE: dict[str, type[Table]] = {
+_TOLERANCE: dict[str, type[FileTable]] = {
     "parameters": VariedTable,
     "limits": LimitTable,
     "correlations": CorrelationTable,

@@ -7,7 +7,7 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from rollnip.io.forms import Length, Ratio, Table
+from rollnip.io.forms import FileTable, Length, Ratio
 from rollnip.io.messages import checked_form
 
 Kind = Literal[
@@ -23,14 +23,14 @@ Kind = Literal[
 ]
 
 
-class PriorTable(Table):
+class PriorTable(FileTable):
     """Prior knowledge of an unknown."""
 
     value: Any
     standard_error: Any
 
 
-class UnknownTable(Table):
+class UnknownTable(FileTable):
     """A value of the case to be found, within bounds."""
 
     path: str = Field(description="Of the key in the case: materials.cover.modulus.")
@@ -41,7 +41,7 @@ class UnknownTable(Table):
     prior: PriorTable | None = None
 
 
-class DataTable(Table):
+class DataTable(FileTable):
     """A set of measurements in a table of its own."""
 
     kind: Kind
@@ -59,7 +59,7 @@ class DataTable(Table):
     width: Length = Field(0.0, description="Standard deviation of the averaging along x.")
 
 
-class MethodTable(Table):
+class MethodTable(FileTable):
     """The settings of a fit."""
 
     geometry: Literal["linear", "corrected", "curved", "finite", "full"] | None = None
@@ -72,7 +72,7 @@ class MethodTable(Table):
     loss: Literal["squares", "huber"] | None = None
 
 
-class FitTable(Table):
+class FitTable(FileTable):
     """A whole file of a fit."""
 
     model_config = ConfigDict(title="rollnip fit file")
@@ -84,7 +84,7 @@ class FitTable(Table):
     method: MethodTable = MethodTable()
 
 
-_TABLES: dict[str, type[Table]] = {
+_TABLES: dict[str, type[FileTable]] = {
     "unknowns": UnknownTable,
     "prior": PriorTable,
     "data": DataTable,

@@ -62,7 +62,7 @@ Film = Annotated[float, Quantity("film coefficient")]
 Expansion = Annotated[float, Quantity("thermal expansion")]
 
 
-class Table(BaseModel):
+class FileTable(BaseModel):
     """A table of the file; unknown keys are errors."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)

@@ -11,12 +11,12 @@ from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from rollnip._errors import CaseFileError
-from rollnip.io.forms import Table
+from rollnip.io.forms import FileTable
 from rollnip.io.tables import TABLES, CaseTable
 
 _CONTROLS = (("load", "approach"), ("traction", "creepage", "torque_lower"))
 _NAMED = re.compile(r"`(\w+)([^`]*)` (.*)", re.DOTALL)
-T = TypeVar("T", bound=Table)
+T = TypeVar("T", bound=FileTable)
 _WORDS = {
     "list_type": "a list",
     "string_type": "a text",
@@ -51,7 +51,7 @@ def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
 
 
 def checked_form(
-    tree: Mapping[str, Any], source: str, root: type[T], tables: Mapping[str, type[Table]]
+    tree: Mapping[str, Any], source: str, root: type[T], tables: Mapping[str, type[FileTable]]
 ) -> T:
     """The tree of a file as its table, where its form is right.
 
@@ -67,8 +67,8 @@ def checked_form(
 
 def form_error(
     details: ErrorDetails,
-    tables: Mapping[str, type[Table]] = TABLES,
-    root: type[Table] = CaseTable,
+    tables: Mapping[str, type[FileTable]] = TABLES,
+    root: type[FileTable] = CaseTable,
 ) -> str:
     """One error of pydantic as a line of ours.
 
@@ -129,7 +129,7 @@ def _path(loc: Sequence[str | int]) -> str:
 
 
 def _suggestion(
-    loc: Sequence[str | int], tables: Mapping[str, type[Table]], root: type[Table]
+    loc: Sequence[str | int], tables: Mapping[str, type[FileTable]], root: type[FileTable]
 ) -> str:
     walked = [part for part in loc[:-1] if isinstance(part, str)]
     # The same key may name another table below another one: [sheet] and [heat.sheet].

@@ -7,11 +7,11 @@ from typing import Any, Literal
 
 from pydantic import ConfigDict, Field
 
-from rollnip.io.forms import Table
+from rollnip.io.forms import FileTable
 from rollnip.io.messages import checked_form
 
 
-class ParameterTable(Table):
+class ParameterTable(FileTable):
     """One parameter: a list of values, a range, or the columns of a table of designs."""
 
     path: str | None = Field(None, description="Of the key in the case: upper.radius.")
@@ -25,7 +25,7 @@ class ParameterTable(Table):
     sheet: str | None = Field(None, description="Of the workbook; none: the first.")
 
 
-class SamplingTable(Table):
+class SamplingTable(FileTable):
     """The sampling of ranges that have no count."""
 
     method: Literal["grid", "latin-hypercube", "sobol"] = "grid"
@@ -33,7 +33,7 @@ class SamplingTable(Table):
     seed: int = 0
 
 
-class StudyTable(Table):
+class StudyTable(FileTable):
     """A whole study file."""
 
     model_config = ConfigDict(title="rollnip study file")
@@ -46,7 +46,7 @@ class StudyTable(Table):
     profiles: list[str] | None = Field(None, description="Kept for each case; none: no profiles.")
 
 
-_TABLES: dict[str, type[Table]] = {"parameters": ParameterTable, "sampling": SamplingTable}
+_TABLES: dict[str, type[FileTable]] = {"parameters": ParameterTable, "sampling": SamplingTable}
 
 
 def parse_study(tree: Mapping[str, Any], source: str) -> StudyTable:

@@ -12,6 +12,7 @@ from typing import Annotated, Any, Literal
 from pydantic import ConfigDict, Discriminator, Field, Tag
 
 from rollnip.io.forms import (
+    FileTable,
     Force,
     Length,
     LineLoad,
@@ -20,7 +21,6 @@ from rollnip.io.forms import (
     Radius,
     Ratio,
     Speed,
-    Table,
     Temperature,
     TemperatureDifference,
     Time,
@@ -65,14 +65,14 @@ def _choice(models: tuple[str, ...], *, names: bool = False) -> Discriminator:
     )
 
 
-class PointTable(Table):
+class PointTable(FileTable):
     """A factor at a temperature: of relaxation times (a_T) or of moduli (b_T)."""
 
     temperature: Temperature
     factor: Ratio
 
 
-class ShiftTable(Table):
+class ShiftTable(FileTable):
     """The keys that all shift laws share: reference, and how moduli go with temperature."""
 
     reference: Temperature
@@ -147,7 +147,7 @@ class StandardLinearSolidTable(ViscoelasticTable):
     relaxation_time: Time
 
 
-class TermTable(Table):
+class TermTable(FileTable):
     """One term of a Prony series."""
 
     modulus: Pressure
@@ -177,7 +177,7 @@ class LossFactorTable(ViscoelasticTable):
     loss_factor: Ratio
 
 
-MATERIALS: dict[str, type[Table]] = {
+MATERIALS: dict[str, type[FileTable]] = {
     "elastic": ElasticTable,
     "standard-linear-solid": StandardLinearSolidTable,
     "prony": PronyTable,
@@ -198,14 +198,14 @@ MaterialOrName = Annotated[
 ]
 
 
-class LayerTable(Table):
+class LayerTable(FileTable):
     """One layer of a coating."""
 
     thickness: Length
     material: MaterialOrName
 
 
-class SheetTable(Table):
+class SheetTable(FileTable):
     """The sheet that runs between the rollers."""
 
     kind: str | None = Field(
@@ -223,7 +223,7 @@ class SheetTable(Table):
     friction_lower: Ratio | None = None
 
 
-class RollerTable(Table):
+class RollerTable(FileTable):
     """A roller: radius, core, and layers from the surface to the core."""
 
     radius: Radius
@@ -240,7 +240,7 @@ class RollerTable(Table):
     heat: RollerHeatTable | None = None
 
 
-class NipTable(Table):
+class NipTable(FileTable):
     """The load or approach, the drive, friction and speed of the nip."""
 
     load: LineLoad | None = None
@@ -253,19 +253,19 @@ class NipTable(Table):
     face_width: Length | None = None
 
 
-class ModelTable(Table):
+class ModelTable(FileTable):
     """The model of the geometry."""
 
     geometry: Literal["linear", "corrected", "curved", "finite", "full"] | None = None
 
 
-class SolverTable(Table):
+class SolverTable(FileTable):
     """The accuracy of the solution."""
 
     tolerance: Ratio | None = None
 
 
-class CaseTable(Table):
+class CaseTable(FileTable):
     """A whole case file. Units: mm, N, MPa, s, unless a text carries its own."""
 
     model_config = ConfigDict(title="rollnip case file")
@@ -282,7 +282,7 @@ class CaseTable(Table):
     materials: dict[str, Material] = Field(default={})
 
 
-TABLES: dict[str, type[Table]] = {f"<{name}>": table for name, table in MATERIALS.items()} | {
+TABLES: dict[str, type[FileTable]] = {f"<{name}>": table for name, table in MATERIALS.items()} | {
     "nip": NipTable,
     "model": ModelTable,
     "solver": SolverTable,

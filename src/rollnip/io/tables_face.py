@@ -9,15 +9,15 @@ from pydantic import Field
 from rollnip.io.forms import (
     Angle,
     Density,
+    FileTable,
     Force,
     Length,
     Pressure,
     Ratio,
-    Table,
 )
 
 
-class CrownTableTable(Table):
+class CrownTableTable(FileTable):
     """A crown on the diameter: a height and a shape, lists over y, or a file."""
 
     height: Length | None = None
@@ -31,14 +31,14 @@ class CrownTableTable(Table):
     )
 
 
-class JournalStepTable(Table):
+class JournalStepTable(FileTable):
     """A part of a journal of one diameter."""
 
     diameter: Length
     length: Length | None = Field(None, description="Along the axis; none: on to the bearing.")
 
 
-class CoveringTableTable(Table):
+class CoveringTableTable(FileTable):
     """The covering over the face: lists over y, or a file."""
 
     y: list[Length] | None = Field(None, description="Places from the middle of the face.")
@@ -53,7 +53,7 @@ class CoveringTableTable(Table):
     )
 
 
-class ShaftTable(Table):
+class ShaftTable(FileTable):
     """The shaft that carries the core of a roller over its face."""
 
     bearing_distance: Length
@@ -77,14 +77,14 @@ class ShaftTable(Table):
     covering: CoveringTableTable | None = None
 
 
-class ArmForceTable(Table):
+class ArmForceTable(FileTable):
     """A force on a pivot arm, with its distance from the pivot."""
 
     force: Force
     lever: Length
 
 
-class ArmTable(Table):
+class ArmTable(FileTable):
     """A pivot arm that presses a bearing of the upper roller onto the lower one."""
 
     bearing_lever: Length = Field(
@@ -95,7 +95,7 @@ class ArmTable(Table):
     )
 
 
-class FaceTable(Table):
+class FaceTable(FileTable):
     """The nip along its rollers."""
 
     length: Length

@@ -10,10 +10,10 @@ from rollnip.io.forms import (
     Conductivity,
     Density,
     Expansion,
+    FileTable,
     Film,
     HeatCapacity,
     Length,
-    Table,
     Temperature,
 )
 
@@ -23,7 +23,7 @@ TYPICAL_HELP = (
 )
 
 
-class ThermalTable(Table):
+class ThermalTable(FileTable):
     """The thermal keys that all materials share; they count only for a heat balance."""
 
     thermal: str | None = Field(None, description=TYPICAL_HELP)
@@ -35,7 +35,7 @@ class ThermalTable(Table):
     )
 
 
-class CoolantTable(Table):
+class CoolantTable(FileTable):
     """A fluid behind the core."""
 
     coolant: Temperature
@@ -61,7 +61,7 @@ def _core(value: Any) -> str:
     return "<insulated>" if value == "insulated" else "<held>"
 
 
-class RollerHeatTable(Table):
+class RollerHeatTable(FileTable):
     """How a roller loses heat."""
 
     film: Film = Field(description="Film coefficient between the surface and the ambient air.")
@@ -78,7 +78,7 @@ class RollerHeatTable(Table):
     shell: ShellTable | None = None
 
 
-class HeatTable(Table):
+class HeatTable(FileTable):
     """The surroundings that take the heat of the nip."""
 
     ambient: Temperature

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from pydantic import ConfigDict, Field
 
-from rollnip.io.forms import Force, Length, Radius, Ratio, Speed, Table, TurnPerLength
+from rollnip.io.forms import FileTable, Force, Length, Radius, Ratio, Speed, TurnPerLength
 from rollnip.io.tables import TABLES, LayerTable, Material, MaterialOrName, SolverTable
 
 
-class PatchNipTable(Table):
+class PatchNipTable(FileTable):
     """Load or approach, creepages or forces, friction and speed."""
 
     load: Force | None = None
@@ -22,7 +22,7 @@ class PatchNipTable(Table):
     speed: Speed | None = None
 
 
-class PatchRollerTable(Table):
+class PatchRollerTable(FileTable):
     """A roller with its shape along the axis."""
 
     radius: Radius
@@ -42,7 +42,7 @@ class PatchRollerTable(Table):
     )
 
 
-class PatchTable(Table):
+class PatchTable(FileTable):
     """The contact is a patch in three dimensions."""
 
     grid: list[int] | None = Field(
@@ -50,7 +50,7 @@ class PatchTable(Table):
     )
 
 
-class PatchCaseTable(Table):
+class PatchCaseTable(FileTable):
     """A whole case file in three dimensions. Units: mm, N, MPa, s, or those that a text carries."""
 
     model_config = ConfigDict(title="rollnip case file in three dimensions")
@@ -64,7 +64,7 @@ class PatchCaseTable(Table):
     materials: dict[str, Material] = Field(default={})
 
 
-PATCH_TABLES: dict[str, type[Table]] = TABLES | {
+PATCH_TABLES: dict[str, type[FileTable]] = TABLES | {
     "nip": PatchNipTable,
     "patch": PatchTable,
     "upper": PatchRollerTable,

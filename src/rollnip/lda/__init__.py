@@ -1,7 +1,7 @@
 """Laser-Doppler anemometry of a rolling surface: bursts, frequencies, velocities, comparison."""
 
 from rollnip.lda.bursts import Record, synthesise
-from rollnip.lda.comparison import Comparison, Fit, compare
+from rollnip.lda.comparison import Comparison, FittedNumber, compare
 from rollnip.lda.detection import Burst, detect_bursts
 from rollnip.lda.frequency import (
     Tone,
@@ -18,7 +18,7 @@ from rollnip.lda.volume import SpeedProfile
 __all__ = [
     "Burst",
     "Comparison",
-    "Fit",
+    "FittedNumber",
     "Instrument",
     "Record",
     "Scan",

@@ -24,7 +24,7 @@ _LEAST_ROOM = 0.02  # shift that must be possible either way, in nip widths
 
 
 @dataclass(frozen=True, slots=True)
-class Fit:
+class FittedNumber:
     """A fitted number.
 
     Attributes
@@ -68,8 +68,8 @@ class Comparison:
     strain_error: Array
     computed: Array
     curve: SpeedProfile
-    shift: Fit
-    speed: Fit
+    shift: FittedNumber
+    speed: FittedNumber
     rms: float
     noise: float
     chi_square: float
@@ -199,7 +199,7 @@ def _compared(
     fits = []
     for value, variance in zip(fitted, np.diag(covariance), strict=True):
         error = float(np.sqrt(variance))
-        fits.append(Fit(value, error, value - quantile * error, value + quantile * error))
+        fits.append(FittedNumber(value, error, value - quantile * error, value + quantile * error))
     grid = np.linspace(*model.span(width), 801)
     return Comparison(
         x=x,

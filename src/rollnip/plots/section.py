@@ -27,7 +27,7 @@ _LARGEST_ANGLE = 1.4  # shown of the smaller roller to either side [rad]
 
 
 @dataclass(frozen=True, slots=True)
-class Quantity:
+class FieldComponent:
     """A component that can be drawn.
 
     Attributes
@@ -45,22 +45,22 @@ class Quantity:
 
 
 QUANTITIES = {
-    "u_x": Quantity("displacement along x, u_x [mm]"),
-    "u_z": Quantity("displacement upwards, u_z [mm]", odd=True),
-    "s_xx": Quantity("stress along x, s_xx [MPa]"),
-    "s_yy": Quantity("axial stress, s_yy [MPa]"),
-    "s_zz": Quantity("normal stress, s_zz [MPa]"),
-    "s_xz": Quantity("shear stress, s_xz [MPa]", odd=True),
-    "s_1": Quantity("larger principal stress, s_1 [MPa]"),
-    "s_2": Quantity("smaller principal stress, s_2 [MPa]"),
-    "max_shear": Quantity("maximum shear stress [MPa]", positive=True),
-    "von_mises": Quantity("von Mises stress [MPa]", positive=True),
-    "pressure": Quantity("hydrostatic pressure [MPa]"),
-    "e_xx": Quantity("strain along x, e_xx [%]", 100.0),
-    "e_zz": Quantity("strain along z, e_zz [%]", 100.0),
-    "e_xz": Quantity("shear strain, e_xz [%]", 100.0, odd=True),
-    "energy_density": Quantity("strain energy density [mJ/mm³]", positive=True),
-    "loss_density": Quantity("stress power, loss density [mW/mm³]"),
+    "u_x": FieldComponent("displacement along x, u_x [mm]"),
+    "u_z": FieldComponent("displacement upwards, u_z [mm]", odd=True),
+    "s_xx": FieldComponent("stress along x, s_xx [MPa]"),
+    "s_yy": FieldComponent("axial stress, s_yy [MPa]"),
+    "s_zz": FieldComponent("normal stress, s_zz [MPa]"),
+    "s_xz": FieldComponent("shear stress, s_xz [MPa]", odd=True),
+    "s_1": FieldComponent("larger principal stress, s_1 [MPa]"),
+    "s_2": FieldComponent("smaller principal stress, s_2 [MPa]"),
+    "max_shear": FieldComponent("maximum shear stress [MPa]", positive=True),
+    "von_mises": FieldComponent("von Mises stress [MPa]", positive=True),
+    "pressure": FieldComponent("hydrostatic pressure [MPa]"),
+    "e_xx": FieldComponent("strain along x, e_xx [%]", 100.0),
+    "e_zz": FieldComponent("strain along z, e_zz [%]", 100.0),
+    "e_xz": FieldComponent("shear strain, e_xz [%]", 100.0, odd=True),
+    "energy_density": FieldComponent("strain energy density [mJ/mm³]", positive=True),
+    "loss_density": FieldComponent("stress power, loss density [mW/mm³]"),
 }
 
 

@@ -121,7 +121,7 @@ def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) 
     """Return the second-order terms of a solution on a mesh."""
     if has_no_second_order(nip, geometry):
         return first_guess(nip, mesh)
-    flat = mesh.linear(state)
+    flat = mesh.linear_displacements(state)
     u = mesh.with_second(flat, state)
     guess = first_guess(nip, mesh)
     clearance, length, offset = guess.clearance, guess.creep_length, guess.creep_offset

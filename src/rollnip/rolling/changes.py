@@ -8,8 +8,8 @@ import numpy as np
 
 from rollnip.rolling.surfaces import Array
 
-_SAFETY = 1.5  # on an error of second order from two meshes; first order is cautious enough
-_SLOW = 1.05  # times the change that second order predicts
+_SAFETY_FACTOR = 1.5  # on an error of second order from two meshes; first order is cautious enough
+_SLOWER_THAN_SECOND_ORDER = 1.05  # times the change that second order predicts
 
 
 def shown_order(counts: Array, steps: Array) -> Array:
@@ -25,7 +25,7 @@ def shown_order(counts: Array, steps: Array) -> Array:
     """
     first, second, third = counts[-3:] ** -2.0
     predicted = np.abs(steps[-2]) * (second - third) / (first - second)
-    return np.where(np.abs(steps[-1]) > _SLOW * predicted, 1.0, 2.0)
+    return np.where(np.abs(steps[-1]) > _SLOWER_THAN_SECOND_ORDER * predicted, 1.0, 2.0)
 
 
 def errors_from_changes(counts: Array, values: Array, order: Array) -> Array:
@@ -50,5 +50,5 @@ def errors_from_changes(counts: Array, values: Array, order: Array) -> Array:
 
 def share_left(counts: Array, order: Array) -> Array:
     """Return the error of the finer of two meshes over the difference of the two."""
-    safety = np.where(order > 1.0, _SAFETY, 1.0)
+    safety = np.where(order > 1.0, _SAFETY_FACTOR, 1.0)
     return np.asarray(safety / ((counts[1] / counts[0]) ** order - 1.0))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rollnip.contact import State, Zone
+from rollnip.contact import ContactZone, State
 from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import RINGS, Geometry
 from rollnip.nip import LineLoad, Nip
@@ -21,8 +21,9 @@ from rollnip.rolling.surfaces import (
     pair_displacements,
 )
 
-_SUBDIVISION = 3
-_OUTSIDE = np.array([0.02, 0.1, 0.3, 1.0])  # of the nip width, where overlap is looked for too
+_POINTS_PER_INTERVAL = 3
+# Of the nip width, where overlap is looked for too.
+_OUTSIDE_DISTANCES = np.array([0.02, 0.1, 0.3, 1.0])
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +55,7 @@ def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, fina
 def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
     """Evaluate a solution at the nodes, halfway between them, and some way outside."""
     nodes = final.mesh.nodes
-    away = final.figures.nip_width * _OUTSIDE
+    away = final.figures.nip_width * _OUTSIDE_DISTANCES
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
     parts = _displacements(new, kernels, final), final.mesh.displacements(final.state)
     x = np.concatenate([new, nodes[1:]])
@@ -97,7 +98,7 @@ def fine_points(final: Round) -> Array:
     """Return the nodes, points between them, and points to just over a nip width outside."""
     is_cubic = final.mesh.fine.values is not None
     nodes = final.nodes[1:-1] if is_cubic else final.nodes[2:-2]  # from edge to edge
-    parts = 1 if is_cubic else _SUBDIVISION
+    parts = 1 if is_cubic else _POINTS_PER_INTERVAL
     between = [nodes[:-1] + (nodes[1:] - nodes[:-1]) * i / parts for i in range(parts)]
     inside = np.append(np.sort(np.concatenate(between)), nodes[-1])
     width = final.figures.nip_width
@@ -162,13 +163,13 @@ def _friction_errors(nip: Nip, fields: Fields, final: Round) -> list[float]:
     return errors
 
 
-def _intervals_in(x: Array, zone: Zone) -> slice:
+def _intervals_in(x: Array, zone: ContactZone) -> slice:
     """Return the intervals between ``x`` that lie wholly in a zone."""
     first, beyond = x.searchsorted(zone.start), x.searchsorted(zone.stop, side="right")
     return slice(int(first), max(int(beyond) - 1, 0))
 
 
-def slip_velocity(fields: Fields, zones: tuple[Zone, ...], speed: float) -> Array:
+def slip_velocity(fields: Fields, zones: tuple[ContactZone, ...], speed: float) -> Array:
     """Return the slip velocity of the upper surface relative to the lower, nan outside."""
     rate = -speed * fields.creep / np.diff(fields.x)
     out = np.full(fields.x.size, np.nan)

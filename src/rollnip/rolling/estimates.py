@@ -14,13 +14,14 @@ from rollnip.rolling.further import further_errors, further_figures
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
 from rollnip.rolling.surfaces import Array
 
-_OF_TWO = np.array([2.0, 2.0, 1.0, 2.0, 2.0])  # order for cubic elements, from two sizes
+# Order for cubic elements, from two sizes.
+_ORDER_FROM_TWO_SIZES = np.array([2.0, 2.0, 1.0, 2.0, 2.0])
 # Least relative error of each of Figures, times the square of the number of elements: measured on
 # random nips against ten times as many elements; linear elements, and cubic ones. These are of
 # higher order where tractions go as a square root at every end; where unlike surfaces stick up to
 # an edge they do not, the edge is misplaced by a share of the first element, and the order is 2.
-_LINEAR = np.array([0.1, 0.5, 2.0, 2.0, 0.5])
-_CUBIC = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
+_LEAST_ERROR_LINEAR = np.array([0.1, 0.5, 2.0, 2.0, 0.5])
+_LEAST_ERROR_CUBIC = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
 _CREEPAGE, _PEAK = 2, 4  # their places among Figures
 
 
@@ -38,8 +39,8 @@ class Elements:
     are_cubic: bool
 
 
-LINEAR = Elements(_LINEAR, are_cubic=False)
-CUBIC = Elements(_CUBIC, are_cubic=True)
+LINEAR = Elements(_LEAST_ERROR_LINEAR, are_cubic=False)
+CUBIC = Elements(_LEAST_ERROR_CUBIC, are_cubic=True)
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +90,9 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
     values[:-3, _PEAK] = values[-3:, _PEAK][0]  # coarse meshes do not see peaks under a stiff skin
     # The creepage depends most on an edge up to which unlike surfaces stick; from two sizes alone,
     # which show no order, its order is taken as first.
-    order = _OF_TWO if len(history) < 3 else shown_order(counts, np.diff(values, axis=0))
+    order = (
+        _ORDER_FROM_TWO_SIZES if len(history) < 3 else shown_order(counts, np.diff(values, axis=0))
+    )
     change = errors_from_changes(counts, values, order if kind.are_cubic else np.full(5, 2.0))
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)

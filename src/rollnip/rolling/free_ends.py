@@ -24,7 +24,7 @@ from rollnip.rolling.turns import converge, with_residual
 
 _FIRST_COUNT = 18
 _MOST_AT_FIRST = 50
-_FOR_ZONE = 4  # elements more for each zone
+_ELEMENTS_PER_ZONE = 4  # elements more for each zone
 # Sizes of mesh before an error is believed, and one more with memory: the tractions then have
 # boundary layers as long as speed times relaxation time, and meshes all too coarse for these agree
 # on other edges.
@@ -32,7 +32,8 @@ _FEWEST_SIZES = 2
 _MOST_ELEMENTS = 200  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _FIRST_GROWTH = 1.6  # of the number of elements from size to size
 _LEAST_GROWTH, _MOST_GROWTH = 1.2, 3.5
-_SMOOTH = 0.06  # times the root of the tolerance: error of the cubics, over the largest traction
+# Error of the cubics over the largest traction, by the root of the tolerance.
+_MOST_ROUGHNESS = 0.06
 _ROUGHNESS_ORDER = 1.5  # its least order in 1/elements where cubics are of use
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
 
@@ -71,7 +72,7 @@ def with_free_ends(
     off : how far its zones may be off, over the width of the contact.
     """
     placing = Placing(nip, model, kernels)
-    count = _FIRST_COUNT + _FOR_ZONE * layout.states.size
+    count = _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size
     try:
         if before is None:
             stand = placing.guessed(layout, count)
@@ -145,4 +146,4 @@ def _roughness(nip: Nip, model: Model, latest: Round) -> float:
     errors = [cubic_error(pressure, elements) / peak]
     if most > 0.0:
         errors.append(cubic_error(shear, elements) / most)
-    return largest(*errors) / (_SMOOTH * sqrt(model.tolerance))
+    return largest(*errors) / (_MOST_ROUGHNESS * sqrt(model.tolerance))

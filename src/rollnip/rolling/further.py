@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rollnip.contact import ContactState, Zone, contact_intervals
+from rollnip.contact import ContactState, ContactZone, contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
 from rollnip.rolling.changes import errors_from_changes, shown_order
@@ -14,15 +14,15 @@ from rollnip.rolling.powers import powers
 from rollnip.rolling.round import Further, Round, peak_pressure
 from rollnip.rolling.surfaces import Array, Mesh
 
-_LITTLE = 0.05  # of what a figure may be at most: the least size that its error counts against
+_LEAST_SIZE = 0.05  # of what a figure may be at most: the least size that its error counts against
 # Least error over the size, times the square of the number of elements: measured on random nips
 # against ten times as many elements (numbers 50000 to 50149 of tests/properties/population.py;
 # tests judge others).
-_LEAST = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
+_LEAST_ERROR = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
 
 
 def further_figures(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[Zone, ...]
+    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...]
 ) -> Further:
     """Return the further figures of a solution on a mesh."""
     spent = powers(nip, geometry, mesh, state, zones)
@@ -57,9 +57,13 @@ def further_errors(nip: Nip, latest: Round, sizes: Sequence[tuple[int, Further]]
         return None
     counts = np.array([count for count, _ in sizes], dtype=float)
     values = np.array([figures.array() for _, figures in sizes])
-    order = shown_order(counts, np.diff(values, axis=0)) if len(sizes) > 2 else np.ones(_LEAST.size)
+    order = (
+        shown_order(counts, np.diff(values, axis=0))
+        if len(sizes) > 2
+        else np.ones(_LEAST_ERROR.size)
+    )
     error = errors_from_changes(counts, values, order)
-    floor = _LEAST * further_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
+    floor = _LEAST_ERROR * further_sizes(nip, latest, sizes[-1][1]) / counts[-1] ** 2
     error = np.maximum(error, floor)
     if not isinstance(nip.tangential, Traction):
         error[1:3] = np.maximum(error[1:3], error[0])  # torques pass the traction on
@@ -76,9 +80,9 @@ def further_sizes(nip: Nip, latest: Round, figures: Further) -> Array:
     load, width = latest.figures.load, latest.figures.nip_width
     work = load * 0.5 * width * nip.curvature  # of the load on the slope at the edge
     grip = min(nip.friction, 1.0)
-    traction = max(abs(figures.traction), _LITTLE * grip * load)
-    friction = max(abs(figures.friction), _LITTLE * grip * work)
+    traction = max(abs(figures.traction), _LEAST_SIZE * grip * load)
+    friction = max(abs(figures.friction), _LEAST_SIZE * grip * work)
     both = (nip.upper, figures.lost_upper), (nip.lower, figures.lost_lower)
-    lost = [max(one, _LITTLE**2 * work) if of.is_viscoelastic else 0.0 for of, one in both]
+    lost = [max(one, _LEAST_SIZE**2 * work) if of.is_viscoelastic else 0.0 for of, one in both]
     driving = [work if nip.friction > 0.0 or of.is_viscoelastic else 0.0 for of, _ in both]
     return np.array([traction, *driving, friction, *lost, width, width])

@@ -21,7 +21,7 @@ apart, and at 1 the surface has reached the core. Coverings in use stay below a 
 """
 MOST_CREEPAGE = 2.0
 """Creepage at which one roller stands still; beyond, it would turn backwards."""
-_SURELY_LESS = 0.5
+_CLEARLY_LESS = 0.5
 """Of MOST_PRESSED_IN: peak pressure over the softest modulus that cannot press a layer in so far.
 
 A free column under the peak would be compressed by that ratio; what lies beside holds it.
@@ -58,7 +58,7 @@ def too_deep(side: str, number: int, pressed: Array, roller: Roller) -> str:
 def _pressed_in(side: str, roller: Roller, nip: Nip, geometry: Geometry, final: Round) -> Array:
     """Return the compression of each layer over its thickness, under the deepest surface point."""
     softest = min((one.material.relaxed_modulus for one in roller.layers), default=np.inf)
-    if final.figures.peak_pressure < _SURELY_LESS * MOST_PRESSED_IN * softest:
+    if final.figures.peak_pressure < _CLEARLY_LESS * MOST_PRESSED_IN * softest:
         return np.zeros(0)
     u = final.mesh.displacements(final.state)
     inward, sign = (u.z_upper, 1.0) if side == "upper" else (u.z_lower, -1.0)

@@ -14,12 +14,12 @@ from math import inf, log10
 import numpy as np
 
 from rollnip.contact import (
+    ContactZone,
     GivenStates,
     HeldContact,
     Layout,
     State,
     States,
-    Zone,
     cosine_nodes,
     crowding_of,
     elements_of_zones,
@@ -41,25 +41,27 @@ from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from, solve_on_mesh
 
-_LOOKING = HeldContact()
+_STICK_AND_SLIP = HeldContact()
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
-_MOST_CHANGES = 2  # changes of the zones, on meshes of one size
+_MOST_ZONE_CHANGES = 2  # changes of the zones, on meshes of one size
 # Meshes more: to place the new ends after a change, and for the second order of "finite", which is
 # held while a mesh is solved on.
 _MORE_MESHES = 3
-_SLOPES = 0.5, 3.0  # bounds of the move computed for a break over how far it is off
-_FAIRLY_PLACED = 0.1  # over the width of the contact: good enough to see what slips
+_SECANT_SLOPES = 0.5, 3.0  # bounds of the move computed for a break over how far it is off
+_NEAR_ENOUGH_FOR_SLIP = 0.1  # over the width of the contact: good enough to see what slips
 # Largest ratio of how far ends are off, from mesh to mesh: Newton's method does better. It does not
 # apply to nearly placed ends, which second-order terms that still change may move further.
-_CONTRACTION = 0.7
+_WEAKEST_CONTRACTION = 0.7
 _NEARLY_PLACED = 0.008  # over the width of the contact
-_PLACED = 0.1  # of the tolerance: what an end of a zone may be off, over the width of the contact
-COARSE_PLACEMENT_FACTOR = 3.0  # times `_PLACED` on the first size of mesh
-_SLACK = 1e-3  # shear over the bound counts as rounding up to the tolerance, and never beyond this
-_TURNS = 2  # of the second-order terms on one mesh, while ends still move, but not far
-_LARGEST_RATIO = 0.9
-_NEARLY = 0.45  # Poisson ratio
-_PIECES = 6.0  # at least, in which tractions act along a thickness of such a covering
+# Of the tolerance: what an end of a zone may be off, over the width of the contact.
+_PLACEMENT_TOLERANCE = 0.1
+COARSE_PLACEMENT_FACTOR = 3.0  # times `_PLACEMENT_TOLERANCE` on the first size of mesh
+# Shear over the bound counts as rounding up to the tolerance, and never beyond this.
+_MOST_SHEAR_SLACK = 1e-3
+_TURNS_WHILE_MOVING = 2  # of the second-order terms on one mesh, while ends still move, but not far
+_LARGEST_SERIES_RATIO = 0.9
+_NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
+_PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
 _TINY = float(np.finfo(float).tiny)
 
 
@@ -85,7 +87,7 @@ class SearchState:
     before: Round
     change: float = inf
     expected: float = inf
-    off: float = _FAIRLY_PLACED
+    off: float = _NEAR_ENOUGH_FOR_SLIP
 
     @property
     def is_quiet(self) -> bool:
@@ -120,10 +122,10 @@ class Placing:
         states, zones = layout.states_on(mesh.inner), layout.zones
         start = states, first_guess(self.nip, mesh), 0
         latest = self._solve_on_mesh(
-            replace(self.model, geometry="linear"), mesh, start, zones, _TURNS
+            replace(self.model, geometry="linear"), mesh, start, zones, _TURNS_WHILE_MOVING
         )
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        is_near = asked.distance(layout) < _FAIRLY_PLACED
+        is_near = asked.distance(layout) < _NEAR_ENOUGH_FOR_SLIP
         wanted = self._wanted(latest, layout, whole=False) if is_near else None
         if wanted is not None or not asked.is_proper:
             return self._other(latest, wanted, _proper(asked, layout), "linear")
@@ -149,7 +151,11 @@ class Placing:
         # The second order held so far is that of a coarser mesh: each size evaluates it anew.
         stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
         loosely = self.kernels.is_linear and not known
-        placed = _PLACED * self.model.tolerance * (COARSE_PLACEMENT_FACTOR if loosely else 1.0)
+        placed = (
+            _PLACEMENT_TOLERANCE
+            * self.model.tolerance
+            * (COARSE_PLACEMENT_FACTOR if loosely else 1.0)
+        )
         elements: Indices | None = None
         crowding: tuple[float, ...] = ()
         earlier: tuple[Layout, Layout] | None = None
@@ -165,28 +171,30 @@ class Placing:
                 earlier, off = None, inf
             hasty = loosely and off > _NEARLY_PLACED
             # Transitions that come from a guess will move again, whatever the second order.
-            most = 1 if hasty and layout.states.size > 1 else _TURNS
+            most = 1 if hasty and layout.states.size > 1 else _TURNS_WHILE_MOVING
             latest, asked = self._solved_on(stand, (elements, crowding), placed, most)
             off, off_before = asked.distance(layout), off
             known_to = min(known_to, off)
-            if self.kernels.is_linear and off > max(_CONTRACTION * off_before, _NEARLY_PLACED):
+            if self.kernels.is_linear and off > max(
+                _WEAKEST_CONTRACTION * off_before, _NEARLY_PLACED
+            ):
                 return None
             is_fine = crowd == crowding_of(layout.breaks, self.boundary)
             is_placed = off <= placed and (self.kernels.is_linear or stand.is_quiet)
             is_placed = is_placed and is_fine
-            doubted = is_placed or (not known and off < _FAIRLY_PLACED)
+            doubted = is_placed or (not known and off < _NEAR_ENOUGH_FOR_SLIP)
             known = known or (doubted and not hasty)
             wanted = self._wanted(latest, layout, whole=is_placed) if doubted else None
             if asked.is_proper and wanted is None:
-                if is_placed and latest.settled:
+                if is_placed and latest.stands_still:
                     return _standing_at(asked, latest, stand, off)
                 there = _hastened(layout, asked, earlier)
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
-                earlier = (layout, asked) if latest.settled else None
+                earlier = (layout, asked) if latest.stands_still else None
                 continue
             changes += 1
             other = self._other(latest, wanted, _proper(asked, layout), self.model.geometry)
-            if other is None or changes > _MOST_CHANGES:
+            if other is None or changes > _MOST_ZONE_CHANGES:
                 return None
             stand, elements, earlier, off = self._renewed(other), None, None, inf
         return None
@@ -217,7 +225,7 @@ class Placing:
         change = change_of(second, before.second, mesh, self.nip, before.state)
         change /= self.model.tolerance
         # Changes shrink by a ratio; those to come add up as a geometric series.
-        ratio = min(change / max(stand.change, _TINY), _LARGEST_RATIO)
+        ratio = min(change / max(stand.change, _TINY), _LARGEST_SERIES_RATIO)
         expected = inf if stand.change == inf else change * ratio / (1.0 - ratio)
         return SearchState(
             stand.layout, replace(before, mesh=mesh, second=second), change, expected
@@ -241,7 +249,7 @@ class Placing:
         start = states, before.second.carried(before.mesh, mesh), before.steps
         latest = self._solve_on_mesh(self.model, mesh, start, zones, most)
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        if not latest.settled and asked.distance(layout) <= placed:
+        if not latest.stands_still and asked.distance(layout) <= placed:
             start = states, latest.second, latest.steps
             latest = self._solve_on_mesh(self.model, mesh, start, zones)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
@@ -252,7 +260,7 @@ class Placing:
         model: Model,
         mesh: Mesh,
         start: tuple[States, SecondOrder, int],
-        zones: tuple[Zone, ...],
+        zones: tuple[ContactZone, ...],
         most: int = MOST_TURNS,
     ) -> Round:
         return solve_on_mesh(self.nip, model, mesh, start, self.given, NEARLY_STILL, zones, most)
@@ -262,7 +270,7 @@ class Placing:
 
         ``whole``: whether contact is examined too; until the edges are placed, only stick and slip.
         """
-        slack, given = min(self.model.tolerance, _SLACK), latest.state.states
+        slack, given = min(self.model.tolerance, _MOST_SHEAR_SLACK), latest.state.states
         wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
         differs[layout.ends(latest.problem.x)] = False  # ends belong to two zones alike
@@ -278,7 +286,7 @@ class Placing:
         Return None where the zones are the same, or where they have no layout.
         """
         given = latest.state.states
-        found = _LOOKING.solve(latest.problem, given if wanted is None else wanted)
+        found = _STICK_AND_SLIP.solve(latest.problem, given if wanted is None else wanted)
         if np.array_equal(found.states, given):
             return None
         layout = Layout.found(latest.problem.x, found, self.nip.friction, edges.edges)
@@ -300,8 +308,10 @@ def boundary_layer(nip: Nip) -> float:
 
 def _incompressible(roller: Roller) -> float:
     """Return the thickness of a nearly incompressible covering on a rigid core, or inf [mm]."""
-    nearly = all(layer.material.poisson > _NEARLY for layer in roller.layers)
-    return roller.coating_thickness / _PIECES if nearly and roller.core is None else inf
+    nearly = all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
+    return (
+        roller.coating_thickness / _PIECES_PER_THICKNESS if nearly and roller.core is None else inf
+    )
 
 
 def _first_interface(roller: Roller) -> float:
@@ -345,6 +355,6 @@ def _hastened(here: Layout, asked: Layout, earlier: tuple[Layout, Layout] | None
     steps, steps_before = asked.breaks - here.breaks, earlier[1].breaks - earlier[0].breaks
     with np.errstate(divide="ignore", invalid="ignore"):
         slope = (steps_before - steps) / (here.breaks - earlier[0].breaks)
-    factor = 1.0 / np.clip(np.nan_to_num(slope, nan=1.0), *_SLOPES)
+    factor = 1.0 / np.clip(np.nan_to_num(slope, nan=1.0), *_SECANT_SLOPES)
     hastened = Layout(here.breaks + factor * steps, here.states)
     return hastened if hastened.is_proper else asked

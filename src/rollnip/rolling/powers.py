@@ -20,7 +20,7 @@ from math import isnan
 
 import numpy as np
 
-from rollnip.contact import ContactState, State, Zone
+from rollnip.contact import ContactState, ContactZone, State
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import arc_ratio, creep, loss_inside, mean_shear, pulls
@@ -63,7 +63,7 @@ def rates_of(geometry: Geometry, creepage: float) -> tuple[float, float]:
 
 
 def powers(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[Zone, ...]
+    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...]
 ) -> Powers:
     """Return torques over radii and losses of a solution on a mesh."""
     x = mesh.fine.nodes[1:]
@@ -83,7 +83,7 @@ def _friction(
     geometry: Geometry,
     surfaces: tuple[Array, Displacements],
     found: tuple[Mesh, ContactState],
-    zones: tuple[Zone, ...],
+    zones: tuple[ContactZone, ...],
 ) -> float:
     """Return int q (creep) ds over the zones that slip; surfaces that stick lose nothing."""
     (x, u), (mesh, state) = surfaces, found

@@ -8,11 +8,11 @@ from math import inf, sqrt
 import numpy as np
 
 from rollnip.contact import (
+    ContactZone,
     Demand,
     Layout,
     Safeguarded,
     State,
-    Zone,
     graded_nodes,
     states_on,
 )
@@ -37,17 +37,20 @@ _ACTIVE_SET = Safeguarded()
 _FIRST_COUNT = 16
 _LINEAR_FOR_CUBIC = 2  # elements that do what a cubic one does, at least
 _FEWEST_SIZES = 3  # of meshes before an error is believed
-_COARSE = 96  # elements up to which an unsettled mesh may still place edges
+_COARSE_ELEMENTS = 96  # elements up to which an unsettled mesh may still place edges
 _ENOUGH_FOR_ZONES = 130  # elements; with fewer, transitions move and have no square root
 _MOST_FAILURES = 3  # fine meshes that do not settle
 _MOST_ELEMENTS = 600
 _MOST_ROUNDS = 24
-_ALIKE = 1.15  # ratio of elements up to which two meshes are too alike to estimate an error from
+# Ratio of elements up to which two meshes are too alike to estimate an error from.
+_LEAST_SIZE_RATIO = 1.15
 _MOST_WORK = 4000.0  # most linear systems of a hundred elements, or others of the same cost
 _DIVERGED = 10.0  # relative change of the second-order terms
 _MOST_ZONES = 30  # of an unsettled contact
-_RESOLVED = 0.5  # longest element beside an edge over the length of the boundary layer there
-_AGREED = 1e-2  # over the width of the contact: zones of two sizes with which free ends may begin
+# Longest element beside an edge over the length of the boundary layer there.
+_RESOLVED_LAYER_SHARE = 0.5
+# Over the width of the contact: zones of two sizes with which free ends may begin.
+_ZONES_AGREE_WITHIN = 1e-2
 _MOST_TRIES = 2  # meshes of one size that look for edges and transitions
 
 
@@ -72,7 +75,7 @@ def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> R
         return attempt.found
     located = _located(nip, model, kernels, half_width)
     layout = Layout.of(located.zones)
-    if located.settled and layout is not None and not attempt.knew_zones:
+    if located.stands_still and layout is not None and not attempt.knew_zones:
         attempt = with_free_ends(nip, model, kernels, layout, located)
         if attempt.found is not None:
             return attempt.found
@@ -85,7 +88,9 @@ def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> R
 def _located(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
     """Return a solution on a coarse mesh: which zones there are, and about where."""
     breaks = np.array([-1.3 * half_width, 1.3 * half_width])
-    zones: tuple[Zone, ...] = (Zone(-0.8 * half_width, 0.8 * half_width, State.STICK),)
+    zones: tuple[ContactZone, ...] = (
+        ContactZone(-0.8 * half_width, 0.8 * half_width, State.STICK),
+    )
     latest: Round | None = None
     for _ in range(_MOST_TRIES):
         mesh = mesh_on(graded_nodes(breaks, _FIRST_COUNT), holding(kernels, latest))
@@ -120,25 +125,25 @@ def _refined(
         latest = _solve_on(nip, model, mesh, (zones, stood), STILL)
         work += _work(latest.steps - stood.steps, mesh.inner.size)
         # An unsettled round has no meaningful second order: use that of the last settled one.
-        stood = latest if latest.settled else replace(stood, steps=latest.steps)
+        stood = latest if latest.stands_still else replace(stood, steps=latest.steps)
         if failures > _MOST_FAILURES or _is_hopeless(latest):
             break
-        if not latest.settled and count > _COARSE:
+        if not latest.stands_still and count > _COARSE_ELEMENTS:
             # Another mesh of about this size may settle: cycles depend on single nodes.
             count, failures = min(int(1.06 * count) + 1, _MOST_ELEMENTS), failures + 1
             continue
         zones = latest.zones
         found = _next_breaks(latest)
-        placed = _well_placed(breaks, found, count) and latest.settled
+        placed = _well_placed(breaks, found, count) and latest.stands_still
         breaks, demand = found, _demand(latest)
         tries += 1
         if not placed and tries < (1 if history else 2) * _MOST_TRIES:
             continue
         history = _with_size(history, sized(nip, model, latest, count, found))
         latest = _with_layer(nip, with_errors(nip, latest, history, LINEAR))
-        best = latest if latest.settled or best is None else best
+        best = latest if latest.stands_still or best is None else best
         off = _apart(history)
-        if off < _AGREED and offered < _MOST_TRIES:
+        if off < _ZONES_AGREE_WITHIN and offered < _MOST_TRIES:
             # Linear elements converge slowly where surfaces stick up to an edge, and two sizes may
             # agree on a wrong creepage: free ends are tried before their result is accepted.
             offered += 1
@@ -176,7 +181,7 @@ def _with_layer(nip: Nip, latest: Round) -> Round:
     The edge is off by about the length of the layer where the elements beside it are longer.
     """
     x, length = latest.mesh.inner[latest.state.pressure > 0.0], boundary_layer(nip)
-    if x.size < 2 or max(x[1] - x[0], x[-1] - x[-2]) <= _RESOLVED * length:
+    if x.size < 2 or max(x[1] - x[0], x[-1] - x[-2]) <= _RESOLVED_LAYER_SHARE * length:
         return latest
     width = latest.error.nip_width + 2.0 * length
     further = latest.further_error
@@ -187,7 +192,7 @@ def _with_layer(nip: Nip, latest: Round) -> Round:
 
 def _with_size(history: list[Size], size: Size) -> list[Size]:
     """Return the sizes of mesh with a further one, which replaces one of nearly the same size."""
-    if history and size.count < _ALIKE * history[-1].count:
+    if history and size.count < _LEAST_SIZE_RATIO * history[-1].count:
         history = history[:-1]
     return [*history, size]
 
@@ -223,7 +228,7 @@ def _demand(latest: Round) -> Demand:
 
 def _is_hopeless(latest: Round) -> bool:
     """Return whether an unsettled round is hopeless: in pieces, diverging or short of friction."""
-    if latest.settled:
+    if latest.stands_still:
         return False
     spent = len(latest.zones) > _MOST_ZONES or not latest.figures.peak_pressure > 0.0
     spent = spent or not latest.geometry_change < _DIVERGED
@@ -248,7 +253,7 @@ def _solve_on(
     nip: Nip,
     model: Model,
     mesh: Mesh,
-    start: tuple[tuple[Zone, ...], Round | None],
+    start: tuple[tuple[ContactZone, ...], Round | None],
     still: float,
 ) -> Round:
     """Solve on one mesh, repeating it until the second-order terms stand still.

@@ -7,7 +7,7 @@ from math import inf, isfinite
 
 import numpy as np
 
-from rollnip.contact import ContactProblem, ContactState, Zone
+from rollnip.contact import ContactProblem, ContactState, ContactZone
 from rollnip.influence import load_weights
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import SecondOrder
@@ -72,7 +72,7 @@ class Round:
     figures : approach, load, creepage, nip width, peak pressure.
     error : estimated discretisation error of each figure, in its own unit; inf where unknown.
     steps : linear systems solved in all rounds so far.
-    settled : whether states and second-order terms stand still.
+    stands_still : whether states and second-order terms stand still.
     geometry_change : last change of the second-order terms (e(x) of "corrected", the stretch of
         "curved", the traction for a torque), relative to approach and creepage.
     residual : largest relative violation of the contact conditions, evaluated afresh; inf where
@@ -84,11 +84,11 @@ class Round:
     problem: ContactProblem
     state: ContactState
     second: SecondOrder
-    zones: tuple[Zone, ...]
+    zones: tuple[ContactZone, ...]
     figures: Figures
     error: Figures
     steps: int
-    settled: bool
+    stands_still: bool
     geometry_change: float
     residual: float = inf
     further_error: Further | None = None

@@ -258,7 +258,7 @@ class Mesh:
         """Return sums over the intervals of nodes[1:] of values on those of the finer nodes."""
         return _sums(self.nodes, self.fine, pieces)
 
-    def linear(self, state: ContactState) -> Displacements:
+    def linear_displacements(self, state: ContactState) -> Displacements:
         """Return the displacements at nodes[1:], linear in the tractions."""
         tractions = np.empty((self.inner.size, 2))
         tractions[:, 0], tractions[:, 1] = state.pressure, state.shear
@@ -266,7 +266,7 @@ class Mesh:
 
     def displacements(self, state: ContactState) -> Displacements:
         """Return the displacements at nodes[1:], to the order of the model."""
-        return self.with_second(self.linear(state), state)
+        return self.with_second(self.linear_displacements(state), state)
 
     def with_second(self, linear: Displacements, state: ContactState) -> Displacements:
         """Return linear displacements of a solution plus those of second order, if any."""

@@ -6,7 +6,7 @@ from dataclasses import replace
 from math import inf
 from typing import Protocol
 
-from rollnip.contact import ContactProblem, ContactState, States, Zone, contact_zones
+from rollnip.contact import ContactProblem, ContactState, ContactZone, States, contact_zones
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, has_no_second_order, second_order
@@ -37,7 +37,7 @@ def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
     The second order is small and smooth: a few updates are enough, and the last mesh is checked
     with its own.
     """
-    return held_from(kernels, before if before is not None and before.settled else None)
+    return held_from(kernels, before if before is not None and before.stands_still else None)
 
 
 def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
@@ -56,7 +56,7 @@ def solve_on_mesh(
     start: tuple[States, SecondOrder, int],
     method: Method,
     still: float,
-    zones: tuple[Zone, ...] | None = None,
+    zones: tuple[ContactZone, ...] | None = None,
     most: int = MOST_TURNS,
 ) -> Round:
     """Solve on one mesh in turns, until the second-order terms change by so many tolerances.
@@ -81,8 +81,10 @@ def solve_on_mesh(
         zones = contact_zones(problem.x, state, nip.friction)
     unknown = Figures(inf, inf, inf, inf, inf)
     figures = figures_of(mesh, state, zones, second.lean)
-    settled = state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
-    return Round(mesh, problem, state, second, zones, figures, unknown, steps, settled, change)
+    stands_still = (
+        state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
+    )
+    return Round(mesh, problem, state, second, zones, figures, unknown, steps, stands_still, change)
 
 
 def change_of(
@@ -97,7 +99,9 @@ def change_of(
     return new.change(old, state.creepage, mesh.dx, (approach, creepage, strain * load))
 
 
-def figures_of(mesh: Mesh, state: ContactState, zones: tuple[Zone, ...], lean: float) -> Figures:
+def figures_of(
+    mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...], lean: float
+) -> Figures:
     """Return approach, load, creepage, nip width and peak pressure of a solution on a mesh."""
     peak, _ = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
     return Figures(
@@ -114,13 +118,13 @@ def converge(
     model: Model,
     latest: Round,
     method: Method,
-    zones: tuple[Zone, ...] | None = None,
+    zones: tuple[ContactZone, ...] | None = None,
 ) -> Round:
     """Repeat turns until the second-order terms change as little as those of a result must.
 
     ``zones`` are those of the solution where they are known.
     """
-    if not latest.settled or latest.geometry_change <= STILL * model.tolerance:
+    if not latest.stands_still or latest.geometry_change <= STILL * model.tolerance:
         return latest
     start = (latest.state.states, latest.second, latest.steps)
     still = solve_on_mesh(nip, model, latest.mesh, start, method, STILL, zones)

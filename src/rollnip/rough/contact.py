@@ -13,7 +13,7 @@ from rollnip.contact import Convolution, GridActiveSet, GridProblem, GridState, 
 from rollnip.influence import Kernel, displacement_matrix, grid_displacements
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling import PairKernels
-from rollnip.rough.sampling import Sampling
+from rollnip.rough.sampling import SampledProfiles
 
 Array = NDArray[np.float64]
 
@@ -37,7 +37,7 @@ class RoughContact:
     between : the same between the nodes, where nothing was solved.
     """
 
-    sampling: Sampling
+    sampling: SampledProfiles
     kernels: PairKernels
     state: GridState
     gap: Array
@@ -83,7 +83,7 @@ class RoughContact:
 
 
 def rough_contact(
-    nip: Nip, sampling: Sampling, kernels: PairKernels, tolerance: float
+    nip: Nip, sampling: SampledProfiles, kernels: PairKernels, tolerance: float
 ) -> RoughContact:
     """Solve the contact of both rollers with their profiles.
 
@@ -134,7 +134,7 @@ def normal_kernel(kernels: PairKernels) -> Kernel:
     return parts[0] if len(parts) == 1 else parts[0] + parts[1]
 
 
-def _lift(nip: Nip, kernel: Kernel, sampling: Sampling) -> float:
+def _lift(nip: Nip, kernel: Kernel, sampling: SampledProfiles) -> float:
     """Constant added to the influence function so that no wave, however long, is stiff.
 
     A half-space sinks by an infinite constant that the kernel leaves out; any other will do, and
@@ -179,7 +179,9 @@ def _wrong_sums(
     return float(np.max(np.abs(direct - compliance.of(pressure)[rows])))
 
 
-def _between(nip: Nip, sampling: Sampling, state: GridState, kernel: Kernel, lift: float) -> float:
+def _between(
+    nip: Nip, sampling: SampledProfiles, state: GridState, kernel: Kernel, lift: float
+) -> float:
     """Return the largest violation of the contact conditions between nodes, at some places [mm].
 
     The conditions were not imposed there. Between two nodes that touch, the surfaces must lie on

@@ -24,7 +24,7 @@ _CURVED = 0.5  # share of the roller's curvature that a profile must not hold
 
 
 @dataclass(frozen=True, slots=True)
-class Sampling:
+class SampledProfiles:
     """Heights of both surfaces on a uniform grid.
 
     Attributes
@@ -45,7 +45,7 @@ class Sampling:
         return float(self.x[-1] - self.x[0]) / (self.x.size - 1)
 
 
-def sampled(nip: Nip, half_width: float) -> Sampling:
+def sampled(nip: Nip, half_width: float) -> SampledProfiles:
     """Profiles of a nip on the grid that its contact is solved on.
 
     The grid has the distance of the samples (their median; the smaller of two profiles), or a
@@ -90,7 +90,7 @@ def sampled(nip: Nip, half_width: float) -> Sampling:
         if roller.profile is not None
         for note in _notes(name, roller, roller.profile, half_width)
     ]
-    return Sampling(x, heights[0], heights[1], tuple(notes))
+    return SampledProfiles(x, heights[0], heights[1], tuple(notes))
 
 
 def _rollers(nip: Nip) -> tuple[Roller, Roller]:

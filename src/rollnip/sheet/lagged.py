@@ -41,7 +41,7 @@ def lagged_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -
     if has_none(problem, geometry):
         return first
     nip, mesh = problem.nip, problem.mesh
-    flat = mesh.linear(state)
+    flat = mesh.linear_displacements(state)
     u = mesh.with_second(flat, state)
     clearance, lean, offsets = first.clearance, 0.0, first.offsets
     if geometry == "finite":

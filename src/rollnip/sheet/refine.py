@@ -150,7 +150,7 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
         errors = SheetFigures(_errors(nip, [*history, here]))
         left = max(violation(stand), overlap(stand, kernels))
         latest = Refined(stand, figures, errors, left)
-        if stand.settled:
+        if stand.stands_still:
             history.append(here)
             best = latest
             # Where something slips, two sizes may agree by chance.

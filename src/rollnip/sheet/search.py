@@ -64,7 +64,7 @@ class Standing:
     change : last change of the lagged terms, relative.
     off : how far ends were off, over the width.
     steps : linear systems solved so far.
-    settled : whether zones and terms stand still.
+    stands_still : whether zones and terms stand still.
     """
 
     zones: Zones
@@ -74,7 +74,7 @@ class Standing:
     change: float
     off: float
     steps: int
-    settled: bool
+    stands_still: bool
 
 
 @dataclass(frozen=True)
@@ -121,7 +121,7 @@ class Search:
             known = min(known, off)
             rough = off > _FAIRLY_PLACED and not changes
             if rough or violation(stand) <= self._slack:
-                if off <= placed and stand.settled and is_fine:
+                if off <= placed and stand.stands_still and is_fine:
                     return replace(stand, zones=asked, off=off)
                 there = asked if problem.is_squeezed else zones.hastened(asked, earlier)
                 earlier, zones = (zones, asked), there
@@ -134,7 +134,7 @@ class Search:
             stand, zones = (stand, asked) if other is None else other
             steps, elements = stand.steps, None
         assert stand is not None
-        return replace(stand, zones=zones, settled=False, off=off)
+        return replace(stand, zones=zones, stands_still=False, off=off)
 
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return how nodes crowd at ends that are known to some share of the width."""
@@ -183,8 +183,8 @@ class Search:
             change, lagged = change_of(updated, lagged, problem, state), updated
             if not change > still:
                 break
-        settled = bool(change <= still and np.all(np.isfinite(state.pressure)))
-        return Standing(zones, problem, state, lagged, change, inf, steps, settled)
+        stands_still = bool(change <= still and np.all(np.isfinite(state.pressure)))
+        return Standing(zones, problem, state, lagged, change, inf, steps, stands_still)
 
     @property
     def _slack(self) -> float:

@@ -10,8 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import State
-from rollnip.contact import Zone as ContactZone
+from rollnip.contact import ContactZone, State
 from rollnip.interior import SurfaceTractions
 from rollnip.nip import Creepage, Nip, Torque, Traction
 from rollnip.rollers import Roller

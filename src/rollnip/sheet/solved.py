@@ -97,7 +97,7 @@ def _refined(
     """Return influence functions, the solution, and a sentence where "finite" was left."""
     try:
         kernels, refined = _attempt(nip, model, cache)
-        if model.geometry != "finite" or refined.stand.settled:
+        if model.geometry != "finite" or refined.stand.stands_still:
             return kernels, refined, ()
     except np.linalg.LinAlgError:
         if model.geometry != "finite":
@@ -153,7 +153,7 @@ def as_round(nip: Nip, refined: Refined) -> Round:
         figures=figures.watched,
         error=refined.errors.watched,
         steps=stand.steps,
-        settled=stand.settled,
+        stands_still=stand.stands_still,
         geometry_change=stand.change,
         residual=refined.residual,
     )
@@ -184,7 +184,7 @@ def _require_grip(nip: Nip, refined: Refined) -> None:
     sides = zip(("upper", "lower"), pulls, frictions_of(nip), strict=True)
     for side, pull, friction in sides:
         if abs(pull) >= friction * load and (
-            refined.stand.settled or isinstance(nip.tangential, Traction)
+            refined.stand.stands_still or isinstance(nip.tangential, Traction)
         ):
             raise InvalidInputError(
                 f"`{name}` and the tensions ask the {side} roller for {pull:.6g} N/mm, but its "
@@ -195,7 +195,7 @@ def _require_grip(nip: Nip, refined: Refined) -> None:
 
 def _verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:
     """Return whether the solution is valid, and a sentence that says so or what to do."""
-    if not refined.stand.settled:
+    if not refined.stand.stands_still:
         return False, (
             "Stick and slip on both sides of the sheet did not settle "
             f"(conditions violated by {refined.residual:.1e}); try another tolerance, a smaller "

@@ -71,7 +71,7 @@ class SheetMesh(Mesh):
 
     __slots__ = ()
 
-    def linear(self, state: ContactState) -> Displacements:
+    def linear_displacements(self, state: ContactState) -> Displacements:
         """Return the displacements at nodes[1:], linear in the tractions."""
         assert isinstance(state, SheetState)
         xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = self.per_traction

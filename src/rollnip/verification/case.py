@@ -110,8 +110,8 @@ class Experiment:
 
 
 @dataclass(frozen=True, slots=True)
-class Outcome:
-    """Outcome of one verification case.
+class VerificationResult:
+    """VerificationResult of one verification case.
 
     Attributes
     ----------
@@ -139,7 +139,7 @@ class Outcome:
         return self.error <= self.case.tolerance
 
 
-def verify(cases: Iterable[VerificationCase]) -> Iterator[Outcome]:
+def verify(cases: Iterable[VerificationCase]) -> Iterator[VerificationResult]:
     """Compute figures one after the other; each problem is solved once.
 
     A figure that cannot be computed is a failure with its message, not an exception.
@@ -150,9 +150,9 @@ def verify(cases: Iterable[VerificationCase]) -> Iterator[Outcome]:
             if case.problem not in solved:
                 solved[case.problem] = case.problem()
             result = solved[case.problem]
-            yield Outcome(case, float(case.read(result)), _geometry(result))
+            yield VerificationResult(case, float(case.read(result)), _geometry(result))
         except (RollnipError, ArithmeticError, LookupError, TypeError, ValueError) as error:
-            yield Outcome(case, nan, message=f"{type(error).__name__}: {error}")
+            yield VerificationResult(case, nan, message=f"{type(error).__name__}: {error}")
 
 
 def _geometry(result: object) -> str:

@@ -8,7 +8,7 @@ from math import isfinite
 from typing import Any
 
 from rollnip.model import Model
-from rollnip.verification.case import Outcome
+from rollnip.verification.case import VerificationResult
 from rollnip.verification.sources import Kind
 
 _SMALLEST_PERCENT = 1e-5
@@ -31,14 +31,14 @@ def share_text(value: float) -> str:
     return f"{100.0 * value:.2g} %" if value < 0.995 else f"{100.0 * value:.0f} %"
 
 
-def summary(outcomes: Sequence[Outcome]) -> str:
+def summary(outcomes: Sequence[VerificationResult]) -> str:
     """Say how many figures there are, what stands behind them, and how many failed."""
     failed = sum(not outcome.passed for outcome in outcomes)
     verdict = f"{failed} FAILED" if failed else "all passed"
     return f"{_plural(len(outcomes), 'figure')}: {verdict} ({_by_kind(outcomes)})"
 
 
-def _by_kind(outcomes: Sequence[Outcome]) -> str:
+def _by_kind(outcomes: Sequence[VerificationResult]) -> str:
     """Say how many figures and sources there are of each kind."""
     parts = []
     for kind in Kind:
@@ -53,7 +53,7 @@ def _plural(count: int, what: str) -> str:
     return f"{count} {what}{'' if count == 1 else 's'}"
 
 
-def document(outcomes: Sequence[Outcome]) -> dict[str, Any]:
+def document(outcomes: Sequence[VerificationResult]) -> dict[str, Any]:
     """Outcomes as a tree for JSON; what is not finite is None."""
     return {
         "schema": 1,
@@ -69,7 +69,7 @@ def document(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     }
 
 
-def _entry(outcome: Outcome) -> dict[str, Any]:
+def _entry(outcome: VerificationResult) -> dict[str, Any]:
     case = outcome.case
     return {
         "case": case.name,
@@ -89,7 +89,7 @@ def _entry(outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def markdown(outcomes: Sequence[Outcome]) -> str:
+def markdown(outcomes: Sequence[VerificationResult]) -> str:
     """Page of the documentation: a table for each problem, with source and reasons.
 
     It is docs/verification.md, made by ``rollnip verify --markdown``.
@@ -97,7 +97,7 @@ def markdown(outcomes: Sequence[Outcome]) -> str:
     return "\n".join(_page(outcomes)) + "\n"
 
 
-def _page(outcomes: Sequence[Outcome]) -> Iterator[str]:
+def _page(outcomes: Sequence[VerificationResult]) -> Iterator[str]:
     yield "# Verification"
     yield ""
     yield "<!-- Made by: rollnip verify --markdown > docs/verification.md. Do not edit. -->"
@@ -117,7 +117,7 @@ def _page(outcomes: Sequence[Outcome]) -> Iterator[str]:
         yield from _section(name, list(group))
 
 
-def _section(name: str, outcomes: Sequence[Outcome]) -> Iterator[str]:
+def _section(name: str, outcomes: Sequence[VerificationResult]) -> Iterator[str]:
     yield ""
     yield f"## {name}"
     yield ""

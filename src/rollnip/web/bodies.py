@@ -96,7 +96,7 @@ class QuantityBody(Body):
     hardness: bool = Field(False, description="Whether it is a Shore A hardness.")
 
 
-class Quantity(BaseModel):
+class NumberInBaseUnit(BaseModel):
     """A number in its base unit."""
 
     value: float

@@ -20,7 +20,7 @@ from rollnip.web.bodies import (
     FindBody,
     InteriorBody,
     KnownBody,
-    Quantity,
+    NumberInBaseUnit,
     QuantityBody,
     Refusal,
     SweepBody,
@@ -118,13 +118,13 @@ async def toml(request: Request, body: TomlBody) -> Response:
 
 
 @posts.post("/quantity")
-async def quantity(body: QuantityBody) -> Quantity:
+async def quantity(body: QuantityBody) -> NumberInBaseUnit:
     """A number in its base unit, from a text as a person types it."""
     try:
         value = read(body.text, body.dimension, body.unit, is_hardness=body.hardness)
     except InvalidInputError as error:
         raise RefusedError(422, f"text: {error}", [("text", str(error))]) from None
-    return Quantity(value=value, unit=base_unit(body.dimension))
+    return NumberInBaseUnit(value=value, unit=base_unit(body.dimension))
 
 
 @router.get("/units", response_model=dict[str, Any])

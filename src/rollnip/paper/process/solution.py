@@ -8,7 +8,7 @@ from math import isnan
 import numpy as np
 
 from rollnip._errors import InvalidInputError
-from rollnip.contact import ContactState, State, Zone, contact_zones, graded_nodes, states_on
+from rollnip.contact import ContactState, ContactZone, State, contact_zones, graded_nodes, states_on
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.paper.process.algorithms import Alternation
@@ -47,7 +47,7 @@ class ProcessSolution:
     creepage: float | None
     nip_width: float
     peak_pressure: float
-    zones: tuple[Zone, ...]
+    zones: tuple[ContactZone, ...]
     x: Array
     pressure: Array
     shear: Array
@@ -82,7 +82,7 @@ def solve_by_process(
     kernels = pair_kernels(nip, geometry)
     half_width = half_width_guess(nip, kernels)
     breaks = _ROOM * half_width * np.array([-1.0, 1.0])
-    zones: tuple[Zone, ...] = (Zone(-half_width, half_width, State.STICK),)
+    zones: tuple[ContactZone, ...] = (ContactZone(-half_width, half_width, State.STICK),)
     for _ in range(_MESHES):
         mesh = mesh_on(graded_nodes(breaks, elements), kernels)
         state, settled = _solved_on(nip, geometry, mesh, zones)
@@ -96,7 +96,7 @@ def solve_by_process(
 
 
 def _solved_on(
-    nip: Nip, geometry: Geometry, mesh: Mesh, zones: tuple[Zone, ...]
+    nip: Nip, geometry: Geometry, mesh: Mesh, zones: tuple[ContactZone, ...]
 ) -> tuple[ContactState, bool]:
     """Alternate on one mesh until the second-order terms stand still, if they do."""
     second, states = first_guess(nip, mesh), states_on(mesh.inner, zones)
@@ -113,7 +113,7 @@ def _solved_on(
 
 
 def _solution(
-    mesh: Mesh, state: ContactState, zones: tuple[Zone, ...], *, converged: bool
+    mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...], *, converged: bool
 ) -> ProcessSolution:
     return ProcessSolution(
         approach=state.approach,

@@ -126,24 +126,28 @@ class Cooling:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PassingSheet:
-    """A sheet that runs through the nip and takes heat along; it changes no stress.
+    """A sheet that runs through the nip and takes heat along.
+
+    Where the nip has a `rollnip.Sheet`, this is what that sheet does with heat; otherwise a sheet
+    that changes no stress.
 
     Parameters
     ----------
     thickness :
-        [mm], positive.
+        [mm], positive; None: that of the sheet of the nip.
     thermal :
         conductivity across the thickness, density, heat capacity.
     temperature :
         where it enters the nip [degC].
     """
 
-    thickness: float
     thermal: Thermal
     temperature: float
+    thickness: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "thickness", require_positive("thickness", self.thickness))
+        if self.thickness is not None:
+            object.__setattr__(self, "thickness", require_positive("thickness", self.thickness))
         if not isinstance(self.thermal, Thermal):
             raise InvalidInputError(f"`thermal` must be Thermal, got {self.thermal!r}.")
         checked = checked_temperature("temperature", self.temperature)
@@ -168,7 +172,7 @@ class HeatBalance:
     start :
         temperature of everything when a warm-up begins [degC]; None: the ambient one.
     sheet :
-        a sheet between the rollers; None: they touch.
+        a sheet between the rollers; None: they touch. A nip with a sheet needs it.
 
     Raises
     ------

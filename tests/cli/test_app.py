@@ -240,12 +240,13 @@ def test_the_tree_of_a_face_is_made_once(monkeypatch, quick, case, tmp_path):
     along = SimpleNamespace(converged=True)
     made = []
 
-    def parts(solution):
+    def parts(solution, warm):
+        assert warm is None
         made.append(solution)
         return {"face": {"load": 1.0}}
 
     monkeypatch.setattr("rollnip.cli.app._along_the_face", lambda problem, model: along)
-    monkeypatch.setattr("rollnip.face.report.face_parts", parts)
+    monkeypatch.setattr("rollnip.io.case_parts", parts)
     out = tmp_path / "result.json"
     printed = run("solve", case, "--out", str(out), "--json")
     assert printed.exit_code == 0

@@ -1,6 +1,7 @@
 """Heat from case files, on the command line, in files, pictures and sweeps."""
 
 import json
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -8,8 +9,9 @@ from typer.testing import CliRunner
 
 import rollnip as rn
 from rollnip.cli.app import app
+from rollnip.heat import Branch, BranchPoint
 from rollnip.heat.report import heat_dict
-from rollnip.io import case_hash, case_python, parse_case
+from rollnip.io import case_hash, case_parts, case_python, heat_text, parse_case
 from rollnip.materials import TYPICAL
 from rollnip.plots import plot_heat
 from rollnip.sweeps import evaluate
@@ -135,6 +137,16 @@ def test_a_case_is_written_as_python():
         ),
         ("[lower.heat]", "[lower.heat]\nshell = { thickness = 3 }", "heat.conductivity: must be"),
         ('film = "50 W/(m2 K)"', 'film = "50 W/(m K)"', "that is a thermal conductivity"),
+        (
+            "[upper]",
+            '[sheet]\nthickness = 0.1\nmodulus = 3500\npoisson = 0.3\n[upper]',
+            "heat.sheet: is missing; a sheet takes heat along: add a table",
+        ),
+        (
+            "[upper]",
+            '[heat.sheet]\ntemperature = 23\nthermal = "polyurethane"\n[upper]',
+            "heat.sheet.thickness: must be given in a case without a table",
+        ),
         ('film = "50 W/(m2 K)"', 'flim = "50 W/(m2 K)"', 'did you mean "film"'),
     ],
 )
@@ -144,12 +156,22 @@ def test_wrong_files_say_what_is_wrong(old, new, sentence):
         parse_case(TEXT.replace(old, new, 1))
 
 
-def test_the_command_prints_a_summary_and_json(case_file):
+@pytest.fixture(scope="module")
+def solved():
+    case = parse_case(TEXT)
+    return case, rn.solve_heat(case.nip, case.heat, case.model)
+
+
+def test_the_command_prints_a_summary(case_file):
     result = run("heat", case_file)
     assert result.exit_code == 0, result.output
     assert "hot spot" in result.stdout
     assert "do not follow the temperature" in result.stdout
-    tree = json.loads(run("heat", case_file, "--json").stdout)
+
+
+def test_the_files_hold_both_rollers_and_a_case_again(solved):
+    case, solution = solved
+    tree = json.loads(heat_text(solution))
     heat = tree["heat"]
     assert set(heat["upper"]) >= {
         "r", "temperature", "bond_temperature", "hot_spot", "hot_spot_depth", "power",
@@ -157,7 +179,6 @@ def test_the_command_prints_a_summary_and_json(case_file):
     assert heat["stable"] is True
     assert abs(heat["balance"]) < 1e-4
     assert tree["case"]["upper"]["heat"] == {"film": 50.0, "core": "insulated"}
-    case = rn.read_case(case_file)
     assert tree["case_hash"] == case_hash(case)
     # the case in a result is a case again
     again = parse_case(tree["case"])
@@ -238,15 +259,50 @@ def test_no_steady_state_is_a_sentence_and_exit_code_1(case_file):
     assert heat["status"].startswith("No steady state exists up to a rise of 400 K")
 
 
-def test_solve_says_that_it_leaves_the_temperatures_to_another_command(case_file):
-    result = run("solve", case_file)
+def test_solve_gives_the_cold_nip_and_its_heat(case_file, solved, tmp_path):
+    case, warm = solved
+    out = tmp_path / "warm.json"
+    result = run("solve", case_file, "--out", out)
     assert result.exit_code == 0, result.output
-    assert "`rollnip heat` finds its temperatures" in result.stdout
+    assert "Heat (converged and verified" in result.stdout
+    assert "over the nip" in result.stdout
+    tree = json.loads(out.read_text(encoding="utf-8"))
+    # the keys of the nip keep their meaning; the warm nip stands in "heat"
+    assert tree["nip_width"] == pytest.approx(warm.cold.nip_width, rel=1e-9)
+    assert tree["heat"]["upper"]["hot_spot"] == pytest.approx(warm.upper.hot_spot, rel=1e-9)
+    assert tree["case"]["heat"] == {"ambient": 23.0}
+    assert tree["case_hash"] == case_hash(case)
+
+
+def test_a_face_and_heat_stand_in_one_result():
+    """The parts of a result with both: the case holds both, and so does its hash."""
+    text = TEXT.replace("[heat]", '[face]\nlength = "500 mm"\n[heat]').replace(
+        "[upper.heat]", '[upper.shaft]\nbearing_distance = "600 mm"\n[upper.heat]'
+    )
+    case = parse_case(text)
+    along = rn.solve_face(case.nip, case.face, case.model)
+    warm = rn.solve_heat(case.nip, case.heat, case.model)
+    parts = case_parts(along, warm)
+    assert parts["case_hash"] == case_hash(case)
+    again = parse_case(parts["case"])
+    assert (again.nip, again.face, again.heat) == (case.nip, case.face, case.heat)
+    assert parts["heat"]["power"] == warm.power
+    assert parts["face"]["mean_load"] == pytest.approx(20.0)
+
+
+def test_a_speed_limit_for_a_bond_temperature_is_found():
+    """Without a shift heat and rise are known at every speed, so the limit is the case's own."""
+    from rollnip.design import find
+
+    tree = tomllib.loads(TEXT)
+    wanted = evaluate(tree)["heat.upper.bond_temperature"]
+    where = ("nip.speed", "heat.upper.bond_temperature", wanted, "2 m/s", "4 m/s")
+    found = find(tree, *where, points=3, tolerance=2e-3)
+    assert found.value == pytest.approx(3000.0, rel=5e-3)
+    assert found.scalars["heat.upper.bond_temperature"] == pytest.approx(wanted, rel=2e-3)
 
 
 def test_rows_of_sweeps_hold_the_heat():
-    import tomllib
-
     row = evaluate(tomllib.loads(TEXT))
     assert row["status"] == "solved"
     assert row["heat.upper.hot_spot"] > row["heat.upper.surface_temperature"] > 23.0
@@ -276,10 +332,32 @@ def test_a_belt_has_no_radius_in_the_file():
 
 
 @pytest.mark.parametrize("style", ["light", "dark"])
-def test_a_picture_shows_both_rollers(style):
-    case = parse_case(TEXT)
-    solution = rn.solve_heat(case.nip, case.heat, case.model)
-    figure = plot_heat(solution, style=style)
+def test_a_picture_shows_both_rollers(style, solved):
+    figure = plot_heat(solved[1], style=style)
     labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     assert labels[0].startswith("upper roller: hot spot")
     assert labels[1].startswith("lower roller")
+
+
+def test_a_picture_of_a_branch_tells_stable_states_from_others(solved):
+    def point(value, hot_spot, *, stable):
+        return BranchPoint(value, hot_spot - 23.0, hot_spot, None, None, 1.0, stable, None)
+
+    points = (
+        point(10.0, 25.0, stable=True),
+        point(30.0, 30.0, stable=True),
+        point(20.0, 50.0, stable=False),
+        point(15.0, 70.0, stable=False),
+        point(40.0, 90.0, stable=True),
+        point(60.0, 95.0, stable=True),
+    )
+    branch = Branch("load", "N/mm", points, points[1], False, "It reaches 60 N/mm.", 60)
+    ax = plot_heat(solved[1], None, branch).axes[1]
+    drawn = [(list(line.get_xdata()), line.get_linestyle()) for line in ax.lines]
+    assert drawn[:3] == [
+        ([10.0, 30.0], "-"),
+        ([30.0, 20.0, 15.0, 40.0], "--"),
+        ([40.0, 60.0], "-"),
+    ]
+    labels = [text.get_text() for text in ax.get_legend().get_texts()]
+    assert labels == ["stable", "not stable", "thermal runaway at 30 N/mm", "this case"]

@@ -202,3 +202,42 @@ def test_heat_made_below_a_depth_adds_up_to_the_loss():
         rate = 1.0 if geometry == "linear" else 1.0 + 0.5 * solution.creepage
         found = rate * simpson(density, x=depth)
         assert found == pytest.approx(made[0] - made[1], rel=1e-6)
+
+
+SHEET = rn.Sheet(thickness=0.1, modulus=3500.0, poisson=0.3)
+PASSING = rn.PassingSheet(thermal=RUBBER, temperature=23.0)
+
+
+def test_a_sheet_of_the_nip_parts_two_shears_and_takes_heat_along():
+    """Heat of both rollers and of both interfaces is in balance with what the sheet takes."""
+    nip = replace(
+        press(lossy()),
+        lower=rn.Roller(radius=70.0, layers=[rn.Layer(4.0, lossy(time=1e-2))]),
+        sheet=SHEET,
+        tangential=rn.Creepage(0.03),
+    )
+    found = rn.solve_heat(nip, replace(cooled(), sheet=PASSING), PLAIN)
+    assert found.converged, found.status
+    below = [found.warm.heat_below(side, 0.0)[0] for side in ("upper", "lower")]
+    assert below == pytest.approx([found.upper.viscous, found.lower.viscous])
+    assert sum(below) == pytest.approx(found.warm.dissipation_viscous, rel=1e-10)
+    sheet = found.warm.sheet
+    # rubber on a sheet of rubber: each gets half of what its interface makes
+    assert found.upper.friction == pytest.approx(0.5 * sheet.friction_upper)
+    assert found.lower.friction == pytest.approx(0.5 * sheet.friction_lower)
+    assert found.upper.friction != pytest.approx(found.lower.friction, rel=0.1)
+    assert found.to_sheet > 0.5 * (sheet.friction_upper + sheet.friction_lower)
+    assert abs(found.balance) < 1e-10
+
+
+@pytest.mark.parametrize(
+    ("sheet", "passing", "sentence"),
+    [
+        (SHEET, None, "`sheet` of the heat balance must be given where the nip has a sheet"),
+        (None, PASSING, "`thickness` of the sheet must be given for a nip without a sheet"),
+        (SHEET, replace(PASSING, thickness=0.2), "must be left out, or that of the nip's sheet"),
+    ],
+)
+def test_the_sheet_of_the_nip_is_that_of_the_heat(sheet, passing, sentence):
+    with pytest.raises(rn.InvalidInputError, match=sentence):
+        rn.solve_heat(replace(press(lossy()), sheet=sheet), replace(cooled(), sheet=passing))

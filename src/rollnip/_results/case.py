@@ -91,7 +91,7 @@ def _cooling(cooling: Cooling) -> dict[str, Any]:
 def _flat(part: Any) -> dict[str, Any]:
     """The fields of a part, its thermal properties among them."""
     tree = {one.name: getattr(part, one.name) for one in fields(part) if one.name != "thermal"}
-    return tree | _plain(part.thermal)
+    return _without_none(tree) | _plain(part.thermal)
 
 
 def _roller(roller: Roller) -> dict[str, Any]:

@@ -24,6 +24,7 @@ from rollnip.cli.verify import verify
 
 if TYPE_CHECKING:
     from rollnip.face import FaceSolution
+    from rollnip.heat import HeatSolution
     from rollnip.io import Case
     from rollnip.model import Model
 
@@ -117,23 +118,22 @@ def solve(
 
         with named(problem.source):
             solution = solve_nip(problem.nip, model, on_failure="return")
-        along = _along_the_face(problem, model)
-        part = _face_part(along) if json or out is not None else None
+        along, warm = _along_the_face(problem, model), _warm(problem, model)
+        parts = _parts(along, warm) if json or out is not None else None
         if out is not None:
-            write_result(solution, out, part)
+            write_result(solution, out, parts)
         if fields is not None:
             write_fields(solution, fields)
         if plot is not None:
             save_figure(plot_overview(solution), plot)
         if json:
-            write(result_text(solution, part))
+            write(result_text(solution, parts))
         elif not quiet:
             from rollnip.cli.summary import print_summary
 
             print_summary(solution)
-            _print_face(along)
-            _print_hint(problem)
-    if not solution.converged or (along is not None and not along.converged):
+            _print_more(along, warm)
+    if not all(one.converged for one in (solution, along, warm) if one is not None):
         raise typer.Exit(1)
 
 
@@ -147,24 +147,32 @@ def _along_the_face(problem: Case, model: Model) -> FaceSolution | None:
         return solve_face(problem.nip, problem.face, model)
 
 
-def _face_part(along: FaceSolution | None) -> dict[str, Any] | None:
-    if along is None:
+def _warm(problem: Case, model: Model) -> HeatSolution | None:
+    """Solve the temperatures of a case; None where it has no table ``heat``."""
+    if problem.heat is None:
         return None
-    from rollnip.face.report import face_parts
+    from rollnip.heat import solve_heat
 
-    return face_parts(along)
+    with named(problem.source):
+        return solve_heat(problem.nip, problem.heat, model)
 
 
-def _print_face(along: FaceSolution | None) -> None:
+def _parts(along: FaceSolution | None, warm: HeatSolution | None) -> dict[str, Any]:
+    from rollnip.io import case_parts
+
+    return case_parts(along, warm)
+
+
+def _print_more(along: FaceSolution | None, warm: HeatSolution | None) -> None:
+    """Print what a face and a heat balance add to the summary."""
     if along is not None:
         from rollnip.face.report import face_lines
 
         write("\n" + "\n".join(face_lines(along)) + "\n")
+    if warm is not None:
+        from rollnip.heat.report import balance_lines
 
-
-def _print_hint(problem: Case) -> None:
-    if problem.heat is not None:
-        write("\nThe case has a table [heat]: `rollnip heat` finds its temperatures.\n")
+        write("\n" + "\n".join(balance_lines(warm)) + "\n")
 
 
 @app.command()

@@ -50,7 +50,7 @@ def exchange(
     width: float,
     speed: float,
     radii: tuple[float, float],
-    friction: float,
+    friction: float | tuple[float, float],
     sheet: PassingSheet | None = None,
 ) -> Exchange:
     """Return what passes over the nip.
@@ -60,13 +60,15 @@ def exchange(
     effusivity : of both surfaces [mW s^0.5/(mm2 K)].
     width, speed : nip width [mm] and rolling speed [mm/s].
     radii : of both rollers; inf for a plane [mm].
-    friction : power that slip turns into heat [mW/mm].
-    sheet : what runs between the rollers; None: they touch.
+    friction : power that slip turns into heat [mW/mm]; with a sheet half of it on either side, or
+        as the two numbers of a pair say.
+    sheet : what runs between the rollers, with its thickness; None: they touch.
     """
     dwell = width / speed
     handed, brought = _pass(effusivity, dwell, sheet)
-    shares, to_sheet = _shares(effusivity, sheet)
-    rubbed = friction / speed * shares
+    made = np.full(2, 0.5 * friction) if isinstance(friction, float | int) else np.array(friction)
+    shares, to_sheet = _shares(effusivity, sheet, made)
+    rubbed = shares / speed
     periods = [2.0 * pi * radius / speed for radius in radii]
     kept = np.array(
         [
@@ -78,7 +80,7 @@ def exchange(
     solve = np.linalg.inv(np.eye(2) - handed * kept[None, :])
     matrix = speed * solve @ handed
     offset = speed * solve @ (brought + handed @ (kept * rubbed)) + speed * rubbed
-    return Exchange(matrix, offset, speed * rubbed, friction * to_sheet)
+    return Exchange(matrix, offset, speed * rubbed, to_sheet)
 
 
 def _pass(
@@ -105,11 +107,12 @@ def _through_sheet(
     takes e sqrt(s) (coth x, -1/sinh x) times the temperatures of its faces, and a half-space of
     1 K gives e sqrt(s) (1/s - Theta).
     """
-    thermal, (upper, lower) = sheet.thermal, effusivity
+    assert sheet.thickness is not None
+    thermal, (upper, lower), thickness = sheet.thermal, effusivity, sheet.thickness
 
     def given(s: NDArray[np.complex128]) -> NDArray[np.complex128]:
         root = np.sqrt(s)
-        fade = np.exp(-sheet.thickness * thermal.volume_capacity / thermal.effusivity * root)
+        fade = np.exp(-thickness * thermal.volume_capacity / thermal.effusivity * root)
         coth = (1.0 + fade**2) / (1.0 - fade**2)
         csch = 2.0 * fade / (1.0 - fade**2)
         e = thermal.effusivity
@@ -125,15 +128,17 @@ def _through_sheet(
     return float(inverse_laplace(given, dwell))
 
 
-def _shares(effusivity: tuple[float, float], sheet: PassingSheet | None) -> tuple[Array, float]:
-    """Return the shares of friction heat that enter both surfaces, and the one of a sheet.
+def _shares(
+    effusivity: tuple[float, float], sheet: PassingSheet | None, made: Array
+) -> tuple[Array, float]:
+    """Return the friction heat that enters both surfaces, (2,), and what a sheet gets of it.
 
     Two surfaces that rub have one temperature where they touch, so each takes a share as its
-    effusivity; with a sheet half of the heat arises on either side of it.
+    effusivity; ``made``: what arises on the upper and the lower side of a sheet.
     """
     upper, lower = effusivity
     if sheet is None:
-        return np.array([upper, lower]) / (upper + lower), 0.0
+        return np.array([upper, lower]) / (upper + lower) * made.sum(), 0.0
     e = sheet.thermal.effusivity
-    shares = 0.5 * np.array([upper / (upper + e), lower / (lower + e)])
-    return shares, 1.0 - float(shares.sum())
+    shares = made * np.array([upper / (upper + e), lower / (lower + e)])
+    return shares, float(made.sum() - shares.sum())

@@ -32,7 +32,6 @@ _STEP = 0.45  # length of a step in the plane of the logarithms
 _SMALLEST = 0.03
 _POINTS = 40
 _REFINED = 2  # parabolas through a turning point
-_BEYOND = 3  # points behind a turning point that lead down
 _EXPONENT = {"speed": 1.0, "load": 1.5}
 """How the heat roughly goes with the parameter; the iteration finds out."""
 _UNITS = {"speed": "mm/s", "load": "N/mm"}
@@ -70,10 +69,11 @@ class Branch:
     Attributes
     ----------
     parameter, unit : "speed" [mm/s] or "load" [N/mm].
-    points : along the branch, from cold.
+    points : along the branch, from cold; behind the turning point over states that are not
+        stable, and from a second one on over hot states.
     turning : the first point with the largest parameter nearby, thermal runaway; None: none was
         met.
-    reached : whether the wanted end of the parameter was reached on stable states.
+    reached : whether the wanted end of the parameter was reached without a turning point.
     status : a sentence about where the branch ends.
     solves : nips that were solved.
     """
@@ -106,6 +106,7 @@ def follow(
     high: float,
     *,
     largest_rise: float = 200.0,
+    past_turning: bool = True,
 ) -> Branch:
     """Follow the steady states from a low value of the parameter to a high one.
 
@@ -115,6 +116,7 @@ def follow(
     parameter : "speed" or "load".
     low, high : where it begins and ends [mm/s or N/mm].
     largest_rise : at which the branch ends [K].
+    past_turning : whether it goes on behind the first turning point.
 
     Raises
     ------
@@ -143,6 +145,8 @@ def follow(
             continue
         step = min(_STEP, 1.5 * step)
         ended = _end(found, low, high, largest_rise, _UNITS[parameter])
+        if not ended and not past_turning and found[-1].value < found[-2].value:
+            ended = "It ends behind the turning point."
         if ended:
             status = ended
             break
@@ -153,13 +157,12 @@ def _end(found: Sequence[_Found], low: float, high: float, largest_rise: float, 
     """Return why a branch need not go on; "" where it goes on."""
     last = found[-1]
     if last.value >= high * (1.0 - 1e-9):
-        return f"It reaches {high:.5g} {unit}."
+        turned = any(b.value < a.value for a, b in pairwise(found))
+        return f"It reaches {high:.5g} {unit}{' on hot states' if turned else ''}."
     if last.rise > largest_rise:
         return f"It ends at a rise of {last.rise:.4g} K."
-    values = [one.value for one in found[-_BEYOND - 1 :]]
-    falls = len(values) > _BEYOND and all(b < a for a, b in pairwise(values))
-    if falls or last.value < low * (1.0 - 1e-9):
-        return "It is followed a little beyond the turning point."
+    if last.value < low * (1.0 - 1e-9):
+        return f"It comes back below {low:.5g} {unit} on states that are not stable."
     return ""
 
 
@@ -271,7 +274,7 @@ class _Walk:
         if peak is not None:
             turning = self._point(found, peak)
         points = tuple(self._point(found, i) for i in range(len(found)))
-        reached = any(one.value >= high and one.stable for one in points)
+        reached = turning is None and found[-1].value >= high * (1.0 - 1e-9)
         return Branch(
             self.parameter,
             _UNITS[self.parameter],

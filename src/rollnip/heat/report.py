@@ -146,10 +146,24 @@ def _point(point: BranchPoint) -> dict[str, Any]:
 
 
 def heat_lines(solution: HeatSolution) -> Iterator[str]:
-    """Yield the summary of a nip in thermal balance, line by line."""
+    """Yield the summary of a nip in thermal balance, line by line, its title first."""
     yield solution.nip.title or "Heat"
+    yield _verdict(solution)
+    yield from _figures(solution)
+
+
+def balance_lines(solution: HeatSolution) -> Iterator[str]:
+    """Yield what a heat balance adds to the summary of its nip, line by line."""
+    yield f"Heat ({_verdict(solution)})"
+    yield from _figures(solution)
+
+
+def _verdict(solution: HeatSolution) -> str:
     word = "converged and verified" if solution.converged else "NOT CONVERGED"
-    yield f"{word}: {solution.status}"
+    return f"{word}: {solution.status}"
+
+
+def _figures(solution: HeatSolution) -> Iterator[str]:
     yield f"\nTemperatures{'upper':>27s} {'lower':>12s}"
     for label, name, unit in (
         ("hot spot", "hot_spot", "degC"),
@@ -229,5 +243,6 @@ def branch_lines(branch: Branch, value: float | None) -> Iterator[str]:
         f"where the hot spot has {turning.hot_spot:.4g} degC"
     )
     margin = None if value is None else branch.margin(value)
-    if margin is not None and value is not None and margin > 0.0:
-        yield f"  the case, {value:.4g} {branch.unit}, is {100.0 * margin:.3g} % below it"
+    if margin is not None and value is not None:
+        rest = f"; it may rise by {100.0 * margin:.3g} %" if margin > 0.0 else ", beyond that"
+        yield f"  the case has {value:.4g} {branch.unit}{rest}"

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
-from rollnip.cooling import HeatBalance
+from rollnip.cooling import HeatBalance, PassingSheet
 from rollnip.heat.conduction import Conduction, Sources
 from rollnip.heat.exchange import exchange
 from rollnip.heat.grid import Grid, roller_grid
@@ -77,12 +77,8 @@ class HeatProblem:
     def __init__(
         self, nip: Nip, heat: HeatBalance, model: Model, cache: KernelCache | None = None
     ) -> None:
-        if nip.sheet is not None:
-            raise InvalidInputError(
-                "`sheet` of the nip must be left out for a heat balance, which takes one shear for "
-                "both rollers; the heat that a sheet carries away is `sheet` of the heat balance."
-            )
         _check(nip, heat)
+        self.passing = _passing(nip, heat)
         self.nip, self.heat, self.model = nip, heat, model
         self.cache = KernelCache() if cache is None else cache
         grids: list[Grid] = [
@@ -159,8 +155,8 @@ class HeatProblem:
             solution.nip_width,
             speed,
             (solution.nip.upper.radius, solution.nip.lower.radius),
-            solution.dissipation_friction or 0.0,
-            self.heat.sheet,
+            _rubbed(solution),
+            self.passing,
         )
         lost = np.array([_lost(solution, side) for side in SIDES])
         return Sources(np.concatenate(cells), lost, over)
@@ -183,10 +179,40 @@ def _cells(grid: Grid, solution: Solution, side: Side, grown: Growth) -> Array:
     return powers
 
 
+def _rubbed(solution: Solution) -> float | tuple[float, float]:
+    """Return the friction heat [mW/mm]; with a sheet that above and below it."""
+    if solution.sheet is None:
+        return solution.dissipation_friction or 0.0
+    return solution.sheet.friction_upper or 0.0, solution.sheet.friction_lower or 0.0
+
+
 def _lost(solution: Solution, side: Side) -> float:
     below = solution.heat_below(side, 0.0)
     assert below is not None
     return float(below[0])
+
+
+def _passing(nip: Nip, heat: HeatBalance) -> PassingSheet | None:
+    """Return what runs between the rollers, with its thickness; None where they touch."""
+    own = None if nip.sheet is None else nip.sheet.thickness
+    if heat.sheet is None:
+        if own is None:
+            return None
+        raise InvalidInputError(
+            "`sheet` of the heat balance must be given where the nip has a sheet, which takes heat "
+            "along: `rn.PassingSheet(thermal=..., temperature=...)`, got None."
+        )
+    thickness = own if heat.sheet.thickness is None else heat.sheet.thickness
+    if thickness is None:
+        raise InvalidInputError(
+            "`thickness` of the sheet must be given for a nip without a sheet of its own, got None."
+        )
+    if own is not None and thickness != own:
+        raise InvalidInputError(
+            f"`thickness` of the sheet must be left out, or that of the nip's sheet, {own:g} mm, "
+            f"got {thickness:g}."
+        )
+    return replace(heat.sheet, thickness=thickness)
 
 
 def _check(nip: Nip, heat: HeatBalance) -> None:

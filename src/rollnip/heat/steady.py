@@ -103,6 +103,9 @@ def follow_heat(
 ) -> Branch:
     """Follow the steady states from cold with rising speed or load, through thermal runaway.
 
+    Behind the turning point the branch goes on over states that are not stable, back to lower
+    values, and where it turns again over hot states.
+
     Parameters
     ----------
     nip, heat, model, cache : as for `solve_heat`.
@@ -147,7 +150,7 @@ def _where_it_ends(thermal: HeatProblem) -> str:
     speed = thermal.nip.speed
     assert speed is not None
     try:
-        turning = follow(thermal, "speed", _LOW * speed, speed).turning
+        turning = follow(thermal, "speed", _LOW * speed, speed, past_turning=False).turning
     except RollnipError:
         return ""
     if turning is None:

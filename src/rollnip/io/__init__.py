@@ -4,6 +4,7 @@ from rollnip.io.case import Case, case_hash, case_schema, parse_case, read_case
 from rollnip.io.columns import Columns, read_columns
 from rollnip.io.fields import check_fields_target, write_fields
 from rollnip.io.heat import heat_text, write_heat
+from rollnip.io.parts import case_parts
 from rollnip.io.paths import dimension_at, value_at, with_values
 from rollnip.io.profile import read_profile
 from rollnip.io.result import check_result_target, result_dict, result_text, write_result
@@ -14,6 +15,7 @@ __all__ = [
     "Columns",
     "base_tree",
     "case_hash",
+    "case_parts",
     "case_python",
     "case_schema",
     "case_toml",

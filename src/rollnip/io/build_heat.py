@@ -64,9 +64,7 @@ def heat_of(table: CaseTable, errors: list[str]) -> HeatBalance | None:
         return None
     before = len(errors)
     cooling = {side: _cooling(f"{side}.heat", roller, errors) for side, roller in sides.items()}
-    sheet = None
-    if table.heat.sheet is not None:
-        sheet = _sheet(table, errors)
+    sheet = _sheet(table, errors)
     upper, lower = cooling["upper"], cooling["lower"]
     if len(errors) > before or upper is None or lower is None:
         return None
@@ -85,8 +83,17 @@ def heat_of(table: CaseTable, errors: list[str]) -> HeatBalance | None:
 
 def _sheet(table: CaseTable, errors: list[str]) -> PassingSheet | None:
     assert table.heat is not None
-    assert table.heat.sheet is not None
     sheet = table.heat.sheet
+    if sheet is None:
+        if table.sheet is not None:
+            errors.append(
+                "heat.sheet: is missing; a sheet takes heat along: add a table [heat.sheet] with "
+                "its temperature and thermal properties."
+            )
+        return None
+    if sheet.thickness is None and table.sheet is None:
+        errors.append("heat.sheet.thickness: must be given in a case without a table [sheet].")
+        return None
     try:
         return PassingSheet(
             thickness=sheet.thickness, thermal=_given(sheet), temperature=sheet.temperature

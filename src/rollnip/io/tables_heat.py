@@ -51,7 +51,9 @@ class ShellTable(ThermalTable):
 class PassingSheetTable(ThermalTable):
     """A sheet that takes heat along."""
 
-    thickness: Length
+    thickness: Length | None = Field(
+        None, description="That of [sheet] by default; needed where the case has none."
+    )
     temperature: Temperature = Field(description="Where it enters the nip.")
 
 

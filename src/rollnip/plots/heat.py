@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from itertools import groupby, pairwise
 from typing import Any
 
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rollnip.heat import Branch, HeatSolution, WarmUp
+from rollnip.heat import Branch, BranchPoint, HeatSolution, WarmUp
 from rollnip.plots.style import Palette, Style, palette_of
 
 _WIDTH, _HEIGHT = 9.0, 3.4  # inches, of one picture
@@ -113,18 +114,20 @@ def _course(ax: Axes, course: WarmUp, palette: Palette) -> None:
 def _branch(ax: Axes, branch: Branch, solution: HeatSolution, palette: Palette) -> None:
     """Draw the hot spot over the parameter: stable states, others, and the turning point."""
     ax.set_title("steady states", loc="left", size=10, color=palette.ink)
-    values = [one.value for one in branch.points]
-    hottest = [one.hot_spot for one in branch.points]
-    last = next((i for i, one in enumerate(branch.points) if not one.stable), len(values))
-    ax.plot(
-        values[:last], hottest[:last], "o-", color=palette.pressure, markersize=3, label="stable"
-    )
-    if last < len(values):
-        first = max(last - 1, 0)
+    for stable, run in groupby(pairwise(branch.points), _are_stable):
+        pieces = list(run)
+        points = [pieces[0][0], *(second for _, second in pieces)]
+        values, hottest = [one.value for one in points], [one.hot_spot for one in points]
+        known = ax.get_legend_handles_labels()[1]
+        name = "stable" if stable else "not stable"
         ax.plot(
-            values[first:], hottest[first:], "--", color=palette.muted, label="stable or not"
-            if any(one.stable for one in branch.points[last:]) else "not stable",
-        )  # fmt: skip
+            values,
+            hottest,
+            "o-" if stable else "--",
+            color=palette.pressure if stable else palette.muted,
+            markersize=3,
+            label=None if name in known else name,
+        )
     if branch.turning is not None:
         at = branch.turning
         text = f"thermal runaway at {at.value:.4g} {branch.unit}"
@@ -136,6 +139,10 @@ def _branch(ax: Axes, branch: Branch, solution: HeatSolution, palette: Palette) 
     ax.set_xlabel(f"{branch.parameter} [{branch.unit}]")
     ax.set_ylabel("hot spot [degC]")
     _legend(ax)
+
+
+def _are_stable(two: tuple[BranchPoint, BranchPoint]) -> bool:
+    return two[0].stable and two[1].stable
 
 
 def _legend(ax: Any) -> None:

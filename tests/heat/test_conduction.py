@@ -123,3 +123,16 @@ def test_a_bare_core_is_one_temperature():
 def test_wrong_rollers_say_what_is_wrong(roller, cooling, sentence):
     with pytest.raises(rn.InvalidInputError, match=sentence):
         roller_grid("upper", roller, cooling, 23.0)
+
+
+def test_typical_values_have_a_source_each_and_lie_in_the_ranges_that_it_gives():
+    from rollnip.materials import SOURCES, TYPICAL
+
+    assert list(SOURCES) == list(TYPICAL)
+    steel, aluminium, urethane = (TYPICAL[one] for one in ("steel", "aluminium", "polyurethane"))
+    # Incropera & DeWitt give the diffusivity beside the three values it is made of [m2/s]
+    for metal, diffusivity in ((steel, 17.7e-6), (aluminium, 73.0e-6)):
+        made = metal.conductivity / (metal.density * metal.heat_capacity)
+        assert made == pytest.approx(diffusivity, rel=3e-3)
+    assert 0.20 <= urethane.conductivity <= 0.25
+    assert 1450.0 <= urethane.heat_capacity <= 1700.0

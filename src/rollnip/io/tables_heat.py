@@ -19,7 +19,7 @@ from rollnip.io.forms import (
 
 TYPICAL_HELP = (
     "Typical properties by name: natural-rubber, natural-rubber-filled, sbr-filled, polyurethane, "
-    "steel or aluminium; keys beside it take the place of single ones."
+    "paper, polyester-film, steel or aluminium; keys beside it take the place of single ones."
 )
 
 

@@ -61,17 +61,22 @@ class Thermal:
 
 
 _WOOD = "L. A. Wood, Physical constants of rubbers, in Brandrup & Immergut (eds.), Polymer Handbook"
-_INCROPERA = "Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, tables of solids at 300 K"
+_INCROPERA = "Incropera & DeWitt, Fundamentals of Heat and Mass Transfer, appendix A, at 300 K"
 
 SOURCES: Mapping[str, str] = MappingProxyType(
     {
-        "natural-rubber": f"pure gum vulcanisate: {_WOOD}",
-        "natural-rubber-filled": f"vulcanisate with 50 parts of carbon black: {_WOOD}",
-        "sbr-filled": f"styrene-butadiene vulcanisate with 50 parts of carbon black: {_WOOD}",
-        "polyurethane": "conductivity and heat capacity at 20 degC: Covestro data of "
-        "Desmopan; density and expansion: Cardarelli, Materials Handbook",
-        "steel": f"plain carbon steel: {_INCROPERA}; expansion 12e-6 1/K",
-        "aluminium": f"alloy 2024: {_INCROPERA}; expansion 23e-6 1/K",
+        "natural-rubber": f"typical values of a pure gum vulcanisate, after {_WOOD}",
+        "natural-rubber-filled": "typical values of a vulcanisate with 50 parts of carbon black, "
+        f"after {_WOOD}",
+        "sbr-filled": "typical values of a styrene-butadiene vulcanisate with 50 parts of carbon "
+        f"black, after {_WOOD}",
+        "polyurethane": "middle of the ranges that Covestro gives for Desmopan at 20 degC, 0.20 to "
+        "0.25 W/(m K) and 1450 to 1700 J/(kg K); density and expansion: middle of those that "
+        "Netzsch gives for thermoplastic polyurethanes, 1100 to 1250 kg/m3 and 130 to 180 ppm/K",
+        "paper": f"typical values: {_INCROPERA}, common materials",
+        "polyester-film": "typical values of biaxially drawn polyethylene terephthalate film",
+        "steel": f"plain carbon steel: {_INCROPERA}, table A.1; expansion: typical value",
+        "aluminium": f"alloy 2024-T6: {_INCROPERA}, table A.1; expansion: typical value",
     }
 )
 """Where the values of `TYPICAL` come from."""
@@ -88,8 +93,10 @@ TYPICAL: Mapping[str, Thermal] = MappingProxyType(
             conductivity=0.30, density=1150.0, heat_capacity=1500.0, expansion=1.8e-4
         ),
         "polyurethane": Thermal(
-            conductivity=0.22, density=1200.0, heat_capacity=1600.0, expansion=1.5e-4
+            conductivity=0.22, density=1180.0, heat_capacity=1580.0, expansion=1.55e-4
         ),
+        "paper": Thermal(conductivity=0.18, density=930.0, heat_capacity=1340.0),
+        "polyester-film": Thermal(conductivity=0.155, density=1390.0, heat_capacity=1170.0),
         "steel": Thermal(conductivity=60.5, density=7854.0, heat_capacity=434.0, expansion=1.2e-5),
         "aluminium": Thermal(
             conductivity=177.0, density=2770.0, heat_capacity=875.0, expansion=2.3e-5

@@ -139,7 +139,7 @@ def test_a_case_is_written_as_python():
         ('film = "50 W/(m2 K)"', 'film = "50 W/(m K)"', "that is a thermal conductivity"),
         (
             "[upper]",
-            '[sheet]\nthickness = 0.1\nmodulus = 3500\npoisson = 0.3\n[upper]',
+            "[sheet]\nthickness = 0.1\nmodulus = 3500\npoisson = 0.3\n[upper]",
             "heat.sheet: is missing; a sheet takes heat along: add a table",
         ),
         (

@@ -2,7 +2,7 @@
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from tests.browser.conftest import Designer, Watch, new_context
+from tests.browser.conftest import DEFAULT, Designer, Watch, fragment, new_context
 
 pytestmark = pytest.mark.slow
 
@@ -162,3 +162,36 @@ def test_the_focus_survives_a_new_panel(designer):
     assert page.evaluate("document.activeElement.id") == "add-upper"
     page.click("#remove-upper-1")
     assert page.evaluate("document.activeElement.id") == "add-upper"
+
+
+@pytest.mark.parametrize("width", [375, 760, 1280])
+def test_every_tab_can_be_seen_and_the_open_one_is(browser, base, width):
+    """In rows where there is room; on a phone the bar scrolls to the tab that is open."""
+    context = new_context(browser, viewport={"width": width, "height": 800}, locale="de-DE")
+    page = Designer(context.new_page(), base).open(fragment({"case": DEFAULT, "tab": "find"})).page
+    inside = """id => { const bar = document.getElementById('tabs').getBoundingClientRect();
+      const box = document.getElementById(id).getBoundingClientRect();
+      return box.left >= bar.left - 1 && box.right <= bar.right + 1; }"""
+    assert page.evaluate(inside, "tab-find")
+    names = page.locator("#tabs button").evaluate_all("all => all.map(one => one.id)")
+    if width > 700:
+        assert all(page.evaluate(inside, name) for name in names)
+    assert overhang(page) <= 0
+    context.close()
+
+
+def test_on_a_phone_the_alarm_stands_clear_of_the_header(browser, base):
+    context = new_context(browser, viewport={"width": 375, "height": 740})
+    page = Designer(context.new_page(), base).open().page
+    page.fill("#in-upper-layers-0-thickness", "120 mm")
+    page.press("#in-upper-layers-0-thickness", "Enter")
+    page.wait_for_selector("#alarm .alarm")
+    page.evaluate("scrollTo(0, 1500)")
+    page.wait_for_timeout(100)
+    seen = page.evaluate(
+        """() => { const box = document.querySelector('#alarm b').getBoundingClientRect();
+        const top = document.elementFromPoint(box.left + 4, box.top + 4);
+        return Boolean(top?.closest('#alarm')); }"""
+    )
+    assert seen
+    context.close()

@@ -1,5 +1,7 @@
 """A sheet in the nip: its feed among the first figures, its own curve, usual sheets."""
 
+import re
+
 import numpy as np
 import pytest
 from tests.browser.test_inputs import choose, sent
@@ -59,3 +61,35 @@ def test_a_sheet_that_slips_through_is_said_at_once(sheet):
     designer.type("in-sheet-tension_out", "9 N/mm")
     designer.until("document.getElementById('alarm').textContent !== ''")
     assert designer.page.inner_text("#alarm")
+
+
+def test_the_sheet_is_drawn_and_the_caption_says_how_thick(sheet):
+    designer, tree = sheet
+    page = designer.page
+    assert page.locator("#drawings .whole .sheet").count() == 1
+    caption = page.inner_text("#drawings .zoom figcaption")
+    (times,) = re.findall(r"the sheet drawn (\d+) times as thick", caption)
+    # At one place the edges of the sheet are its thickness apart, as many times as said.
+    drawn = page.locator("#drawings .zoom .sheet").get_attribute("d")
+    points = [tuple(map(float, one.split())) for one in re.findall(r"[\d.-]+ [\d.-]+", drawn)]
+    upper, lower = points[: len(points) // 2], points[len(points) // 2 :][::-1]
+    apart = {round(b[1] - a[1], 2) for a, b in zip(upper, lower, strict=True)}
+    width = page.locator("#drawings .zoom svg").evaluate("node => node.viewBox.baseVal.width")
+    scale = width / (2 * 0.95 * designer.nip_width)
+    assert apart.pop() == pytest.approx(
+        int(times) * tree["sheet"]["thickness"] * scale, abs=0.02, rel=2e-3
+    )
+    picture = designer.saved("drawing-svg")
+    assert "times as thick" in picture
+    tree = sent(designer, lambda: page.uncheck("#in-has-sheet"))
+    designer.until("!document.querySelector('#drawings .sheet')")
+    assert "sheet" not in page.inner_text("#drawings")
+
+
+def test_the_ticks_of_the_strain_are_round(sheet):
+    designer, _tree = sheet
+    designer.tab("sheet")
+    designer.trace("chart-sheet", "tension")
+    texts = designer.page.locator("#chart-sheet .y2tick").all_text_contents()
+    assert len(texts) >= 3
+    assert all(len(text.replace("0.", "").lstrip("\u22120")) <= 2 for text in texts), texts

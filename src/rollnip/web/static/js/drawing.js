@@ -2,6 +2,7 @@
 
 import { svg } from "./dom.js";
 import { toneOf } from "./palette.js";
+import { sheetInPair } from "./sheetdrawing.js";
 import { say } from "./texts.js";
 
 const TYPE = "Inter, 'Segoe UI', system-ui, sans-serif";
@@ -32,6 +33,8 @@ export function pairPicture(tree, nip, zoom, { width, height, palette, units }) 
   const node = picture(width, height, label, palette);
   const frame = fit(tree, width, height);
   for (const side of ["lower", "upper"]) node.append(roller(side, tree, nip, frame, palette));
+  const level = frame.y + 0.5 * (nip.approach ?? 0) * frame.scale;
+  if (tree.sheet) node.append(sheetInPair(level, width, palette));
   node.append(...turns(tree, nip, frame, palette));
   const half = Math.max(3, zoom * frame.scale);
   const box = { x: frame.x - half, y: frame.y - 0.62 * half, width: 2 * half, height: 1.24 * half };

@@ -2,7 +2,7 @@
 
 import { el } from "./dom.js";
 import { pairPicture } from "./drawing.js";
-import { sectionPicture, windowOf } from "./section.js";
+import { sectionCaption, sectionPicture, windowOf } from "./section.js";
 import { say } from "./texts.js";
 
 const SHAPES = { pair: 1.6, nip: 0.9 }; // height over width
@@ -14,14 +14,11 @@ export class Drawings {
     this.app = app;
     this.pair = el("div");
     this.nip = el("div");
+    this.pairText = el("figcaption", { text: say("drawing.pair") });
+    this.nipText = el("figcaption", { text: say("drawing.nip") });
     place.replaceChildren(
-      el("figure", { class: "whole" }, this.pair, el("figcaption", { text: say("drawing.pair") })),
-      el(
-        "figure",
-        { class: "zoom" },
-        this.nip,
-        el("figcaption", { text: say("drawing.nip") }),
-      ),
+      el("figure", { class: "whole" }, this.pair, this.pairText),
+      el("figure", { class: "zoom" }, this.nip, this.nipText),
     );
     new ResizeObserver(() => this.shown && this.show(this.shown)).observe(place);
   }
@@ -34,10 +31,11 @@ export class Drawings {
     this.pair.replaceChildren(
       pairPicture(tree, result, half, { ...look, ...sizeIn(this.pair, SHAPES.pair) }),
     );
-    if (surfaces)
-      this.nip.replaceChildren(
-        sectionPicture(tree, result, surfaces, { ...look, ...sizeIn(this.nip, SHAPES.nip) }),
-      );
+    this.pairText.textContent = say(tree.sheet ? "drawing.pair-sheet" : "drawing.pair");
+    if (!surfaces) return;
+    const size = sizeIn(this.nip, SHAPES.nip);
+    this.nip.replaceChildren(sectionPicture(tree, result, surfaces, { ...look, ...size }));
+    this.nipText.textContent = sectionCaption(tree, result, size.width);
   }
 }
 

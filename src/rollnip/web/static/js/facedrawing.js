@@ -5,19 +5,12 @@ import { svg } from "./dom.js";
 import { SIDES, coreDiameter } from "./face.js";
 import { toneOf } from "./palette.js";
 import { say } from "./texts.js";
-import { number } from "./units.js";
+import { nice, number } from "./units.js";
 
 const MARGIN = 34; // px to either side, for the bearings
 const BEND = 17; // px, of the largest deflection or crown as drawn
 const TALLEST = 250; // px of both rollers
 const PRINT = 54; // px, of the widest place of the stretched print
-const NICE = [1, 2, 5];
-
-/** The largest of 1, 2, 5, 10, ... that is not above a number. */
-export function nice(value) {
-  const power = 10 ** Math.floor(Math.log10(value));
-  return power * Math.max(...NICE.filter((digit) => digit * power <= value * (1 + 1e-9)));
-}
 
 /** Both rollers from the side, bent under the load: {node, times}, deflections drawn `times` larger. */
 export function bentPicture(tree, face, { width, palette, units }) {

@@ -63,6 +63,7 @@ export class FaceView {
     );
     this.sliders = el("div", { class: "face-sliders" });
     this.said = el("p", { class: "wrong", id: "face-said", role: "status" });
+    this.busy = el("p", { class: "hint", text: say("state.computing") });
     this.bent = el("div");
     this.print = el("div");
     this.bentText = el("figcaption");
@@ -85,8 +86,8 @@ export class FaceView {
         label: say("chart.save", { format }),
       }),
     );
-    const foot = el("div", { class: "chart-foot" }, el("p", { class: "hint", text: say("face.foot") }), el("div", { class: "row" }, ...exports));
-    this.whole = el("div", { class: "face" }, this.sliders, this.said, this.pictures, this.notes, this.asks, this.chart.node, foot, this.figures, this.found);
+    this.foot = el("div", { class: "chart-foot" }, el("p", { class: "hint", text: say("face.foot") }), el("div", { class: "row" }, ...exports));
+    this.whole = el("div", { class: "face" }, this.sliders, this.said, this.busy, this.pictures, this.notes, this.asks, this.chart.node, this.foot, this.figures, this.found);
     this.node = el("div", {}, this.none, this.whole);
     new ResizeObserver(() => this.drawn && this.draw(this.drawn.tree, this.drawn.face)).observe(this.pictures);
   }
@@ -109,6 +110,8 @@ export class FaceView {
     this.said.textContent = failure ? this.sentence(failure, tree) : "";
     this.said.hidden = !failure;
     const face = this.app.faces.of(tree);
+    this.busy.hidden = Boolean(face || failure);
+    for (const node of [this.pictures, this.chart.node, this.foot, this.notes]) node.hidden = !face && !this.drawn;
     if (face) this.draw(tree, face);
     for (const node of [this.pictures, this.chart.node, this.figures]) node.classList.toggle("old", !face);
     if (this.advice && !same(this.advice.tree, tree)) this.found.replaceChildren();

@@ -9,7 +9,7 @@ import { faceRows } from "./faceview.js";
 import { bandOf } from "./known.js";
 import { getAt } from "./paths.js";
 import { ANSWERS, faceLabel, flat, inputAt, inputsOf, totalsOf } from "./quantities.js";
-import { sectionPicture, windowOf } from "./section.js";
+import { sectionCaption, sectionPicture, windowOf } from "./section.js";
 import { say } from "./texts.js";
 
 const PROFILES = [
@@ -160,6 +160,10 @@ export function drawingOf({ tree, result, surfaces }, look) {
   );
   const pair = pairPicture(tree, result, windowOf(result), { ...look, width: 290, height: height - top });
   const nip = sectionPicture(tree, result, surfaces, { ...look, width: 590, height: height - top });
+  if (tree.sheet)
+    whole.append(
+      words(width - 12, 23, sectionCaption(tree, result, 590), { anchor: "end", fill: look.palette.muted }),
+    );
   whole.append(placed(pair, 0, top), placed(nip, 310, top));
   return whole;
 }

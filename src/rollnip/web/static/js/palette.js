@@ -14,6 +14,8 @@ const COLOURS = {
   slip: ["#fae0c5", "#4a3720"],
   core: ["#cfd6de", "#46505b"],
   coreEdge: ["#8c98a5", "#7d8894"],
+  sheet: ["#fff3c4", "#efdfa6"],
+  sheetLine: ["#7a5a00", "#ecd27a"],
   air: ["#f4f7fa", "#1d242c"],
   alert: ["#a80020", "#ff8b95"],
   upperTones: [

@@ -3,6 +3,7 @@
 import { svg } from "./dom.js";
 import { picture, words } from "./drawing.js";
 import { toneOf } from "./palette.js";
+import { sheetCaption, sheetInNip, sheetSize } from "./sheetdrawing.js";
 import { say } from "./texts.js";
 
 const STRIP = 30; // px below the picture for the dimension
@@ -21,10 +22,20 @@ export function sectionPicture(tree, result, surfaces, { width, height, palette,
   const clip = `clip-${width}-${height}-${palette.name}`;
   node.append(svg("clipPath", { id: clip }, svg("rect", { width, height: height - STRIP })));
   const inside = svg("g", { "clip-path": `url(#${clip})` });
-  for (const side of ["lower", "upper"])
-    inside.append(...body(side, tree, result, surfaces, frame, palette));
+  const half = tree.sheet ? 0.5 * sheetSize(tree.sheet, frame.scale).pixels : 0;
+  for (const side of ["lower", "upper"]) {
+    const apart = { ...frame, y: (z) => frame.y(z) + (side === "upper" ? -half : half) };
+    inside.append(...body(side, tree, result, surfaces, apart, palette));
+  }
+  if (tree.sheet) inside.append(sheetInNip(result, surfaces, frame, 2 * half, palette));
   node.append(inside, strip(result, text, frame, palette, { width, height }));
   return node;
+}
+
+/** What stands below the picture of a nip drawn `width` pixels wide. */
+export function sectionCaption(tree, result, width) {
+  const scale = width / (2 * HALF * result.nip_width);
+  return say("drawing.nip") + (tree.sheet ? `; ${sheetCaption(sheetSize(tree.sheet, scale))}` : "");
 }
 
 /** Pixels of a place [mm]. */
@@ -37,6 +48,7 @@ function frameOf({ contact, nip_width: nip }, surfaces, width, height) {
   const level = heights.reduce((sum, [, z]) => sum + z, 0) / Math.max(1, heights.length);
   const reach = HALF * nip;
   return {
+    scale,
     reach: [middle - reach, middle + reach],
     x: (x) => width / 2 + (x - middle) * scale,
     y: (z) => height / 2 - (z - level) * scale,

@@ -39,7 +39,9 @@ export class Tabs {
     }
     const panel = byId("panel");
     panel.setAttribute("aria-labelledby", `tab-${view.id}`);
-    if (panel.firstChild !== view.node) panel.replaceChildren(view.node);
+    if (panel.firstChild === view.node) return;
+    panel.replaceChildren(view.node);
+    bringIntoView(this.buttons.get(view.id));
   }
 
   move(event) {
@@ -52,4 +54,12 @@ export class Tabs {
     this.app.store.view({ tab: id });
     this.buttons.get(id).focus();
   }
+}
+
+/** Scroll the bar of tabs, where it is longer than its window, so far that a tab is seen. */
+function bringIntoView(button) {
+  const bar = button.parentElement;
+  const [box, frame] = [button.getBoundingClientRect(), bar.getBoundingClientRect()];
+  if (box.left < frame.left || box.right > frame.right)
+    bar.scrollLeft += box.left - frame.left - 0.5 * (frame.width - box.width);
 }

@@ -74,6 +74,12 @@ export function joined(text, unit) {
   return unit ? `${text}\u202f${unit}` : text;
 }
 
+/** The largest of 1, 2, 5, 10, ... that is not above a number. */
+export function nice(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * Math.max(...[1, 2, 5].filter((digit) => digit * power <= value * (1 + 1e-9)));
+}
+
 /** A number to some significant digits, without trailing noise. */
 export function number(value, digits = DIGITS) {
   if (!Number.isFinite(value)) return "–";

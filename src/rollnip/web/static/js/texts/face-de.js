@@ -1,7 +1,7 @@
 // The messages of the view along the face in German.
 
 export const FACE_DE = {
-  "face.totals": "Summen über die Bahnbreite",
+  "face.totals": "Summen über die Walzenbreite",
   "face.title": "Über die Breite",
   "face.hint": "Walzen biegen sich unter ihrer Last und werden dagegen bombiert: Linienlast und Spaltbreite ändern sich dann über die Walzenbreite.",
   "face.has": "Walzen biegen sich über ihre Breite",

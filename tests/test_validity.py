@@ -102,3 +102,12 @@ def test_surface_strain_beside_a_slipping_edge():
     driven = replace(nip(load=1.78), lower=black, tangential=rn.Traction(0.53))
     assert "surface is strained" in warnings_of(driven)
     assert "surface is strained" not in warnings_of(replace(driven, tangential=rn.Traction(0.0)))
+
+
+def test_a_strain_energy_counts_only_in_full():
+    stiffening = rn.Elastic(modulus=0.91, poisson=0.5, energy=rn.Yeoh(0.1))
+    said = warnings_of(nip(material=stiffening), "finite")
+    assert "Material 1 (from the surface) of the upper roller has a strain energy (Yeoh)" in said
+    assert warnings_of(nip(material=stiffening), "full") == ""
+    plain = rn.Elastic(modulus=0.91, poisson=0.5, energy=rn.NeoHookean())
+    assert warnings_of(nip(material=plain), "finite") == ""

@@ -13,7 +13,7 @@ import numpy as np
 
 from rollnip.compliance import flat_compliance
 from rollnip.influence import is_ring
-from rollnip.materials import LossFactor, Prony, Viscoelastic
+from rollnip.materials import LossFactor, NeoHookean, Prony, Viscoelastic
 from rollnip.model import FINITE, RINGS, Model
 from rollnip.nip import Nip
 from rollnip.rollers import Layer, Roller
@@ -81,6 +81,7 @@ def validity_warnings(nip: Nip, model: Model, final: Round, strains: Strains) ->
         *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),
         *(_thin_top_layer(name, roller, final) for name, roller in _rollers(nip)),
         *(line for name, roller in _rollers(nip) for line in _materials(name, roller, nip, final)),
+        *(line for name, roller in _rollers(nip) for line in _energies(name, roller, model)),
     ]
     return tuple(line for line in found if line)
 
@@ -263,6 +264,18 @@ def _materials(name: str, roller: Roller, nip: Nip, final: Round) -> list[str]:
         if isinstance(material, Viscoelastic) and material.shift is not None:
             lines.append(_far_temperature(where, material))
     return lines
+
+
+def _energies(name: str, roller: Roller, model: Model) -> list[str]:
+    if model.geometry == "full":
+        return []
+    return [
+        f"Material {number} (from the surface) of the {name} roller has a strain energy "
+        f'({type(material.energy).__name__}), which counts only in geometry "full"; here its '
+        "modulus and Poisson ratio alone are used."
+        for number, material in enumerate(roller.materials, start=1)
+        if material.energy not in (None, NeoHookean())
+    ]
 
 
 def _outside_times(where: str, material: Prony, nip: Nip, final: Round) -> str:

@@ -13,6 +13,9 @@ from rollnip.io import case_hash, parse_case
 SHIFT = {"temperature": 40.0, "shift": rn.WLF(17.44, 51.6, 23.0)}
 MATERIALS = (
     rn.Elastic(modulus=0.91, poisson=0.5),
+    rn.Elastic(modulus=0.91, poisson=0.5, energy=rn.Yeoh(-0.1, 0.02, volumetric="square")),
+    rn.Elastic(modulus=0.91, poisson=0.5, energy=rn.Gent(20.0)),
+    rn.Elastic(modulus=0.91, poisson=0.4, energy=rn.Ogden(((0.6, 1.3), (-0.01, -2.0)))),
     rn.StandardLinearSolid(modulus=2, stiffening=3, relaxation_time=0.007, poisson=0.49, **SHIFT),
     rn.Prony(modulus=2, terms=[(1.0, 0.001), (0.5, 0.1)], poisson=0.5),
     rn.FractionalZener(modulus=2, stiffening=3, relaxation_time=0.01, order=0.4, poisson=0.5),
@@ -58,6 +61,7 @@ def test_reading_it_gives_the_same_problem(material, changes):
 def test_the_hash_tells_problems_apart_and_not_titles():
     nip, model = problem(MATERIALS[0]), rn.Model()
     assert problem_hash(nip, model) == problem_hash(replace(nip, title="other"), model)
+    assert problem_hash(nip, model) != problem_hash(problem(MATERIALS[1]), model)
     others = (
         problem_hash(replace(nip, friction=0.4), model),
         problem_hash(nip, rn.Model(tolerance=2e-3)),

@@ -155,3 +155,68 @@ def test_the_schema_knows_the_keys():
     text = json.dumps(case_schema())
     for name in ("TabulatedTable", "levels", "vertical", "reading_time"):
         assert name in text
+
+
+ENERGIES = [
+    ({"model": "neo-hookean", "volumetric": "square"}, rn.NeoHookean(volumetric="square")),
+    ({"model": "yeoh", "second": -0.1, "third": 0.02}, rn.Yeoh(-0.1, 0.02)),
+    ({"model": "yeoh", "second": "-10 %"}, rn.Yeoh(-0.1)),
+    ({"model": "gent", "limit": 20}, rn.Gent(20.0)),
+    (
+        {"model": "ogden", "terms": [{"weight": 0.63, "exponent": 1.3}]},
+        rn.Ogden(((0.63, 1.3),)),
+    ),
+]
+
+
+def stretched(tree, energy):
+    tree = copy.deepcopy(tree)
+    tree["materials"]["black"] = {
+        "model": "elastic",
+        "modulus": "0.9 MPa",
+        "poisson": 0.5,
+        "energy": energy,
+    }
+    return tree
+
+
+@pytest.mark.parametrize(("table", "energy"), ENERGIES)
+def test_a_strain_energy_is_read_and_written(tree, table, energy):
+    given = stretched(tree, table)
+    case = parse_case(given)
+    assert black(case).energy == energy
+    assert parse_case(base_tree(given)).nip == case.nip
+    names = {}
+    exec(case_python(case).split("solution =")[0], names)
+    assert names["nip"] == case.nip
+
+
+def test_a_sweep_may_change_a_constant_of_an_energy(tree):
+    given = stretched(tree, ENERGIES[-1][0])
+    changed = with_values(given, {"materials.black.energy.terms[0].exponent": 2.5})
+    assert black(parse_case(changed)).energy == rn.Ogden(((0.63, 2.5),))
+
+
+@pytest.mark.parametrize(
+    ("energy", "said"),
+    [
+        ({"model": "mooney"}, "energy: must be a table with `model` one of neo-hookean, yeoh,"),
+        ({"model": "gent"}, "materials.black.energy.limit: is missing"),
+        ({"model": "gent", "limit": -1}, "materials.black.energy.limit: must be positive"),
+        ({"model": "gent", "limits": 1}, 'energy.limits: is not a known key; did you mean "limit"'),
+        ({"model": "gent", "limit": 1, "volumetric": "ln"}, "must be 'log' or 'square', got"),
+        (
+            {"model": "ogden", "terms": [{"weight": 1, "exponents": 2}]},
+            'terms[0].exponents: is not a known key; did you mean "exponent"?',
+        ),
+        (
+            {"model": "ogden", "terms": [{"weight": 1, "exponent": 0}]},
+            "materials.black.energy.terms[0]: must have an exponent from -100 to 100 and not 0",
+        ),
+        ({"model": "ogden", "terms": []}, "black.energy.terms: must hold one pair"),
+    ],
+)
+def test_what_is_wrong_with_an_energy_is_said(tree, energy, said):
+    with pytest.raises(CaseFileError) as error:
+        parse_case(stretched(tree, energy))
+    assert said in str(error.value)

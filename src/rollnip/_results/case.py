@@ -14,9 +14,13 @@ from rollnip.materials import (
     Arrhenius,
     Elastic,
     FractionalZener,
+    Gent,
     LossFactor,
+    NeoHookean,
+    Ogden,
     Prony,
     StandardLinearSolid,
+    Yeoh,
 )
 from rollnip.model import Model
 from rollnip.nip import Nip
@@ -30,6 +34,10 @@ _NAMES: Mapping[type, str] = {
     Prony: "prony",
     FractionalZener: "fractional-zener",
     LossFactor: "loss-factor",
+    NeoHookean: "neo-hookean",
+    Yeoh: "yeoh",
+    Gent: "gent",
+    Ogden: "ogden",
     WLF: "wlf",
     Arrhenius: "arrhenius",
 }
@@ -150,6 +158,8 @@ def _plain(part: Any) -> dict[str, Any]:
         tree |= _plain(thermal)
     if isinstance(part, Prony):
         tree["terms"] = [{"modulus": e, "relaxation_time": tau} for e, tau in part.terms]
+    if isinstance(part, Ogden):
+        tree["terms"] = [{"weight": weight, "exponent": a} for weight, a in part.terms]
     return tree
 
 

@@ -1,7 +1,6 @@
 """Finite strain of all orders: equilibrium of a covering under given tractions."""
 
-from rollnip.finite.energy import Energy, Gent, NeoHookean, Yeoh
-from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions, Volumetric
+from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions
 from rollnip.finite.response import (
     DeformedSurface,
     FiniteResponse,
@@ -15,16 +14,11 @@ __all__ = [
     "Body",
     "DeformedSurface",
     "Depths",
-    "Energy",
     "FiniteResponse",
-    "Gent",
-    "NeoHookean",
     "NoEquilibriumError",
     "State",
     "Strip",
     "Tractions",
-    "Volumetric",
-    "Yeoh",
     "deformed_surface",
     "linear_surface",
     "nodal",

@@ -1,14 +1,14 @@
 """Equilibrium of a covering under tractions that follow its surface, at any strain.
 
-The energy is  psi = G/2 [w(I1 - 3) - 2 ln J] + U(J),  neo-Hookean where w(I) = I, with nominal
-stress
+The energy of a layer is  psi = G [w(I, J) - r ln J] + U(J),  I = F : F  (`rollnip.materials`), with
+nominal stress
 
-    P = G w' F + c cof F,     c = U'(J) - G/J;
+    P = 2 G w_I F + (G w_J + c) cof F,     c = U'(J) - r G/J;
 
-U = lambda/2 (ln J)^2 ("log") or lambda/2 (J - 1)^2 ("square"). An incompressible layer has J = 1
-and c = pi - G with an unknown pi. Volume and pressure are linear in each element and not
-continuous: J is replaced by its projection there, c by that of c (Simo, Taylor & Pister 1985,
-Comput. Methods Appl. Mech. Eng. 51, 177-208), so that nothing locks as nu approaches 0.5.
+w = I/2 and r = 1 is neo-Hookean. An incompressible layer has J = 1 and c = pi - r G with an unknown
+pi. Volume and pressure are linear in each element and not continuous: J is replaced by its
+projection in c, c by its own (Simo, Taylor & Pister 1985, Comput. Methods Appl. Mech. Eng. 51,
+177-208), so that nothing locks as nu approaches 0.5.
 
 The force on the surface per undeformed arc ds is  (q x' - p y', p x' + q y') , p and q the pressure
 and shear at the *present* place x(s); its derivative by the displacements is kept whole.
@@ -19,15 +19,13 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 from scipy.linalg import lapack
 
-from rollnip.finite.energy import Energy, NeoHookean
 from rollnip.finite.strip import LINEAR, Array, Indices, Strip, on_circle
+from rollnip.materials import Energy, NeoHookean, Slopes
 
-Volumetric = Literal["log", "square"]
 Tractions = Callable[[Array], tuple[Array, Array, Array, Array]]
 """Pressure, shear and their derivatives as functions of the present place [MPa], [MPa/mm]."""
 
@@ -65,18 +63,9 @@ class _Forces:
 
 @dataclass(frozen=True)
 class Body:
-    """A mesh with the elastic constants of its elements.
-
-    Attributes
-    ----------
-    strip : the mesh.
-    volumetric : law of the change of volume where a layer is compressible.
-    energy : how all layers stiffen with stretch.
-    """
+    """A mesh with the strain energies of its elements."""
 
     strip: Strip
-    volumetric: Volumetric = "log"
-    energy: Energy = _SOFT
 
     @cached_property
     def _constants(self) -> tuple[Array, Array, Array]:
@@ -90,6 +79,34 @@ class Body:
         pick = self.strip.layer
         constants = (np.array(values)[pick, None] for values in (shear, lame, rigid))
         return next(constants), next(constants), next(constants)
+
+    @cached_property
+    def _energies(self) -> list[tuple[Energy, Array | slice]]:
+        """The different strain energies, each with a mask of its elements."""
+        given = [layer.material.energy or _SOFT for layer in self.strip.depths.roller.layers]
+        different = list(dict.fromkeys(given))
+        if len(different) == 1:
+            return [(different[0], slice(None))]
+        which = np.array([different.index(one) for one in given])[self.strip.layer]
+        return [(energy, which == place) for place, energy in enumerate(different)]
+
+    @cached_property
+    def _rest(self) -> Array:
+        """Slope of the energies at rest over G, (elements, 1)."""
+        out = np.empty((self.strip.layer.size, 1))
+        for energy, where in self._energies:
+            out[where] = energy.rest
+        return out
+
+    def _slopes(self, volume: Array, spread: Array) -> Slopes:
+        """Return the derivatives of the energies by I and J over G, each (elements, 9)."""
+        out = np.empty((len(Slopes._fields), *volume.shape))
+        with np.errstate(all="ignore"):
+            for energy, where in self._energies:
+                out[:, where] = energy.slopes(volume[where], spread[where])
+        if not np.all(np.isfinite(out)):
+            raise NoEquilibriumError
+        return Slopes(*out)
 
     def at_rest(self) -> State:
         """Return the undeformed state."""
@@ -107,10 +124,11 @@ class Body:
     def _law(self, volume: Array) -> tuple[Array, Array]:
         """Return c and dc/dJ of compressible elements; what incompressible ones get is not used."""
         shear, lame, _ = self._constants
-        if self.volumetric == "square":
-            return lame * (volume - 1.0) - shear / volume, lame + shear / volume**2
-        log = np.log(volume)
-        return (lame * log - shear) / volume, (lame * (1.0 - log) + shear) / volume**2
+        law = np.empty((2, *volume.shape))
+        for energy, where in self._energies:
+            law[:, where] = energy.volume_slopes(volume[where], lame[where])
+        turned = self._rest * shear / volume
+        return law[0] - turned, law[1] + turned / volume
 
     def _volume_terms(self, ratio: Array, weighted: Array, pressure: Array) -> tuple[Array, ...]:
         """Return c at the points, step and rate of the pressure; ``ratio`` is J at the points."""
@@ -119,7 +137,7 @@ class Body:
         mean = (inverse @ (weighted @ ratio[..., None]))[..., 0]
         step = rigid * (shear / _YIELD) * (mean - (1.0, 0.0, 0.0))
         rate = (rigid * shear / _YIELD)[..., None] * inverse
-        c = pressure @ LINEAR.T - shear
+        c = pressure @ LINEAR.T - self._rest * shear
         if not rigid.all():
             projected = mean @ LINEAR.T
             if not np.all(projected > 0.0):
@@ -141,13 +159,17 @@ class Body:
         swell[..., 1] = f_xx[..., None] * by_y - f_xy[..., None] * by_x
         swell = swell.reshape(*f_xx.shape, 18)
         weighted = (volume[..., None] * LINEAR).transpose(0, 2, 1)
-        c, step, rate = self._volume_terms(f_xx * f_yy - f_xy * f_yx, weighted, state.pressure)
+        ratio = f_xx * f_yy - f_xy * f_yx
+        slopes = self._slopes(ratio, (f_xx - f_yy) ** 2 + (f_xy + f_yx) ** 2)
+        c, step, rate = self._volume_terms(ratio, weighted, state.pressure)
         means = weighted @ swell
         rate = rate @ means
-        slope, stiffer = self.energy.slopes(f_xx**2 + f_xy**2 + f_yx**2 + f_yy**2 - 2.0)
-        if not np.all(np.isfinite(slope)):
-            raise NoEquilibriumError
-        c, shear = c * volume, self._constants[0] * slope * volume
+        shear = self._constants[0] * volume
+        c, shear, slopes = (
+            c * volume + shear * slopes.j,
+            2.0 * shear * slopes.i,
+            Slopes(*(shear * one for one in slopes)),
+        )
         force = np.empty((f_xx.shape[0], 9, 2))
         for i, (by, bx) in enumerate(((f_xy, f_xx), (f_yy, f_yx))):
             force[..., i] = (x_t @ (shear * bx)[..., None] + y_t @ (shear * by)[..., None])[..., 0]
@@ -159,13 +181,14 @@ class Body:
         stiff[:, :, 0, :, 1] = turn - turn.transpose(0, 2, 1)
         stiff[:, :, 1, :, 0] = -stiff[:, :, 0, :, 1]
         stiff = stiff.reshape(-1, 18, 18) + means.transpose(0, 2, 1) @ rate
-        if np.any(stiffer):  # dI = 2 F : dF
+        if any(np.any(one) for one in slopes[2:]):  # dI = 2 F : dF, dJ = cof F : dF
             along = np.empty((*f_xx.shape, 9, 2))
             along[..., 0] = f_xx[..., None] * by_x + f_xy[..., None] * by_y
             along[..., 1] = f_yx[..., None] * by_x + f_yy[..., None] * by_y
-            along = along.reshape(*f_xx.shape, 18)
-            weight = 2.0 * self._constants[0] * stiffer * volume
-            stiff += along.transpose(0, 2, 1) @ (weight[..., None] * along)
+            along = 2.0 * along.reshape(*f_xx.shape, 18)
+            by_i = slopes.ii[..., None] * along + slopes.ij[..., None] * swell
+            by_j = slopes.ij[..., None] * along + slopes.jj[..., None] * swell
+            stiff += along.transpose(0, 2, 1) @ by_i + swell.transpose(0, 2, 1) @ by_j
         kept, slots = strip.slots
         length = (3 * strip.band + 1) * strip.size
         moves = strip.unknowns.ravel() >= 0

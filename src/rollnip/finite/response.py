@@ -14,12 +14,10 @@ from math import inf, pi
 import numpy as np
 
 from rollnip.finite._spline import Spline
-from rollnip.finite.energy import Energy, NeoHookean
-from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions, Volumetric
+from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
-_SOFT = NeoHookean()
 _COLUMNS = 32  # elements under the tractions
 _GROWTH = 1.6  # of elements beside them
 _LONGEST = 0.6  # element, over the thickness that counts
@@ -96,21 +94,10 @@ class FiniteResponse:
         with elastic layers on a rigid core.
     half_width :
         of the contact, roughly [mm]: it sets the elements over the depth.
-    volumetric :
-        law of the change of volume of compressible layers.
-    energy :
-        how all layers stiffen with stretch.
     """
 
-    def __init__(
-        self,
-        roller: Roller,
-        half_width: float,
-        volumetric: Volumetric = "log",
-        energy: Energy = _SOFT,
-    ) -> None:
+    def __init__(self, roller: Roller, half_width: float) -> None:
         self._depths = Depths.of(roller, half_width)
-        self._law = volumetric, energy
         thick = max(roller.coating_thickness, _LEAST_THICKNESS * half_width)
         young = [layer.material.relaxed_modulus for layer in roller.layers]
         stiffer = min(float(np.cbrt(max(young) / min(young))), _MOST_REACH)
@@ -141,7 +128,7 @@ class FiniteResponse:
             return _nothing(nodes)
         places, loaded = self._places(nodes, pressure)
         tractions = nodal(nodes, pressure, shear)
-        flat = Body(Strip(self._depths, places), *self._law)
+        flat = Body(Strip(self._depths, places))
         try:
             linear = flat.linear(tractions)
             body, state = self._equilibrium(places, loaded, tractions, linear)
@@ -150,7 +137,7 @@ class FiniteResponse:
             return self._made or _nothing(nodes)
         self.is_found = True
         # Without what the mesh has computed: solutions are kept, and that is a megabyte.
-        self._last = Body(Strip(self._depths, body.strip.ends), *self._law), state
+        self._last = Body(Strip(self._depths, body.strip.ends)), state
         surface, (u_x, u_z) = deformed_surface(body, state), linear_surface(flat, linear)
         near = np.abs(surface.arcs) < self._near
         x = surface.x[near]
@@ -183,7 +170,7 @@ class FiniteResponse:
         self, places: Array, loaded: slice, tractions: Tractions, linear: Array
     ) -> tuple[Body, State]:
         """Return the equilibrium on a mesh whose loaded columns are at their places, deformed."""
-        body = Body(Strip(self._depths, places), *self._law)
+        body = Body(Strip(self._depths, places))
         state = State(linear, body.at_rest().pressure)
         if self._last is not None:
             body, state = self._moved(*self._last, places, loaded)
@@ -204,7 +191,7 @@ class FiniteResponse:
         arcs[: loaded.start] += under[0] - places[loaded.start]
         arcs[loaded.stop :] += under[-1] - places[loaded.stop - 1]
         arcs[loaded] = under
-        new = Body(Strip(self._depths, arcs), *self._law)
+        new = Body(Strip(self._depths, arcs))
         pressure = state.pressure
         if pressure.shape[0] != new.strip.layer.size:
             pressure = new.at_rest().pressure

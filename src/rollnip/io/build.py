@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.cooling import HeatBalance
+from rollnip.io.build_energy import energy_of
 from rollnip.io.build_face import ShaftBuilder, face_of
 from rollnip.io.build_heat import THERMAL_KEYS, heat_of, thermal_of
 from rollnip.io.messages import placed, unknown_name
@@ -18,6 +19,7 @@ from rollnip.io.tables import (
     ArrheniusTable,
     CaseTable,
     ElasticTable,
+    EnergyTable,
     FractionalZenerTable,
     LayerTable,
     LossFactorTable,
@@ -35,6 +37,7 @@ from rollnip.materials import (
     WLF,
     Arrhenius,
     Elastic,
+    Energy,
     FractionalZener,
     LossFactor,
     Material,
@@ -241,11 +244,17 @@ class Builder:
         if len(self.errors) > before:
             return None
         if isinstance(table, ElasticTable):
-            return self._made(path, lambda: replace(_elastic(table), thermal=thermal))
+            energy = self._energy(f"{path}.energy", table.energy)
+            return self._made(
+                path, lambda: replace(_elastic(table), thermal=thermal, energy=energy)
+            )
         shift = self._shift(path, table)
         if shift is None and table.shift is not None:
             return None
         return self._made(path, lambda: _viscoelastic(table, shift, thermal))
+
+    def _energy(self, path: str, table: EnergyTable | None) -> Energy | None:
+        return None if table is None else self._made(path, lambda: energy_of(table))
 
     def _shift(self, path: str, table: ViscoelasticTable) -> Shift | None:
         shift = table.shift

@@ -28,11 +28,15 @@ from rollnip.materials import (
     Arrhenius,
     Elastic,
     FractionalZener,
+    Gent,
     LossFactor,
+    NeoHookean,
+    Ogden,
     Prony,
     StandardLinearSolid,
     TabulatedShift,
     Thermal,
+    Yeoh,
 )
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Roller
@@ -45,6 +49,7 @@ _TYPES = (
     *(Nip, Roller, Layer, LineLoad, Approach, Traction, Creepage, Torque),
     *(Elastic, StandardLinearSolid, Prony, FractionalZener, LossFactor),
     *(WLF, Arrhenius, TabulatedShift),
+    *(NeoHookean, Yeoh, Gent, Ogden),
     *(Shaft, Crown, Face, Sheet),
     *(Thermal, HeatBalance, Cooling, Insulated, Held, Coolant, Shell, PassingSheet),
 )

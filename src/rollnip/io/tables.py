@@ -114,6 +114,58 @@ Shift = Annotated[
 ]
 
 
+class EnergyTable(Table):
+    """The key that all strain energies share: the law of the change of volume."""
+
+    volumetric: Literal["log", "square"] | None = Field(
+        None, description="Where compressible: lambda/2 (ln J)^2, the default, or (J - 1)^2."
+    )
+
+
+class NeoHookeanTable(EnergyTable):
+    """The neo-Hookean energy, the default."""
+
+    model: Literal["neo-hookean"]
+
+
+class YeohTable(EnergyTable):
+    """Yeoh's energy: C20/C10 and C30/C10."""
+
+    model: Literal["yeoh"]
+    second: Ratio
+    third: Ratio = 0.0
+
+
+class GentTable(EnergyTable):
+    """Gent's energy: the largest I1 - 3."""
+
+    model: Literal["gent"]
+    limit: Ratio
+
+
+class OgdenTermTable(Table):
+    """One term of Ogden's energy; only ratios of the weights count."""
+
+    weight: Ratio
+    exponent: Ratio
+
+
+class OgdenTable(EnergyTable):
+    """Ogden's energy."""
+
+    model: Literal["ogden"]
+    terms: list[OgdenTermTable]
+
+
+Energy = Annotated[
+    Annotated[NeoHookeanTable, Tag("<neo-hookean>")]
+    | Annotated[YeohTable, Tag("<yeoh>")]
+    | Annotated[GentTable, Tag("<gent>")]
+    | Annotated[OgdenTable, Tag("<ogden>")],
+    _choice(("neo-hookean", "yeoh", "gent", "ogden")),
+]
+
+
 class ElasticTable(ThermalTable):
     """An elastic material; exactly one of modulus, shear_modulus, shore_a."""
 
@@ -122,6 +174,9 @@ class ElasticTable(ThermalTable):
     shear_modulus: Pressure | None = None
     shore_a: Ratio | None = None
     poisson: Ratio
+    energy: Energy | None = Field(
+        None, description="Strain energy, for geometry 'full'; neo-Hookean by default."
+    )
 
 
 class ViscoelasticTable(ThermalTable):
@@ -300,6 +355,11 @@ TABLES: dict[str, type[FileTable]] = {f"<{name}>": table for name, table in MATE
     "arms": ArmTable,
     "forces": ArmForceTable,
     "terms": TermTable,
+    "<neo-hookean>": NeoHookeanTable,
+    "<yeoh>": YeohTable,
+    "<gent>": GentTable,
+    "<ogden>": OgdenTable,
+    "<ogden>.terms": OgdenTermTable,
     "<wlf>": WlfTable,
     "<arrhenius>": ArrheniusTable,
     "<table>": TabulatedTable,

@@ -2,6 +2,7 @@
 
 from rollnip.materials.base import Material
 from rollnip.materials.elastic import Elastic
+from rollnip.materials.energy import Energy, Gent, NeoHookean, Ogden, Slopes, Volumetric, Yeoh
 from rollnip.materials.passivity import is_passive
 from rollnip.materials.relaxation import (
     creep_compliance,
@@ -32,16 +33,23 @@ __all__ = [
     "WLF",
     "Arrhenius",
     "Elastic",
+    "Energy",
     "FractionalZener",
+    "Gent",
     "LossFactor",
     "Material",
+    "NeoHookean",
+    "Ogden",
     "Prony",
     "Shift",
     "ShoreBand",
+    "Slopes",
     "StandardLinearSolid",
     "TabulatedShift",
     "Thermal",
     "Viscoelastic",
+    "Volumetric",
+    "Yeoh",
     "creep_compliance",
     "is_passive",
     "relaxation_modulus",

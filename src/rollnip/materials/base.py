@@ -13,6 +13,7 @@ from rollnip._errors import (
     require_not_negative,
     require_positive,
 )
+from rollnip.materials.energy import Energy
 from rollnip.materials.thermal import Thermal
 
 _SMALLEST_MODULUS = 1e-9  # MPa; beyond these two a unit was mistaken
@@ -32,12 +33,15 @@ class Material(ABC):
         Poisson ratio, in (-1, 0.5]; 0.5 exactly is incompressible.
     thermal :
         thermal properties; None where they are not known.
+    energy :
+        strain energy, for geometry "full"; None: neo-Hookean.
     """
 
     __slots__ = ()
 
     poisson: float
     thermal: Thermal | None = None
+    energy: Energy | None = None
 
     @abstractmethod
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:

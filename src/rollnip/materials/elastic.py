@@ -7,8 +7,9 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rollnip._errors import with_hints
+from rollnip._errors import InvalidInputError, with_hints
 from rollnip.materials.base import Material, checked_modulus, checked_poisson, checked_thermal
+from rollnip.materials.energy import Energy
 from rollnip.materials.shore import shore_a_modulus
 from rollnip.materials.thermal import Thermal
 
@@ -19,7 +20,7 @@ from rollnip.materials.thermal import Thermal
     shear_modulus="write `rn.Elastic.from_shear_modulus(0.3, 0.5)`.",
     nu="give `poisson`.",
 )
-@dataclass(frozen=True, slots=True, kw_only=True)
+@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
 class Elastic(Material):
     """An elastic material.
 
@@ -31,6 +32,9 @@ class Elastic(Material):
         Poisson ratio, in (-1, 0.5].
     thermal :
         thermal properties; they count only for a `HeatBalance`.
+    energy :
+        strain energy, such as `Yeoh`; None: `NeoHookean`. It says how the material stiffens with
+        stretch, from the modulus on, and counts only in geometry "full".
 
     Raises
     ------
@@ -41,11 +45,21 @@ class Elastic(Material):
     modulus: float
     poisson: float
     thermal: Thermal | None = field(default=None, repr=False)
+    energy: Energy | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "modulus", checked_modulus("modulus", self.modulus))
         object.__setattr__(self, "poisson", checked_poisson(self.poisson))
         checked_thermal(self.thermal)
+        if self.energy is not None and not isinstance(self.energy, Energy):
+            raise InvalidInputError(
+                f"`energy` must be NeoHookean, Yeoh, Gent or Ogden, or None, got {self.energy!r}."
+            )
+
+    def __repr__(self) -> str:
+        """Return how the material is made; the strain energy only where one was given."""
+        further = "" if self.energy is None else f", energy={self.energy!r}"
+        return f"Elastic(modulus={self.modulus!r}, poisson={self.poisson!r}{further})"
 
     @classmethod
     def from_shear_modulus(cls, shear_modulus: float, poisson: float) -> Elastic:

@@ -163,11 +163,12 @@ def layer_texts(roller: Roller) -> list[str]:
 
 
 def _modulus(material: Material) -> str:
-    """Relaxed and glassy modulus."""
+    """Relaxed and glassy modulus, and the strain energy where one was given."""
+    further = "" if material.energy is None else f", {type(material.energy).__name__}"
     relaxed, glassy = material.relaxed_modulus, material.glassy_modulus
     if material.is_elastic or not isfinite(glassy) or not relaxed < glassy:
-        return f"{_plain(relaxed)} MPa"
-    return f"{_plain(relaxed)} to {_plain(glassy)} MPa"
+        return f"{_plain(relaxed)} MPa{further}"
+    return f"{_plain(relaxed)} to {_plain(glassy)} MPa{further}"
 
 
 def _plain(value: float) -> str:

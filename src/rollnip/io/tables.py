@@ -114,7 +114,7 @@ Shift = Annotated[
 ]
 
 
-class EnergyTable(Table):
+class EnergyTable(FileTable):
     """The key that all strain energies share: the law of the change of volume."""
 
     volumetric: Literal["log", "square"] | None = Field(
@@ -143,7 +143,7 @@ class GentTable(EnergyTable):
     limit: Ratio
 
 
-class OgdenTermTable(Table):
+class OgdenTermTable(FileTable):
     """One term of Ogden's energy; only ratios of the weights count."""
 
     weight: Ratio

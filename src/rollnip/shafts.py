@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, pi, sqrt
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,6 +35,7 @@ __all__ = [
 
 Array = NDArray[np.float64]
 AnyCrown = Crown | CrownTable
+Across = Literal["free", "one-speed"]
 
 LARGEST_SKEW = 0.1
 """Largest angle between the axes [rad]; beyond, the gap is no parabola."""
@@ -206,6 +208,10 @@ class Face:
     nip_angle :
         angle of the line from the lower to the upper axis against the vertical [rad]; 0: the
         upper roller lies on the lower one. It counts only where a shaft has a density.
+    sheet_across :
+        how a sheet in the nip runs: "free", each part of its width at its own speed under the
+        tensions given, or "one-speed", as a web that holds together, with the tension at the
+        inlet that this asks for at each place and a mean that is given.
 
     Raises
     ------
@@ -218,6 +224,7 @@ class Face:
     end_loads: tuple[float, float] | None = None
     bearing_offset: float | None = None
     nip_angle: float = 0.0
+    sheet_across: Across = "free"
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "length", require_positive("length", self.length))
@@ -235,6 +242,10 @@ class Face:
                 )
             offset = require_finite("bearing_offset", self.bearing_offset)
             object.__setattr__(self, "bearing_offset", offset)
+        if self.sheet_across not in ("free", "one-speed"):
+            raise InvalidInputError(
+                f'`sheet_across` must be "free" or "one-speed", got {self.sheet_across!r}.'
+            )
 
 
 def _all_of(name: str, values: object, *kinds: type) -> tuple[object, ...]:

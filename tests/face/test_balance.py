@@ -216,7 +216,7 @@ def test_shapes_of_crowns_differ_as_they_should():
         ),
         (
             lambda: replace(press(), sheet=rn.Sheet(thickness=0.1, modulus=3500.0, poisson=0.3)),
-            "`sheet` and a face cannot be solved together",
+            "same cross-section, sheet and model",
         ),
         (lambda: replace(press(), face_width=1500.0), "`face_width` must be the length of the fa"),
         (lambda: press(crown=CrownTable([-100.0, 100.0], [0.0, 0.1])), "must cover the whole face"),

@@ -13,6 +13,7 @@ from scipy.optimize import brentq, minimize_scalar
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw, slip_measure
+from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solution import FaceSolution
 from rollnip.face.solve import FaceProblem, face_problem
 from rollnip.influence import KernelCache
@@ -22,6 +23,7 @@ from rollnip.shafts import LARGEST_SKEW, Crown, CrownTable, Face, skew_of_crown
 
 Array = NDArray[np.float64]
 Name = Literal["upper", "lower"]
+AnyLaw = NipLaw | SheetLaw
 
 _PLACES = 65
 _RANGE = 4.0  # ratio of the largest load examined to the crown's own, and of that to the smallest
@@ -132,8 +134,13 @@ def _rise(values: Array) -> float:
     return float(values[values.size // 2] - 0.5 * (values[0] + values[-1]))
 
 
-def _local_approach(nip: Nip, problem: FaceProblem, law: NipLaw, load: float) -> Array:
-    """Return the approach that the covering at each place needs for the load, (n,) [mm]."""
+def _local_approach(nip: Nip, problem: FaceProblem, law: AnyLaw, load: float) -> Array:
+    """Return the approach that the covering at each place needs for the load, (n,) [mm].
+
+    With a sheet the covering is the same everywhere, and so is what it needs: 0 is returned.
+    """
+    if isinstance(law, SheetLaw):
+        return np.zeros(problem.grid.y.size)
     share = 0.0
     if isinstance(nip.tangential, Traction) and nip.friction > 0.0:
         share = nip.tangential.traction / (nip.friction * load)
@@ -143,7 +150,7 @@ def _local_approach(nip: Nip, problem: FaceProblem, law: NipLaw, load: float) ->
 
 
 def _skewed(
-    straight: Nip, face: Face, model: Model | None, height: float, law: NipLaw
+    straight: Nip, face: Face, model: Model | None, height: float, law: AnyLaw
 ) -> tuple[float, FaceSolution | None]:
     """Return the skew that replaces a crown [rad], and the face with it."""
     if height <= 0.0:
@@ -187,7 +194,7 @@ def load_range(
     model: Model | None = None,
     *,
     within: float = 0.1,
-    law: NipLaw | None = None,
+    law: AnyLaw | None = None,
 ) -> LoadRange | None:
     """Return the mean line loads for which the load over the face stays near its mean.
 
@@ -263,7 +270,7 @@ def plain_wall(
     *,
     within: float = 0.1,
     roller: Name = "upper",
-    law: NipLaw | None = None,
+    law: AnyLaw | None = None,
 ) -> PlainWall:
     """Return the thinnest wall of one roller's core with which it needs no crown.
 

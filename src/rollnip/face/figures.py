@@ -125,3 +125,44 @@ FACE_PROFILES: Mapping[str, FaceFigure] = _of(
     ),
 )  # fmt: skip
 """The lists of a face over y by key."""
+
+SHEET_FACE_FIGURES: Mapping[str, FaceFigure] = _of(
+    _F(
+        "mean_feed", "mean feed, upper", "1",
+        "Speed of the sheet free of tension over that of the upper roller, less 1, in the mean.",
+        "%", 100.0,
+    ),
+    _F(
+        "feed_difference", "ends feed more by", "mm/m",
+        "How much more both ends of the face feed than the middle, per metre of sheet.",
+    ),
+    _F(
+        "least_tension_in", "least tension, inlet", "N/mm",
+        "Smallest tension of the sheet at the inlet; negative where the nip pushes it back.",
+    ),
+    _F(
+        "taut_tension", "taut from a tension of", "N/mm",
+        "Mean inlet tension below which a sheet that runs at one speed goes slack somewhere.",
+    ),
+)  # fmt: skip
+"""The scalar figures that a sheet adds, by key."""
+
+SHEET_FACE_PROFILES: Mapping[str, FaceFigure] = _of(
+    _F("feed_upper", "feed, upper", "1", "V_s/V_u - 1, by the upper roller's nominal radius."),
+    _F("feed_lower", "feed, lower", "1", "V_s/V_l - 1, by the lower roller's nominal radius."),
+    _F("traction_upper", "traction, upper", "N/mm", "What the upper roller gives to the sheet."),
+    _F("tension_in", "tension, inlet", "N/mm", "Tension of the sheet at the inlet."),
+)
+"""The lists over y that a sheet adds, by key."""
+
+
+def figures_of(solution: Any) -> Mapping[str, FaceFigure]:
+    """Return the scalar figures that a face has."""
+    return FACE_FIGURES if solution.nip.sheet is None else {**FACE_FIGURES, **SHEET_FACE_FIGURES}
+
+
+def profiles_of(solution: Any) -> Mapping[str, FaceFigure]:
+    """Return the lists over y that a face has."""
+    if solution.nip.sheet is None:
+        return FACE_PROFILES
+    return {**FACE_PROFILES, **SHEET_FACE_PROFILES}

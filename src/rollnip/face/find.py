@@ -13,7 +13,11 @@ from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.face.covering import Axis, axes_of, covers
 from rollnip.face.law import NipLaw, slip_measure
+from rollnip.face.notes import warnings_of
 from rollnip.face.rows import NipRows
+from rollnip.face.sheet_find import require_even_covering, solve_face_with_sheet
+from rollnip.face.sheet_law import SheetLaw
+from rollnip.face.sheet_solution import SheetFaceSolution
 from rollnip.face.solution import FaceSolution
 from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
 from rollnip.face.table import Lattice, Progress, nip_law, require_solution
@@ -46,7 +50,7 @@ def solve_face(
     model: Model | None = None,
     *,
     stiffness: float = 1.0,
-    law: NipLaw | None = None,
+    law: NipLaw | SheetLaw | None = None,
     rows: NipRows | None = None,
     cache: KernelCache | None = None,
     progress: Progress | None = None,
@@ -92,7 +96,12 @@ def solve_face(
     model = Model() if model is None else model
     _require_plain(nip, face)
     problem = face_problem(nip, face, _PLACES, require_positive("stiffness", stiffness))
+    if nip.sheet is not None:
+        with one_blas_thread():
+            return _with_sheet(problem, model, law, rows, cache, progress, executor)
     with one_blas_thread():
+        if isinstance(law, SheetLaw):
+            raise InvalidInputError("`law` is of a nip with a sheet, and this one has none.")
         if law is not None:
             _require_same(law, problem, model)
         if rows is None:
@@ -108,18 +117,48 @@ def solve_face(
         if converged
         else f"The estimated error over the face is {worst:.1e}, more than {allowed:g}."
     )
-    notes = _warnings(problem, found)
+    notes = warnings_of(problem, found)
     return FaceSolution(nip, face, model, converged, status, notes, error, law, problem, found)
+
+
+def _with_sheet(
+    problem: FaceProblem,
+    model: Model,
+    law: NipLaw | SheetLaw | None,
+    rows: NipRows | None,
+    cache: KernelCache | None,
+    progress: Progress | None,
+    executor: Executor | None,
+) -> SheetFaceSolution:
+    """Solve a face with a sheet, from the same face without sheet and friction."""
+    if isinstance(law, NipLaw):
+        raise InvalidInputError("`law` must be that of the same cross-section, sheet and model.")
+    require_even_covering(problem)
+    kernels = rows.kernels if rows is not None else cache
+    if kernels is None:
+        kernels = KernelCache() if law is None else law.kernels
+    start = None if law is not None else _without_sheet(problem, model, rows, kernels)
+    errors = _CLAIM * model.tolerance, _WANTED * model.tolerance
+    return solve_face_with_sheet(problem, model, kernels, law, start, errors, progress, executor)
+
+
+def _without_sheet(
+    problem: FaceProblem, model: Model, rows: NipRows | None, kernels: KernelCache
+) -> tuple[Array, float]:
+    """Return line loads without sheet and friction (n,) [N/mm], and delta_0 [mm]."""
+    bare = replace(problem.nip, sheet=None, friction=0.0, tangential=Traction(0.0))
+    plain = solve_face(bare, problem.face, model, rows=rows, cache=kernels)
+    if not np.all(plain.load > 0.0):
+        raise ConvergenceError(
+            f"{plain.warnings[0]} With a sheet it must be closed all over the face; try a smaller "
+            "crown, skew or offset, or a larger load."
+        )
+    return plain.load, plain.balance.middle
 
 
 def _require_plain(nip: Nip, face: Face) -> None:
     if nip.has_profile:
         raise InvalidInputError("`profile` and a face cannot be solved together.")
-    if nip.sheet is not None:
-        raise InvalidInputError(
-            "`sheet` and a face cannot be solved together; leave out the sheet for load and width "
-            "along the face, or the face for tension and feed in the mean."
-        )
     if face.end_loads is not None and isinstance(nip.normal, Approach):
         raise InvalidInputError("`end_loads` and `approach` exclude each other.")
     if nip.face_width is not None and abs(nip.face_width / face.length - 1.0) > 1e-9:
@@ -344,23 +383,3 @@ def _error_of_places(problem: FaceProblem, law: NipLaw, found: Balance) -> float
     coarse = face_problem(problem.nip, problem.face, _PLACES // 2 + 1, problem.stiffness)
     again = balance(coarse, law).section.load
     return float(np.max(np.abs(found.section.load[::2] - again)) / found.section.load.max())
-
-
-def _warnings(problem: FaceProblem, found: Balance) -> tuple[str, ...]:
-    notes = []
-    y, carries = problem.grid.y, found.section.load > 0.0
-    if not carries.all():
-        parts = " and ".join(f"from y = {a:.0f} to {b:.0f} mm" for a, b in _runs(y, ~carries))
-        notes.append(f"The nip is open over a part of the face: {parts}.")
-    if np.any(np.abs(found.section.s[carries]) >= 1.0):
-        notes.append(
-            "Over a part of the face the surfaces slide all over the nip: one creepage for the "
-            "whole face is too far from that of free rolling there."
-        )
-    return tuple(notes)
-
-
-def _runs(y: Array, chosen: NDArray[np.bool_]) -> list[tuple[float, float]]:
-    """Return the first and last place of each run of chosen ones."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]]).astype(int)))
-    return [(float(y[a]), float(y[b - 1])) for a, b in zip(edges[::2], edges[1::2], strict=True)]

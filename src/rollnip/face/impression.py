@@ -17,7 +17,7 @@ from scipy.stats import chi2 as chi_squared
 from scipy.stats import norm
 
 from rollnip._errors import InvalidInputError, require_positive
-from rollnip.face.design import Name, with_crown
+from rollnip.face.design import AnyLaw, Name, with_crown
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw
 from rollnip.face.solution import FaceSolution
@@ -163,6 +163,8 @@ def read_impressions(
         one of the four, or the loads are not known.
     """
     _check(face, impressions, unknowns)
+    if nip.sheet is not None:
+        raise InvalidInputError("`sheet` must be left out to read an impression of the bare nip.")
     first = _loads(nip, impressions)
     one = nip.upper if roller == "upper" else nip.lower
     if one.shaft is None:
@@ -229,10 +231,10 @@ def _loads(nip: Nip, impressions: Sequence[Impression]) -> list[float]:
 
 def _wide_law(nip: Nip, face: Face, loads: list[float], model: Model | None) -> NipLaw:
     """Return a table that covers all impressions as they are expected."""
-    law = None
+    law: AnyLaw | None = None
     for load in sorted(loads):
         law = solve_face(replace(nip, normal=LineLoad(load)), face, model, law=law).law
-    assert law is not None
+    assert isinstance(law, NipLaw)
     return law
 
 

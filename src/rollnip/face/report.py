@@ -6,10 +6,22 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from rollnip._results.case import case_tree, problem_hash
-from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES, FaceFigure
+from rollnip.face.figures import (
+    FACE_FIGURES,
+    FACE_PROFILES,
+    SHEET_FACE_FIGURES,
+    SHEET_FACE_PROFILES,
+    FaceFigure,
+    figures_of,
+    profiles_of,
+)
+from rollnip.face.sheet_solution import SheetFaceSolution
 from rollnip.face.solution import FaceSolution
+
+Array = NDArray[np.float64]
 
 _SILENT = ("mean_load", "evenness")
 _OF_FRICTION = ("creepage", "total_traction", "largest_scrub")
@@ -22,15 +34,15 @@ def face_dict(solution: FaceSolution) -> dict[str, Any]:
         for name, one in ((name, solution.bearings(name)) for name in ("upper", "lower"))
     }
     tree: dict[str, Any] = {"converged": solution.converged, "status": solution.status}
-    tree |= {key: figure.value(solution) for key, figure in FACE_FIGURES.items()}
-    if solution.nip.friction == 0.0:
+    tree |= {key: figure.value(solution) for key, figure in figures_of(solution).items()}
+    if not _has_friction(solution):
         tree["creepage"] = None
     tree |= {
         "bearing_forces": bearings,
         "error": dict(solution.error),
         "warnings": list(solution.warnings),
     }
-    return tree | {key: figure.values(solution) for key, figure in FACE_PROFILES.items()}
+    return tree | {key: figure.values(solution) for key, figure in profiles_of(solution).items()}
 
 
 def face_variables(tree: dict[str, Any]) -> tuple[dict[str, tuple[Any, ...]], dict[str, Any]]:
@@ -39,12 +51,16 @@ def face_variables(tree: dict[str, Any]) -> tuple[dict[str, tuple[Any, ...]], di
     Names begin with ``face_``; None is nan.
     """
     variables: dict[str, tuple[Any, ...]] = {}
-    for key, figure in FACE_PROFILES.items():
+    for key, figure in {**FACE_PROFILES, **SHEET_FACE_PROFILES}.items():
+        if key not in tree:
+            continue
         values = tree[key]
         row = [None] * len(tree["y"]) if values is None else values
         name = key if key == "y" else f"face_{key}"
         variables[name] = ("y", _floats(row), _described(figure))
-    for key, figure in FACE_FIGURES.items():
+    for key, figure in {**FACE_FIGURES, **SHEET_FACE_FIGURES}.items():
+        if key not in tree:
+            continue
         variables[f"face_{key}"] = ((), _floats([tree[key]])[0], _described(figure))
     for key, error in tree["error"].items():
         about = {"units": "1", "long_name": f"relative error over the face: {key}"}
@@ -77,6 +93,8 @@ def face_parts(solution: FaceSolution) -> dict[str, Any]:
         "skew": face.skew,
         "nip_angle": face.nip_angle,
     }
+    if solution.nip.sheet is not None:
+        table["sheet_across"] = face.sheet_across
     if face.bearing_offset is not None:
         table["bearing_offset"] = face.bearing_offset
     case = case_tree(solution.nip, solution.model) | {"face": table}
@@ -99,13 +117,14 @@ def face_lines(solution: FaceSolution) -> Iterator[str]:
         ("nip width", solution.nip_width, "mm"),
         ("peak pressure", solution.peak_pressure, "MPa"),
         ("traction", solution.traction, "N/mm"),
+        *_sheet_rows(solution),
     )
     for label, values, unit in rows:
         shown = "".join(f" {_four(values[i], values):>12s}" for i in (0, middle, -1))
         yield f"  {label:22s}{shown} {unit}"
-    for key, figure in FACE_FIGURES.items():
+    for key, figure in figures_of(solution).items():
         value = figure.value(solution)
-        hidden = solution.nip.friction == 0.0 and key in _OF_FRICTION
+        hidden = not _has_friction(solution) and key in _OF_FRICTION
         if value is not None and key not in _SILENT and not hidden:
             yield f"  {figure.label:25s} {figure.text(_quiet(key, value, solution))}"
     for name in ("upper", "lower"):
@@ -117,10 +136,26 @@ def face_lines(solution: FaceSolution) -> Iterator[str]:
         yield f"  note: {warning}"
 
 
+def _has_friction(solution: FaceSolution) -> bool:
+    return solution.nip.friction > 0.0 or solution.nip.sheet is not None
+
+
+def _sheet_rows(solution: FaceSolution) -> tuple[tuple[str, Array, str], ...]:
+    """Return what a sheet has over y, as lines of the summary."""
+    if not isinstance(solution, SheetFaceSolution):
+        return ()
+    return (
+        ("traction, upper", solution.traction_upper, "N/mm"),
+        ("feed, upper", 100.0 * solution.feed_upper, "%"),
+        ("tension, inlet", solution.tension_in, "N/mm"),
+    )
+
+
 def _quiet(key: str, value: float, solution: FaceSolution) -> float:
     """Return 0 for a total that is a rounding error beside its size."""
     sizes = {
         "total_traction": solution.total_load,
+        "feed_difference": 1.0,
         "total_torque_upper": solution.total_load * solution.nip_width.max(),
         "total_torque_lower": solution.total_load * solution.nip_width.max(),
         "bearing_offset": float(np.max(np.abs(solution.approach))),
@@ -128,7 +163,7 @@ def _quiet(key: str, value: float, solution: FaceSolution) -> float:
     return 0.0 if abs(value) < 1e-7 * sizes.get(key, 0.0) else value
 
 
-def _four(value: float, values: np.ndarray[Any, np.dtype[np.float64]]) -> str:
+def _four(value: float, values: Array) -> str:
     """Return four digits of a value; 0 where it is rounding beside the largest."""
     size = float(np.max(np.abs(values), initial=0.0))
     return "0" if abs(value) < 1e-9 * max(size, 1e-12) else f"{value:.4g}"

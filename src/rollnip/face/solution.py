@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._extras import require_extra
 from rollnip.face.law import NipLaw
+from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solve import Balance, FaceProblem, torque
 from rollnip.model import Model
 from rollnip.nip import Nip
@@ -56,7 +57,7 @@ class FaceSolution:
     status: str
     warnings: tuple[str, ...]
     error: dict[str, float]
-    law: NipLaw = field(repr=False)
+    law: NipLaw | SheetLaw = field(repr=False)
     problem: FaceProblem = field(repr=False)
     balance: Balance = field(repr=False)
 
@@ -246,6 +247,7 @@ class FaceSolution:
 
     def _torque(self, roller: str) -> Array | None:
         found = self.balance
+        assert isinstance(self.law, NipLaw)
         values = torque(self.problem, self.law, found.section, found.places, roller)
         return None if np.isnan(values).any() else values
 
@@ -261,5 +263,6 @@ class FaceSolution:
 
     def _of_law(self, name: str) -> Array:
         found = self.balance
+        assert isinstance(self.law, NipLaw)
         values = self.law.figure(name, found.section.log_load, found.section.s, found.places)
         return np.where(self.load > 0.0, values, 0.0)

@@ -40,6 +40,7 @@ def face_of(table: FaceTable) -> Face:
         end_loads=end_loads_of(table),
         bearing_offset=table.bearing_offset,
         nip_angle=table.nip_angle,
+        sheet_across=table.sheet_across,
     )
 
 

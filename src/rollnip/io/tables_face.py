@@ -112,3 +112,7 @@ class FaceTable(FileTable):
         "roller than that at y < 0.",
     )
     nip_angle: Angle = 0.0
+    sheet_across: Literal["free", "one-speed"] = Field(
+        "free",
+        description="Whether a sheet in the nip runs as strips of their own speed, or as one web.",
+    )

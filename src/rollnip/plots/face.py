@@ -6,10 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rollnip.face.sheet_solution import SheetFaceSolution
 from rollnip.face.solution import FaceSolution
 from rollnip.plots.style import Palette, Style, palette_of
 
-_SIZE = (10.0, 8.0)  # inches
+_SIZE, _SHEET_SIZE = (10.0, 8.0), (10.0, 11.5)  # inches
 
 
 def plot_face(solution: FaceSolution, *, style: Style = "light") -> Figure:
@@ -21,9 +22,12 @@ def plot_face(solution: FaceSolution, *, style: Style = "light") -> Figure:
     style : "light" or "dark".
     """
     palette = palette_of(style)
-    figure = Figure(figsize=_SIZE, layout="constrained", facecolor=palette.ground)
-    impression, load, scrub, shape = figure.subplots(4, 1, sharex=True)
-    for ax in (impression, load, scrub, shape):
+    size = _SIZE if not isinstance(solution, SheetFaceSolution) else _SHEET_SIZE
+    figure = Figure(figsize=size, layout="constrained", facecolor=palette.ground)
+    rows = 4 if not isinstance(solution, SheetFaceSolution) else 6
+    axes = figure.subplots(rows, 1, sharex=True)
+    impression, load, scrub, shape = (axes[i] for i in (0, 1, 2, -1))
+    for ax in axes:
         ax.set_facecolor(palette.ground)
         ax.tick_params(colors=palette.ink)
         for spine in ax.spines.values():
@@ -32,6 +36,8 @@ def plot_face(solution: FaceSolution, *, style: Style = "light") -> Figure:
     _line(load, solution, solution.load, "line load [N/mm]", palette.pressure)
     load.axhline(solution.mean_load, color="0.5", linewidth=0.8, linestyle=":")
     _line(scrub, solution, solution.traction, "traction [N/mm]", palette.shear)
+    if isinstance(solution, SheetFaceSolution):
+        _sheet(axes[3], axes[4], scrub, solution, palette)
     _shapes(shape, solution, palette)
     shape.set_xlabel("y along the face [mm]")
     for ax in figure.axes:
@@ -73,6 +79,32 @@ def _line(
     ax.set_ylabel(label)
     if values.min() >= 0.0:
         ax.set_ylim(bottom=0.0)
+
+
+def _sheet(
+    feed: Axes, tension: Axes, scrub: Axes, solution: SheetFaceSolution, palette: Palette
+) -> None:
+    """Draw what the sheet does: its feed, its tension at the inlet, and both tractions."""
+    scrub.lines[0].set_label("lower roller takes")
+    scrub.plot(
+        solution.y, solution.traction_upper, color=palette.upper, linewidth=1.8,
+        label="upper roller gives",
+    )  # fmt: skip
+    scrub.legend(frameon=False, fontsize=9, loc="best", labelcolor="linecolor")
+    ahead = 1e3 * ((1.0 + solution.feed_upper) / (1.0 + solution.mean_feed) - 1.0)
+    feed.plot(solution.y, ahead, color=palette.lower, linewidth=1.8)
+    feed.axhline(0.0, color="0.5", linewidth=0.6)
+    feed.set_ylabel("feed over mean [mm/m]")
+    span = max(float(np.max(np.abs(ahead))), 0.01)
+    feed.set_ylim(-1.2 * span, 1.2 * span)
+    inlet = solution.tension_in
+    tension.plot(solution.y, inlet, color=palette.lower, linewidth=1.8)
+    pushed = np.minimum(inlet, 0.0)
+    tension.fill_between(solution.y, pushed, 0.0, color=palette.pressure, alpha=0.4, linewidth=0.0)
+    tension.axhline(0.0, color="0.5", linewidth=0.6)
+    low, high = min(float(inlet.min()), 0.0), max(float(inlet.max()), 0.0)
+    tension.set_ylim(1.2 * low, 1.2 * high or 1.0)
+    tension.set_ylabel("tension, inlet [N/mm]")
 
 
 def _shapes(ax: Axes, solution: FaceSolution, palette: Palette) -> None:

@@ -10,7 +10,7 @@ from typing import Any
 
 from rollnip._errors import ConvergenceError, RollnipError
 from rollnip.face import FaceSolution, NipRows, solve_face
-from rollnip.face.figures import FACE_FIGURES
+from rollnip.face.figures import FACE_FIGURES, SHEET_FACE_FIGURES, figures_of
 from rollnip.figures import CLAIMED, FIGURES
 from rollnip.heat import HeatSolution, solve_heat
 from rollnip.heat.report import HEAT_SCALARS, heat_scalar
@@ -31,7 +31,7 @@ SCALARS: Mapping[str, str] = {
     "solver.iterations": "1",
     "solver.residual": "1",
     "solver.geometry_change": "1",
-    **{f"face.{key}": figure.unit for key, figure in FACE_FIGURES.items()},
+    **{f"face.{key}": one.unit for key, one in {**FACE_FIGURES, **SHEET_FACE_FIGURES}.items()},
     **{f"heat.{key}": unit for key, unit in HEAT_SCALARS.items()},
 }
 """Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``.
@@ -164,7 +164,8 @@ def _value(
     if key in SHEET_FIGURES:
         return SHEET_FIGURES[key].error(solution)
     if table == "face":
-        return None if along is None else FACE_FIGURES[key].value(along)
+        figure = None if along is None else figures_of(along).get(key)
+        return None if figure is None else figure.value(along)
     if table == "error":
         return CLAIMED[key].error(solution)
     if table == "heat":

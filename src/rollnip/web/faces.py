@@ -14,6 +14,7 @@ from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip.face import (
     FaceSolution,
     NipLaw,
+    SheetLaw,
     even_crown,
     face_problem,
     load_range,
@@ -54,7 +55,7 @@ class Faces:
 
     def __init__(self, kernels: KernelCache) -> None:
         self._kernels = kernels
-        self._laws: OrderedDict[str, NipLaw] = OrderedDict()
+        self._laws: OrderedDict[str, NipLaw | SheetLaw] = OrderedDict()
 
     def face(self, case: Case) -> dict[str, Any]:
         """Return the key "face" of the result of a case; with "crown", radii over those nominal.

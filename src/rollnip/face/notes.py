@@ -1,0 +1,31 @@
+"""Reservations on a face, in words."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.face.solve import Balance, FaceProblem
+
+Array = NDArray[np.float64]
+
+
+def warnings_of(problem: FaceProblem, found: Balance) -> tuple[str, ...]:
+    """Return reservations on a face: where it is open, and where it slides."""
+    notes = []
+    y, carries = problem.grid.y, found.section.load > 0.0
+    if not carries.all():
+        notes.append(f"The nip is open over a part of the face: {places(y, ~carries)}.")
+    if np.any(np.abs(found.section.s[carries]) >= 1.0):
+        notes.append(
+            "Over a part of the face the surfaces slide all over the nip: one creepage for the "
+            "whole face is too far from that of free rolling there."
+        )
+    return tuple(notes)
+
+
+def places(y: Array, chosen: NDArray[np.bool_]) -> str:
+    """Return in words where along the face something holds: from the first to the last place."""
+    edges = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]]).astype(int)))
+    runs = [(y[a], y[b - 1]) for a, b in zip(edges[::2], edges[1::2], strict=True)]
+    return " and ".join(f"from y = {a:.0f} to {b:.0f} mm" for a, b in runs)

@@ -1,0 +1,129 @@
+"""A solved face with a sheet: what `FaceSolution` says, with feed and tension over y."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.face.notes import places
+from rollnip.face.sheet_balance import SheetBalance
+from rollnip.face.sheet_law import SheetLaw
+from rollnip.face.solution import FaceSolution
+from rollnip.sheets import Sheet
+
+Array = NDArray[np.float64]
+
+_PER_METRE = 1000.0  # mm per metre of web
+_SLACK = 1e-6  # of the load: a tension below zero that is more than rounding
+
+
+@dataclass(frozen=True)
+class SheetFaceSolution(FaceSolution):
+    """A solved face with a sheet.
+
+    ``traction`` is what the lower roller takes, ``slip_width`` is that of the upper interface, and
+    feeds are against the rollers' nominal radii.
+
+    Attributes
+    ----------
+    sheet_balance : cross-sections and speeds.
+    """
+
+    sheet_balance: SheetBalance = field(kw_only=True, repr=False)
+
+    @property
+    def sheet(self) -> Sheet:
+        """The sheet."""
+        sheet = self.nip.sheet
+        assert sheet is not None
+        return sheet
+
+    @property
+    def feed_upper(self) -> Array:
+        """V_s/V_u - 1 over the face, (n,); V_s is the speed of the sheet free of tension."""
+        return np.asarray(self.sheet_balance.feeds[0])
+
+    @property
+    def feed_lower(self) -> Array:
+        """V_s/V_l - 1 over the face, (n,)."""
+        return np.asarray(self.sheet_balance.feeds[1])
+
+    @cached_property
+    def traction_upper(self) -> Array:
+        """Traction that the upper roller gives to the sheet, (n,) [N/mm]."""
+        return self._sheet_law.tractions(self.sheet_balance.points)[0]
+
+    @property
+    def tension_in(self) -> Array:
+        """Tension of the sheet at the inlet, (n,) [N/mm]; negative where the nip pushes it back."""
+        return self.sheet.tension_out + self.traction_upper - self.traction
+
+    @property
+    def local_creepage(self) -> Array:
+        """Creepage of the rollers with the local radii, (n,)."""
+        upper, lower = np.log1p(self.feed_upper), np.log1p(self.feed_lower)
+        rise = np.log1p(self.problem.rise)
+        ratio = np.exp(lower - rise[1] - upper + rise[0])
+        return np.asarray(2.0 * (ratio - 1.0) / (ratio + 1.0))
+
+    @property
+    def mean_feed(self) -> float:
+        """Mean of the feed against the upper roller over the face."""
+        return float(self.problem.grid.weights @ self.feed_upper) / self.face.length
+
+    @property
+    def feed_difference(self) -> float:
+        """How much more both ends of the face feed than the middle [mm per metre of sheet].
+
+        The mean of both ends less the middle; 0 where the sheet runs at one speed.
+        """
+        feed = self.feed_upper
+        ends = 0.5 * (feed[0] + feed[-1])
+        return _PER_METRE * float(ends - feed[feed.size // 2]) / (1.0 + self.mean_feed)
+
+    @property
+    def least_tension_in(self) -> float:
+        """Smallest tension at the inlet over the face [N/mm]; negative: the sheet is pushed."""
+        return float(self.tension_in.min())
+
+    @property
+    def taut_tension(self) -> float:
+        """Mean inlet tension below which a sheet at one speed goes slack somewhere [N/mm].
+
+        At one speed: the mean of the tension less its smallest, on this face. Free: the tension
+        that stretches the sheet by the mean feed less the smallest, (mean f - min f) E h/(1 - nu^2)
+        over (1 + f); the nip gives way, so that a sheet at one speed needs less.
+        """
+        if self.face.sheet_across == "one-speed":
+            mean = float(self.problem.grid.weights @ self.tension_in) / self.face.length
+            return mean - self.least_tension_in
+        behind = self.mean_feed - float(self.feed_upper.min())
+        return behind / (1.0 + self.mean_feed) / self.sheet.stretch_by_tension
+
+    @property
+    def reservations(self) -> tuple[str, ...]:
+        """Sentences on where the sheet is pushed."""
+        pushed = self.tension_in < -_SLACK * self.mean_load
+        if not pushed.any():
+            return ()
+        return (
+            f"The nip pushes the sheet back at the inlet {places(self.y, pushed)}, by up to "
+            f"{-self.least_tension_in:.3g} N/mm: a thin sheet goes slack or wrinkles there.",
+        )
+
+    @property
+    def _sheet_law(self) -> SheetLaw:
+        assert isinstance(self.law, SheetLaw)
+        return self.law
+
+    def _torque(self, roller: str) -> Array | None:
+        if getattr(self.nip, roller).curvature == 0.0:
+            return None
+        values = self._sheet_law.figure(f"torque_{roller}", self.sheet_balance.points)
+        return np.asarray(values * (1.0 + self.problem.rise[0 if roller == "upper" else 1]))
+
+    def _of_law(self, name: str) -> Array:
+        return self._sheet_law.figure(name, self.sheet_balance.points)

@@ -129,7 +129,7 @@ class Patch:
     Parameters
     ----------
     upper, lower :
-        the rollers, elastic; layers count as flat.
+        the rollers, elastic or viscoelastic; layers count as flat.
     normal :
         Force [N] that presses, or Approach.
     friction :
@@ -142,7 +142,7 @@ class Patch:
     across_upper, across_lower :
         shapes of the rollers along y.
     speed :
-        rolling speed [mm/s], for powers; None: powers per speed only.
+        rolling speed [mm/s]; needed where a material is viscoelastic. None: no powers.
     title :
         free text, carried into the result.
 
@@ -172,6 +172,11 @@ class Patch:
             object.__setattr__(self, "speed", require_positive("speed", self.speed))
         self._check_rollers()
         self._check_forces()
+
+    @property
+    def is_viscoelastic(self) -> bool:
+        """True where any material is viscoelastic."""
+        return self.upper.is_viscoelastic or self.lower.is_viscoelastic
 
     @property
     def curvature(self) -> float:
@@ -211,16 +216,13 @@ class Patch:
 
     def _check_rollers(self) -> None:
         for roller in (self.upper, self.lower):
-            if roller.is_viscoelastic:
-                raise InvalidInputError(
-                    "`material` must be elastic in a patch, got a viscoelastic one; take an "
-                    "elastic one with the modulus at the time that a point spends in the patch."
-                )
             if roller.profile is not None:
                 raise InvalidInputError(
                     "`profile` along x cannot be part of a patch; a profile along y belongs to "
                     "`across_upper` or `across_lower`."
                 )
+        if self.is_viscoelastic and self.speed is None:
+            raise InvalidInputError("`speed` must be given where a material is viscoelastic.")
         if self.upper.is_rigid and self.lower.is_rigid:
             raise InvalidInputError(
                 "`upper` and `lower` must not both be bare rigid cores: nothing would deform."

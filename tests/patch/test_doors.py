@@ -111,7 +111,10 @@ def test_the_tree_holds_every_figure_and_field(solved):
     part = tree["patch"]
     assert part["load"] == pytest.approx(200.0)
     assert set(solved.figures) | {"spin", "friction_resistance"} <= set(part)
-    assert set(part["error"]) == set(solved.figures) | {"friction_resistance"}
+    assert set(part["error"]) == set(solved.figures) | {
+        "friction_resistance",
+        "rolling_resistance",
+    }
     assert len(tree["fields"]["y"]) == len(tree["fields"]["pressure"]) == 16
     assert tree["fields"]["gap"][8][8] == pytest.approx(0.0, abs=1e-3)
     assert "fields" not in patch_dict(solved)

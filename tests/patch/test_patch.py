@@ -386,22 +386,6 @@ WRONG = [
     ({"lower": rn.Roller(radius=50.0), "upper": rn.Roller(radius=50.0)}, "bare rigid cores"),
     ({"across_upper": rn.Across()}, "must bound the patch"),
     ({"friction": 0.0, "along": rn.Force(1.0)}, "without friction"),
-    (
-        {
-            "upper": rn.Roller(
-                radius=50.0,
-                layers=[
-                    rn.Layer(
-                        5.0,
-                        rn.StandardLinearSolid(
-                            modulus=1.0, stiffening=1.0, relaxation_time=0.01, poisson=0.5
-                        ),
-                    )
-                ],
-            )
-        },
-        "must be elastic",
-    ),
 ]
 
 

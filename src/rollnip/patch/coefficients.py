@@ -22,7 +22,7 @@ from rollnip.patch.kernels import HalfSpace, PairKernel, RadialTable
 
 Array = NDArray[np.float64]
 
-_MOST_POINTS = 16
+_MOST_POINTS = 64
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,13 +72,14 @@ class Grid:
 
 @dataclass(frozen=True, slots=True)
 class Coefficients:
-    """Influence coefficients for distances 0 ... nx along x and 0 ... ny along y.
+    """Influence coefficients for distances -nx ... nx along x and 0 ... ny along y.
 
-    xx, yy and zz are even in both distances, xy is odd in both, xz odd in x and yz odd in y.
+    Over y, xx, yy, zz and xz are even, xy and yz are odd.
 
     Attributes
     ----------
-    xx, xy, yy, zz, xz, yz : (ny + 1, nx + 1) [mm/MPa]; xz is u_x of the pressure.
+    xx, xy, yy, zz, xz, yz : (ny + 1, 2 nx + 1) [mm/MPa]; xz is u_x of the pressure.
+    is_symmetric : whether xx, yy, zz and yz are even in x as well, xy and xz odd: elastic bodies.
     """
 
     xx: Array
@@ -87,14 +88,30 @@ class Coefficients:
     zz: Array
     xz: Array
     yz: Array
+    is_symmetric: bool
+
+
+_ODD = np.array([1.0, -1.0, 1.0, 1.0, -1.0, 1.0])[:, None, None]
+"""Signs of xx, xy, yy, zz, xz and yz of elastic bodies at the mirrored x."""
 
 
 def coefficients(kernel: PairKernel, grid: Grid) -> Coefficients:
-    """Return the influence coefficients of both surfaces together on a grid."""
+    """Return the influence coefficients of both elastic surfaces together on a grid."""
+    xx, xy, yy, zz, xz, yz = both_sides(quadrant(kernel, grid))
+    return Coefficients(xx, xy, yy, zz, xz, yz, is_symmetric=True)
+
+
+def quadrant(kernel: PairKernel, grid: Grid) -> Array:
+    """Return xx, xy, yy, zz, xz, yz for distances from 0 on, (6, ny + 1, nx + 1) [mm/MPa]."""
     values = half_space_coefficients(kernel.half_space, grid)
     for table, sign in kernel.tables:
         values += _layered(table, grid, sign)
-    return Coefficients(*values)
+    return values
+
+
+def both_sides(values: Array) -> Array:
+    """Return coefficients of elastic bodies to both sides of 0 along x, (6, ny + 1, 2 nx + 1)."""
+    return np.concatenate([_ODD * values[:, :, :0:-1], values], axis=2)
 
 
 def half_space_coefficients(body: HalfSpace, grid: Grid) -> Array:
@@ -123,27 +140,37 @@ def half_space_coefficients(body: HalfSpace, grid: Grid) -> Array:
 
 def _layered(table: RadialTable, grid: Grid, sign: float) -> Array:
     """Return what one roller's layers add, (6, ny + 1, nx + 1)."""
-    gauss_x, gauss_y = (_gauss(h, table.finest) for h in (grid.hx, grid.hy))
+    gauss_x, gauss_y = (gauss(h, table.finest) for h in (grid.hx, grid.hy))
     x = np.arange(grid.nx + 1)[None, :] * grid.hx
     y = np.arange(grid.ny + 1)[:, None] * grid.hy
     out = np.zeros((6, grid.ny + 1, grid.nx + 1))
     for dx, wx in zip(*gauss_x, strict=True):
         for dy, wy in zip(*gauss_y, strict=True):
-            px, py = x + dx, y + dy
-            r = np.hypot(px, py)
-            s, t0, t2, z, x1 = np.moveaxis(table.spline(r), -1, 0)
-            safe = np.maximum(r, 1e-300)
-            c, d = px / safe, py / safe
-            turned = 0.5 * t2 * (c * c - d * d)
-            even = s + 0.5 * t0
-            x1 = x1 * sign
-            out += (wx * wy) * np.stack(
-                [even - turned, -t2 * c * d, even + turned, z, -x1 * c, -x1 * d]
-            )
+            out += (wx * wy) * layered_at(table, x + dx, y + dy, sign)
     return out
 
 
-def _gauss(side: float, finest: float) -> tuple[Array, Array]:
+def layered_at(table: RadialTable, x: Array, y: Array, sign: float) -> Array:
+    """Return what one roller's layers add under a point force, (6, ...) over places x, y [1/N]."""
+    r = np.hypot(x, y)
+    s, t0, t2, z, x1 = np.moveaxis(table.spline(r), -1, 0)
+    safe = np.maximum(r, 1e-300)
+    c, d = x / safe, y / safe
+    turned = 0.5 * t2 * (c * c - d * d)
+    even, odd = s + 0.5 * t0, sign * x1
+    return np.stack([even - turned, -t2 * c * d, even + turned, z, -odd * c, -odd * d])
+
+
+def half_space_at(body: HalfSpace, x: Array, y: Array) -> Array:
+    """Return xx, xy, yy, zz, xz, yz of a half-space under a point force, (6, ...) [1/N]."""
+    r = np.hypot(x, y)
+    c, d = x / r, y / r
+    along, across = body.s + body.t * d * d, body.s + body.t * c * c
+    rows = [along, -body.t * c * d, across, body.z + 0.0 * r, -body.x * c, -body.x * d]
+    return np.stack(rows) / (2.0 * pi * r)
+
+
+def gauss(side: float, finest: float) -> tuple[Array, Array]:
     """Return places and weights of Gauss points over the side of a rectangle."""
     count = min(2 + int(2.0 * side / finest), _MOST_POINTS)
     points, weights = np.polynomial.legendre.leggauss(count)

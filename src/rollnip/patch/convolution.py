@@ -6,7 +6,7 @@ in memory.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -16,6 +16,7 @@ from scipy.fft import irfft2, next_fast_len, rfft2
 from rollnip.patch.coefficients import Array, Coefficients, Grid
 
 ComplexArray = NDArray[np.complex128]
+Spectrum = NDArray[np.float64] | NDArray[np.complex128]
 
 
 @dataclass(frozen=True)
@@ -38,28 +39,31 @@ class Convolutions:
         return int(next_fast_len(sizes[0])), int(next_fast_len(sizes[1], real=True))
 
     @cached_property
-    def zz(self) -> Array:
-        """Transform of the coefficients zz: real, for they are even."""
-        return self._transformed(self.coefficients.zz, 1.0, 1.0).real.copy()
+    def zz(self) -> Spectrum:
+        """Transform of the coefficients zz; real where they are symmetric."""
+        return self._transformed(self.coefficients.zz, 1.0)
 
     @cached_property
-    def shear(self) -> tuple[Array, Array, Array]:
-        """Transforms of the coefficients xx, xy and yy: real."""
+    def shear(self) -> tuple[Spectrum, Spectrum, Spectrum]:
+        """Transforms of the coefficients xx, xy and yy; real where they are symmetric."""
         c = self.coefficients
         return (
-            self._transformed(c.xx, 1.0, 1.0).real.copy(),
-            self._transformed(c.xy, -1.0, -1.0).real.copy(),
-            self._transformed(c.yy, 1.0, 1.0).real.copy(),
+            self._transformed(c.xx, 1.0),
+            self._transformed(c.xy, -1.0),
+            self._transformed(c.yy, 1.0),
         )
 
     @cached_property
-    def coupling(self) -> tuple[Array, Array]:
-        """Transforms of the coefficients xz and yz: imaginary parts, the real ones are 0."""
+    def coupling(self) -> tuple[Spectrum, Spectrum]:
+        """Transforms of the coefficients xz and yz over i; real where they are symmetric."""
         c = self.coefficients
-        return (
-            self._transformed(c.xz, -1.0, 1.0).imag.copy(),
-            self._transformed(c.yz, 1.0, -1.0).imag.copy(),
-        )
+        return self._transformed(c.xz, 1.0, -1j), self._transformed(c.yz, -1.0, -1j)
+
+    @cached_property
+    def couples(self) -> bool:
+        """Whether pressure shears the surfaces against each other."""
+        c = self.coefficients
+        return bool(np.any(c.xz) or np.any(c.yz))
 
     @cached_property
     def downstream(self) -> ComplexArray:
@@ -68,9 +72,34 @@ class Convolutions:
         turn = np.exp(2j * np.pi * np.arange(size // 2 + 1) / size)
         return np.asarray((1.0 - turn) / self.grid.hx)
 
+    def symmetric(self) -> Convolutions:
+        """Return the products with the symmetric part of the coefficients zz."""
+        c = self.coefficients
+        even = replace(c, zz=0.5 * (c.zz + c.zz[:, ::-1]), is_symmetric=True)
+        return Convolutions(self.grid, even)
+
     def normal(self, pressure: Array) -> Array:
         """Return u_z of both surfaces together under a pressure, (ny, nx) [mm]."""
         return self.back(self.forward(pressure) * self.zz)
+
+    def displacement(self, pressure: Array, shear: Array) -> Array:
+        """Return u_x and u_y of the upper surface against the lower, u_z of both, (3, ny, nx) [mm].
+
+        Parameters
+        ----------
+        pressure : (ny, nx) [MPa].
+        shear : (2, ny, nx) on the upper surface [MPa].
+        """
+        p, x, y = (self.forward(part) for part in (pressure, *shear))
+        xx, xy, yy = self.shear
+        xz, yz = self.coupling
+        return np.stack(
+            [
+                self.back(np.asarray(xx * x + xy * y + 1j * xz * p)),
+                self.back(np.asarray(xy * x + yy * y + 1j * yz * p)),
+                self.back(np.asarray(self.zz * p - 1j * (xz * x + yz * y))),
+            ]
+        )
 
     def forward(self, values: Array) -> ComplexArray:
         """Return the transform of values on the grid, padded with zeros."""
@@ -81,11 +110,12 @@ class Convolutions:
         values = irfft2(spectrum, self.shape, workers=1, overwrite_x=True)
         return np.asarray(values[: self.grid.ny, : self.grid.nx])
 
-    def _transformed(self, quadrant: Array, parity_x: float, parity_y: float) -> ComplexArray:
+    def _transformed(self, half: Array, parity_y: float, factor: complex = 1.0) -> Spectrum:
+        """Return the transform of coefficients, times a factor that makes symmetric ones real."""
         ny, nx = self.grid.ny, self.grid.nx
         circle = np.zeros(self.shape)
-        circle[: ny + 1, : nx + 1] = quadrant
-        circle[: ny + 1, -nx:] = parity_x * quadrant[:, :0:-1]
-        circle[-ny:, : nx + 1] = parity_y * quadrant[:0:-1]
-        circle[-ny:, -nx:] = parity_x * parity_y * quadrant[:0:-1, :0:-1]
-        return np.asarray(rfft2(circle, workers=1))
+        circle[: ny + 1, : nx + 1] = half[:, nx:]
+        circle[: ny + 1, -nx:] = half[:, :nx]
+        circle[-ny:] = parity_y * circle[ny:0:-1]
+        spectrum = np.asarray(factor * rfft2(circle, workers=1))
+        return spectrum.real.copy() if self.coefficients.is_symmetric else spectrum

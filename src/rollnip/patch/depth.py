@@ -24,6 +24,7 @@ from scipy.interpolate import CubicSpline
 from rollnip._errors import InvalidInputError
 from rollnip.compliance import flat_fields, shear_fields
 from rollnip.patch.coefficients import Array, Grid
+from rollnip.patch.memory import roller_stack
 from rollnip.rollers import Roller
 
 ComplexArray = NDArray[np.complex128]
@@ -34,7 +35,9 @@ _ROOM = 4
 _CELL = 16
 """Wave vectors along each side of the cell around 0."""
 _TABLE = 1500
-"""Wave numbers at which the layers are computed."""
+"""Wave numbers at which elastic layers are computed."""
+_AT_ONCE = 100_000
+"""Wave vectors at which viscoelastic layers are computed at once."""
 
 
 @dataclass(frozen=True)
@@ -86,16 +89,17 @@ class PatchStress:
 
 
 def stress_at_depth(
-    roller: Roller, grid: Grid, tractions: Array, depths: Sequence[float]
+    roller: Roller, grid: Grid, tractions: Array, depths: Sequence[float], speed: float
 ) -> PatchStress:
     """Return the stresses in a roller on the places of a grid at some depths.
 
     Parameters
     ----------
-    roller : elastic, not a bare rigid one.
+    roller : not a bare rigid one.
     grid : of the tractions.
     tractions : (3, ny, nx) along x, along y and inwards [MPa], as they act on this roller.
     depths : [mm], at least half the longer side of a rectangle.
+    speed : V [mm/s]; it counts for viscoelastic rollers.
 
     Raises
     ------
@@ -112,7 +116,7 @@ def stress_at_depth(
                 "solve on a finer grid to come closer to the surface."
             )
     window = _Window(grid, tractions)
-    parts = np.stack([window.stresses(roller, float(z)) for z in depths], axis=1)
+    parts = np.stack([window.stresses(roller, float(z), speed) for z in depths], axis=1)
     return PatchStress(np.array(depths, dtype=float), grid.y, grid.x, *parts)
 
 
@@ -130,14 +134,14 @@ class _Waves:
     ky: Array
     tractions: tuple[ComplexArray, ComplexArray, ComplexArray]
 
-    def stresses(self, table: CubicSpline, medium: tuple[float, float]) -> tuple[ComplexArray, ...]:
+    def stresses(self, medium: _Medium) -> tuple[ComplexArray, ...]:
         """Return s_xx, s_yy, s_zz, s_xy, s_xz and s_yz of every wave vector."""
         k = np.hypot(self.kx, self.ky)
         c, s = self.kx / k, self.ky / k
         x, y, inward = self.tractions
         along, across = c * x + s * y, -s * x + c * y
-        nn_x, zz_x, nz_x, nn_z, zz_z, nz_z, moved, passed = np.moveaxis(table(np.log(k)), -1, 0)
-        poisson, shear = medium
+        nn_x, zz_x, nz_x, nn_z, zz_z, nz_z, moved, passed = medium.amplitudes(k, self.kx)
+        poisson, shear = medium.elastic(self.kx)
         nn = 1j * nn_x * along + nn_z * inward
         zz = 1j * zz_x * along + zz_z * inward
         nz = nz_x * along + 1j * nz_z * inward
@@ -181,54 +185,75 @@ class _Window:
         cell_x, cell_y = np.meshgrid(fine * steps[0], fine * steps[1])
         self.cell = _Waves(cell_x, cell_y, (x[:1, :1], y[:1, :1], inward[:1, :1]))
 
-    def stresses(self, roller: Roller, z: float) -> Array:
+    def stresses(self, roller: Roller, z: float, speed: float) -> Array:
         """Return s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at one depth, (6, ny, nx)."""
-        lowest = min(float(np.hypot(w.kx, w.ky).min()) for w in (self.waves, self.cell))
-        highest = float(np.hypot(self.waves.kx, self.waves.ky).max())
-        table, medium = _table(roller, z, lowest, highest), _medium(roller, z)
-        spectra = self.waves.stresses(table, medium)
+        medium = _Medium(roller, z, speed)
+        spectra = self.waves.stresses(medium)
         rows, columns = self.grid.ny, self.grid.nx
         fields = []
-        for part, mean in zip(spectra, self.cell.stresses(table, medium), strict=True):
+        for part, mean in zip(spectra, self.cell.stresses(medium), strict=True):
             if roller.core is not None:
                 part[0, 0] = np.mean(mean)
             fields.append(irfft2(part, self.shape, workers=1)[:rows, :columns])
         return np.stack(fields)
 
 
-def _table(roller: Roller, z: float, lowest: float, highest: float) -> CubicSpline:
-    """Return the real amplitudes of stress per unit traction over log k, at one depth.
+@dataclass(frozen=True, slots=True)
+class _Medium:
+    """The layers of a roller as seen at one depth.
 
-    s_nn/i, s_zz/i and s_nz of the traction along; s_nn, s_zz and s_nz/i of that inwards; the
-    displacement across and the traction left of that across.
+    Attributes
+    ----------
+    roller : that deforms.
+    z : depth [mm].
+    speed : V [mm/s]; it counts for viscoelastic rollers.
     """
-    k = np.geomspace(lowest, highest * 1.000001, _TABLE)
-    thickness = np.array([layer.thickness for layer in roller.layers])
-    young = np.array([layer.material.relaxed_modulus for layer in roller.layers])
-    poisson = np.array([layer.material.poisson for layer in roller.layers])
-    core, core_poisson = None, 0.5
-    if roller.core is not None:
-        core, core_poisson = np.asarray(roller.core.relaxed_modulus), roller.core.poisson
-    below = (thickness, young, poisson, core, core_poisson)
-    along = flat_fields(k, [z], 1.0, 0.0, *below)
-    inward = flat_fields(k, [z], 0.0, 1.0, *below)
-    moved, passed = shear_fields(k, z, *below)
-    parts = [
-        along.s_xx[0].imag,
-        along.s_zz[0].imag,
-        along.s_xz[0].real,
-        inward.s_xx[0].real,
-        inward.s_zz[0].real,
-        inward.s_xz[0].imag,
-        moved,
-        passed,
-    ]
-    return CubicSpline(np.log(k), np.stack(parts, axis=1))
 
+    roller: Roller
+    z: float
+    speed: float
 
-def _medium(roller: Roller, z: float) -> tuple[float, float]:
-    """Return Poisson ratio and shear modulus at a depth; on an interface those above it."""
-    materials = roller.materials
-    layer = int(np.searchsorted(np.array(roller.interfaces), z * (1.0 - 1e-12), side="left"))
-    material = materials[min(layer, len(materials) - 1)]
-    return material.poisson, material.relaxed_modulus / (2.0 * (1.0 + material.poisson))
+    def elastic(self, kx: Array) -> tuple[float, ComplexArray]:
+        """Return Poisson ratio and shear modulus; on an interface those above it."""
+        interfaces = np.array(self.roller.interfaces)
+        materials = self.roller.materials
+        layer = int(np.searchsorted(interfaces, self.z * (1.0 - 1e-12), side="left"))
+        material = materials[min(layer, len(materials) - 1)]
+        young = material.modulus_at(-1j * kx * self.speed)
+        return material.poisson, young / (2.0 * (1.0 + material.poisson))
+
+    def amplitudes(self, k: Array, kx: Array) -> ComplexArray:
+        """Return what a unit traction of each wave vector makes, (8, ...).
+
+        s_nn/i, s_zz/i and s_nz of the traction along; s_nn, s_zz and s_nz/i of that inwards; the
+        displacement across and the traction left of that across.
+        """
+        if self.roller.is_viscoelastic:
+            kx = np.broadcast_to(kx, k.shape).ravel()
+            parts = [
+                self._computed(k.ravel()[i : i + _AT_ONCE], kx[i : i + _AT_ONCE])
+                for i in range(0, k.size, _AT_ONCE)
+            ]
+            return np.concatenate(parts, axis=1).reshape(8, *k.shape)
+        places = np.geomspace(float(k.min()), float(k.max()) * 1.000001, _TABLE)
+        table = CubicSpline(np.log(places), self._computed(places, 0.0 * places).real, axis=-1)
+        return np.asarray(table(np.log(k)))
+
+    def _computed(self, k: Array, kx: Array) -> ComplexArray:
+        """Return the same for wave vectors in a row, (8, n)."""
+        below = roller_stack(self.roller, kx, self.speed)
+        along = flat_fields(k, [self.z], 1.0, 0.0, *below)
+        inward = flat_fields(k, [self.z], 0.0, 1.0, *below)
+        moved, passed = shear_fields(k, self.z, *below)
+        return np.stack(
+            [
+                along.s_xx[0] / 1j,
+                along.s_zz[0] / 1j,
+                along.s_xz[0],
+                inward.s_xx[0],
+                inward.s_zz[0],
+                inward.s_xz[0] / 1j,
+                moved,
+                passed,
+            ]
+        )

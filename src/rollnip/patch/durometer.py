@@ -21,7 +21,7 @@ from rollnip.materials import Material
 from rollnip.patch.coefficients import Array, Grid, coefficients
 from rollnip.patch.convolution import Convolutions
 from rollnip.patch.kernels import pair_kernel
-from rollnip.patch.normal import NormalProblem, solve_normal
+from rollnip.patch.normal import NormalProblem, solve_symmetric
 from rollnip.rollers import Layer, Roller
 
 _TIP = 0.395  # mm, radius of the flat end
@@ -74,7 +74,7 @@ class Indentation:
         x, y = np.meshgrid(grid.x, grid.y)
         problem = NormalProblem(self.products, _clearance(np.hypot(x, y)), None, depth)
         with one_blas_thread():
-            state = solve_normal(problem, _TOLERANCE, None)
+            state = solve_symmetric(problem, _TOLERANCE, None)
         return float(np.sum(state.pressure)) * grid.element
 
     def shore_a(self) -> float:

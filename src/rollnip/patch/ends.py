@@ -19,6 +19,7 @@ from rollnip.nip import Approach
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.level import Level, solve_level
 from rollnip.patch.solve import patch_box
+from rollnip.patch.tables import PairTables
 from rollnip.patches import Across, Patch
 from rollnip.rollers import Roller
 
@@ -89,9 +90,10 @@ def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 
         across_upper=Across(face=face, end_radius=end_radius),
     )
     with one_blas_thread():
-        box = (patch_box(patch)[0], (-0.5 * face, 0.5 * face))
-        coarse = solve_level(patch, Grid.over(*box, _ALONG, _ACROSS // 2), _ITERATION, None)
-        fine = solve_level(patch, Grid.over(*box, _ALONG, _ACROSS), _ITERATION, coarse)
+        tables = PairTables.of(patch)
+        box = (patch_box(patch, tables)[0], (-0.5 * face, 0.5 * face))
+        coarse = solve_level(patch, Grid.over(*box, _ALONG, _ACROSS // 2), _ITERATION, None, tables)
+        fine = solve_level(patch, Grid.over(*box, _ALONG, _ACROSS), _ITERATION, coarse, tables)
     half = slice(0, _ACROSS // 2)
     loads, peaks = _along_the_face(fine)
     added = _added(fine)

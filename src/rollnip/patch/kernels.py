@@ -29,8 +29,8 @@ from rollnip.rollers import Roller
 
 Array = NDArray[np.float64]
 
-_FADED = 22.0
-"""k d at which exp(-2 k d) (k d)^2 is 1e-17 of the half-space."""
+FADED = 16.0
+"""k d at which exp(-2 k d) (k d)^2 is 3e-12 of the half-space."""
 _NODES = 16
 """Gauss points of a panel of wave numbers."""
 _PANEL = 6.0
@@ -63,6 +63,13 @@ class HalfSpace:
 
     def __add__(self, other: HalfSpace) -> HalfSpace:
         return HalfSpace(*(getattr(self, f.name) + getattr(other, f.name) for f in fields(self)))
+
+    @classmethod
+    def of(cls, young: float, poisson: float) -> HalfSpace:
+        """Return the coefficients of a half-space, modulus in MPa."""
+        even, odd = (float(v) for v in half_space_limit(young, poisson))
+        across = 2.0 * (1.0 + poisson) / young
+        return cls(s=across, t=even - across, z=even, x=odd)
 
     def mirrored(self) -> HalfSpace:
         """Return the coefficients for a body on the other side, whose shear is turned round."""
@@ -102,11 +109,6 @@ class PairKernel:
     half_space: HalfSpace
     tables: tuple[tuple[RadialTable, float], ...]
 
-    @property
-    def couples(self) -> bool:
-        """Return whether pressure shears the surfaces against each other."""
-        return self.half_space.x != 0.0 or any(sign != 0.0 for _, sign in self.tables)
-
 
 def pair_kernel(upper: Roller, lower: Roller, reach: float) -> PairKernel:
     """Return the kernel of two elastic rollers for distances up to ``reach`` [mm]."""
@@ -132,10 +134,7 @@ _EVEN = np.array([1.0, 1.0, 1.0, 1.0, 0.0])
 
 def _half_space(roller: Roller) -> HalfSpace:
     top = roller.materials[0]
-    young, nu = top.relaxed_modulus, top.poisson
-    even, odd = (float(v) for v in half_space_limit(young, nu))
-    across = 2.0 * (1.0 + nu) / young
-    return HalfSpace(s=across, t=even - across, z=even, x=odd)
+    return HalfSpace.of(top.relaxed_modulus, top.poisson)
 
 
 def waves_of(roller: Roller, k: Array) -> Waves:
@@ -154,12 +153,28 @@ def waves_of(roller: Roller, k: Array) -> Waves:
 def radial_table(roller: Roller, reach: float) -> RadialTable:
     """Return what the layers of an elastic roller add to its half-space, up to ``reach`` [mm]."""
     thinnest = min(layer.thickness for layer in roller.layers)
-    k, weights = _wave_numbers(thinnest, reach)
+    k, weights = wave_numbers(thinnest, reach)
     waves, limit = waves_of(roller, k), _half_space(roller)
     rests = [getattr(waves, name) * k - getattr(limit, name) for name in ("s", "t", "z", "x")]
-    s, t, z, x = (weights * rest / (2.0 * pi) for rest in rests)
+    return tabulated((k, weights), np.array(rests)[None], thinnest, reach)[0]
+
+
+def tabulated(
+    waves: tuple[Array, Array], rests: Array, thinnest: float, reach: float
+) -> list[RadialTable]:
+    """Return tables over the distance of functions of the wave number.
+
+    Parameters
+    ----------
+    waves : (n,) wave numbers and weights of `wave_numbers`.
+    rests : (m, 4, n) k times S, T, Z and X, less the half-space [1/MPa].
+    thinnest : length over which they fall, the thinnest layer [mm].
+    reach : largest distance [mm].
+    """
+    k, weights = waves
+    s, t, z, x = np.moveaxis(rests * weights / (2.0 * pi), (1, 2), (0, 1))
     r = _places(thinnest, reach)
-    values = np.empty((r.size, 5))
+    values = np.empty((r.size, 5, rests.shape[0]))
     step = max(1, _CHUNK // k.size)
     for first in range(0, r.size, step):
         part = slice(first, first + step)
@@ -167,12 +182,14 @@ def radial_table(roller: Roller, reach: float) -> RadialTable:
         zero, one = j0(kr), j1(kr)
         two = np.where(kr > 1e-4, 2.0 * one / np.maximum(kr, 1e-4) - zero, kr * kr / 8.0)
         values[part] = np.stack([zero @ s, zero @ t, two @ t, zero @ z, one @ x], axis=1)
-    return RadialTable(reach, thinnest, CubicSpline(r, values))
+    return [
+        RadialTable(reach, thinnest, CubicSpline(r, values[..., i])) for i in range(rests.shape[0])
+    ]
 
 
-def _wave_numbers(thinnest: float, reach: float) -> tuple[Array, Array]:
+def wave_numbers(thinnest: float, reach: float) -> tuple[Array, Array]:
     """Return wave numbers and weights of panels that resolve J(k r) up to r = ``reach``."""
-    last = _FADED / thinnest
+    last = FADED / thinnest
     count = int(np.ceil(last * reach / _PANEL)) + 4
     points, weights = np.polynomial.legendre.leggauss(_NODES)
     edges = np.linspace(0.0, last, count + 1)

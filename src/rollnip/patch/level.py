@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.nip import Approach, Creepage
-from rollnip.patch.coefficients import Array, Grid, coefficients
+from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.convolution import Convolutions
-from rollnip.patch.kernels import PairKernel, pair_kernel, waves_of
-from rollnip.patch.normal import NormalProblem, NormalState, solve_normal
+from rollnip.patch.kernels import waves_of
+from rollnip.patch.lossy import solve_lossy
+from rollnip.patch.normal import NormalProblem, NormalState, solve_symmetric
 from rollnip.patch.preconditioner import symbols
 from rollnip.patch.rolling import RollingProblem, RollingState, solve_rolling
+from rollnip.patch.tables import PairTables
 from rollnip.patches import Force, Patch
 from rollnip.rollers import Roller
 
@@ -61,13 +63,9 @@ class Level:
         return self.rolling.shear
 
 
-def products_on(patch: Patch, grid: Grid) -> tuple[Convolutions, PairKernel]:
-    """Return the displacements under tractions on a grid, and their kernel."""
-    kernel = pair_kernel(patch.upper, patch.lower, grid.reach)
-    return Convolutions(grid, coefficients(kernel, grid)), kernel
-
-
-def solve_level(patch: Patch, grid: Grid, tolerance: float, start: Level | None) -> Level:
+def solve_level(
+    patch: Patch, grid: Grid, tolerance: float, start: Level | None, tables: PairTables
+) -> Level:
     """Solve a patch on one grid.
 
     Parameters
@@ -76,15 +74,16 @@ def solve_level(patch: Patch, grid: Grid, tolerance: float, start: Level | None)
     grid : rectangles over more than the contact.
     tolerance : of the iterations, relative.
     start : the solution on another grid to start from.
+    tables : kernels of the rollers.
     """
-    products, kernel = products_on(patch, grid)
+    products = tables.products(grid)
     clearance = patch.clearance(grid.x, grid.y)
     pressure = None if start is None else resampled(start.normal.pressure, start.grid, grid)
     shear = None
     if start is not None and start.rolling is not None:
         shear = np.stack([resampled(part, start.grid, grid) for part in start.shear])
     closed: Array | float = 0.0
-    if kernel.couples and shear is not None:
+    if products.couples and shear is not None:
         closed = _closed_by(products, shear)
     creepages = _creepages(patch, start)
     force = patch.normal.force if isinstance(patch.normal, Force) else None
@@ -93,7 +92,7 @@ def solve_level(patch: Patch, grid: Grid, tolerance: float, start: Level | None)
     while True:
         turns += 1
         problem = NormalProblem(products, clearance + closed, force, approach)
-        normal = solve_normal(problem, tolerance, pressure)
+        normal = _pressed(patch, problem, tolerance, pressure)
         peak = float(np.max(normal.pressure))
         if pressure is not None and turns > 1:
             change = float(np.max(np.abs(normal.pressure - pressure))) / max(peak, 1e-300)
@@ -103,12 +102,24 @@ def solve_level(patch: Patch, grid: Grid, tolerance: float, start: Level | None)
         rolling = _rolled(patch, products, normal, (creepages, shear), tolerance)
         creepages, shear = rolling.creepages, rolling.shear
         is_same = turns > 1 and change < _SAME * tolerance
-        if not kernel.couples or is_same or turns == _TURNS:
+        if not products.couples or is_same or turns == _TURNS:
             break
         closed = _closed_by(products, shear)
     settled = normal.settled and (rolling is None or rolling.settled)
-    settled = settled and (not kernel.couples or change < _SAME * tolerance)
+    settled = settled and (not products.couples or change < _SAME * tolerance)
     return Level(products, normal, rolling, turns, change, settled)
+
+
+def _pressed(
+    patch: Patch, problem: NormalProblem, tolerance: float, start: Array | None
+) -> NormalState:
+    """Return the pressure under the clearance at hand."""
+    if not patch.is_viscoelastic:
+        return solve_symmetric(problem, tolerance, start)
+    grid = problem.products.grid
+    near = np.isfinite(problem.clearance) if start is None else start > 0.0
+    factors = symbols((patch.upper, patch.lower), grid, near, patch.speed or 0.0)
+    return solve_lossy(problem, tolerance, start, factors.normal)
 
 
 def _rolled(
@@ -128,7 +139,7 @@ def _rolled(
         pressure=normal.pressure,
         creepages=start[0],
         forces=(_force_of(patch.along), _force_of(patch.across)),
-        symbols=symbols(rollers, products.grid, contact),
+        symbols=symbols(rollers, products.grid, contact, patch.speed or 0.0).rolling,
         stiffness=1.0 / softness,
     )
     return solve_rolling(problem, tolerance, start[1])

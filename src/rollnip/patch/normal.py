@@ -1,4 +1,4 @@
-"""Normal contact on a grid: bound-constrained conjugate gradients with products by transforms.
+"""Normal contact of elastic bodies on a grid: conjugate gradients that keep p >= 0.
 
     gap = clearance - delta + sum zz p >= 0,   p >= 0,   p gap = 0,
 
@@ -8,7 +8,7 @@ Theory Appl. 162, 931-953).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +38,10 @@ class NormalProblem:
     force: float | None
     approach: float | None
 
+    def symmetric(self) -> NormalProblem:
+        """Return the problem with the symmetric part of the compliance."""
+        return replace(self, products=self.products.symmetric())
+
 
 @dataclass(frozen=True, slots=True)
 class NormalState:
@@ -61,8 +65,8 @@ class NormalState:
     settled: bool
 
 
-def solve_normal(problem: NormalProblem, tolerance: float, start: Array | None) -> NormalState:
-    """Solve the contact on a grid.
+def solve_symmetric(problem: NormalProblem, tolerance: float, start: Array | None) -> NormalState:
+    """Solve the contact of elastic bodies on a grid.
 
     Parameters
     ----------
@@ -137,6 +141,15 @@ def _closed(
 ) -> float:
     """Return the largest violation of the conditions over the displacement under the pressure."""
     wrong = np.where(contact, np.abs(rest), np.where(allowed, -rest, 0.0))
-    depth = float(np.max(problem.products.coefficients.zz)) * float(np.max(pressure))
+    return float(np.max(wrong)) / depth_of(problem, contact, float(np.max(pressure)))
+
+
+def depth_of(problem: NormalProblem, contact: Mask, peak: float) -> float:
+    """Return the depth of a contact that violations of its conditions are compared with [mm].
+
+    The displacement of one rectangle under the peak pressure [MPa], or what the clearance changes
+    over the contact if that is more.
+    """
+    depth = float(np.max(problem.products.coefficients.zz)) * peak
     depth = max(depth, float(np.ptp(problem.clearance[contact])) if np.any(contact) else 0.0)
-    return float(np.max(wrong)) / max(depth, 1e-300)
+    return max(depth, 1e-300)

@@ -1,12 +1,15 @@
-"""The preconditioner of rolling: the compliance to shear, inverted wave vector by wave vector.
+"""The preconditioners: the compliance inverted wave vector by wave vector.
 
--du/dx multiplies a wave by (1 - e^(i kx hx))/hx times the 2x2 compliance. The preconditioner
-divides by the size of the first, kept from zero by the length of the contact, and by the second.
-What is left of the product is a number on the half circle from -i through 1 to i: GMRES takes the
-same number of steps on every grid, but for what the edge of the contact adds.
+-du/dx multiplies a wave by (1 - e^(i kx hx))/hx times the 2x2 compliance. The preconditioner of
+rolling divides by the size of the first, kept from zero by the length of the contact, and by that
+of the second. What is left of the product is a number on the half circle from -i through 1 to i:
+GMRES takes the same number of steps on every grid, but for what the edge of the contact adds. The
+loss of viscoelastic bodies turns it towards 1. That of pressure divides by the size of C_zz.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,19 +17,35 @@ from scipy.fft import next_fast_len
 
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.kernels import waves_of
+from rollnip.patch.memory import waves_at
 from rollnip.rollers import Roller
 
 Mask = NDArray[np.bool_]
 
 
-def symbols(rollers: tuple[Roller, Roller], grid: Grid, contact: Mask) -> Array:
-    """Return the factors of the waves on a grid a quarter longer, (3, py, px//2 + 1).
+@dataclass(frozen=True, slots=True)
+class Symbols:
+    """Factors of waves on a grid a quarter longer.
+
+    Attributes
+    ----------
+    rolling : (3, py, px//2 + 1) inverse of the compliance to shear over the wave vector.
+    normal : (py, px//2 + 1) inverse of the size of C_zz [MPa/mm].
+    """
+
+    rolling: Array
+    normal: Array
+
+
+def symbols(rollers: tuple[Roller, Roller], grid: Grid, contact: Mask, speed: float) -> Symbols:
+    """Return the factors of the waves.
 
     Parameters
     ----------
-    rollers : upper and lower, elastic.
+    rollers : upper and lower.
     grid : of the contact.
     contact : (ny, nx).
+    speed : V [mm/s]; it counts for viscoelastic bodies.
     """
     length = max(int(np.max(np.sum(contact, axis=1))), 1) * grid.hx
     width = max(int(np.max(np.sum(contact, axis=0))), 1) * grid.hy
@@ -39,12 +58,23 @@ def symbols(rollers: tuple[Roller, Roller], grid: Grid, contact: Mask) -> Array:
         2.0 * np.pi * np.fft.fftfreq(py) / grid.hy,
     )
     k = np.hypot(np.hypot(kx, ky), 1.0 / max(length, width))
-    s, t = np.zeros_like(k), np.zeros_like(k)
+    s, t, z = np.zeros((3, *k.shape))
     for roller in rollers:
-        if not roller.is_rigid:
-            waves = waves_of(roller, k.ravel())
-            s += waves.s.reshape(k.shape)
-            t += waves.t.reshape(k.shape)
+        if roller.is_rigid:
+            continue
+        across, rest, inwards = _sizes(roller, k.ravel(), kx.ravel(), speed)
+        s += across.reshape(k.shape)
+        t += rest.reshape(k.shape)
+        z += inwards.reshape(k.shape)
     xx, xy, yy = s + t * (kx / k) ** 2, t * kx * ky / k**2, s + t * (ky / k) ** 2
     size = (xx * yy - xy * xy) * np.hypot(2.0 * np.sin(0.5 * kx * grid.hx) / grid.hx, 1.0 / length)
-    return np.stack([yy / size, -xy / size, xx / size])
+    return Symbols(np.stack([yy / size, -xy / size, xx / size]), 1.0 / z)
+
+
+def _sizes(roller: Roller, k: Array, kx: Array, speed: float) -> tuple[Array, Array, Array]:
+    """Return |S|, |P| - |S| and |Z| of wave vectors, (n,) each [mm/MPa]."""
+    if not roller.is_viscoelastic:
+        waves = waves_of(roller, k)
+        return waves.s, waves.t, waves.z
+    s, t, z, _ = waves_at(roller, k, kx, speed)
+    return np.abs(s), np.abs(s + t) - np.abs(s), np.abs(z)

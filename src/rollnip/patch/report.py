@@ -9,7 +9,8 @@ from typing import Any
 import numpy as np
 
 from rollnip.patch.coefficients import Array
-from rollnip.patch.solution import FIGURES, PatchSolution
+from rollnip.patch.measures import FIGURES
+from rollnip.patch.solution import PatchSolution
 
 UNITS = {
     "load": "N",
@@ -23,8 +24,13 @@ UNITS = {
     "spin_moment": "N mm",
     "creepage": "",
     "lateral_creepage": "",
+    "load_centre": "mm",
+    "viscous_resistance": "N",
 }
 """Units of the figures."""
+
+_LOSSES = ("load_centre", "viscous_resistance")
+_ALWAYS = FIGURES[:6]
 
 FIELDS = {
     "pressure": ("MPa", "contact pressure"),
@@ -55,14 +61,7 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
         "title": patch.title,
         "converged": solution.converged,
         "status": solution.status,
-        "patch": figures
-        | {
-            "spin": patch.spin,
-            "friction_resistance": solution.friction_resistance,
-            "dissipation_friction": solution.dissipation_friction,
-            "error": {name: _plain(value) for name, value in solution.error.items()}
-            | {"friction_resistance": solution.friction_resistance_error},
-        },
+        "patch": figures | _losses(solution),
         "warnings": list(solution.warnings),
         "solver": {
             "rectangles": [grid.nx, grid.ny],
@@ -76,6 +75,25 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
         values = {name: _rows(field) for name, field in fields_of(solution).items()}
         tree["fields"] = {"x": grid.x.tolist(), "y": grid.y.tolist()} | values
     return tree
+
+
+def _losses(solution: PatchSolution) -> dict[str, Any]:
+    """Return spin, losses, torques and all errors by key."""
+    errors = {name: _plain(value) for name, value in solution.error.items()}
+    errors |= {
+        "friction_resistance": solution.friction_resistance_error,
+        "rolling_resistance": solution.rolling_resistance_error,
+    }
+    return {
+        "spin": solution.patch.spin,
+        "friction_resistance": solution.friction_resistance,
+        "rolling_resistance": solution.rolling_resistance,
+        "dissipation_friction": solution.dissipation_friction,
+        "dissipation_viscous": solution.dissipation_viscous,
+        "torque_upper": solution.torque_upper,
+        "torque_lower": solution.torque_lower,
+        "error": errors,
+    }
 
 
 def fields_of(solution: PatchSolution) -> dict[str, Array]:
@@ -98,26 +116,37 @@ def patch_lines(solution: PatchSolution) -> Iterator[str]:
     yield f"  {solution.status}"
     grid = solution.grid
     yield f"  {'grid':22s} {grid.nx} x {grid.ny} rectangles"
-    silent = solution.patch.friction == 0.0
-    for name in FIGURES[:6] if silent else FIGURES:
+    for name in _shown(solution):
         value, error = solution.figures[name], solution.error[name]
         unit = f" {UNITS[name]}" if UNITS[name] else ""
-        shown = 0.0 if abs(value) <= error and name in FIGURES[6:] else value
+        shown = 0.0 if abs(value) <= error and name not in _ALWAYS else value
         yield f"  {name.replace('_', ' '):22s} {shown:12.5g}{unit}  (+- {error:.1g})"
-    if not silent:
-        yield from _friction_lines(solution)
+    yield from _loss_lines(solution)
     for warning in solution.warnings:
         yield f"  note: {warning}"
 
 
-def _friction_lines(solution: PatchSolution) -> Iterator[str]:
-    yield f"  {'spin':22s} {solution.patch.spin:12.5g} 1/mm"
-    off = solution.friction_resistance_error
-    slips = float(np.mean(solution.state[solution.pressure > 0.0] == 2))
-    yield f"  {'slips':22s} {100.0 * slips:12.3g} % of the patch"
-    yield f"  {'friction resistance':22s} {solution.friction_resistance:12.5g} N  (+- {off:.1g})"
-    if solution.dissipation_friction is not None:
-        yield f"  {'friction power':22s} {1e-3 * solution.dissipation_friction:12.5g} W"
+def _shown(solution: PatchSolution) -> list[str]:
+    """Return the names of figures that mean something: not all do without friction or losses."""
+    names = list(_ALWAYS if solution.patch.friction == 0.0 else FIGURES[:-2])
+    return names + (list(_LOSSES) if solution.patch.is_viscoelastic else [])
+
+
+def _loss_lines(solution: PatchSolution) -> Iterator[str]:
+    off = f"N  (+- {solution.rolling_resistance_error:.1g})"
+    if solution.patch.friction > 0.0:
+        yield f"  {'spin':22s} {solution.patch.spin:12.5g} 1/mm"
+        slips = float(np.mean(solution.state[solution.pressure > 0.0] == 2))
+        yield f"  {'slips':22s} {100.0 * slips:12.3g} % of the patch"
+        yield f"  {'friction resistance':22s} {solution.friction_resistance:12.5g} {off}"
+    if solution.patch.is_viscoelastic:
+        yield f"  {'rolling resistance':22s} {solution.rolling_resistance:12.5g} {off}"
+    for name, power in (
+        ("friction power", solution.dissipation_friction),
+        ("viscous power", solution.dissipation_viscous),
+    ):
+        if power is not None:
+            yield f"  {name:22s} {1e-3 * power:12.5g} W"
 
 
 def _plain(value: float) -> float | None:

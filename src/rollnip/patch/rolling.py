@@ -74,7 +74,7 @@ class RollingProblem:
         """-du/dx that the pressure alone makes, (2, ny, nx)."""
         products = self.products
         out = np.zeros((2, *self.bound.shape))
-        if any(np.any(part) for part in products.coupling):
+        if products.couples:
             spectrum = products.forward(self.pressure) * products.downstream
             for i, part in enumerate(products.coupling):
                 out[i] = products.back(1j * part * spectrum)

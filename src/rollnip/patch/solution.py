@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -13,24 +13,12 @@ from rollnip._errors import InvalidInputError
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.depth import PatchStress, Side, stress_at_depth
 from rollnip.patch.level import Level
+from rollnip.patch.measures import figures_of, slope_of
+from rollnip.patch.tables import PairTables
 from rollnip.patches import Patch
+from rollnip.rollers import Roller
 
 IntArray = NDArray[np.int8]
-
-FIGURES = (
-    "load",
-    "approach",
-    "length",
-    "width",
-    "area",
-    "peak_pressure",
-    "traction_x",
-    "traction_y",
-    "spin_moment",
-    "creepage",
-    "lateral_creepage",
-)
-"""Figures with an error."""
 
 _LARGE = 0.5  # of a radius: length of a patch
 _DEEP = 0.15  # of the coverings: approach
@@ -176,26 +164,66 @@ class PatchSolution:
         return self._creepage(1)
 
     @property
-    def friction_resistance(self) -> float:
-        """Power that slip turns into heat over the rolling speed [N], from the balance of power.
+    def load_centre(self) -> float:
+        """Place of the load's resultant along x from the line of centres [mm]."""
+        return self.figures["load_centre"]
 
-        What elastic rollers are given: F_x along + F_y across + M spin, and the pressure's moment
-        (1/R_upper + 1/R_lower) int p x. Its error is that to the sum of shear times slip.
+    @property
+    def viscous_resistance(self) -> float:
+        """Power lost inside viscoelastic layers over the rolling speed [N].
+
+        The work of the tractions on the displacements that follow them too late; 0 where elastic.
+        """
+        return self.figures["viscous_resistance"]
+
+    @property
+    def rolling_resistance(self) -> float:
+        """All that is lost over the rolling speed [N], from the balance of power.
+
+        What the rollers are given: F_x along + F_y across + M spin, and the pressure's moment
+        (1/R_upper + 1/R_lower) int p x.
         """
         figures, patch = self.figures, self.patch
+        given = patch.curvature * figures["load"] * figures["load_centre"]
+        if self.level.rolling is not None:
+            along, across, spin = self.level.rolling.creepages
+            given += figures["traction_x"] * along + figures["traction_y"] * across
+            given += figures["spin_moment"] * spin
+        return given
+
+    @property
+    def rolling_resistance_error(self) -> float:
+        """Difference of the rolling resistance to both losses, each by itself [N].
+
+        They are the viscous resistance and the sum of shear times slip.
+        """
+        lost = -float(np.sum(self.level.shear * self.slip)) * self.grid.element
+        return abs(lost + self.viscous_resistance - self.rolling_resistance)
+
+    @property
+    def friction_resistance(self) -> float:
+        """Power that slip turns into heat over the rolling speed [N]: what is not lost inside.
+
+        Its error is that of the rolling resistance.
+        """
         if self.level.rolling is None:
             return 0.0
-        along, across, spin = self.level.rolling.creepages
-        given = figures["traction_x"] * along + figures["traction_y"] * across
-        given += figures["spin_moment"] * spin
-        offset = float(np.sum(self.pressure * self.x)) * self.grid.element
-        return max(given + patch.curvature * offset, 0.0)
+        return max(self.rolling_resistance - self.viscous_resistance, 0.0)
 
     @property
     def friction_resistance_error(self) -> float:
-        """Difference of the friction resistance to the sum of shear times slip [N]."""
-        lost = -float(np.sum(self.level.shear * self.slip)) * self.grid.element
-        return abs(lost - self.friction_resistance)
+        """Error of the friction resistance [N]; 0 without friction."""
+        return 0.0 if self.level.rolling is None else self.rolling_resistance_error
+
+    @property
+    def torque_upper(self) -> float | None:
+        """Driving torque on the upper axle [N mm]; None where the upper roller is a plane."""
+        return self._torque("upper")
+
+    @property
+    def torque_lower(self) -> float | None:
+        """Driving torque on the lower axle [N mm]; None where the lower roller is a plane."""
+        return self._torque("lower")
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -207,6 +235,12 @@ class PatchSolution:
         """Power that slip turns into heat [N mm/s = mW]; None without a speed."""
         speed = self.patch.speed
         return None if speed is None else speed * self.friction_resistance
+
+    @property
+    def dissipation_viscous(self) -> float | None:
+        """Power lost inside viscoelastic layers [N mm/s = mW]; None without a speed."""
+        speed = self.patch.speed
+        return None if speed is None else speed * self.viscous_resistance
 
     def stress(self, side: Side, z: Sequence[float]) -> PatchStress:
         """Return the stresses in one roller at some depths.
@@ -234,7 +268,35 @@ class PatchSolution:
         roller = self.patch.upper if side == "upper" else self.patch.lower
         sign = 1.0 if side == "upper" else -1.0
         tractions = np.stack([sign * self.shear_x, sign * self.shear_y, self.pressure])
-        return stress_at_depth(roller, self.grid, tractions, z)
+        return stress_at_depth(roller, self.grid, tractions, z, self.patch.speed or 0.0)
+
+    def _torque(self, side: Side) -> float | None:
+        """Return R (+-T - int p du_z/dx) of one roller, u_z its own displacement inwards."""
+        roller = self.patch.upper if side == "upper" else self.patch.lower
+        if roller.curvature == 0.0:
+            return None
+        sign = 1.0 if side == "upper" else -1.0
+        return roller.radius * (sign * self.traction_x + self._leaning[side])
+
+    @cached_property
+    def _leaning(self) -> dict[str, float]:
+        """-int p du_z/dx of each roller [N]; both together are the moment of the pressure."""
+        patch, figures = self.patch, self.figures
+        both = patch.curvature * figures["load"] * figures["load_centre"]
+        if patch.upper.is_rigid or patch.lower.is_rigid:
+            upper = 0.0 if patch.upper.is_rigid else both
+            return {"upper": upper, "lower": both - upper}
+        bare = replace(patch, lower=Roller(radius=patch.lower.radius))
+        leans = [
+            -self.grid.element * float(np.sum(self.pressure * slope_of(moved[2], self.grid.hx)))
+            for moved in (
+                products.displacement(self.pressure, self.level.shear)
+                for products in (PairTables.of(bare).products(self.grid), self.level.products)
+            )
+        ]
+        # What differences on the grid leave of the balance is shared.
+        upper = leans[0] + 0.5 * (both - leans[1])
+        return {"upper": upper, "lower": both - upper}
 
     def _creepage(self, i: int) -> float | None:
         if self.level.rolling is not None:
@@ -268,60 +330,3 @@ def _reservations(solution: PatchSolution) -> Iterator[str]:
             f"The approach is more than {100 * _DEEP:g} % of the coverings' thickness; strains "
             "count as small, and approach and load are then off by more than 5 %."
         )
-
-
-def figures_of(level: Level) -> dict[str, float]:
-    """Return the figures of a solution on one grid."""
-    grid, pressure, shear = level.grid, level.normal.pressure, level.shear
-    x, y = np.meshgrid(grid.x, grid.y)
-    creepages = (0.0, 0.0, 0.0) if level.rolling is None else level.rolling.creepages
-    element = grid.element
-    return {
-        "load": float(np.sum(pressure)) * element,
-        "approach": level.normal.approach,
-        "length": _extent(np.max(pressure, axis=0), grid.hx),
-        "width": _extent(np.max(pressure, axis=1), grid.hy),
-        "area": _area(pressure, grid),
-        "peak_pressure": float(np.max(pressure)),
-        "traction_x": float(np.sum(shear[0])) * element,
-        "traction_y": float(np.sum(shear[1])) * element,
-        "spin_moment": float(np.sum(x * shear[1] - y * shear[0])) * element,
-        "creepage": creepages[0],
-        "lateral_creepage": creepages[1],
-    }
-
-
-def _extent(pressure: Array, side: float) -> float:
-    """Return the length over which pressures on equal sides reach [mm]."""
-    inside = np.flatnonzero(pressure > 0.0)
-    if inside.size == 0:
-        return 0.0
-    low, high = _beyond(pressure[None, :])
-    reach = inside[-1] - inside[0] + 1 + low[0, inside[0]] + high[0, inside[-1]]
-    return float(reach) * side
-
-
-def _area(pressure: Array, grid: Grid) -> float:
-    """Return the area of the patch, its edges between the rectangles row by row [mm2]."""
-    low, high = _beyond(pressure)
-    return float(np.sum(pressure > 0.0) + np.sum(low) + np.sum(high)) * grid.element
-
-
-def _beyond(pressure: Array) -> tuple[Array, Array]:
-    """Return how far each row reaches beyond its end rectangles, in rectangles: low, high end.
-
-    Beside an edge the square of the pressure is a straight line over the distance. It is followed
-    to zero from the last two rectangles, but by no more than one. Where the grid ends with the
-    contact, the face ends.
-    """
-    touched, square = pressure > 0.0, pressure**2
-    out = []
-    for way in (slice(None), slice(None, None, -1)):
-        t, s = touched[:, way], square[:, way]
-        inner, outer = np.zeros_like(s), np.ones_like(t)
-        inner[:, :-1] = s[:, 1:]
-        outer[:, 1:] = t[:, :-1]
-        ends = t & ~outer & (inner > s)
-        reach = s / np.maximum(inner - s, 1e-300)
-        out.append(np.where(ends, np.minimum(reach, 1.0) - 0.5, 0.0)[:, way])
-    return out[0], out[1]

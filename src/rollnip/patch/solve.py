@@ -11,9 +11,10 @@ from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.nip import Approach
 from rollnip.patch.coefficients import Grid
-from rollnip.patch.kernels import pair_kernel
 from rollnip.patch.level import Level, solve_level
-from rollnip.patch.solution import FIGURES, PatchSolution, figures_of
+from rollnip.patch.measures import FIGURES, figures_of
+from rollnip.patch.solution import PatchSolution
+from rollnip.patch.tables import PairTables
 from rollnip.patches import Force, Patch
 
 _SEARCH = 32
@@ -27,6 +28,7 @@ _MARGIN = 1.06
 _ROUGH = 5e-3  # of the iterations while a place is looked for
 _SEARCHES = 60
 _SAFETY = 1.5
+"""Claimed errors over the change from the coarser grid; with order one the change is the error."""
 _EDGE = 0.25  # of a rectangle: the least error of a length
 _SHARE = 0.02  # of the wanted accuracy that the iterations may leave
 
@@ -76,7 +78,8 @@ def solve_patch(
 
 
 def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> PatchSolution:
-    box = patch_box(patch)
+    tables = PairTables.of(patch)
+    box = patch_box(patch, tables)
     if wanted is not None:
         box = _with_rim(patch, box, wanted)
     inner = _SHARE * tolerance
@@ -84,7 +87,7 @@ def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> P
     sizes: list[tuple[int, int]] = []
     for nx, ny in _sizes(wanted):
         before = level
-        level = solve_level(patch, Grid.over(*box, nx, ny), inner, before)
+        level = solve_level(patch, Grid.over(*box, nx, ny), inner, before, tables)
         sizes.append((nx, ny))
         if before is not None:
             errors = _errors(patch, level, before, inner)
@@ -154,13 +157,13 @@ def _errors(patch: Patch, level: Level, before: Level, inner: float) -> dict[str
     scales = _scales(patch, level)
     errors = {}
     for name in FIGURES:
-        errors[name] = abs(fine[name] - coarse[name]) + inner * scales[name]
+        errors[name] = _SAFETY * abs(fine[name] - coarse[name]) + inner * scales[name]
     shares = (level.grid.hx / fine["length"], level.grid.hy / fine["width"])
     errors["length"] = max(errors["length"], _EDGE * level.grid.hx)
     errors["width"] = max(errors["width"], _EDGE * level.grid.hy)
     errors["area"] = max(errors["area"], 0.5 * _EDGE * sum(shares) * fine["area"])
     arm = 0.5 * sqrt(fine["area"])
-    joint = _SAFETY * hypot(errors["traction_x"], errors["traction_y"], errors["spin_moment"] / arm)
+    joint = hypot(errors["traction_x"], errors["traction_y"], errors["spin_moment"] / arm)
     errors["traction_x"] = errors["traction_y"] = joint
     errors["spin_moment"] = joint * arm
     errors["creepage"] = errors["lateral_creepage"] = max(
@@ -190,6 +193,12 @@ def _scales(patch: Patch, level: Level) -> dict[str, float]:
             patch.friction * figures["peak_pressure"] / stiffness,
         )
     scales["creepage"] = scales["lateral_creepage"] = creep
+    # The place of the load is told apart from the middle by a tenth of the half length.
+    scales["load_centre"] = max(abs(figures["load_centre"]), 0.05 * figures["length"])
+    scales["viscous_resistance"] = max(
+        abs(figures["viscous_resistance"]),
+        0.05 * figures["length"] * figures["load"] * patch.curvature,
+    )
     return scales
 
 
@@ -212,26 +221,26 @@ def _status(level: Level, name: str, worst: float, tolerance: float) -> str:
     return f"The {plain} is known to {worst:.1e} only, where {tolerance:.1e} was wanted."
 
 
-def patch_box(patch: Patch) -> Box:
+def patch_box(patch: Patch, tables: PairTables) -> Box:
     """Return the rectangle along x and y that the patch fills but for a narrow rim [mm].
 
     Raises InvalidInputError where the surfaces do not touch.
     """
     still = replace(patch, friction=0.0, along=Force(0.0), across=Force(0.0), spin=0.0)
-    box = _found_box(still, _first_box(patch))
-    if patch.friction > 0.0 and pair_kernel(patch.upper, patch.lower, 1.0).couples:
-        box = _found_box(patch, box)  # shear moves the contact
+    box, level = _found_box(still, _first_box(patch), tables)
+    if patch.friction > 0.0 and level.products.couples:
+        box, _ = _found_box(patch, box, tables)  # shear moves the contact
     return box
 
 
-def _found_box(patch: Patch, box: Box) -> Box:
+def _found_box(patch: Patch, box: Box, tables: PairTables) -> tuple[Box, Level]:
     """Return the rectangle that the patch fills but for a narrow rim, looked for from another."""
     level = None
     for _ in range(_SEARCHES):
-        level = solve_level(patch, Grid.over(*box, _SEARCH, _SEARCH), _ROUGH, level)
+        level = solve_level(patch, Grid.over(*box, _SEARCH, _SEARCH), _ROUGH, level, tables)
         box, fits = _fitted(patch, level, box)
         if fits:
-            return box
+            return box, level
     raise InvalidInputError(
         "`patch` must touch over a bounded area, and none was found; check radii, layers and load."
     )

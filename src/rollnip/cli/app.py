@@ -18,6 +18,7 @@ from rollnip.cli.lda import lda
 from rollnip.cli.options import Force
 from rollnip.cli.paper import paper
 from rollnip.cli.patch import patch
+from rollnip.cli.rubber import rubber
 from rollnip.cli.serve import serve
 from rollnip.cli.sweep import sweep
 from rollnip.cli.verify import verify
@@ -39,6 +40,7 @@ app = typer.Typer(
 app.command()(verify)
 app.add_typer(lda)
 app.add_typer(dma)
+app.add_typer(rubber)
 app.add_typer(sweep)
 app.add_typer(face)
 app.add_typer(patch)

@@ -1,0 +1,199 @@
+"""Measurements of rubber at large strain: stretch and nominal stress in homogeneous tests.
+
+    # Treloar 1944
+    test,        stretch, stress [MPa]
+    tension,     1.24,    0.226
+    equibiaxial, 1.31,    0.434
+
+A table has one of the columns ``stretch`` and ``strain`` (stretch less 1, or in "shear" the amount
+of shear) and ``stress``, force over undeformed area, with its unit. A column ``test`` says what
+each row is; without it all rows are of one test.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, cast, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError
+from rollnip.io.columns import Columns, read_columns
+
+Array = NDArray[np.float64]
+Test = Literal["tension", "compression", "equibiaxial", "planar", "shear"]
+TESTS: tuple[Test, ...] = get_args(Test)
+_NAMES = ("test", "stretch", "strain", "stress")
+
+
+@dataclass(frozen=True, eq=False)
+class RubberData:
+    """Homogeneous tests of one rubber.
+
+    Attributes
+    ----------
+    source : where they come from, for messages.
+    test : (n,) what each row is: "tension" or "compression" along one direction, "equibiaxial"
+        tension, "planar" tension of a wide sheet, or simple "shear".
+    stretch : (n,) along the loaded direction; in "shear" the amount of shear.
+    stress : (n,) force over undeformed area, tension positive [MPa].
+
+    Raises
+    ------
+    InvalidInputError
+        where lengths differ, no row is given, a test is unknown, a number is not finite, a stretch
+        is not positive, or a row of "compression" is stretched.
+    """
+
+    source: str
+    test: tuple[Test, ...]
+    stretch: Array
+    stress: Array
+
+    def __post_init__(self) -> None:
+        for name in ("stretch", "stress"):
+            object.__setattr__(self, name, np.array(getattr(self, name), dtype=float))
+        size = len(self.test)
+        if size == 0 or self.stretch.shape != (size,) or self.stress.shape != (size,):
+            raise InvalidInputError(
+                "`test`, `stretch` and `stress` must have as many entries as each other and one "
+                f"or more, got {size}, {self.stretch.size} and {self.stress.size}."
+            )
+        for row, (test, stretch, stress) in enumerate(
+            zip(self.test, self.stretch, self.stress, strict=True)
+        ):
+            self._check(row, test, float(stretch), float(stress))
+
+    def _check(self, row: int, test: str, stretch: float, stress: float) -> None:
+        if test not in TESTS:
+            raise InvalidInputError(
+                f"`test[{row}]` must be one of {', '.join(TESTS)}, got {test!r}."
+            )
+        if not np.isfinite(stress):
+            raise InvalidInputError(f"`stress[{row}]` must be finite, got {stress!r}.")
+        if not np.isfinite(stretch) or (test != "shear" and stretch <= 0.0):
+            raise InvalidInputError(
+                f"`stretch[{row}]` must be positive and finite, got {stretch!r}."
+            )
+        if test == "compression" and stretch > 1.0:
+            raise InvalidInputError(
+                f"`stretch[{row}]` must be at most 1 in compression, got {stretch!r}."
+            )
+
+    def rows(self, test: Test) -> NDArray[np.bool_]:
+        """Return which rows are of a test, (n,)."""
+        return np.array([one == test for one in self.test])
+
+    @property
+    def tests(self) -> tuple[Test, ...]:
+        """The tests there are."""
+        return tuple(test for test in TESTS if test in self.test)
+
+    def up_to(self, strain: float) -> RubberData:
+        """Return the rows whose strain, stretch less 1, is at most this in size.
+
+        Raises
+        ------
+        InvalidInputError
+            where none is left.
+        """
+        kept = [
+            abs(stretch - (0.0 if test == "shear" else 1.0)) <= strain
+            for test, stretch in zip(self.test, self.stretch, strict=True)
+        ]
+        if not any(kept):
+            raise InvalidInputError(
+                f"`strain` must leave measurements, got {strain:g}: all those of {self.source} "
+                "lie beyond."
+            )
+        test = tuple(one for one, keep in zip(self.test, kept, strict=True) if keep)
+        return RubberData(self.source, test, self.stretch[kept], self.stress[kept])
+
+
+def joined(parts: list[RubberData]) -> RubberData:
+    """Return the rows of several sets, one after the other."""
+    return RubberData(
+        ", ".join(one.source for one in parts),
+        tuple(test for one in parts for test in one.test),
+        np.concatenate([one.stretch for one in parts]),
+        np.concatenate([one.stress for one in parts]),
+    )
+
+
+def read_rubber(
+    path: str | Path, *, test: Test | None = None, sheet: str | None = None
+) -> RubberData:
+    """Read tests from a CSV file or workbook.
+
+    Parameters
+    ----------
+    path :
+        the file.
+    test :
+        what all rows are, where there is no column ``test``.
+    sheet :
+        sheet of a workbook; the first by default.
+
+    Returns
+    -------
+    RubberData. Rows of "compression" may be written as strains and stresses that are all positive.
+
+    Raises
+    ------
+    InvalidInputError
+        naming file, line and column: it cannot be read, a column is missing or has a wrong unit, a
+        row is of no known test, a stretch is impossible.
+    """
+    table = read_columns(path, sheet=sheet)
+    unknown = [name for name in table.names if name not in _NAMES]
+    if unknown:
+        raise InvalidInputError(
+            f'{path}: has a column "{unknown[0]}", which is none of {", ".join(_NAMES)}; '
+            "rename or remove it."
+        )
+    given = [name for name in ("stretch", "strain") if name in table.names]
+    if len(given) != 1:
+        raise InvalidInputError(
+            f"{path}: must have exactly one of the columns stretch, strain, has "
+            f"{' and '.join(given) or 'none'}."
+        )
+    table.require_unit("stress", "pressure")
+    tests = _tests(table, test, str(path))
+    values = table.numbers(given[0], "ratio")
+    stress = table.numbers("stress", "pressure")
+    is_sheared = np.array([one == "shear" for one in tests])
+    if given[0] == "stretch" and is_sheared.any():
+        raise InvalidInputError(
+            f"{path}: shear is given by its amount; name the column strain, not stretch."
+        )
+    if given[0] == "strain":
+        pressed = np.array([one == "compression" for one in tests])
+        if pressed.any() and np.all(values[pressed] >= 0.0) and np.all(stress[pressed] >= 0.0):
+            values, stress = (np.where(pressed, -one, one) for one in (values, stress))
+        values = np.where(is_sheared, values, 1.0 + values)
+    try:
+        return RubberData(str(path), tests, values, stress)
+    except InvalidInputError as error:
+        raise InvalidInputError(f"{path}: {error}") from None
+
+
+def _tests(table: Columns, test: Test | None, path: str) -> tuple[Test, ...]:
+    if test is not None and test not in TESTS:
+        raise InvalidInputError(f"`test` must be one of {', '.join(TESTS)}, got {test!r}.")
+    if "test" not in table.names:
+        if test is None:
+            raise InvalidInputError(
+                f'{path}: must have a column "test" ({", ".join(TESTS)}), or `test` must be given.'
+            )
+        return (test,) * len(table.rows)
+    if test is not None:
+        raise InvalidInputError(f'`test` must not be given: {path} has a column "test".')
+    found = [str(cell).strip().lower() for cell in table.cells("test")]
+    for name, line in zip(found, table.lines, strict=True):
+        if name not in TESTS:
+            raise InvalidInputError(
+                f'{path}, line {line}: "test" must be one of {", ".join(TESTS)}, got "{name}".'
+            )
+    return tuple(cast(Test, name) for name in found)

@@ -1,0 +1,91 @@
+"""Pictures of tests of rubber with a fitted strain energy."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from rollnip.plots.style import FULL, MM, Style, label, palette_of, prepare
+from rollnip.rubber.data import TESTS
+from rollnip.rubber.fit import RubberFit
+from rollnip.rubber.laws import nominal_stress
+
+_HEIGHT = 75.0  # mm
+_MARK = 0.32  # size of a mark over the size of type
+_MARKS = dict(zip(TESTS, "o^sDv", strict=True))
+
+
+def plot_rubber(fit: RubberFit, style: Style = "light") -> Figure:
+    """Draw stresses measured and fitted, and by how much they differ.
+
+    Parameters
+    ----------
+    fit :
+        from `fit_rubber`.
+    style :
+        "light" or "dark".
+
+    Returns
+    -------
+    Figure
+        180 by 75 mm, outside pyplot.
+    """
+    figure = Figure(
+        figsize=(FULL * MM, _HEIGHT * MM), layout="constrained", facecolor=palette_of(style).ground
+    )
+    left, right = figure.subplots(1, 2)
+    plot_stress(fit, left, style=style)
+    plot_stress_deviation(fit, right, style=style)
+    return figure
+
+
+def plot_stress(fit: RubberFit, ax: Axes | None = None, style: Style | None = None) -> Axes:
+    """Draw nominal stress over strain, with the energy as curves."""
+    ax, look = prepare(ax, style)
+    colours, data = look.palette, fit.data
+    for number, test in enumerate(data.tests):
+        rows, rest = data.rows(test), 0.0 if test == "shear" else 1.0
+        strain = data.stretch[rows] - rest
+        ends = min(0.0, float(strain.min())), max(0.0, float(strain.max()))
+        grid = np.linspace(*ends, 300)
+        colour = (colours.pressure, colours.shear, colours.muted, colours.ink)[number % 4]
+        stress = fit.shear_modulus * nominal_stress(fit.energy, test, grid + rest)
+        ax.plot(grid, stress, color=colour, linewidth=0.7 * look.line)
+        ax.plot(
+            strain,
+            data.stress[rows],
+            _MARKS[test],
+            color=colour,
+            markersize=_MARK * look.size,
+            markerfacecolor="none",
+            markeredgewidth=look.thin,
+            label=test,
+        )
+    label(ax, look, "strain, or amount of shear", "nominal stress [MPa]")
+    ax.legend(
+        frameon=False, fontsize=look.small, labelcolor=colours.ink, title=fit.law, loc="best"
+    ).get_title().set(fontsize=look.small, color=colours.ink)
+    return ax
+
+
+def plot_stress_deviation(
+    fit: RubberFit, ax: Axes | None = None, style: Style | None = None
+) -> Axes:
+    """Draw computed less measured stress in per cent of the largest one of each test."""
+    ax, look = prepare(ax, style)
+    colours, data = look.palette, fit.data
+    for number, test in enumerate(data.tests):
+        rows, rest = data.rows(test), 0.0 if test == "shear" else 1.0
+        ax.plot(
+            data.stretch[rows] - rest,
+            100.0 * fit.deviation[rows] / np.abs(data.stress[rows]).max(),
+            _MARKS[test],
+            color=(colours.pressure, colours.shear, colours.muted, colours.ink)[number % 4],
+            markersize=_MARK * look.size,
+            markerfacecolor="none",
+            markeredgewidth=look.thin,
+        )
+    ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
+    label(ax, look, "strain, or amount of shear", "deviation [% of the largest stress]")
+    return ax

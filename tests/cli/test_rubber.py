@@ -1,0 +1,55 @@
+"""The command rubber fit: tables in, a strain energy out."""
+
+import json
+import tomllib
+from pathlib import Path
+
+from typer.testing import CliRunner
+
+from rollnip.cli.app import app
+
+TRELOAR = str(Path(__file__).parents[2] / "examples" / "rubber" / "treloar.csv")
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, ["rubber", "fit", *map(str, arguments)])
+
+
+def test_the_material_is_printed_or_written(tmp_path):
+    printed = run(TRELOAR, "--law", "ogden", "--terms", 3, "--name", "natural")
+    assert printed.exit_code == 0, printed.stderr
+    assert printed.stderr == ""
+    table = tomllib.loads(printed.stdout)["materials"]["natural"]
+    assert len(table["energy"]["terms"]) == 3
+    out, plot = tmp_path / "rubber.toml", tmp_path / "rubber.png"
+    written = run(TRELOAR, "--law", "gent", "--out", out, "--plot", plot, "--strain", "100 %")
+    assert written.exit_code == 0, written.stderr
+    assert written.stdout == ""
+    assert tomllib.loads(out.read_text("utf-8"))["materials"]["rubber"]["energy"]["model"] == "gent"
+    assert plot.read_bytes().startswith(b"\x89PNG")
+
+
+def test_json_and_files_of_one_test_each(tmp_path):
+    file = tmp_path / "shear.csv"
+    rows = "".join(f"{0.1 * n},{0.05 * n}\n" for n in range(1, 8))
+    file.write_text("strain,stress [MPa]\n" + rows, "utf-8")
+    found = run(file, "--test", "shear", "--law", "neo-hookean", "--json")
+    assert found.exit_code == 0, found.stderr
+    tree = json.loads(found.stdout)
+    assert abs(tree["material"]["shear_modulus"] - 0.5) < 1e-9
+    assert "One kind of test alone (shear)" in found.stderr
+
+
+def test_wrong_input_is_said():
+    for options, said in (
+        (("--law", "mooney"), "`law` must be one of"),
+        (("--strain", "1 mm"), "--strain"),
+        (("--strain", "1 %"), "must leave measurements"),
+        (("--test", "shear"), "must not be given"),
+        (("--out", "x.txt"), ".toml"),
+        (("--poisson", "0.7"), "`poisson`"),
+    ):
+        found = run(TRELOAR, *options)
+        assert found.exit_code == 2
+        assert found.stdout == ""
+        assert said in found.stderr, found.stderr

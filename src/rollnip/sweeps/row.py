@@ -190,6 +190,8 @@ def _value(
     if table == "face":
         figure = None if along is None else figures_of(along).get(key)
         return None if figure is None else figure.value(along)
+    if table == "patch":
+        return None
     if table == "error":
         return CLAIMED[key].error(solution)
     if table == "heat":

@@ -4,12 +4,14 @@ import { DE } from "./texts/de.js";
 import { EN } from "./texts/en.js";
 import { FACE_DE } from "./texts/face-de.js";
 import { FACE_EN } from "./texts/face-en.js";
+import { HEAT_DE } from "./texts/heat-de.js";
+import { HEAT_EN } from "./texts/heat-en.js";
 import { LIBRARY_DE } from "./texts/library-de.js";
 import { remembered } from "./saved.js";
 
 const MESSAGES = {
-  en: { ...EN, ...FACE_EN },
-  de: { ...DE, ...FACE_DE, ...LIBRARY_DE },
+  en: { ...EN, ...FACE_EN, ...HEAT_EN },
+  de: { ...DE, ...FACE_DE, ...HEAT_DE, ...LIBRARY_DE },
 };
 const HOLE = /\{(\w+)\}/g;
 

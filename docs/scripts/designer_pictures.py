@@ -73,16 +73,15 @@ def along_the_face(page: Page) -> None:
     rested(page)
 
 
-def warm(page: Page) -> None:
-    """The example of a wheel at speed, in the tab of heat, with its warm-up."""
-    page.click("#open-examples")
-    page.click('[id="example-heat-wheel"]')
-    rested(page)
-    page.click("#tab-heat")
+def with_a_patch(page: Page) -> None:
+    """A driven patch of the first nip, its upper roller crowned."""
+    page.click("#tab-patch")
+    page.click("#give-patch")
+    page.fill("#in-patch-nip-traction", "100 N")
+    page.press("#in-patch-nip-traction", "Enter")
     page.set_viewport_size({"width": DESKTOP["width"], "height": 2400})
-    page.wait_for_selector('html[data-heat="rest"]', state="attached", timeout=60_000)
-    page.click("#warm-up-go")
-    page.wait_for_selector("#chart-warm-up .main-svg", timeout=60_000)
+    page.wait_for_timeout(1000)
+    page.wait_for_selector('html[data-patch="rest"]', state="attached", timeout=60_000)
     rested(page)
 
 
@@ -107,9 +106,9 @@ def make_pictures() -> None:
             path=FIGURES / "designer_face.png"
         )
         page = opened(browser, address, DESKTOP, "light")
-        warm(page)
+        with_a_patch(page)
         page.locator("section.card:has(#charts-title)").screenshot(
-            path=FIGURES / "designer_heat.png"
+            path=FIGURES / "designer_patch.png"
         )
         page = opened(browser, address, PHONE, "dark")
         page.screenshot(path=FIGURES / "designer_phone.png")

@@ -33,7 +33,6 @@ if TYPE_CHECKING:
     from rollnip.identification import identify
     from rollnip.influence import KernelCache
     from rollnip.io import Case, read_case, write_result
-    from rollnip.io.patch_case import read_patch_case
     from rollnip.materials import (
         WLF,
         Arrhenius,
@@ -74,7 +73,6 @@ _HOMES = {
     "rollnip.identification": ("identify",),
     "rollnip.influence": ("KernelCache",),
     "rollnip.io": ("Case", "read_case", "write_result"),
-    "rollnip.io.patch_case": ("read_patch_case",),
     "rollnip.materials": (
         "WLF",
         "Arrhenius",
@@ -176,7 +174,6 @@ __all__ = [
     "follow_heat",
     "identify",
     "read_case",
-    "read_patch_case",
     "solve",
     "solve_face",
     "solve_heat",

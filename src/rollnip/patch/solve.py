@@ -17,9 +17,6 @@ from rollnip.patch.solution import PatchSolution
 from rollnip.patch.tables import PairTables
 from rollnip.patches import Force, Patch
 
-PATCH_TOLERANCE = 5e-3
-"""Relative accuracy where none is wanted."""
-
 _SEARCH = 32
 """Rectangles along each side while the place of the patch is looked for."""
 _FIRST = 32
@@ -42,7 +39,7 @@ Box = tuple[Span, Span]
 def solve_patch(
     patch: Patch,
     *,
-    tolerance: float = PATCH_TOLERANCE,
+    tolerance: float = 5e-3,
     grid: tuple[int, int] | None = None,
     strict: bool = False,
 ) -> PatchSolution:

@@ -13,6 +13,9 @@ CASE = "x-case-file"
 """Marks where the schema of the API is to refer to that of the case file."""
 
 Case = Annotated[dict[str, Any], WithJsonSchema({CASE: True})]
+PatchCase = Annotated[
+    dict[str, Any], Field(description="A case with a table [patch], as for `rollnip patch solve`.")
+]
 Path = Annotated[
     str, Field(min_length=1, max_length=200, examples=["nip.load", "upper.layers[0].thickness"])
 ]
@@ -79,13 +82,6 @@ class CrownBody(Body):
     within: float = Field(
         0.1, gt=0.0, lt=1.0, description="Largest departure of the line load from its mean."
     )
-
-
-class RunawayBody(Body):
-    """A request for the steady states of a warm nip over its speed or load."""
-
-    case: Case
-    parameter: Literal["speed", "load"] = "speed"
 
 
 class TomlBody(Body):

@@ -21,9 +21,9 @@ from rollnip.web.bodies import (
     InteriorBody,
     KnownBody,
     NumberInBaseUnit,
+    PatchCase,
     QuantityBody,
     Refusal,
-    RunawayBody,
     SweepBody,
     TomlBody,
     Version,
@@ -106,22 +106,10 @@ async def crown(request: Request, body: CrownBody) -> Response:
     return await _answer(request, _desk(request).crown(body))
 
 
-@posts.post("/heat", response_model=dict[str, Any])
-async def heat(request: Request, case: CaseBody) -> Response:
-    """Temperatures of both rollers, powers, and the warm nip; the case holds [heat]."""
-    return await _answer(request, _desk(request).heat(case))
-
-
-@posts.post("/warm-up", response_model=dict[str, Any])
-async def warm_up(request: Request, case: CaseBody) -> Response:
-    """Temperatures of both rollers over time, from the start of the case."""
-    return await _answer(request, _desk(request).warm_up(case))
-
-
-@posts.post("/runaway", response_model=dict[str, Any])
-async def runaway(request: Request, body: RunawayBody) -> Response:
-    """The steady states over speed or load, and how far the case is from thermal runaway."""
-    return await _answer(request, _desk(request).runaway(body))
+@posts.post("/patch", response_model=dict[str, Any])
+async def patch(request: Request, case: Annotated[PatchCase, Body()]) -> Response:
+    """Solve rollers that touch in a patch: figures with errors, pressure, shear, stick and slip."""
+    return await _answer(request, _desk(request).patch(case))
 
 
 @posts.post("/case", response_model=dict[str, Any])

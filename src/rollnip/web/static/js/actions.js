@@ -30,7 +30,7 @@ const REFUSALS = {
   preview: "refuse.computing",
 };
 
-/** Actions on `this.store`, `this.snapshot`, `this.tabs`, `this.faces`, `this.heats`, `this.printing`. */
+/** Actions on `this.store`, `this.snapshot`, `this.tabs`, `this.faces`, `this.printing`. */
 export class Actions {
   /** Open a case from anywhere; the one at hand can be had back with undo. */
   async open(tree, title = null) {
@@ -58,9 +58,8 @@ export class Actions {
 
   /** All saved designs and the one at hand in one file. */
   saveProject() {
-    const { case: tree, kept, view } = this.store.state;
     const designs = savedDesigns();
-    const text = JSON.stringify({ [PROJECT]: 1, designs, last: { case: tree, kept, ...view } }, null, 1);
+    const text = JSON.stringify({ [PROJECT]: 1, designs, last: this.whole }, null, 1);
     download("rollnip-project.json", text, "application/json");
   }
 
@@ -145,15 +144,14 @@ export class Actions {
     });
   }
 
-  /** {tree, result, face, heat, ...} of the design at hand. Throws where what is shown is not its answer. */
+  /** {tree, result, face, ...} of the design at hand. Throws where what is shown is not its answer. */
   get answer() {
     const standing = this.standing();
     if (standing !== "settled") throw new Error(say(REFUSALS[standing]));
     const { tree } = this.snapshot;
-    const askers = [this.faces, this.heats];
-    if (!askers.every((asker) => asker.isDone(tree))) throw new Error(say("refuse.computing"));
-    const [face, heat] = askers.map((asker) => asker.of(tree));
-    return { ...this.snapshot, face, heat };
+    const face = this.faces.of(tree);
+    if (!this.faces.isDone(tree)) throw new Error(say("refuse.computing"));
+    return { ...this.snapshot, face };
   }
 
   /** The same with the surfaces as computed. */
@@ -175,9 +173,9 @@ export class Actions {
   /** Everything that was computed, as the command line gives it, with the case and what is known. */
   async saveJson() {
     await this.attempt(say("json.failed"), async () => {
-      const { tree, known, face, heat } = this.answer;
+      const { tree, known, face } = this.answer;
       const result = await post("/api/solve", tree);
-      const text = JSON.stringify({ case: tree, result, known, ...(face ? { face } : {}), ...(heat ? { heat } : {}) }, null, 1);
+      const text = JSON.stringify({ case: tree, result, known, ...(face ? { face } : {}) }, null, 1);
       download(fileName(tree, "json"), text, "application/json");
     });
   }

@@ -3,7 +3,9 @@
 import { byId, el, withUnit } from "./dom.js";
 import { bandOf, headline, rangeText, showKnown } from "./known.js";
 import { ANSWERS, errorOf, flat, totalsOf } from "./quantities.js";
-import { say } from "./texts.js";
+import { inWords } from "./said.js";
+import { languageOf } from "./sentences.js";
+import { LANGUAGE, say } from "./texts.js";
 import { number } from "./units.js";
 
 const SECONDS = ["peak_pressure", "approach", "dwell_time", "speed_ratio"];
@@ -24,7 +26,7 @@ export function showAnswers(snapshot, units) {
   byId("seconds").replaceChildren(...[...SECONDS, ...(result.sheet ? FEEDS : [])].map((key) => second(key, all, units, known)));
   showKnown(snapshot, units);
   showFigures(all, units, known);
-  showWarnings(result);
+  showWarnings(result, units);
   showSolver(result);
 }
 
@@ -105,9 +107,16 @@ function figure(label, key, shown, error, hint, band = null) {
 }
 
 /** Reservations of the model. */
-function showWarnings(result) {
-  byId("warnings").replaceChildren(...result.warnings.map((text) => el("li", { text })));
+function showWarnings(result, units) {
+  byId("warnings").replaceChildren(...sentenceItems(result.warnings, units));
   byId("warnings-card").hidden = result.warnings.length === 0;
+  const isForeign = result.warnings.some((text) => languageOf(text) !== LANGUAGE);
+  byId("warnings-english").textContent = isForeign ? say("solver.english") : "";
+}
+
+/** Sentences of the solver as items of a list, each marked with the language that it stands in. */
+export function sentenceItems(sentences, units) {
+  return sentences.map((text) => el("li", { text: inWords(text, "", units), lang: languageOf(text) }));
 }
 
 function showSolver({ solver, geometry }) {
@@ -142,8 +151,8 @@ export function clearAlarm() {
 }
 
 /** That an answer is none. */
-export function unsoundAlarm({ solver }) {
-  alarm(say("alarm.unsound"), [solver.status]);
+export function unsoundAlarm({ solver }, units) {
+  alarm(say("alarm.unsound"), [inWords(solver.status, "", units)]);
 }
 
 /** What a screen reader hears when an answer settles. */

@@ -10,8 +10,6 @@ import { button, byId, toast } from "./dom.js";
 import { Drawings } from "./drawings.js";
 import { sameNip } from "./face.js";
 import { FACE_ROUTE } from "./faceview.js";
-import { bareMaterial } from "./heat.js";
-import { HEAT_ROUTE } from "./heatview.js";
 import { wireHeader } from "./header.js";
 import { Inputs } from "./inputs.js";
 import { examplesDialog } from "./menus.js";
@@ -19,6 +17,8 @@ import { measuredIn } from "./measured.js";
 import { paletteOf } from "./palette.js";
 import { same } from "./paths.js";
 import { modulusOf } from "./materials.js";
+import { patchOf } from "./patch.js";
+import { PatchRunner } from "./patchrunner.js";
 import { linkOf, stateIn } from "./permalink.js";
 import { Printing } from "./printing.js";
 import { inputAt } from "./quantities.js";
@@ -49,7 +49,7 @@ export class App extends Actions {
     this.isOut = false; // whether the server has stopped answering
     this.reading = 0; // texts that the server is reading
     const system = remembered("system") === "us" ? "us" : "metric";
-    this.store = new Store({ case: defaultCase(system), kept: [], view: { ...VIEW, system } });
+    this.store = new Store({ case: defaultCase(system), kept: [], patch: null, view: { ...VIEW, system } });
     this.isPristine = true; // nothing was put in yet: round numbers in the units shown
     this.theme = new Theme(() => this.recolour());
     this.runner = new Runner({
@@ -60,8 +60,8 @@ export class App extends Actions {
       busy: (yes) => this.busy(yes),
     });
     this.inputs = new Inputs(byId("inputs"), this);
-    this.faces = new Asker(this, FACE_ROUTE, () => this.told("face", this.faces));
-    this.heats = new Asker(this, HEAT_ROUTE, () => this.told("heat", this.heats));
+    this.patches = new PatchRunner(this, () => this.patchTold());
+    this.faces = new Asker(this, FACE_ROUTE, () => this.faceTold());
     this.drawings = new Drawings(byId("drawings"), this);
     this.tabs = new Tabs(viewsOf(this), this);
     this.examples = examplesDialog(examples, (example) => this.open(example.case, example.title));
@@ -125,7 +125,8 @@ export class App extends Actions {
     const kept = read.filter(({ status }) => status === "fulfilled").map(({ value }) => value);
     const lost = read.filter(({ status }) => status === "rejected");
     this.isPristine = false;
-    this.store.replace({ case: first, kept, view: viewOf(state) });
+    const view = viewOf(state);
+    this.store.replace({ case: first, kept, patch: patchOf(state.patch, view.system), view });
     if (lost.length === 0) return;
     const why = sentencesOf(lost[0].reason)[0];
     this.complain(say("link.kept", { count: lost.length, why }));
@@ -158,7 +159,7 @@ export class App extends Actions {
 
   /** The entry of the library that a material is, if any. */
   libraryEntry(material) {
-    return this.library.find((entry) => same(entry.material, bareMaterial(material)));
+    return this.library.find((entry) => same(entry.material, material));
   }
 
   /** Something changed: ask for the answer, or only show anew. */
@@ -216,7 +217,7 @@ export class App extends Actions {
     if (this.isOut) alarm(say("outage.title"), [say("outage.text")]);
     else if (this.broken) this.alarmLink();
     else if (this.failure) this.alarmFailure();
-    else if (standing === "settled" && !this.snapshot.result.converged) unsoundAlarm(this.snapshot.result);
+    else if (standing === "settled" && !this.snapshot.result.converged) unsoundAlarm(this.snapshot.result, this.units());
     else clearAlarm();
   }
 
@@ -291,18 +292,25 @@ export class App extends Actions {
     this.stand();
   }
 
-  /** The complaints of the server, about the nip, its face and its heat, at their inputs. */
+  /** The complaints of the server, about the nip and about its face, at their inputs. */
   complainAt() {
-    const { case: tree } = this.store.state;
-    const others = [this.faces, this.heats].flatMap((asker) => asker.failureOf(tree)?.details ?? []);
-    this.inputs.complain([...(this.failure?.error.details ?? []), ...others]);
+    const face = this.faces.failureOf(this.store.state.case)?.details ?? [];
+    this.inputs.complain([...(this.failure?.error.details ?? []), ...face]);
   }
 
-  /** The face or the heat of the design at hand is there, is refused, or is not there yet. */
-  told(what, asker) {
-    document.documentElement.dataset[what] = asker.isDone(this.store.state.case) ? "rest" : "waiting";
+  /** The face of the design at hand is there, is refused, or is not there yet. */
+  faceTold() {
+    const { case: tree } = this.store.state;
+    document.documentElement.dataset.face = this.faces.isDone(tree) ? "rest" : "waiting";
     this.complainAt();
     this.tabs.open.refresh?.();
+  }
+
+  /** The patch of the design at hand is there, is refused, or is not there yet. */
+  patchTold() {
+    const { case: tree, patch } = this.store.state;
+    document.documentElement.dataset.patch = this.patches.isDone(tree, patch) ? "rest" : "waiting";
+    if (this.tabs?.open.id === "patch") this.tabs.open.refresh();
   }
 
   /** Each complaint at its input and, in words, above everything. */
@@ -338,15 +346,19 @@ export class App extends Actions {
   remember() {
     clearTimeout(this.timer);
     this.timer = setTimeout(async () => {
-      const { case: tree, kept, view } = this.store.state;
-      if (this.store.past.length > 0) remember("last", JSON.stringify({ case: tree, kept, ...view }));
+      if (this.store.past.length > 0) remember("last", JSON.stringify(this.whole));
       history.replaceState(null, "", await this.link());
     }, 250);
   }
 
+  /** The state as links and projects hold it. */
+  get whole() {
+    const { view, ...rest } = this.store.state;
+    return { ...rest, ...view };
+  }
+
   link() {
-    const { case: tree, kept, view } = this.store.state;
-    return linkOf({ case: tree, kept, ...view });
+    return linkOf(this.whole);
   }
 
   say(text) {

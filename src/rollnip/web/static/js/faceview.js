@@ -1,5 +1,6 @@
 // Along the face: sliders for crown and load, the bent rollers, the print of the nip, curves, figures.
 
+import { sentenceItems } from "./answers.js";
 import { isAbort, post, sentencesOf } from "./api.js";
 import { Chart, layoutOf, line, titled } from "./charts.js";
 import { Control } from "./control.js";
@@ -180,7 +181,7 @@ export class FaceView {
     this.printText.textContent = say("face.print", { times: number(print.times) });
     this.chart.show(faceChart(face, this.curve, look.units, look.palette));
     const notes = face.converged ? face.warnings : [face.status, ...face.warnings];
-    this.notes.replaceChildren(...notes.map((text) => el("li", { text: inWords(text, "", look.units) })));
+    this.notes.replaceChildren(...sentenceItems(notes, look.units));
     this.figures.replaceChildren(...faceRows(face, look.units).map(figureOf));
   }
 

@@ -1,11 +1,10 @@
 // The printed page: what was put in, assumed and found.
 
+import { sentenceItems } from "./answers.js";
 import { svgOf } from "./charts.js";
 import { driving, kindOf, nameOf } from "./design.js";
 import { byId, el } from "./dom.js";
 import { facePaths } from "./face.js";
-import { heatPaths } from "./heat.js";
-import { heatTables } from "./heatview.js";
 import { bentPicture, printPicture } from "./facedrawing.js";
 import { faceRows } from "./faceview.js";
 import { drawingOf } from "./files.js";
@@ -13,6 +12,7 @@ import { bandOf, partsOf, rangeText } from "./known.js";
 import { PLOTS } from "./plots.js";
 import { ANSWERS, errorOf, faceLabel, flat, inputAt, totalsOf } from "./quantities.js";
 import { sheetPaths } from "./sheet.js";
+import { inWords } from "./said.js";
 import { say } from "./texts.js";
 import { joined, number } from "./units.js";
 import { getAt } from "./paths.js";
@@ -64,7 +64,7 @@ export function fillReport(answer, units, palette, date) {
       ? el("span")
       : el("p", {
           class: "alarm",
-          text: `${say("alarm.unsound")}. ${result.solver.status}`,
+          text: `${say("alarm.unsound")}. ${inWords(result.solver.status, "", units)}`,
         }),
     el(
       "div",
@@ -81,10 +81,9 @@ export function fillReport(answer, units, palette, date) {
     ),
     el("div", { class: "two" }, ...pictures),
     ...faceParts(answer, units, palette),
-    ...heatParts(answer, units),
     el("h2", { text: say("report.assumptions") }),
     el("ul", {}, ...assumptionsOf(tree, result).map((text) => el("li", { text }))),
-    ...warnings(result),
+    ...warnings(result, units),
   );
 }
 
@@ -108,17 +107,8 @@ function faceParts({ tree, face }, units, palette) {
     el("p", { text: say("face.bent", { times: number(bent.times) }) }),
     print.node,
     el("p", { text: say("face.print", { times: number(print.times) }) }),
-    el("ul", {}, ...face.warnings.map((text) => el("li", { text }))),
+    el("ul", {}, ...sentenceItems(face.warnings, units)),
   ];
-}
-
-/** Heat: its inputs and its figures. */
-function heatParts({ tree, heat }, units) {
-  if (!heat) return [];
-  const inputs = heatPaths(tree).map((path) => row(tree, path, units, faceLabel(path, tree)));
-  const said = heat.converged ? heatTables(heat, tree, units) : [el("p", { class: "alarm", text: heat.status })];
-  const notes = heat.warnings.map((text) => el("li", { text }));
-  return [el("h2", { text: say("heat.title") }), table(inputs), ...said, el("ul", {}, ...notes)];
 }
 
 function assumptionsOf(tree, { geometry }) {
@@ -134,9 +124,9 @@ function picture(node, label) {
   return node;
 }
 
-function warnings({ warnings: list }) {
+function warnings({ warnings: list }, units) {
   if (list.length === 0) return [];
-  return [el("h2", { text: say("warnings.title") }), el("ul", {}, ...list.map((text) => el("li", { text })))];
+  return [el("h2", { text: say("warnings.title") }), el("ul", {}, ...sentenceItems(list, units))];
 }
 
 function figures({ result, known }, units) {

@@ -1,5 +1,6 @@
 // What the server says, in the words and units of the page.
 
+import { inLanguage } from "./sentences.js";
 import { say } from "./texts.js";
 
 const MODEL = /`?[Gg]eometry (?:= )?"(full|finite|curved|corrected|linear)"`?/g;
@@ -17,16 +18,16 @@ export function inWords(message, path, units, input = null) {
   }
   const isRadius = /(^|\.)radius$/.test(path ?? "");
   const doubled = (number) => (isRadius ? 2 : 1) * number;
-  return message
+  return (inLanguage(message) ?? message)
     .replace(/^`[a-z_.]+` (?=must|needs|need|is)/, "")
     .replace(MODEL, (_text, model) => say("said.model", { model: say(`geometry.${model}`) }))
     .replace(/`?approach`? must be smaller than the radius/, say("said.approach"))
     .replace(/of its radius\b/g, say("said.of-radius"))
     .replace(/friction \* load\b/g, say("said.friction-load"))
     .replace(MEASURED, (_text, number, unit) => units.text(doubled(Number(number)), UNITS[unit]))
-    .replace(new RegExp(`got ${NUMBER}(?=\\.?$| with )`), (text, number) =>
+    .replace(new RegExp(`(got|gegeben ist) ${NUMBER}(?=\\.?$| with )`), (text, got, number) =>
       input && Number.isFinite(Number(number))
-        ? `got ${units.text(Number(number) * input.factor, input.dimension)}`
+        ? `${got} ${units.text(Number(number) * input.factor, input.dimension)}`
         : text,
     );
 }

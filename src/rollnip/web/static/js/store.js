@@ -3,8 +3,8 @@
 const DEEPEST = 200;
 
 /**
- * Holds {case, kept, view}. `case` and `kept` (designs kept for comparison) can be undone; how they
- * are looked at cannot. Changes with the same `gesture` (one drag of a slider) are one step.
+ * Holds {case, kept, patch, view}. `case`, `kept` (designs kept for comparison) and `patch` (that of
+ * the design in three dimensions, or null) can be undone; how they are looked at cannot. Changes with the same `gesture` (one drag of a slider) are one step.
  */
 export class Store {
   constructor(state) {
@@ -70,7 +70,8 @@ export class Store {
   }
 
   undoable() {
-    return { case: this.state.case, kept: this.state.kept };
+    const { case: tree, kept, patch } = this.state;
+    return { case: tree, kept, patch };
   }
 
   tell(why) {

@@ -24,6 +24,8 @@ export const LIBRARY_DE = {
   "example.press-driven.hint": "Eine bezogene Walze treibt eine Stahlwalze durch den Spalt: eine Arbeitsschicht auf weicherem Grund. Angenommen: typische Zahlen einer Presse, nirgends gemessen.",
   "example.press-face": "Presse über ihre Breite",
   "example.press-face.hint": "Eine bezogene Walze auf einer Stahlwalze, 1,6 m breit: welche Bombierung, und wie gleichmäßig ist der Spalt? Angenommen: typische Zahlen einer Presse, nirgends gemessen.",
+  "example.web-face": "Zugspalt einer Bahn über ihre Breite",
+  "example.web-face.hint": "Zwei Gummiwalzen, durch Zahnräder verbunden, ziehen Zeitungspapier von 1,6 m Breite: Wirft es Falten? Angenommen: typische Zahlen einer Presse, nirgends gemessen.",
   "example.configuration-1-driven": "Konfiguration I, angetrieben",
   "example.configuration-1-driven.hint": `${PAPER}, Bild 6B. Alle Zahlen außer der Geschwindigkeit sind die des Aufsatzes. ${DRIVES}`,
   "example.configuration-1-free": "Konfiguration I, frei rollend",

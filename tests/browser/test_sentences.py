@@ -1,0 +1,42 @@
+"""The sentences of the solver that the German page knows are those that the solver writes."""
+
+import ast
+import re
+from functools import cache
+from pathlib import Path
+
+import pytest
+from tests.browser.test_static import messages
+
+PACKAGE = Path(__file__).parents[2] / "src" / "rollnip"
+HOLE = re.compile(r"\{\w+\}")
+KNOWN = {key: text for key, text in messages("en").items() if key.startswith("solver.")}
+OWN = {"solver.english", "solver.line", "solver.change"}  # of the page itself
+
+
+@cache
+def written():
+    """Long texts of the sources, without the name of a value before, 7 for what is filled in."""
+    found = set()
+    for folder in ("", "rolling", "sheet", "patch", "web"):
+        for path in (PACKAGE / folder).glob("*.py"):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.JoinedStr):
+                    parts = [
+                        one.value if isinstance(one, ast.Constant) else "7" for one in node.values
+                    ]
+                    found.add("".join(parts))
+                elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    found.add(node.value)
+    return frozenset(re.sub(r"^`[\w.]+` ", "", text) for text in found if len(text) > 20)
+
+
+@pytest.mark.parametrize("key", sorted(set(KNOWN) - OWN))
+def test_a_known_sentence_is_one_of_the_solver(key):
+    """One that is put together from parts begins or ends as one that stands in the sources."""
+    wanted = HOLE.sub("7", KNOWN[key])
+    assert wanted in written() or any(
+        (text.startswith("7") and wanted.endswith(text[1:]))
+        or (text.endswith(("7", "7.")) and wanted.startswith(text.rstrip("7.")))
+        for text in written()
+    )

@@ -73,6 +73,19 @@ def along_the_face(page: Page) -> None:
     rested(page)
 
 
+def warm(page: Page) -> None:
+    """The example of a wheel at speed, in the tab of heat, with its warm-up."""
+    page.click("#open-examples")
+    page.click('[id="example-heat-wheel"]')
+    rested(page)
+    page.click("#tab-heat")
+    page.set_viewport_size({"width": DESKTOP["width"], "height": 2400})
+    page.wait_for_selector('html[data-heat="rest"]', state="attached", timeout=60_000)
+    page.click("#warm-up-go")
+    page.wait_for_selector("#chart-warm-up .main-svg", timeout=60_000)
+    rested(page)
+
+
 def with_a_patch(page: Page) -> None:
     """A driven patch of the first nip, its upper roller crowned."""
     page.click("#tab-patch")
@@ -104,6 +117,11 @@ def make_pictures() -> None:
         along_the_face(page)
         page.locator("section.card:has(#charts-title)").screenshot(
             path=FIGURES / "designer_face.png"
+        )
+        page = opened(browser, address, DESKTOP, "light")
+        warm(page)
+        page.locator("section.card:has(#charts-title)").screenshot(
+            path=FIGURES / "designer_heat.png"
         )
         page = opened(browser, address, DESKTOP, "light")
         with_a_patch(page)

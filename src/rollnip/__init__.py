@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from rollnip.identification import identify
     from rollnip.influence import KernelCache
     from rollnip.io import Case, read_case, write_result
+    from rollnip.io.patch_case import read_patch_case
     from rollnip.materials import (
         WLF,
         Arrhenius,
@@ -73,6 +74,7 @@ _HOMES = {
     "rollnip.identification": ("identify",),
     "rollnip.influence": ("KernelCache",),
     "rollnip.io": ("Case", "read_case", "write_result"),
+    "rollnip.io.patch_case": ("read_patch_case",),
     "rollnip.materials": (
         "WLF",
         "Arrhenius",
@@ -174,6 +176,7 @@ __all__ = [
     "follow_heat",
     "identify",
     "read_case",
+    "read_patch_case",
     "solve",
     "solve_face",
     "solve_heat",

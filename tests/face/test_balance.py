@@ -10,7 +10,16 @@ from press_face import FACE, foundation_law, press
 
 import rollnip as rn
 from rollnip.closed_forms import end_loaded_rollers
-from rollnip.face import Beam, Face, FaceGrid, FaceProblem, Journal, balance, solve_face
+from rollnip.face import (
+    Beam,
+    Face,
+    FaceGrid,
+    FaceProblem,
+    Journal,
+    NipRows,
+    balance,
+    solve_face,
+)
 from rollnip.face.covering import Coverings
 from rollnip.shafts import Crown, CrownTable, Shaft
 
@@ -405,3 +414,42 @@ def test_energy_with_a_covering_that_loses(rows):
 def test_a_mean_load_that_no_covering_carries():
     with pytest.raises(rn.ConvergenceError, match="The nip at 6000 N/mm"):
         solve_face(press(load=6000.0), FACE)
+
+
+def test_torques_and_losses_are_as_well_known_as_claimed(crowned):
+    """A plane nip at one place, against `error`: torque over R mu F, loss over the largest one."""
+    i = 5
+    fresh = rn.solve(
+        replace(
+            press(),
+            normal=rn.LineLoad(float(crowned.load[i])),
+            tangential=rn.Traction(float(crowned.traction[i])),
+        )
+    )
+    rise = 1.0 + crowned.problem.rise[0, i]
+    off = abs(crowned.torque_upper[i] / rise - fresh.torque_upper) / 100.0
+    assert off / (0.5 * crowned.load[i]) < 2.0 * crowned.error["torque"] < 5e-3
+    loss = float(crowned.friction_loss.max())
+    wrong = abs(crowned.friction_loss[i] - fresh.dissipation_friction)
+    assert wrong / loss < 0.02  # beside the error of the table there is that of the local radius
+    assert 0.0 < crowned.error["loss"] < 0.02
+
+
+@pytest.mark.slow
+def test_uneven_ends_ask_for_the_nips_on_their_path_alone():
+    """3 and 7 kN: far from the whole lattice of loads and slips, 229 nips before."""
+    rows = NipRows()
+    found = solve_face(press(), Face(length=1600.0, end_loads=(3000.0, 7000.0)), rows=rows)
+    assert found.converged
+    assert len(rows) < 160
+    cells = found.law.cells
+    assert cells.sum() < 0.5 * cells.size
+    i = int(np.argmin(np.abs(found.load - 3.0)))
+    nip = replace(
+        press(),
+        normal=rn.LineLoad(float(found.load[i])),
+        tangential=rn.Traction(float(found.traction[i])),
+    )
+    fresh = rn.solve(nip)
+    assert found.approach[i] == pytest.approx(fresh.approach, rel=2e-3)
+    assert found.local_creepage[i] == pytest.approx(fresh.creepage, abs=2e-4)

@@ -129,13 +129,22 @@ def test_a_case_is_written_as_python():
         ('[heat]\nambient = "23 degC"', "", "upper.heat: must stand beside a table"),
         ('"natural-rubber-filled"', '"cork"', "materials.rubber.thermal: must be one of natural"),
         ('thermal = "natural-rubber-filled"', "density = 1000", "rubber.conductivity: must be giv"),
+        (
+            "[lower.heat]",
+            '[lower.heat]\ncore = "-300 degC"',
+            "lower.heat.core: must be above absolute zero",
+        ),
         ("[lower.heat]", '[lower.heat]\ncore = "hot"', "lower.heat.core: must be a temperature"),
         (
             "[lower.heat]",
             '[lower.heat]\ncore = { coolant = "-280 degC", film = 10 }',
-            "lower.heat.temperature: must be above absolute zero",
+            "lower.heat.core.coolant: must be above absolute zero",
         ),
-        ("[lower.heat]", "[lower.heat]\nshell = { thickness = 3 }", "heat.conductivity: must be"),
+        (
+            "[lower.heat]",
+            "[lower.heat]\nshell = { thickness = 3 }",
+            "lower.heat.shell.conductivity: must be",
+        ),
         ('film = "50 W/(m2 K)"', 'film = "50 W/(m K)"', "that is a thermal conductivity"),
         (
             "[upper]",

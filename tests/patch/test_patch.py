@@ -318,7 +318,7 @@ def test_energy_of_rolling_with_friction():
         slip = -np.sum(got.shear_x * got.slip[0] + got.shear_y * got.slip[1]) * got.grid.element
         assert slip == pytest.approx(put_in, rel=room)
         assert got.friction_resistance == pytest.approx(put_in, rel=1e-4)  # p leans by rounding
-        assert got.friction_resistance_error == pytest.approx(abs(slip - put_in), rel=1e-3)
+        assert got.error["friction_resistance"] == pytest.approx(abs(slip - put_in), rel=1e-3)
 
 
 @pytest.mark.slow
@@ -327,7 +327,7 @@ def test_energy_where_pressure_leans_forward():
     wrong = []
     for n in (48, 96):
         got = rn.solve_patch(wheel(along=rn.Force(60.0)), grid=(n, n))
-        wrong.append(got.friction_resistance_error / got.friction_resistance)
+        wrong.append(got.error["friction_resistance"] / got.friction_resistance)
     assert wrong[1] < 0.65 * wrong[0] < 0.65 * 0.25  # first order
 
 
@@ -337,7 +337,7 @@ def test_claims_hold_against_a_finer_grid(share):
     patch = wheel(along=rn.Force(share * 0.6 * 200.0))
     coarse = rn.solve_patch(patch, grid=(32, 32))
     fine = rn.solve_patch(patch, grid=(96, 96))
-    for name, error in coarse.error.items():
+    for name, error in coarse.grid_error.items():
         assert abs(coarse.figures[name] - fine.figures[name]) <= error + fine.error[name], name
 
 
@@ -358,7 +358,7 @@ def test_claims_of_forces_hold_where_two_grids_agree_by_chance():
     )
     coarse = rn.solve_patch(patch, grid=(40, 40))
     fine = rn.solve_patch(patch, grid=(120, 120))
-    for name, error in coarse.error.items():
+    for name, error in coarse.grid_error.items():
         assert abs(coarse.figures[name] - fine.figures[name]) <= error, name
 
 

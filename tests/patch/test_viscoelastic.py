@@ -91,7 +91,7 @@ def test_frictionless_loss_is_the_moment_of_the_pressure():
         assert got.rolling_resistance == pytest.approx(got.load * got.load_centre / 50.0, rel=1e-12)
         assert got.load_centre > 0.1 * got.length  # ahead of the middle
         assert got.torque_upper == pytest.approx(50.0 * got.rolling_resistance, rel=1e-12)
-        wrong.append(got.rolling_resistance_error / got.rolling_resistance)
+        wrong.append(got.error["rolling_resistance"] / got.rolling_resistance)
     # The slope of the displacement is taken by central differences: order 1.5 at least.
     assert wrong[1] < min(wrong[0] / 2.8, 0.005)
 
@@ -198,7 +198,7 @@ def test_a_speed_is_needed():
 def test_claims_hold_against_a_finer_grid():
     patch = wheel(friction=0.6, along=rn.Force(10.0))
     coarse, fine = (rn.solve_patch(patch, grid=(n, n)) for n in (33, 64))
-    for name, error in coarse.error.items():
+    for name, error in coarse.grid_error.items():
         assert abs(coarse.figures[name] - fine.figures[name]) <= error + fine.error[name], name
 
 

@@ -26,7 +26,7 @@ CASE: dict[str, Any] = {
 @pytest.fixture
 def plain() -> dict[str, str]:
     """Figures of a bare cross-section, and their units."""
-    parts = ("face.", "heat.", "sheet.")
+    parts = ("face.", "heat.", "patch.", "sheet.")
     return {
         name: unit
         for name, unit in SCALARS.items()

@@ -223,7 +223,7 @@ def test_units_convert_as_the_parser_does(client):
         for shown in (table["metric"], table["us"]):
             scale, offset = table["units"][shown]
             wanted = parse_quantity(f"7 {shown}".strip(), dimension)
-            assert 7.0 * scale + offset == pytest.approx(wanted, abs=1e-12)
+            assert 7.0 * scale + offset == pytest.approx(wanted, rel=1e-14, abs=1e-12)
 
 
 def test_examples_solve_and_verify(client):

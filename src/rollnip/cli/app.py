@@ -17,7 +17,7 @@ from rollnip.cli.heat import heat
 from rollnip.cli.lda import lda
 from rollnip.cli.options import Force
 from rollnip.cli.paper import paper
-from rollnip.cli.patch import patch
+from rollnip.cli.patch import Wanted, answer, patch, require_linear
 from rollnip.cli.rubber import rubber
 from rollnip.cli.serve import serve
 from rollnip.cli.sweep import sweep
@@ -95,48 +95,63 @@ def solve(
     quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary.")] = False,
     force: Force = False,
 ) -> None:
-    """Solve one nip and print a summary.
+    """Solve one nip, or one patch where the case has a table [patch], and print a summary.
 
     The exit code is 0 where the solution was verified, 1 where it did not converge, 2 for wrong
     input.
     """
     with clear_failures(), one_run(force=force) as run:
-        from rollnip.io import check_result_target, read_case, result_text, write_result
+        from rollnip.io.patch_case import PatchCase, read_any_case
 
-        problem = read_case(case)
+        problem = read_any_case(case)
         run.reserve({"--out": out, "--fields": fields, "--plot": plot})
-        model = overridden(problem.model, geometry, tolerance)
-        if out is not None:
-            check_result_target(out)
-        if plot is not None:
-            from rollnip.plots import check_figure_target, plot_overview, save_figure
-
-            check_figure_target(plot)
-        if fields is not None:
-            from rollnip.io import check_fields_target, write_fields
-
-            check_fields_target(fields)
-        from rollnip.solver import solve as solve_nip
-
-        with named(problem.source):
-            solution = solve_nip(problem.nip, model, on_failure="return")
-        along, warm = _along_the_face(problem, model), _warm(problem, model)
-        parts = _parts(along, warm) if json or out is not None else None
-        if out is not None:
-            write_result(solution, out, parts)
-        if fields is not None:
-            write_fields(solution, fields)
-        if plot is not None:
-            save_figure(plot_overview(solution), plot)
-        if json:
-            write(result_text(solution, parts))
-        elif not quiet:
-            from rollnip.cli.summary import print_summary
-
-            print_summary(solution)
-            _print_more(along, warm)
-    if not all(one.converged for one in (solution, along, warm) if one is not None):
+        wanted = Wanted(
+            json=json, quiet=quiet, plot=plot, out=out, stresses=fields, tolerance=tolerance
+        )
+        if isinstance(problem, PatchCase):
+            require_linear(geometry)
+            is_verified = answer(problem, wanted)
+        else:
+            model = overridden(problem.model, geometry, tolerance)
+            is_verified = _answer(problem, model, wanted)
+    if not is_verified:
         raise typer.Exit(1)
+
+
+def _answer(problem: Case, model: Model, wanted: Wanted) -> bool:
+    """Solve a nip, write and print what is wanted, and return whether it was verified."""
+    from rollnip.io import check_result_target, result_text, write_result
+
+    if wanted.out is not None:
+        check_result_target(wanted.out)
+    if wanted.plot is not None:
+        from rollnip.plots import check_figure_target, plot_overview, save_figure
+
+        check_figure_target(wanted.plot)
+    if wanted.stresses is not None:
+        from rollnip.io import check_fields_target, write_fields
+
+        check_fields_target(wanted.stresses)
+    from rollnip.solver import solve as solve_nip
+
+    with named(problem.source):
+        solution = solve_nip(problem.nip, model, on_failure="return")
+    along, warm = _along_the_face(problem, model), _warm(problem, model)
+    parts = _parts(along, warm) if wanted.json or wanted.out is not None else None
+    if wanted.out is not None:
+        write_result(solution, wanted.out, parts)
+    if wanted.stresses is not None:
+        write_fields(solution, wanted.stresses)
+    if wanted.plot is not None:
+        save_figure(plot_overview(solution), wanted.plot)
+    if wanted.json:
+        write(result_text(solution, parts))
+    elif not wanted.quiet:
+        from rollnip.cli.summary import print_summary
+
+        print_summary(solution)
+        _print_more(along, warm)
+    return all(one.converged for one in (solution, along, warm) if one is not None)
 
 
 def _along_the_face(problem: Case, model: Model) -> FaceSolution | None:

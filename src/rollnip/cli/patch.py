@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -9,18 +10,48 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, read_option, write
+from rollnip.cli.console import clear_failures, named, read_option, write
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
     from rollnip.io.patch_case import PatchCase
+    from rollnip.patch import PatchSolution
+    from rollnip.patch.depth import Side
 
 patch = typer.Typer(
     name="patch",
-    help="In three dimensions: wheels, crowned and short rollers; readings of hardness.",
+    help="In three dimensions: wheels, crowned and short rollers; stresses below, ends of a face, "
+    "readings of hardness.",
     no_args_is_help=True,
 )
 CaseFile = Annotated[str, typer.Argument(help="Case file with [patch]; - reads standard input.")]
+
+
+Tolerance = Annotated[
+    str | None, typer.Option(help="Wanted relative accuracy, such as 0.01 or 1%.")
+]
+RollerName = Annotated[str, typer.Option(help="Roller, upper or lower.")]
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Wanted:
+    """What a command is to print and to write of a patch.
+
+    Attributes
+    ----------
+    json, fields : whether JSON is printed, and whether with the fields over the grid.
+    quiet : print no summary.
+    plot, out, stresses : files of the picture, the result, the stresses below; None: none.
+    tolerance : as the option says it; None: that of the case.
+    """
+
+    json: bool = False
+    fields: bool = False
+    quiet: bool = False
+    plot: Path | None = None
+    out: Path | None = None
+    stresses: Path | None = None
+    tolerance: str | None = None
 
 
 @patch.command("solve")
@@ -34,11 +65,10 @@ def solve(
         Path | None, typer.Option(help="Draw the patch: name.png, .svg or .pdf.")
     ] = None,
     out: Annotated[
-        Path | None, typer.Option(help="Write the result with its fields: name.json or .nc.")
+        Path | None,
+        typer.Option(help="Write the result with its fields: name.json, .nc, or .vtr (ParaView)."),
     ] = None,
-    tolerance: Annotated[
-        str | None, typer.Option(help="Wanted relative accuracy, such as 0.01 or 1%.")
-    ] = None,
+    tolerance: Tolerance = None,
     force: Force = False,
 ) -> None:
     """Solve a contact patch and print its size, pressure, forces and creepages.
@@ -50,42 +80,181 @@ def solve(
 
         problem = read_patch_case(case)
         run.reserve({"--plot": plot, "--out": out})
+        wanted = Wanted(json=json, fields=fields, plot=plot, out=out, tolerance=tolerance)
+        is_verified = answer(problem, wanted)
+    if not is_verified:
+        raise typer.Exit(1)
+
+
+def answer(problem: PatchCase, wanted: Wanted) -> bool:
+    """Solve a patch, write and print what is wanted, and return whether it was verified."""
+    _check_targets(wanted)
+    solution = _solved(problem, wanted.tolerance)
+    if wanted.plot is not None:
+        from rollnip.plots import plot_patch, save_figure
+
+        save_figure(plot_patch(solution), wanted.plot)
+    if wanted.out is not None:
+        from rollnip.io.patch_files import write_patch
+
+        write_patch(solution, wanted.out)
+    if wanted.stresses is not None:
+        _write_stresses(solution, wanted.stresses)
+    if wanted.json or wanted.fields:
+        from json import dumps
+
+        from rollnip.patch.report import patch_dict
+
+        tree = patch_dict(solution, fields=wanted.fields)
+        write(dumps(tree, indent=None if wanted.fields else 2, allow_nan=False) + "\n")
+    elif not wanted.quiet:
+        from rollnip.patch.report import patch_lines
+
+        write("\n".join(patch_lines(solution)) + "\n")
+    return solution.converged
+
+
+def require_linear(geometry: str | None) -> None:
+    """Raise unless the option ``--geometry`` is left out or says linear, as patches are."""
+    if geometry not in (None, "linear"):
+        raise InvalidInputError(
+            f"`--geometry` must be linear for a case with [patch], got {geometry!r}."
+        )
+
+
+def _check_targets(wanted: Wanted) -> None:
+    """Raise where a file could not be written, before anything is computed."""
+    from rollnip.io.patch_files import STRESS_SUFFIXES, check_patch_target
+
+    if wanted.plot is not None:
+        from rollnip.plots import check_figure_target
+
+        check_figure_target(wanted.plot)
+    if wanted.out is not None:
+        check_patch_target(wanted.out)
+    if wanted.stresses is not None:
+        check_patch_target(wanted.stresses, STRESS_SUFFIXES)
+
+
+def _solved(problem: PatchCase, tolerance: str | None) -> PatchSolution:
+    from rollnip.patch import PATCH_TOLERANCE, solve_patch
+
+    wanted = read_option("--tolerance", tolerance, "ratio") or problem.tolerance
+    with named(problem.source):
+        return solve_patch(problem.patch, tolerance=wanted or PATCH_TOLERANCE, grid=problem.grid)
+
+
+def _write_stresses(solution: PatchSolution, path: Path) -> None:
+    """Write the stresses of the upper roller, or of the lower one under a rigid upper one."""
+    from rollnip.io.patch_files import write_stress
+    from rollnip.patch.depth import usual_depths
+
+    side: Side = "lower" if solution.patch.upper.is_rigid else "upper"
+    write_stress(solution, side, usual_depths(solution, side), path)
+
+
+@patch.command("stress")
+def stress(
+    case: CaseFile,
+    depth: Annotated[
+        list[str] | None,
+        typer.Option(help='Depth below the surface, such as "2 mm"; may be given several times.'),
+    ] = None,
+    roller: RollerName = "upper",
+    out: Annotated[
+        Path | None, typer.Option(help="Write the stresses: name.nc, or .vtr for ParaView.")
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+    tolerance: Tolerance = None,
+    force: Force = False,
+) -> None:
+    """Print the largest stresses under a patch at some depths of one roller.
+
+    Without depths: some within the size of the patch, and the bonds between layers.
+    """
+    with clear_failures(), one_run(force=force) as run:
+        from rollnip.io.patch_case import read_patch_case
+        from rollnip.io.patch_files import STRESS_SUFFIXES, check_patch_target, write_stress
+        from rollnip.patch.depth import usual_depths
+        from rollnip.patch.report import stress_lines, stress_rows
+
+        problem = read_patch_case(case)
+        side = _side(roller)
+        run.reserve({"--out": out})
         if out is not None:
-            from rollnip.io.patch_files import check_patch_target
-
-            check_patch_target(out)
-        from rollnip.patch import solve_patch
-        from rollnip.patch.report import patch_dict, patch_lines
-
-        wanted = read_option("--tolerance", tolerance, "ratio") or problem.tolerance
-        solution = solve_patch(problem.patch, tolerance=wanted or 5e-3, grid=problem.grid)
-        if plot is not None:
-            from rollnip.plots import plot_patch, save_figure
-
-            save_figure(plot_patch(solution), plot)
+            check_patch_target(out, STRESS_SUFFIXES)
+        given = sorted(read_option("--depth", one, "length") or 0.0 for one in depth or [])
+        solution = _solved(problem, tolerance)
+        z = given or usual_depths(solution, side)
         if out is not None:
-            from rollnip.io.patch_files import write_patch
-
-            write_patch(solution, out)
-        if json or fields:
+            write_stress(solution, side, z, out)
+        rows = stress_rows(solution.stress(side, z))
+        if json:
             from json import dumps
 
-            tree = patch_dict(solution, fields=fields)
-            write(dumps(tree, indent=None if fields else 2, allow_nan=False) + "\n")
+            write(dumps({"roller": side, "depths": rows}, indent=2, allow_nan=False) + "\n")
         else:
-            write("\n".join(patch_lines(solution)) + "\n")
+            write("\n".join(stress_lines(solution.patch.title, side, rows)) + "\n")
     if not solution.converged:
         raise typer.Exit(1)
+
+
+@patch.command("ends")
+def ends(
+    case: CaseFile,
+    approach: Annotated[
+        str | None, typer.Option(help='Approach of the axles, such as "0.4 mm"; else the case\'s.')
+    ] = None,
+    json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
+) -> None:
+    """Print the nip near the end of the upper roller's face, on a lower one that goes on.
+
+    Line load and peak pressure over the distance from the end, and the length of face that the end
+    adds to the load of the plane nip or takes from it.
+    """
+    with clear_failures():
+        from rollnip.io.patch_case import read_patch_case
+        from rollnip.nip import Approach
+        from rollnip.patch import face_end
+        from rollnip.patch.report import end_dict, end_lines
+
+        problem = read_patch_case(case)
+        given = read_option("--approach", approach, "length")
+        normal = problem.patch.normal
+        if given is None and isinstance(normal, Approach):
+            given = normal.approach
+        if given is None:
+            raise InvalidInputError(
+                "`--approach` must be given, for the case gives a load of the whole patch."
+            )
+        radius = problem.patch.across_upper.end_radius
+        with named(problem.source):
+            found = face_end(problem.patch.upper, problem.patch.lower, given, radius)
+        if json:
+            from json import dumps
+
+            write(dumps(end_dict(found), indent=2, allow_nan=False) + "\n")
+        else:
+            write("\n".join(end_lines(found)) + "\n")
+
+
+def _side(name: str) -> Side:
+    if name == "upper":
+        return "upper"
+    if name == "lower":
+        return "lower"
+    raise InvalidInputError(f"`--roller` must be upper or lower, got {name!r}.")
 
 
 @patch.command("hardness")
 def hardness(
     case: CaseFile,
-    roller: Annotated[
-        str, typer.Option(help="Roller whose covering is read: upper or lower.")
-    ] = "upper",
+    roller: RollerName = "upper",
 ) -> None:
-    """Print what a Shore A durometer reads on a covering, and on a thick block of its top layer."""
+    """Print what a Shore A durometer reads on a covering, and on a thick block of its top layer.
+
+    Also how thick a sheet of that layer must be to be measured to one point.
+    """
     with clear_failures():
         from rollnip.io.patch_case import read_patch_case
 
@@ -94,9 +263,8 @@ def hardness(
 
 
 def _readings(problem: PatchCase, name: str) -> str:
-    if name not in ("upper", "lower"):
-        raise InvalidInputError(f"`--roller` must be upper or lower, got {name!r}.")
-    from rollnip.patch import shore_a_reading
+    name = _side(name)
+    from rollnip.patch import least_thickness, shore_a_reading
 
     roller = problem.patch.upper if name == "upper" else problem.patch.lower
     covering = shore_a_reading(roller.layers, roller.core)
@@ -104,4 +272,6 @@ def _readings(problem: PatchCase, name: str) -> str:
     return (
         f"Shore A on the covering of the {name} roller: {covering:.1f}\n"
         f"Shore A on a thick block of its top layer: {block:.1f}\n"
+        "A sheet of the top layer on a hard base reads within 1 point of the block from "
+        f"{least_thickness(roller.materials[0]):.2g} mm on.\n"
     )

@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from rollnip.face.covering import Axis, Coverings, weights_of
+from rollnip.face.lattice import Lattice
 from rollnip.face.rows import NipRows
 from rollnip.model import Model
 from rollnip.nip import Nip
@@ -111,6 +112,8 @@ class NipLaw:
     parts : the largest error between loads, and that between slips.
     faults : why the loads end where they do, below and above; empty where more could be solved.
     unsolved : (m, k) which nips have no verified solution: the table goes on there as a line.
+    cells : (m - 1, k - 1) between which loads and slips it holds; (m - 1, 1) without friction.
+        None: all.
     fault : why the first of them has none; empty where all were solved.
     solves : number of nips that were solved for the law.
     rows : keeps these nips, for a wider table.
@@ -126,9 +129,17 @@ class NipLaw:
     parts: tuple[float, float] = (0.0, 0.0)
     faults: tuple[str, str] = ("", "")
     unsolved: NDArray[np.bool_] | None = None
+    cells: NDArray[np.bool_] | None = None
     fault: str = ""
     solves: int = 0
     rows: NipRows | None = field(default=None, repr=False, compare=False)
+
+    @property
+    def lattice(self) -> Lattice:
+        """Loads and slips of the table, and the cells between which it holds."""
+        shape = self.loads.size - 1, max(self.s.size - 1, 1)
+        cells = np.ones(shape, dtype=bool) if self.cells is None else self.cells
+        return Lattice(self.loads, self.s, cells)
 
     def places(self, coverings: Coverings) -> Places:
         """Return the coverings of a face as this law takes them."""

@@ -6,15 +6,16 @@ from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from functools import cache
-from itertools import pairwise, product
+from itertools import product
 from math import isnan
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.face.covering import Axis, nips_of, with_covering
-from rollnip.face.law import NAMES, NipLaw, Places, traction_share
+from rollnip.face.covering import Axis, nips_of
+from rollnip.face.lattice import Lattice
+from rollnip.face.law import NAMES, NipLaw, traction_share
 from rollnip.face.rows import NipRows, Place, Row
 from rollnip.influence import KernelCache
 from rollnip.model import Model
@@ -23,25 +24,12 @@ from rollnip.solution import Solution
 from rollnip.solver import solve
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 Progress = Callable[[int, int], None]
 
 CHECKED = ("approach", "nip_width", "peak_pressure")
 """Figures whose relative error between the nips of a table is looked for."""
 _BEYOND = 1.0 - 1e-9
-
-
-@dataclass(frozen=True, slots=True)
-class Lattice:
-    """Loads and slips of a table.
-
-    Attributes
-    ----------
-    loads : (m,) increasing [N/mm], evenly spaced in their logarithm.
-    s : (k,) increasing measures of partial slip; (1,) holding 0 without friction.
-    """
-
-    loads: Array
-    s: Array
 
 
 def nip_law(
@@ -53,14 +41,14 @@ def nip_law(
     progress: Progress | None = None,
     executor: Executor | None = None,
 ) -> NipLaw:
-    """Solve the plane nips of a law, and nips between them for its error.
+    """Solve the plane nips of a law.
 
     Loads beyond one at which a nip has no solution are left out.
 
     Parameters
     ----------
     nip, model : the cross-section; its load and traction are varied.
-    lattice : loads and slips.
+    lattice : loads and slips, and which of their nips are asked for.
     axes : the coverings.
     rows : takes what is solved; what it holds is not solved again.
     progress : called after each solve with how many there are, and of how many.
@@ -77,7 +65,7 @@ def nip_law(
         raise InvalidInputError(
             "`core` must be rigid for a face: over a half-space core the approach is not defined."
         )
-    work = _Work(model, rows, progress, executor)
+    work = Work(model, rows, progress, executor)
     nips = nips_of(nip, axes)
     found = _usable(work, nips, _solved_up(work, nips, lattice))
     loads, slips = found.lattice.loads, found.lattice.s
@@ -86,41 +74,38 @@ def nip_law(
         figures = [
             [[work.value(one, (load, s), i) for s in slips] for load in loads] for one in nips
         ]
-        table[name] = _continued(np.array(figures), loads)
-    law = NipLaw(
+        values = np.where(found.lattice.asked, np.array(figures), np.nan)
+        table[name] = _continued(values, loads)
+    return NipLaw(
         nip, model, loads, slips, table, {}, axes,
-        faults=found.faults, unsolved=found.unsolved, fault=found.fault, rows=rows,
+        faults=found.faults, unsolved=found.unsolved, cells=found.lattice.cells,
+        fault=found.fault, solves=work.done, rows=rows,
     )  # fmt: skip
-    by_load, by_slip = _error_between(law, nips[0], work)
-    error = {name: by_load[name] + by_slip[name] for name in by_load}
-    for axis in axes:
-        error[axis.name] = _error_of_axis(law, axis, work)
-    parts = max(by_load.values()), max(by_slip.values())
-    return replace(law, error=error, parts=parts, solves=work.done)
 
 
 def require_solution(nip: Nip, model: Model, place: Place, rows: NipRows) -> None:
     """Raise ConvergenceError where one nip has no verified solution: then no table has one."""
-    _Work(model, rows, None, None).row(nip, place)
+    Work(model, rows, None, None).row(nip, place)
 
 
-def _solved_up(work: _Work, nips: Sequence[Nip], lattice: Lattice) -> Lattice:
+def _solved_up(work: Work, nips: Sequence[Nip], lattice: Lattice) -> Lattice:
     """Solve the nips of a lattice from light to heavy, and return the part that was asked for.
 
     It ends with the first load at which no nip has a solution after a load at which one had:
     such nips are pressed in too far, and heavier ones more so.
     """
-    has_begun = False
+    has_begun, asked = False, lattice.asked
     for count, load in enumerate(lattice.loads, 1):
-        work.solve([(one, (load, s)) for one in nips for s in lattice.s], of=lattice.loads.size)
-        is_solved = any(not work.fault(one, (load, s)) for one in nips for s in lattice.s)
-        if has_begun and not is_solved:
-            return Lattice(lattice.loads[:count], lattice.s)
+        wanted = [(load, s) for s in lattice.s[asked[count - 1]]]
+        work.solve([(one, place) for one in nips for place in wanted], of=lattice.loads.size)
+        is_solved = any(not work.fault(one, place) for one in nips for place in wanted)
+        if has_begun and wanted and not is_solved:
+            return lattice.part(slice(0, count), slice(0, lattice.s.size))
         has_begun = has_begun or is_solved
     return lattice
 
 
-class _Work:
+class Work:
     """Solves nips that are not kept yet, here or in other processes."""
 
     def __init__(
@@ -184,7 +169,7 @@ class _Usable:
     faults: tuple[str, str]
 
 
-def _usable(work: _Work, nips: Sequence[Nip], lattice: Lattice) -> _Usable:
+def _usable(work: Work, nips: Sequence[Nip], lattice: Lattice) -> _Usable:
     """Return the largest ranges of loads and slips at which nips have solutions.
 
     A column of slips needs two solved nips, from which the others follow as a line, and a load
@@ -196,10 +181,12 @@ def _usable(work: _Work, nips: Sequence[Nip], lattice: Lattice) -> _Usable:
             for load in lattice.loads
         ]
     )
-    solved = faults == ""
+    asked = lattice.asked
+    faults = np.where(asked, faults, "")
+    solved = asked & (faults == "")
     columns = _longest(np.count_nonzero(solved, axis=0) >= 2)
     rows = _longest(solved[:, columns].any(axis=1))
-    first_fault = str(next(iter(faults[~solved]), ""))
+    first_fault = str(next(iter(faults[faults != ""]), ""))
     fewest = 4 if lattice.s.size > 1 else 1
     kept = solved[rows, columns]
     if kept.shape[0] < 4 or kept.shape[1] < fewest or np.any(np.count_nonzero(kept, axis=0) < 2):
@@ -211,9 +198,9 @@ def _usable(work: _Work, nips: Sequence[Nip], lattice: Lattice) -> _Usable:
         return str(next((one for one in faults[row] if one), ""))
 
     return _Usable(
-        Lattice(lattice.loads[rows], lattice.s[columns]),
+        lattice.part(rows, columns),
         ~kept,
-        str(next(iter(faults[rows, columns][~kept]), "")),
+        first_fault,
         (fault_of(rows.start - 1), fault_of(rows.stop)),
     )
 
@@ -251,67 +238,6 @@ def _continued(values: Array, loads: Array) -> Array:
             at = line[a] + (line[b] - line[a]) * (place[i] - place[a]) / (place[b] - place[a])
             out[state, i, column] = np.exp(at) if by_log else at * loads[i]
     return out
-
-
-def _error_between(law: NipLaw, nip: Nip, work: _Work) -> tuple[dict[str, float], dict[str, float]]:
-    """Return the largest errors of a law between its loads, and between its slips, by figure.
-
-    Of the traction the error is that of the creepage times what the traction makes of it, over
-    friction * load.
-    """
-    loads, s = law.loads, law.s
-    middles = [(float(np.sqrt(a * b)), float(s[i % s.size])) for i, (a, b) in _pairs(loads)]
-    by_load = _worst(law, nip, middles, work)
-    if s.size == 1:
-        return by_load, dict.fromkeys(by_load, 0.0)
-    between = [(float(loads[(2 * i + 1) % loads.size]), 0.5 * (a + b)) for i, (a, b) in _pairs(s)]
-    return by_load, _worst(law, nip, between, work)
-
-
-def _pairs(values: Array) -> list[tuple[int, tuple[float, float]]]:
-    return list(enumerate(pairwise(values.tolist())))
-
-
-def _worst(
-    law: NipLaw, nip: Nip, places: Sequence[Place], work: _Work, at: Places | None = None
-) -> dict[str, float]:
-    work.solve([(nip, place) for place in places])
-    error = dict.fromkeys((*CHECKED, "traction"), 0.0)
-    first = np.zeros((1, len(next(iter(law.table.values())))))
-    first[0, 0] = 1.0
-    here = Places(first, np.ones(1)) if at is None else at
-    for load, s in places:
-        if work.fault(nip, (load, s)):
-            continue
-        log_load, slip = np.array([np.log(load)]), np.array([s])
-        if law.is_guess(log_load, slip)[0]:
-            continue
-        fresh = dict(zip(NAMES, work.row(nip, (load, s)), strict=True))
-        for name in CHECKED:
-            found = float(law.figure(name, log_load, slip, here)[0])
-            error[name] = max(error[name], abs(found / fresh[name] - 1.0))
-        if law.s.size > 1:
-            off = float(law.figure("creepage", log_load, slip, here)[0]) - fresh["creepage"]
-            per_s = float(law.creepage_slope(log_load, slip, here)[0])
-            share = 2.0 * (1.0 - abs(s)) * float(abs(off / per_s))
-            error["traction"] = max(error["traction"], share)
-    return error
-
-
-def _error_of_axis(law: NipLaw, axis: Axis, work: _Work) -> float:
-    """Return the largest error of a law between two nodes of one of its axes."""
-    if len(axis.nodes) == 1:
-        return 0.0
-    state = {one.key: one.nodes[len(one.nodes) // 2] for one in law.axes}
-    state[axis.key] = axis.between_nodes
-    weights = np.ones((1, 1))
-    for one in law.axes:
-        own = one.weights(np.array([state[one.key]]))
-        weights = (weights[:, :, None] * own[:, None, :]).reshape(1, -1)
-    nip = with_covering(law.nip, state)
-    s = float(law.s[law.s.size // 2])
-    places = [(float(law.loads[i]), s) for i in (law.loads.size // 2, -1)]
-    return max(_worst(law, nip, places, work, Places(weights, np.ones(1))).values())
 
 
 @cache

@@ -105,6 +105,7 @@ def warm_up(
     model: Model | None = None,
     *,
     duration: float | None = None,
+    steady: HeatSolution | None = None,
     cache: KernelCache | None = None,
 ) -> WarmUp:
     """Return the temperatures of both rollers over time, from ``heat.start``.
@@ -113,6 +114,7 @@ def warm_up(
     ----------
     nip, heat, model, cache : as for `solve_heat`.
     duration : [s]; None: five times the slowest time constant of conduction.
+    steady : what `solve_heat` returned for the same problem; None: it is solved here.
 
     Raises
     ------
@@ -125,7 +127,7 @@ def warm_up(
     if duration is not None:
         duration = require_positive("duration", duration)
     cache = KernelCache() if cache is None else cache
-    steady = solve_heat(nip, heat, model, cache=cache)
+    steady = solve_heat(nip, heat, model, cache=cache) if steady is None else steady
     thermal = HeatProblem(nip, heat, model, cache)
     if thermal.conduction.cells == 0:
         raise InvalidInputError(

@@ -17,7 +17,7 @@ from rollnip.cooling import (
 )
 from rollnip.io.messages import placed
 from rollnip.io.tables import CaseTable, RollerTable
-from rollnip.io.tables_heat import CoolantTable, RollerHeatTable, ThermalTable
+from rollnip.io.tables_heat import CoolantTable, RollerHeatTable, ShellTable, ThermalTable
 from rollnip.materials import TYPICAL, Thermal
 
 THERMAL_KEYS = ("thermal", "conductivity", "density", "heat_capacity", "expansion")
@@ -110,23 +110,35 @@ def _cooling(path: str, roller: RollerTable, errors: list[str]) -> Cooling | Non
             return Cooling(film=0.0)
         errors.append(f"{path}: is missing; add a table [{path}] with a film coefficient.")
         return None
+    core = _core(f"{path}.core", table, errors)
+    shell = None if table.shell is None else _shell(f"{path}.shell", table.shell, errors)
+    if core is None or (shell is None and table.shell is not None):
+        return None
     try:
-        return Cooling(film=table.film, core=_core(table), shell=_shell(table))
+        return Cooling(film=table.film, core=core, shell=shell)
     except InvalidInputError as error:
         errors.append(placed(path, str(error)))
         return None
 
 
-def _core(table: RollerHeatTable) -> Core:
-    if isinstance(table.core, CoolantTable):
-        return Coolant(table.core.coolant, film=table.core.film)
-    return Insulated() if isinstance(table.core, str) else Held(table.core)
-
-
-def _shell(table: RollerHeatTable) -> Shell | None:
-    if table.shell is None:
+def _core(path: str, table: RollerHeatTable, errors: list[str]) -> Core | None:
+    is_cooled = isinstance(table.core, CoolantTable)
+    try:
+        if isinstance(table.core, CoolantTable):
+            return Coolant(table.core.coolant, film=table.core.film)
+        return Insulated() if isinstance(table.core, str) else Held(table.core)
+    except InvalidInputError as error:
+        key = f"{path}.coolant" if is_cooled else path
+        errors.append(placed(path, str(error)).replace(f"{path}.temperature", key))
         return None
-    return Shell(thickness=table.shell.thickness, thermal=_given(table.shell))
+
+
+def _shell(path: str, table: ShellTable, errors: list[str]) -> Shell | None:
+    try:
+        return Shell(thickness=table.thickness, thermal=_given(table))
+    except InvalidInputError as error:
+        errors.append(placed(path, str(error)))
+        return None
 
 
 def _given(table: ThermalTable) -> Thermal:

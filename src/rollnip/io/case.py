@@ -63,7 +63,7 @@ def read_case(path: str | Path) -> Case:
         the name of the file and the path of the key.
     """
     folder = Path() if str(path) == "-" else Path(path).parent
-    return _built(read_document(path), str(path), folder)
+    return built_case(read_document(path), str(path), folder)
 
 
 def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:
@@ -73,10 +73,11 @@ def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:
     names a file: none is ever read.
     """
     tree = parse_document(case, source) if isinstance(case, str) else dict(case)
-    return _built(tree, source, folder=None)
+    return built_case(tree, source, folder=None)
 
 
-def _built(tree: dict[str, Any], source: str, folder: Path | None) -> Case:
+def built_case(tree: dict[str, Any], source: str, folder: Path | None) -> Case:
+    """Return the case that a tree holds; ``folder`` is where the files it names are."""
     builder = Builder(_checked(tree, source), folder)
     nip, model, face = builder.nip(), builder.model(), builder.face()
     heat = builder.heat()
@@ -104,7 +105,10 @@ def case_schema(*, ref: str = "#/$defs/{model}") -> dict[str, Any]:
 
 def _checked(tree: dict[str, Any], source: str) -> CaseTable:
     if "patch" in tree:
-        _refuse(source, ["patch: is a table of cases in three dimensions; use `rollnip patch`."])
+        line = (
+            "patch: is a table of cases in three dimensions; use `rollnip solve` or `rollnip patch`"
+        )
+        _refuse(source, [f"{line}, in Python `rn.read_patch_case`."])
     lines = wrong_controls(tree)
     try:
         table = CaseTable.model_validate(tree)

@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import base64
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Literal
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._files import check_target, write_whole
 from rollnip.io.netcdf import require_netcdf, write_netcdf
+from rollnip.io.paraview import rectilinear
 from rollnip.io.result import result_dict
 from rollnip.rollers import Roller
 from rollnip.solution import Solution
@@ -201,28 +200,9 @@ def _vtr(title: str, sections: list[Section]) -> str:
         [_upwards(s, ones * s.layer[:, None].astype(np.int32)) for s, ones in rows]
     )
     data["roller"] = np.concatenate([ones * np.int32(_sign(s)) for s, ones in rows])
-    extent = f'"0 {x.size - 1} 0 0 0 {heights.size - 1}"'
-    lines = [
-        '<?xml version="1.0"?>',
-        f"<!-- {_comment(title)} units: mm, MPa, s -->",
-        '<VTKFile type="RectilinearGrid" version="1.0" byte_order="LittleEndian" '
-        'header_type="UInt64">',
-        f"<RectilinearGrid WholeExtent={extent}>",
-        f"<Piece Extent={extent}>",
-        '<PointData Scalars="von_mises" Vectors="displacement">',
-        *(_data_array(name, values) for name, values in data.items()),
-        _data_array("displacement", displacement, components=3),
-        "</PointData>",
-        "<Coordinates>",
-        _data_array("x", x),
-        _data_array("y", np.zeros(1)),
-        _data_array("z", heights),
-        "</Coordinates>",
-        "</Piece>",
-        "</RectilinearGrid>",
-        "</VTKFile>",
-    ]
-    return "\n".join(lines) + "\n"
+    data["displacement"] = displacement
+    places = (x, np.zeros(1), heights)
+    return rectilinear(title, places, data, scalars="von_mises", vectors="displacement")
 
 
 def _sign(section: Section) -> float:
@@ -241,21 +221,3 @@ def _stacked(sections: list[Section], name: str) -> Array:
     return np.concatenate(
         [_upwards(s, s.values[name] * (_sign(s) if odd else 1.0)) for s in reversed(sections)]
     )
-
-
-def _data_array(name: str, values: NDArray[Any], components: int = 1) -> str:
-    """One array, base64 of its length in bytes and itself, little-endian."""
-    integer = values.dtype.kind == "i"
-    raw = np.ascontiguousarray(values).astype("<i4" if integer else "<f8").tobytes()
-    encoded = base64.b64encode(len(raw).to_bytes(8, "little") + raw).decode("ascii")
-    kind = "Int32" if integer else "Float64"
-    return (
-        f'<DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{components}" '
-        f'format="binary">{encoded}</DataArray>'
-    )
-
-
-def _comment(title: str) -> str:
-    """A title that may stand in an XML comment of an ASCII file."""
-    plain = title.encode("ascii", "replace").decode("ascii")
-    return " ".join(plain.replace("-", " ").split())

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
 from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
 from rollnip.io.build import Builder
+from rollnip.io.case import Case, built_case
 from rollnip.io.document import parse_document, read_document
 from rollnip.io.messages import checked_form, placed
 from rollnip.io.profile import read_profile
@@ -70,9 +73,42 @@ def read_patch_case(path: str | Path) -> PatchCase:
     return _built(read_document(path), str(path), folder)
 
 
-def parse_patch_case(text: str, *, source: str = "case") -> PatchCase:
-    """Read a case in three dimensions from a text. Raises CaseFileError as `read_patch_case`."""
-    return _built(parse_document(text, source), source, None)
+def parse_patch_case(case: str | Mapping[str, Any], *, source: str = "case") -> PatchCase:
+    """Read a case in three dimensions from a text, or from the tree that such a text holds.
+
+    Raises CaseFileError as `read_patch_case` does, and where the case names a file.
+    """
+    tree = parse_document(case, source) if isinstance(case, str) else dict(case)
+    return _built(tree, source, None)
+
+
+def read_any_case(path: str | Path) -> Case | PatchCase:
+    """Read a case file of a nip, or one in three dimensions where it has a table ``[patch]``.
+
+    Raises CaseFileError as `rollnip.io.read_case` and `read_patch_case`.
+    """
+    folder = Path() if str(path) == "-" else Path(path).parent
+    return any_case(read_document(path), str(path), folder)
+
+
+def any_case(tree: Mapping[str, Any], source: str, folder: Path | None = None) -> Case | PatchCase:
+    """Read the case that a tree holds, in three dimensions where it has a table ``patch``.
+
+    Parameters
+    ----------
+    tree : of a case file.
+    source : its name, for messages.
+    folder : where profiles are looked for; None: a case that names a file is refused.
+    """
+    if "patch" in tree:
+        return _built(dict(tree), source, folder)
+    return built_case(dict(tree), source, folder)
+
+
+def patch_hash(case: PatchCase) -> str:
+    """Return 16 hexadecimal digits of the patch, its tolerance and grid; titles do not count."""
+    parts = (replace(case.patch, title=""), case.tolerance, case.grid)
+    return sha256(repr(parts).encode()).hexdigest()[:16]
 
 
 def _built(tree: dict[str, Any], source: str, folder: Path | None) -> PatchCase:

@@ -1,21 +1,29 @@
-"""Files of a solved patch: JSON with its fields, or netCDF."""
+"""Files of a solved patch and of the stresses under it: JSON, netCDF, ParaView."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from json import dumps
+from math import nan
 from pathlib import Path
+
+import numpy as np
 
 from rollnip._files import check_target, write_whole
 from rollnip.io.netcdf import require_netcdf
-from rollnip.patch.report import FIELDS, UNITS, fields_of, patch_dict
+from rollnip.io.paraview import rectilinear
+from rollnip.patch.depth import STRESSES, PatchStress, Side
+from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
+from rollnip.patch.report import fields_of, patch_dict
 from rollnip.patch.solution import PatchSolution
 
-SUFFIXES = (".json", ".nc")
+SUFFIXES = (".json", ".nc", ".vtr")
+STRESS_SUFFIXES = (".nc", ".vtr")
 
 
-def check_patch_target(path: Path) -> None:
+def check_patch_target(path: Path, suffixes: tuple[str, ...] = SUFFIXES) -> None:
     """Raise RollnipError where a patch could not be written to ``path``; costs next to nothing."""
-    check_target(path, SUFFIXES)
+    check_target(path, suffixes)
     if path.suffix.lower() == ".nc":
         require_netcdf()
 
@@ -25,11 +33,13 @@ def write_patch(solution: PatchSolution, path: str | Path) -> None:
 
     ``.json``: the tree of `rollnip patch solve --fields`. ``.nc``: netCDF by the extra
     ``rollnip[netcdf]``: fields over y and x with units, figures and their errors as scalars.
+    ``.vtr``: the fields over the plane of contact for ParaView, shear and slip as vectors; the gap
+    beyond the end of a face is NaN.
 
     Parameters
     ----------
     solution : what `solve_patch` returned.
-    path : ends in .json or .nc.
+    path : ends in .json, .nc or .vtr.
 
     Raises
     ------
@@ -42,8 +52,90 @@ def write_patch(solution: PatchSolution, path: str | Path) -> None:
     if target.suffix.lower() == ".json":
         text = dumps(patch_dict(solution, fields=True), allow_nan=False) + "\n"
         write_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))
+    elif target.suffix.lower() == ".vtr":
+        surface = _surface(solution)
+        write_whole(target, lambda file: file.write_text(surface, "ascii", newline="\n"))
     else:
         write_whole(target, lambda file: _write_netcdf(solution, file))
+
+
+def write_stress(solution: PatchSolution, side: Side, z: Sequence[float], path: str | Path) -> None:
+    """Write the stresses in one roller at some depths to a file, all or nothing.
+
+    ``.nc``: netCDF by the extra ``rollnip[netcdf]``, over z, y and x in the roller's own frame, z
+    into its body. ``.vtr``: a grid for ParaView with z upwards: the lower roller's depths are
+    negative there, and the signs of its s_xz and s_yz turned.
+
+    Parameters
+    ----------
+    solution : what `solve_patch` returned.
+    side : "upper" or "lower".
+    z : increasing depths [mm].
+    path : ends in .nc or .vtr.
+
+    Raises
+    ------
+    RollnipError
+        as `write_patch`, and where a depth is none of that roller.
+    """
+    target = Path(path)
+    check_patch_target(target, STRESS_SUFFIXES)
+    field = solution.stress(side, z)
+    if target.suffix.lower() == ".vtr":
+        text = _body(solution.patch.title, side, field)
+        write_whole(target, lambda file: file.write_text(text, "ascii", newline="\n"))
+    else:
+        write_whole(target, lambda file: _write_stress_netcdf(solution, side, field, file))
+
+
+def _surface(solution: PatchSolution) -> str:
+    """Return the fields of the plane of contact as the text of a .vtr file."""
+    flat = np.zeros_like(solution.pressure)
+    gap = np.where(np.isfinite(solution.gap), solution.gap, nan)
+    data = {
+        "pressure": solution.pressure,
+        "gap": gap,
+        "state": solution.state.astype(np.int32),
+        "shear": np.stack([solution.shear_x, solution.shear_y, flat], axis=-1),
+        "slip": np.stack([solution.slip_x, solution.slip_y, flat], axis=-1),
+    }
+    places = (solution.x, solution.y, np.zeros(1))
+    title = solution.patch.title
+    return rectilinear(title, places, data, scalars="pressure", vectors="shear")
+
+
+def _body(title: str, side: Side, field: PatchStress) -> str:
+    """Return the stresses of a roller as the text of a .vtr file, z upwards."""
+    is_upper = side == "upper"
+    rows = slice(None) if is_upper else slice(None, None, -1)
+    data = {}
+    for name in STRESSES:
+        turned = -1.0 if name in ("s_xz", "s_yz") and not is_upper else 1.0
+        data[name] = turned * getattr(field, name)[rows]
+    heights = field.z if is_upper else -field.z[::-1]
+    places = (field.x, field.y, np.asarray(heights))
+    return rectilinear(title, places, data, scalars="von_mises")
+
+
+def _write_stress_netcdf(
+    solution: PatchSolution, side: Side, field: PatchStress, path: Path
+) -> None:
+    import xarray
+
+    millimetres = {"units": "mm"}
+    dataset = xarray.Dataset(
+        {
+            name: (("z", "y", "x"), getattr(field, name), {"units": "MPa", "long_name": text})
+            for name, text in STRESSES.items()
+        },
+        coords={
+            "x": ("x", field.x, millimetres),
+            "y": ("y", field.y, millimetres),
+            "z": ("z", field.z, {"units": "mm", "long_name": "depth", "positive": "down"}),
+        },
+        attrs={"title": solution.patch.title, "roller": side, "status": solution.status},
+    )
+    dataset.to_netcdf(path, engine="h5netcdf")
 
 
 def _write_netcdf(solution: PatchSolution, path: Path) -> None:
@@ -51,13 +143,15 @@ def _write_netcdf(solution: PatchSolution, path: Path) -> None:
 
     values = {}
     for name, field in fields_of(solution).items():
-        unit, text = FIELDS[name]
-        values[name] = (("y", "x"), field, {"units": unit, "long_name": text})
+        about = {"units": PATCH_FIELDS[name].unit, "long_name": PATCH_FIELDS[name].label}
+        values[name] = (("y", "x"), field, about)
     scalars = {}
-    for name, value in solution.figures.items():
-        of = {"units": UNITS[name] or "1"}
-        scalars[name] = ((), value, of)
-        scalars[f"{name}_error"] = ((), solution.error[name], of)
+    for key, figure in PATCH_FIGURES.items():
+        value, error = figure.value(solution), figure.error(solution)
+        about = {"units": figure.unit, "long_name": figure.label}
+        scalars[key] = ((), nan if value is None else value, about)
+        if error is not None:
+            scalars[f"{key}_error"] = ((), error, {"units": figure.unit})
     places = {"units": "mm"}
     dataset = xarray.Dataset(
         values | scalars,

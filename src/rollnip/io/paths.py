@@ -19,9 +19,14 @@ from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension
 from rollnip.io.forms import Quantity
 from rollnip.io.tables import MATERIALS, CaseTable
+from rollnip.io.tables_patch import PatchCaseTable
 
 _PART = re.compile(r"([A-Za-z_][A-Za-z0-9_-]*)((?:\[\d{1,4}\])*)")
-_EITHER = (("load", "approach"), ("traction", "creepage", "torque_lower"))
+_EITHER = (
+    ("load", "approach"),
+    ("traction", "creepage", "torque_lower"),
+    ("lateral_traction", "lateral_creepage"),
+)
 _MODULI = ("modulus", "shear_modulus", "shore_a")
 
 
@@ -45,7 +50,8 @@ def with_values(tree: Mapping[str, Any], changes: Mapping[str, Any]) -> dict[str
     """Return a copy of the tree with other values at some paths.
 
     The last key of a path may be new; the tables above it must be there. Setting one of the keys
-    of which [nip] takes exactly one (load or approach; traction, creepage or torque_lower)
+    of which [nip] takes one (load or approach; traction, creepage or torque_lower; in three
+    dimensions lateral_traction or lateral_creepage)
     removes the others, and so with the modulus of an elastic material.
 
     Parameters
@@ -98,7 +104,7 @@ def dimension_at(tree: Mapping[str, Any], path: str) -> Dimension | None:
     InvalidInputError
         where a case has no such key; the message names the nearest.
     """
-    kind: Any = CaseTable
+    kind: Any = PatchCaseTable if "patch" in tree else CaseTable
     walked = ""
     for part in _parts(path):
         kind = _kind_below(kind, part, tree, path, walked)

@@ -2,13 +2,14 @@
 
 from rollnip.patch.coefficients import Grid
 from rollnip.patch.depth import PatchStress
-from rollnip.patch.durometer import Indentation, shore_a_reading
+from rollnip.patch.durometer import Indentation, least_thickness, shore_a_reading
 from rollnip.patch.ends import FaceEnd, face_end
 from rollnip.patch.solution import PatchSolution
-from rollnip.patch.solve import solve_patch
+from rollnip.patch.solve import PATCH_TOLERANCE, solve_patch
 from rollnip.patches import Across, Force, Patch
 
 __all__ = [
+    "PATCH_TOLERANCE",
     "Across",
     "FaceEnd",
     "Force",
@@ -18,6 +19,7 @@ __all__ = [
     "PatchSolution",
     "PatchStress",
     "face_end",
+    "least_thickness",
     "shore_a_reading",
     "solve_patch",
 ]

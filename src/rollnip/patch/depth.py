@@ -14,7 +14,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Literal
+from math import inf
+from typing import Literal, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,13 +26,49 @@ from rollnip._errors import InvalidInputError
 from rollnip.compliance import flat_fields, shear_fields
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.memory import roller_stack
+from rollnip.patches import Patch
 from rollnip.rollers import Roller
 
 ComplexArray = NDArray[np.complex128]
 Side = Literal["upper", "lower"]
 
+
+class PatchResult(Protocol):
+    """The parts of a solved patch that depths are chosen by."""
+
+    @property
+    def patch(self) -> Patch:
+        """The problem."""
+
+    @property
+    def grid(self) -> Grid:
+        """Rectangles of the patch."""
+
+    @property
+    def length(self) -> float:
+        """Length of the patch [mm]."""
+
+    @property
+    def width(self) -> float:
+        """Width of the patch [mm]."""
+
+
+STRESSES = {
+    "s_xx": "stress along x, tension positive",
+    "s_yy": "stress along y, tension positive",
+    "s_zz": "stress along z, tension positive",
+    "s_xy": "shear stress in the plane of the surface",
+    "s_xz": "shear stress along x",
+    "s_yz": "shear stress along y",
+    "von_mises": "equivalent stress of von Mises",
+    "max_shear": "largest shear stress",
+}
+"""The stresses under a patch by name."""
+
 _ROOM = 4
 """Sides of the window over those of the grid: images of the patch lie at least three grids away."""
+_SHARES = (0.1, 0.25, 0.5, 0.75, 1.0, 1.5)
+"""Depths worth a look, over half the smaller side of the patch."""
 _CELL = 16
 """Wave vectors along each side of the cell around 0."""
 _TABLE = 1500
@@ -86,6 +123,16 @@ class PatchStress:
     def max_shear(self) -> Array:
         """Largest shear stress, (nz, ny, nx) [MPa]."""
         return np.asarray(0.5 * (self.principal[0] - self.principal[2]))
+
+
+def usual_depths(solution: PatchResult, side: Side) -> list[float]:
+    """Return depths worth a look [mm]: some within the size of the patch, and the bonds."""
+    roller = solution.patch.upper if side == "upper" else solution.patch.lower
+    half, grid = 0.5 * min(solution.length, solution.width), solution.grid
+    bottom = roller.coating_thickness if roller.core is None else inf
+    depths = [share * half for share in _SHARES] + list(roller.interfaces)
+    least = 0.5 * max(grid.hx, grid.hy)
+    return sorted({z for z in depths if least <= z <= bottom})
 
 
 def stress_at_depth(

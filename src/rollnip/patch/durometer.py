@@ -16,7 +16,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from rollnip._blas import one_blas_thread
-from rollnip._errors import InvalidInputError
+from rollnip._errors import InvalidInputError, require_positive
 from rollnip.materials import Material
 from rollnip.patch.coefficients import Array, Grid, coefficients
 from rollnip.patch.convolution import Convolutions
@@ -32,6 +32,8 @@ _LEAST, _PER_POINT = 0.55, 0.075  # N
 _SIDES = 81
 _LOWEST, _HIGHEST = 1.0, 99.0
 _TOLERANCE = 1e-4
+_THINNEST, _THICKEST = 0.1, 100.0  # mm
+_SAME_THICKNESS = 0.02
 
 
 @dataclass(frozen=True)
@@ -123,6 +125,39 @@ def shore_a_reading(layers: Sequence[Layer], core: Material | None = None) -> fl
     ISO 48-4:2018 and ASTM D2240 for the indenter and its spring.
     """
     return Indentation.of(layers, core).shore_a()
+
+
+def least_thickness(material: Material, within: float = 1.0) -> float:
+    """Return how thick a sheet on a rigid base must be to read as a thick block does [mm].
+
+    Parameters
+    ----------
+    material :
+        of the sheet, elastic.
+    within :
+        most points of Shore A by which the sheet may read harder than the block.
+
+    Raises
+    ------
+    InvalidInputError
+        where ``within`` is not positive, or the readings lie beyond 1 to 99.
+    """
+    allowed = require_positive("within", within) + shore_a_reading([], material)
+
+    def wrong(log: float) -> float:
+        try:
+            return shore_a_reading([Layer(float(np.exp(log)), material)]) - allowed
+        except InvalidInputError:  # so thin that it reads above 99
+            return _HIGHEST - allowed
+
+    low, high = np.log(_THINNEST), np.log(_THICKEST)
+    if wrong(high) > 0.0:
+        raise InvalidInputError(
+            f"`within` must be larger: a sheet of {_THICKEST:g} mm reads harder still by that much."
+        )
+    if wrong(low) <= 0.0:
+        return _THINNEST
+    return float(np.exp(brentq(wrong, low, high, xtol=_SAME_THICKNESS)))
 
 
 def _clearance(r: Array) -> Array:

@@ -44,12 +44,12 @@ def figures_of(level: Level) -> dict[str, float]:
         "creepage": creepages[0],
         "lateral_creepage": creepages[1],
         "load_centre": float(np.sum(x * pressure) / max(float(np.sum(pressure)), 1e-300)),
-        "viscous_resistance": -element * _delayed_work(level),
+        "viscous_resistance": element * _lost_work(level),
     }
 
 
-def _delayed_work(level: Level) -> float:
-    """Return the sum of tractions times the slope of their displacements [MPa].
+def _lost_work(level: Level) -> float:
+    """Return minus the sum of tractions times the slope of their displacements [MPa].
 
     Symmetric compliances add nothing to it: elastic bodies give back what they take.
     """
@@ -57,7 +57,7 @@ def _delayed_work(level: Level) -> float:
         return 0.0
     moved = level.products.displacement(level.normal.pressure, level.shear)
     tractions = np.stack([*level.shear, level.normal.pressure])
-    return float(np.sum(tractions * slope_of(moved, level.grid.hx)))
+    return -float(np.sum(tractions * slope_of(moved, level.grid.hx)))
 
 
 def slope_of(values: Array, side: float) -> Array:

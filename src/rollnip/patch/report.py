@@ -9,39 +9,10 @@ from typing import Any
 import numpy as np
 
 from rollnip.patch.coefficients import Array
-from rollnip.patch.measures import FIGURES
+from rollnip.patch.depth import PatchStress
+from rollnip.patch.ends import FaceEnd
+from rollnip.patch.figures import CLAIMED, PATCH_FIELDS, PATCH_FIGURES, is_shown
 from rollnip.patch.solution import PatchSolution
-
-UNITS = {
-    "load": "N",
-    "approach": "mm",
-    "length": "mm",
-    "width": "mm",
-    "area": "mm2",
-    "peak_pressure": "MPa",
-    "traction_x": "N",
-    "traction_y": "N",
-    "spin_moment": "N mm",
-    "creepage": "",
-    "lateral_creepage": "",
-    "load_centre": "mm",
-    "viscous_resistance": "N",
-}
-"""Units of the figures."""
-
-_LOSSES = ("load_centre", "viscous_resistance")
-_ALWAYS = FIGURES[:6]
-
-FIELDS = {
-    "pressure": ("MPa", "contact pressure"),
-    "shear_x": ("MPa", "shear traction on the upper roller along x"),
-    "shear_y": ("MPa", "shear traction on the upper roller along y"),
-    "slip_x": ("1", "slip velocity over rolling speed, along x"),
-    "slip_y": ("1", "slip velocity over rolling speed, along y"),
-    "gap": ("mm", "gap of the deformed surfaces"),
-    "state": ("1", "0 apart, 1 stick, 2 slip"),
-}
-"""Units and descriptions of the fields."""
 
 
 def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, Any]:
@@ -52,16 +23,15 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
     solution : what `solve_patch` returned.
     fields : whether the fields over the grid are part of it, as lists of rows along x.
     """
-    patch, grid = solution.patch, solution.grid
-    figures = {name: _plain(solution.figures[name]) for name in FIGURES}
-    figures["creepage"] = solution.creepage
-    figures["lateral_creepage"] = solution.lateral_creepage
+    grid = solution.grid
+    figures: dict[str, Any] = {key: one.value(solution) for key, one in PATCH_FIGURES.items()}
+    figures["error"] = {key: one.error(solution) for key, one in CLAIMED.items()}
     tree: dict[str, Any] = {
         "schema": 1,
-        "title": patch.title,
+        "title": solution.patch.title,
         "converged": solution.converged,
         "status": solution.status,
-        "patch": figures | _losses(solution),
+        "patch": figures,
         "warnings": list(solution.warnings),
         "solver": {
             "rectangles": [grid.nx, grid.ny],
@@ -77,37 +47,9 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
     return tree
 
 
-def _losses(solution: PatchSolution) -> dict[str, Any]:
-    """Return spin, losses, torques and all errors by key."""
-    errors = {name: _plain(value) for name, value in solution.error.items()}
-    errors |= {
-        "friction_resistance": solution.friction_resistance_error,
-        "rolling_resistance": solution.rolling_resistance_error,
-    }
-    return {
-        "spin": solution.patch.spin,
-        "friction_resistance": solution.friction_resistance,
-        "rolling_resistance": solution.rolling_resistance,
-        "dissipation_friction": solution.dissipation_friction,
-        "dissipation_viscous": solution.dissipation_viscous,
-        "torque_upper": solution.torque_upper,
-        "torque_lower": solution.torque_lower,
-        "error": errors,
-    }
-
-
 def fields_of(solution: PatchSolution) -> dict[str, Array]:
     """Return the fields over the grid by name, (ny, nx) each."""
-    slip_x, slip_y = solution.slip
-    return {
-        "pressure": solution.pressure,
-        "shear_x": solution.shear_x,
-        "shear_y": solution.shear_y,
-        "slip_x": slip_x,
-        "slip_y": slip_y,
-        "gap": solution.gap,
-        "state": solution.state.astype(float),
-    }
+    return {key: getattr(solution, key).astype(float) for key in PATCH_FIELDS}
 
 
 def patch_lines(solution: PatchSolution) -> Iterator[str]:
@@ -116,42 +58,83 @@ def patch_lines(solution: PatchSolution) -> Iterator[str]:
     yield f"  {solution.status}"
     grid = solution.grid
     yield f"  {'grid':22s} {grid.nx} x {grid.ny} rectangles"
-    for name in _shown(solution):
-        value, error = solution.figures[name], solution.error[name]
-        unit = f" {UNITS[name]}" if UNITS[name] else ""
-        shown = 0.0 if abs(value) <= error and name not in _ALWAYS else value
-        yield f"  {name.replace('_', ' '):22s} {shown:12.5g}{unit}  (+- {error:.1g})"
-    yield from _loss_lines(solution)
+    for one in PATCH_FIGURES.values():
+        if is_shown(one, solution):
+            yield f"  {one.label:22s} {_shown(one, solution)}"
     for warning in solution.warnings:
         yield f"  note: {warning}"
 
 
-def _shown(solution: PatchSolution) -> list[str]:
-    """Return the names of figures that mean something: not all do without friction or losses."""
-    names = list(_ALWAYS if solution.patch.friction == 0.0 else FIGURES[:-2])
-    return names + (list(_LOSSES) if solution.patch.is_viscoelastic else [])
+def _shown(figure: Any, solution: PatchSolution) -> str:
+    """Return a figure in the unit shown with its error; 0 where the error is larger."""
+    value, error = figure.value(solution), figure.error(solution)
+    unit = figure.shown_unit or ("" if figure.unit == "1" else figure.unit)
+    unit = f" {unit}" if unit else ""
+    if error is None:
+        return f"{value * figure.factor:12.5g}{unit}"
+    shown = 0.0 if abs(value) <= error and figure.when != "always" else value
+    return f"{shown * figure.factor:12.5g}{unit}  (+- {error * figure.factor:.1g})"
 
 
-def _loss_lines(solution: PatchSolution) -> Iterator[str]:
-    off = f"N  (+- {solution.rolling_resistance_error:.1g})"
-    if solution.patch.friction > 0.0:
-        yield f"  {'spin':22s} {solution.patch.spin:12.5g} 1/mm"
-        slips = float(np.mean(solution.state[solution.pressure > 0.0] == 2))
-        yield f"  {'slips':22s} {100.0 * slips:12.3g} % of the patch"
-        yield f"  {'friction resistance':22s} {solution.friction_resistance:12.5g} {off}"
-    if solution.patch.is_viscoelastic:
-        yield f"  {'rolling resistance':22s} {solution.rolling_resistance:12.5g} {off}"
-    for name, power in (
-        ("friction power", solution.dissipation_friction),
-        ("viscous power", solution.dissipation_viscous),
-    ):
-        if power is not None:
-            yield f"  {name:22s} {1e-3 * power:12.5g} W"
+def stress_rows(field: PatchStress) -> list[dict[str, float]]:
+    """Return the largest stresses at each depth, and where in the plane von Mises' is largest."""
+    rows = []
+    for i, z in enumerate(field.z):
+        worst = field.von_mises[i]
+        j, k = np.unravel_index(int(np.argmax(worst)), worst.shape)
+        rows.append(
+            {
+                "z": float(z),
+                "von_mises": float(worst[j, k]),
+                "x": float(field.x[k]),
+                "y": float(field.y[j]),
+                "max_shear": float(field.max_shear[i].max()),
+                "largest_tension": float(field.principal[0, i].max()),
+                "largest_compression": float(-field.principal[2, i].min()),
+                "bond_shear": float(np.hypot(field.s_xz[i], field.s_yz[i]).max()),
+            }
+        )
+    return rows
 
 
-def _plain(value: float) -> float | None:
-    return float(value) if isfinite(value) else None
+def stress_lines(title: str, side: str, rows: list[dict[str, float]]) -> Iterator[str]:
+    """Yield the largest stresses at each depth, line by line."""
+    yield title or "Patch"
+    yield f"  largest stresses in the {side} roller [MPa]; von Mises' at (x, y)"
+    yield "  depth [mm]  von Mises       x       y  max shear  tension  compression  bond shear"
+    for row in rows:
+        yield (
+            f"  {row['z']:10.4g}  {row['von_mises']:9.4g}  {row['x']:6.3g}  {row['y']:6.3g}"
+            f"  {row['max_shear']:9.4g}  {row['largest_tension']:7.3g}"
+            f"  {row['largest_compression']:11.4g}  {row['bond_shear']:10.4g}"
+        )
+
+
+def end_dict(end: FaceEnd) -> dict[str, Any]:
+    """Return the end of a face as plain values: lists over the distance from it."""
+    return {
+        "line_load": end.line_load,
+        "added_length": end.added_length,
+        "error": {"added_length": end.error},
+        "distance": end.distance.tolist(),
+        "load": end.load.tolist(),
+        "peak_pressure": end.peak_pressure.tolist(),
+    }
+
+
+def end_lines(end: FaceEnd) -> Iterator[str]:
+    """Yield the end of a face, line by line."""
+    yield f"Line load far from the end: {end.line_load:.4g} N/mm"
+    yield f"Length that the end adds to the load: {end.added_length:.3g} mm (+- {end.error:.1g})"
+    yield "  distance [mm]  load  peak pressure (over those far from the end)"
+    for share in _ENDS:
+        i = int(np.searchsorted(end.distance, share * end.distance[-1]))
+        yield f"  {end.distance[i]:13.3g}  {end.load[i]:4.2f}  {end.peak_pressure[i]:13.2f}"
+
+
+_ENDS = (0.0, 0.01, 0.02, 0.04, 0.07, 0.1, 0.15, 0.2, 0.3, 0.5, 1.0)
+"""Places of the summary over the longest distance."""
 
 
 def _rows(field: Array) -> list[list[float | None]]:
-    return [[_plain(value) for value in row] for row in field.tolist()]
+    return [[float(v) if isfinite(v) else None for v in row] for row in field.tolist()]

@@ -35,8 +35,9 @@ class PatchSolution:
     ----------
     patch : the problem.
     level : the solution on the finest grid.
-    error : of each figure, in its own unit; from the change of the figure from the next coarser
-        grid. For what has a sign (tractions, moment, creepages) it is absolute too.
+    grid_error : of each figure measured on the grid, in its own unit; from the change of the figure
+        from the next coarser grid. For what has a sign (tractions, moment, creepages) it is
+        absolute too.
     tolerance : relative accuracy that was wanted.
     converged : whether all iterations settled and all errors are within the tolerance.
     status : one sentence on what was reached.
@@ -45,7 +46,7 @@ class PatchSolution:
 
     patch: Patch
     level: Level = field(repr=False)
-    error: dict[str, float]
+    grid_error: dict[str, float]
     tolerance: float
     converged: bool
     status: str
@@ -95,6 +96,16 @@ class PatchSolution:
         if self.level.rolling is None:
             return np.zeros((2, *self.pressure.shape))
         return -self.level.rolling.creep
+
+    @property
+    def slip_x(self) -> Array:
+        """Slip velocity over V along x, (ny, nx)."""
+        return np.asarray(self.slip[0])
+
+    @property
+    def slip_y(self) -> Array:
+        """Slip velocity over V along y, (ny, nx)."""
+        return np.asarray(self.slip[1])
 
     @cached_property
     def state(self) -> IntArray:
@@ -192,28 +203,33 @@ class PatchSolution:
         return given
 
     @property
-    def rolling_resistance_error(self) -> float:
-        """Difference of the rolling resistance to both losses, each by itself [N].
-
-        They are the viscous resistance and the sum of shear times slip.
-        """
-        lost = -float(np.sum(self.level.shear * self.slip)) * self.grid.element
-        return abs(lost + self.viscous_resistance - self.rolling_resistance)
-
-    @property
     def friction_resistance(self) -> float:
-        """Power that slip turns into heat over the rolling speed [N]: what is not lost inside.
-
-        Its error is that of the rolling resistance.
-        """
+        """Power that slip turns into heat over the rolling speed [N]: what is not lost inside."""
         if self.level.rolling is None:
             return 0.0
         return max(self.rolling_resistance - self.viscous_resistance, 0.0)
 
     @property
-    def friction_resistance_error(self) -> float:
-        """Error of the friction resistance [N]; 0 without friction."""
-        return 0.0 if self.level.rolling is None else self.rolling_resistance_error
+    def spin(self) -> float:
+        """Rotation about the normal per length rolled [1/mm]."""
+        return self.patch.spin
+
+    @property
+    def slip_share(self) -> float:
+        """Share of the patch that slips."""
+        return float(np.mean(self.state[self.pressure > 0.0] == 2))
+
+    @cached_property
+    def error(self) -> dict[str, float]:
+        """Estimated error of each figure, in its own unit.
+
+        That of the resistances is the difference of all power put in to both losses, each by
+        itself: the viscous resistance and the sum of shear times slip.
+        """
+        lost = -float(np.sum(self.level.shear * self.slip)) * self.grid.element
+        off = abs(lost + self.viscous_resistance - self.rolling_resistance)
+        slips = 0.0 if self.level.rolling is None else off
+        return self.grid_error | {"friction_resistance": slips, "rolling_resistance": off}
 
     @property
     def torque_upper(self) -> float | None:

@@ -17,6 +17,9 @@ from rollnip.patch.solution import PatchSolution
 from rollnip.patch.tables import PairTables
 from rollnip.patches import Force, Patch
 
+PATCH_TOLERANCE = 5e-3
+"""Relative accuracy where none is wanted."""
+
 _SEARCH = 32
 """Rectangles along each side while the place of the patch is looked for."""
 _FIRST = 32
@@ -39,7 +42,7 @@ Box = tuple[Span, Span]
 def solve_patch(
     patch: Patch,
     *,
-    tolerance: float = 5e-3,
+    tolerance: float = PATCH_TOLERANCE,
     grid: tuple[int, int] | None = None,
     strict: bool = False,
 ) -> PatchSolution:

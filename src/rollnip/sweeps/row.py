@@ -15,7 +15,11 @@ from rollnip.figures import CLAIMED, FIGURES
 from rollnip.heat import HeatSolution, solve_heat
 from rollnip.heat.report import HEAT_SCALARS, heat_scalar
 from rollnip.influence import KernelCache
-from rollnip.io import Case, case_hash, parse_case
+from rollnip.io import Case, case_hash
+from rollnip.io.patch_case import PatchCase, any_case, patch_hash
+from rollnip.patch import PATCH_TOLERANCE, PatchSolution, solve_patch
+from rollnip.patch.figures import CLAIMED as PATCH_CLAIMED
+from rollnip.patch.figures import PATCH_FIGURES
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.solution import Solution
 from rollnip.solver import solve
@@ -33,9 +37,12 @@ SCALARS: Mapping[str, str] = {
     "solver.geometry_change": "1",
     **{f"face.{key}": one.unit for key, one in {**FACE_FIGURES, **SHEET_FACE_FIGURES}.items()},
     **{f"heat.{key}": unit for key, unit in HEAT_SCALARS.items()},
+    **{f"patch.{key}": figure.unit for key, figure in PATCH_FIGURES.items()},
+    **{f"patch.error.{key}": figure.unit for key, figure in PATCH_CLAIMED.items()},
 }
 """Every scalar of the result with its unit; ``error.load`` is the key ``load`` of ``error``.
-Those of face, heat and sheet are None for a case without them."""
+Those of face, heat and sheet are None for a case without them; a case with a patch has those of
+``patch`` alone."""
 
 STATUSES = ("solved", "unverified", "refused", "failed", "lost")
 """What became of a case; only of the first two there are numbers. "lost" is of sweeps alone: the
@@ -94,7 +101,7 @@ class Ready:
     refusal : the row that says why it is none; else None.
     """
 
-    case: Case | None = None
+    case: Case | PatchCase | None = None
     name: str | None = None
     refusal: Row | None = None
 
@@ -102,8 +109,8 @@ class Ready:
 def ready(make: Callable[[], Mapping[str, Any]]) -> Ready:
     """Read the case whose tree ``make`` returns; what either raises is a message in a row."""
     try:
-        case = parse_case(make(), source=_NAME)
-        return Ready(case, case_hash(case))
+        case = any_case(make(), _NAME)
+        return Ready(case, patch_hash(case) if isinstance(case, PatchCase) else case_hash(case))
     except Exception as error:  # noqa: BLE001 - a fault in one case must not end a thousand others
         return Ready(refusal=_row_of(error))
 
@@ -115,6 +122,9 @@ def solved(one: Ready, kernels: KernelCache | None = None) -> tuple[Row, Solutio
         return one.refusal, None
     try:
         case = one.case
+        if isinstance(case, PatchCase):
+            wanted = case.tolerance or PATCH_TOLERANCE
+            return patch_row(solve_patch(case.patch, tolerance=wanted, grid=case.grid)), None
         solution = solve(case.nip, case.model, cache=kernels, on_failure="return")
         along = warm = None
         if case.face is not None:
@@ -153,6 +163,20 @@ def scalars(
     return row | {"warnings": " ".join(lines)}
 
 
+def patch_row(solution: PatchSolution) -> Row:
+    """The row of a patch, as `evaluate` returns it."""
+    row: Row = {
+        "status": "solved" if solution.converged else "unverified",
+        "message": "" if solution.converged else solution.status,
+        "converged": solution.converged,
+        "geometry": "linear",
+    }
+    row |= dict.fromkeys(SCALARS)
+    row |= {f"patch.{key}": one.value(solution) for key, one in PATCH_FIGURES.items()}
+    row |= {f"patch.error.{key}": one.error(solution) for key, one in PATCH_CLAIMED.items()}
+    return row | {"warnings": " ".join(solution.warnings)}
+
+
 def _value(
     solution: Solution, along: FaceSolution | None, warm: HeatSolution | None, name: str
 ) -> float | None:
@@ -166,6 +190,8 @@ def _value(
     if table == "face":
         figure = None if along is None else figures_of(along).get(key)
         return None if figure is None else figure.value(along)
+    if table == "patch":
+        return None
     if table == "error":
         return CLAIMED[key].error(solution)
     if table == "heat":

@@ -15,15 +15,20 @@ import numpy as np
 from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
 from rollnip._units import Dimension, base_unit, parse_quantity
 from rollnip.figures import PROFILES
-from rollnip.io import Columns, dimension_at, parse_case, read_columns, value_at
+from rollnip.io import Columns, dimension_at, read_columns, value_at
 from rollnip.io.document import read_document
+from rollnip.io.patch_case import any_case
 from rollnip.io.study import ParameterTable, StudyTable, parse_study
 from rollnip.sweeps.row import SCALARS
 from rollnip.sweeps.sampling import Range, samples
 from rollnip.sweeps.study import Axis, Column, Study
 
 MOST_CASES = 10**8
-_EITHER = (("nip.load", "nip.approach"), ("nip.traction", "nip.creepage", "nip.torque_lower"))
+_EITHER = (
+    ("nip.load", "nip.approach"),
+    ("nip.traction", "nip.creepage", "nip.torque_lower"),
+    ("nip.lateral_traction", "nip.lateral_creepage"),
+)
 
 
 def read_study(study: str | Path | Mapping[str, Any]) -> Study:
@@ -66,15 +71,27 @@ class _Reader:
             tree=self.case,
             axes=axes,
             results=self._names("results", self.table.results, self._scalars()),
-            profiles=self._names("profiles", self.table.profiles or [], PROFILES),
+            profiles=self._profiles(),
             source=self.source,
         )
         self._check_cases(study)
         return study
 
+    def _profiles(self) -> tuple[str, ...]:
+        """Return the distributions that are wanted; a patch has none over x alone."""
+        if "patch" in self.case and self.table.profiles:
+            raise self._wrong("profiles: must be left out where the case has a table [patch].")
+        return self._names("profiles", self.table.profiles or [], PROFILES)
+
     def _scalars(self) -> dict[str, str]:
-        """Return the results that cases have: those of face, heat and sheet where there is one."""
-        absent = [f"{table}." for table in ("face", "heat", "sheet") if table not in self.case]
+        """Return the results that cases have: of face, heat and sheet where there is one.
+
+        A case with a patch has those of its patch alone.
+        """
+        if "patch" in self.case:
+            return {name: unit for name, unit in SCALARS.items() if name.startswith("patch.")}
+        tables = ("face", "heat", "patch", "sheet")
+        absent = [f"{table}." for table in tables if table not in self.case]
         return {
             name: unit
             for name, unit in SCALARS.items()
@@ -244,7 +261,7 @@ class _Reader:
         refused = []
         for position in (0, study.count - 1):
             try:
-                parse_case(study.case(position), source=f"{self.case_source} (case {position})")
+                any_case(study.case(position), f"{self.case_source} (case {position})")
             except InvalidInputError as error:
                 raise self._wrong(f"parameters: {error}") from None
             except CaseFileError as error:

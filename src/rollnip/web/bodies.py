@@ -84,6 +84,13 @@ class CrownBody(Body):
     )
 
 
+class RunawayBody(Body):
+    """A request for the steady states of a warm nip over its speed or load."""
+
+    case: Case
+    parameter: Literal["speed", "load"] = "speed"
+
+
 class TomlBody(Body):
     """The text of a case file."""
 

@@ -9,7 +9,7 @@ from contextlib import asynccontextmanager
 from typing import Any, TypeGuard
 
 from rollnip.web.answers import RefusedError, Reply, json_bytes
-from rollnip.web.bodies import CrownBody, FindBody, InteriorBody, KnownBody, SweepBody
+from rollnip.web.bodies import CrownBody, FindBody, InteriorBody, KnownBody, RunawayBody, SweepBody
 from rollnip.web.limits import Limits
 from rollnip.web.patches import is_coarse
 from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError
@@ -82,12 +82,7 @@ class Desk:
 
     async def find(self, body: FindBody) -> Reply:
         """The size of one value that gives a wanted figure. Raises RefusedError."""
-        async with self._long_task(), self._gate:
-            seconds = self._limits.long_seconds
-            try:
-                return await self.pool.run("find", body.model_dump(), seconds, patient=True)
-            except (OverloadedError, TimeLimitError, WorkerError) as error:
-                raise _refused(error, seconds) from None
+        return await self._long_answer("find", body.model_dump())
 
     async def known(self, body: KnownBody) -> Reply:
         """Return what is known about the figures of a case. Raises RefusedError."""
@@ -109,10 +104,26 @@ class Desk:
 
     async def crown(self, body: CrownBody) -> Reply:
         """Find the crown that evens out the load along the face. Raises RefusedError."""
+        return await self._long_answer("crown", body.model_dump())
+
+    async def heat(self, case: Mapping[str, Any]) -> Reply:
+        """Solve a case and the temperatures of its rollers. Raises RefusedError."""
+        return await self._long_answer("heat", {"case": case})
+
+    async def warm_up(self, case: Mapping[str, Any]) -> Reply:
+        """Warm the rollers of a case up. Raises RefusedError."""
+        return await self._long_answer("warm-up", {"case": case})
+
+    async def runaway(self, body: RunawayBody) -> Reply:
+        """Follow the steady states of a warm nip to its runaway. Raises RefusedError."""
+        return await self._long_answer("runaway", body.model_dump())
+
+    async def _long_answer(self, name: str, body: Mapping[str, Any]) -> Reply:
+        """Do one long task, beside which a worker stays free. Raises RefusedError."""
         async with self._long_task(), self._gate:
             seconds = self._limits.long_seconds
             try:
-                return await self.pool.run("crown", body.model_dump(), seconds, patient=True)
+                return await self.pool.run(name, body, seconds, patient=True)
             except (OverloadedError, TimeLimitError, WorkerError) as error:
                 raise _refused(error, seconds) from None
 

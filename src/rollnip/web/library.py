@@ -12,7 +12,8 @@ from typing import Any, get_args
 
 from rollnip._units import Dimension, base_unit, conversions
 from rollnip.figures import FIGURES, ROUNDING, Figure
-from rollnip.materials import shore_a_band, shore_a_modulus
+from rollnip.materials import SOURCES as THERMAL_SOURCES
+from rollnip.materials import TYPICAL, shore_a_band, shore_a_modulus
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sheets import SHEETS, Sheet
 from rollnip.web.answers import as_json
@@ -34,6 +35,10 @@ _SHOWN: dict[Dimension, tuple[str, str]] = {
     "frequency": ("Hz", "Hz"),
     "angle": ("deg", "deg"),
     "density": ("kg/m3", "lb/in3"),
+    "thermal conductivity": ("W/(m K)", "BTU/(h ft degF)"),
+    "heat capacity": ("J/(kg K)", "BTU/(lb degF)"),
+    "film coefficient": ("W/(m2 K)", "BTU/(h ft2 degF)"),
+    "thermal expansion": ("ppm/K", "1/degF"),
     "turn per length": ("1/m", "1/in"),
 }
 # Dimensions and totals of results alone: [unit, scale] of the metric and the US page.
@@ -122,6 +127,7 @@ def figures_module() -> str:
         "FIGURES": [_figure(FIGURES[key]) for key in keys],
         "SHEET_FIGURES": [_figure(figure) for figure in SHEET_FIGURES.values()],
         "SHEETS": [{"name": name, "sheet": _sheet(sheet)} for name, sheet in SHEETS.items()],
+        "THERMALS": [{"name": name, "source": THERMAL_SOURCES[name]} for name in TYPICAL],
         "TOTALS": [
             {"key": one.name, "label": f"{_capital(one.label)}, whole face"}
             | {"units": _SHOWN_TOTALS[one.total.unit]}

@@ -24,6 +24,7 @@ from rollnip.web.bodies import (
     PatchCase,
     QuantityBody,
     Refusal,
+    RunawayBody,
     SweepBody,
     TomlBody,
     Version,
@@ -104,6 +105,24 @@ async def face(request: Request, case: CaseBody) -> Response:
 async def crown(request: Request, body: CrownBody) -> Response:
     """The crown of one roller that evens out the load along the face, and the loads it serves."""
     return await _answer(request, _desk(request).crown(body))
+
+
+@posts.post("/heat", response_model=dict[str, Any])
+async def heat(request: Request, case: CaseBody) -> Response:
+    """Temperatures of both rollers, powers, and the warm nip; the case holds [heat]."""
+    return await _answer(request, _desk(request).heat(case))
+
+
+@posts.post("/warm-up", response_model=dict[str, Any])
+async def warm_up(request: Request, case: CaseBody) -> Response:
+    """Temperatures of both rollers over time, from the start of the case."""
+    return await _answer(request, _desk(request).warm_up(case))
+
+
+@posts.post("/runaway", response_model=dict[str, Any])
+async def runaway(request: Request, body: RunawayBody) -> Response:
+    """The steady states over speed or load, and how far the case is from thermal runaway."""
+    return await _answer(request, _desk(request).runaway(body))
 
 
 @posts.post("/patch", response_model=dict[str, Any])

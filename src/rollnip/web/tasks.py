@@ -36,6 +36,7 @@ from rollnip.solver import solve
 from rollnip.sweeps import scalars
 from rollnip.web.answers import SOURCE, Reply, as_json, error_tree, json_bytes, refusal
 from rollnip.web.faces import Faces
+from rollnip.web.heats import Heats
 from rollnip.web.known import JUDGED, at_end, bands, is_judged, spread
 from rollnip.web.library import Library
 from rollnip.web.limits import Limits
@@ -80,6 +81,7 @@ class Tasks:
         self._kept: OrderedDict[str, Solution] = OrderedDict()
         self._kernels = KernelCache()
         self._faces = Faces(self._kernels)
+        self._heats = Heats(self._kernels)
         self._library: Library | None = None
         self._tasks: dict[str, Callable[[Body], Reply]] = {
             "solve": self._solve,
@@ -90,6 +92,9 @@ class Tasks:
             "known": self._known,
             "face": self._face,
             "crown": self._crown,
+            "heat": self._heat,
+            "warm-up": self._warm_up,
+            "runaway": self._runaway,
             "patch": self._patch,
             "case": self._case,
             "toml": self._toml,
@@ -209,6 +214,19 @@ class Tasks:
     def _crown(self, body: Body) -> Reply:
         case = self._read(body["case"])
         tree = self._faces.crown(case, body["roller"], body["within"])
+        return Reply(200, json_bytes(tree), case_hash(case))
+
+    def _heat(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        return Reply(200, json_bytes(self._heats.steady(case)), case_hash(case))
+
+    def _warm_up(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        return Reply(200, json_bytes(self._heats.warm_up(case)), case_hash(case))
+
+    def _runaway(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        tree = self._heats.runaway(case, body["parameter"])
         return Reply(200, json_bytes(tree), case_hash(case))
 
     def _patch(self, body: Body) -> Reply:

@@ -30,7 +30,7 @@ const REFUSALS = {
   preview: "refuse.computing",
 };
 
-/** Actions on `this.store`, `this.snapshot`, `this.tabs`, `this.faces`, `this.printing`. */
+/** Actions on `this.store`, `this.snapshot`, `this.tabs`, `this.faces`, `this.heats`, `this.printing`. */
 export class Actions {
   /** Open a case from anywhere; the one at hand can be had back with undo. */
   async open(tree, title = null) {
@@ -144,14 +144,15 @@ export class Actions {
     });
   }
 
-  /** {tree, result, face, ...} of the design at hand. Throws where what is shown is not its answer. */
+  /** {tree, result, face, heat, ...} of the design at hand. Throws where what is shown is not its answer. */
   get answer() {
     const standing = this.standing();
     if (standing !== "settled") throw new Error(say(REFUSALS[standing]));
     const { tree } = this.snapshot;
-    const face = this.faces.of(tree);
-    if (!this.faces.isDone(tree)) throw new Error(say("refuse.computing"));
-    return { ...this.snapshot, face };
+    const askers = [this.faces, this.heats];
+    if (!askers.every((asker) => asker.isDone(tree))) throw new Error(say("refuse.computing"));
+    const [face, heat] = askers.map((asker) => asker.of(tree));
+    return { ...this.snapshot, face, heat };
   }
 
   /** The same with the surfaces as computed. */
@@ -173,9 +174,9 @@ export class Actions {
   /** Everything that was computed, as the command line gives it, with the case and what is known. */
   async saveJson() {
     await this.attempt(say("json.failed"), async () => {
-      const { tree, known, face } = this.answer;
+      const { tree, known, face, heat } = this.answer;
       const result = await post("/api/solve", tree);
-      const text = JSON.stringify({ case: tree, result, known, ...(face ? { face } : {}) }, null, 1);
+      const text = JSON.stringify({ case: tree, result, known, ...(face ? { face } : {}), ...(heat ? { heat } : {}) }, null, 1);
       download(fileName(tree, "json"), text, "application/json");
     });
   }

@@ -10,6 +10,8 @@ import { button, byId, toast } from "./dom.js";
 import { Drawings } from "./drawings.js";
 import { sameNip } from "./face.js";
 import { FACE_ROUTE } from "./faceview.js";
+import { bareMaterial } from "./heat.js";
+import { HEAT_ROUTE } from "./heatview.js";
 import { wireHeader } from "./header.js";
 import { Inputs } from "./inputs.js";
 import { examplesDialog } from "./menus.js";
@@ -60,8 +62,9 @@ export class App extends Actions {
       busy: (yes) => this.busy(yes),
     });
     this.inputs = new Inputs(byId("inputs"), this);
+    this.faces = new Asker(this, FACE_ROUTE, () => this.told("face", this.faces));
+    this.heats = new Asker(this, HEAT_ROUTE, () => this.told("heat", this.heats));
     this.patches = new PatchRunner(this, () => this.patchTold());
-    this.faces = new Asker(this, FACE_ROUTE, () => this.faceTold());
     this.drawings = new Drawings(byId("drawings"), this);
     this.tabs = new Tabs(viewsOf(this), this);
     this.examples = examplesDialog(examples, (example) => this.open(example.case, example.title));
@@ -159,7 +162,7 @@ export class App extends Actions {
 
   /** The entry of the library that a material is, if any. */
   libraryEntry(material) {
-    return this.library.find((entry) => same(entry.material, material));
+    return this.library.find((entry) => same(entry.material, bareMaterial(material)));
   }
 
   /** Something changed: ask for the answer, or only show anew. */
@@ -292,16 +295,16 @@ export class App extends Actions {
     this.stand();
   }
 
-  /** The complaints of the server, about the nip and about its face, at their inputs. */
+  /** The complaints of the server, about the nip, its face and its heat, at their inputs. */
   complainAt() {
-    const face = this.faces.failureOf(this.store.state.case)?.details ?? [];
-    this.inputs.complain([...(this.failure?.error.details ?? []), ...face]);
+    const { case: tree } = this.store.state;
+    const others = [this.faces, this.heats].flatMap((asker) => asker.failureOf(tree)?.details ?? []);
+    this.inputs.complain([...(this.failure?.error.details ?? []), ...others]);
   }
 
-  /** The face of the design at hand is there, is refused, or is not there yet. */
-  faceTold() {
-    const { case: tree } = this.store.state;
-    document.documentElement.dataset.face = this.faces.isDone(tree) ? "rest" : "waiting";
+  /** The face or the heat of the design at hand is there, is refused, or is not there yet. */
+  told(what, asker) {
+    document.documentElement.dataset[what] = asker.isDone(this.store.state.case) ? "rest" : "waiting";
     this.complainAt();
     this.tabs.open.refresh?.();
   }

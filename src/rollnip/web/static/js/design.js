@@ -1,6 +1,7 @@
 // What a design is: the tree of a case file with plain numbers (mm, N, MPa, s). Pure functions.
 
 import { byMeanLoad, shaftOf } from "./face.js";
+import { coolingOf, warmedAs } from "./heat.js";
 import { getAt, setAt, steps } from "./paths.js";
 import { sheetOf } from "./sheet.js";
 import { say } from "./texts.js";
@@ -71,7 +72,8 @@ export function designOf(tree) {
     const layers = (side.layers ?? []).map((layer) => ({ ...layer, material: material(layer.material) }));
     const core = side.core === undefined || side.core === RIGID ? {} : { core: material(side.core) };
     const shaft = side.shaft ? { shaft: shaftOf(side.shaft) } : {};
-    return { ...side, core: undefined, ...core, layers, ...shaft };
+    const heat = side.heat ? { heat: coolingOf(side.heat) } : {};
+    return { ...side, core: undefined, ...core, layers, ...shaft, ...heat };
   };
   const { materials: _named, ...rest } = tree;
   const sheet = tree.sheet ? { sheet: sheetOf(tree.sheet) } : {};
@@ -162,7 +164,7 @@ export function materialAs(model, old) {
     },
     "loss-factor": { model: "loss-factor", modulus, loss_factor: 0.1, poisson },
   };
-  return made[model];
+  return warmedAs(made[model], old);
 }
 
 function term(modulus, time) {

@@ -1,5 +1,6 @@
 // The nip along its rollers: what a design holds of it. Pure functions.
 
+import { withoutHeat } from "./heat.js";
 import { getAt, same, setAt } from "./paths.js";
 
 export const SIDES = ["upper", "lower"];
@@ -70,13 +71,13 @@ export function coreDiameter({ radius, layers }) {
   return 2 * layers.reduce((rest, { thickness }) => rest - thickness, radius);
 }
 
-/** Whether two designs have the same cross-section under the same load, whatever bends. */
+/** Whether two designs have the same cold cross-section under the same load, whatever bends. */
 export function sameNip(one, two) {
   return same(sectionOf(one), sectionOf(two));
 }
 
 function sectionOf(tree) {
-  const { face: _face, title: _title, ...rest } = tree;
+  const { face: _face, title: _title, ...rest } = withoutHeat(tree);
   const bare = SIDES.reduce((one, side) => setAt(one, `${side}.shaft`, undefined), rest);
   return { ...bare, mean: meanLoad(tree) };
 }

@@ -6,6 +6,8 @@ import { pairPicture, words } from "./drawing.js";
 import { svg } from "./dom.js";
 import { facePaths } from "./face.js";
 import { faceRows } from "./faceview.js";
+import { heatPaths } from "./heat.js";
+import { heatRows } from "./heatview.js";
 import { bandOf } from "./known.js";
 import { getAt } from "./paths.js";
 import { ANSWERS, faceLabel, flat, inputAt, inputsOf, totalsOf } from "./quantities.js";
@@ -53,7 +55,7 @@ export function profilesCsv(result, units) {
 }
 
 /** The key figures as CSV: with what is known about each, the inputs, the model, the warnings. */
-export function figuresCsv({ tree, result, known, face }, units) {
+export function figuresCsv({ tree, result, known, face, heat }, units) {
   const all = flat(result);
   const shown = ANSWERS.filter(({ key }) => all[key] !== null && all[key] !== undefined);
   const rows = shown.map(({ key, label, dimension }) => {
@@ -69,26 +71,37 @@ export function figuresCsv({ tree, result, known, face }, units) {
     return [say("csv.input", { label }), plainNumber(value), units.of(dimension).name];
   });
   const along = face ? faceRows(face, units).map(({ label, text, unit }) => [label, text, unit]) : [];
-  const shafts = facePaths(tree).map((path) => {
+  const warm = heat?.converged ? heatLines(heat, tree, units) : [];
+  const others = [...facePaths(tree), ...heatPaths(tree)].map((path) => {
     const { dimension, factor } = inputAt(path, tree);
     const value = plainNumber(units.shown(getAt(tree, path) * factor, dimension));
     return [say("csv.input", { label: faceLabel(path, tree) }), value, units.of(dimension).name];
   });
-  const warnings = [...result.warnings, ...(face?.warnings ?? [])].map((text, i) => [say("csv.warning", { number: i + 1 }), text]);
+  const warnings = [...result.warnings, ...(face?.warnings ?? []), ...(heat?.warnings ?? [])].map((text, i) => [say("csv.warning", { number: i + 1 }), text]);
   return table(
     [
       [say("csv.figure"), say("csv.value"), say("csv.unit"), say("csv.error"), say("csv.low"), say("csv.high")],
       ...rows,
       ...totals,
       ...along,
+      ...warm,
       [say("csv.converged"), String(result.converged)],
       [say("csv.geometry"), result.geometry],
       [say("csv.design"), nameOf(tree)],
       ...inputs,
-      ...shafts,
+      ...others,
       ...warnings,
     ].map((row) => [...row, ...Array(6 - row.length).fill("")]),
   );
+}
+
+/** The figures of heat, a line for each roller and for the cold and the warm nip. */
+function heatLines(heat, tree, units) {
+  const { temperatures, powers, nip } = heatRows(heat, tree, units);
+  const lines = (rows, heads) =>
+    rows.flatMap(({ label, cells }) => cells.map(({ text, unit }, i) => [`${label}, ${heads[i]}`, text, unit]));
+  const rollers = ["upper", "lower"].map((side) => say(`roller.${side}`));
+  return [...lines([...temperatures, ...powers], rollers), ...lines(nip, [say("heat.cold"), say("heat.warm")])];
 }
 
 /** A curve of a chart as CSV: a column for each line. */

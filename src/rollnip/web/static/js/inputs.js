@@ -4,6 +4,8 @@ import { driveBy, driving } from "./design.js";
 import { checkbox, el, select } from "./dom.js";
 import { faceGroup } from "./facegroup.js";
 import { Control } from "./control.js";
+import { heated } from "./heat.js";
+import { heatGroup } from "./heatgroup.js";
 import { idOf, setAt } from "./paths.js";
 import { choosePress, pressControls, pressKind, pressKinds } from "./press.js";
 import { coreEditor, rollerGroup, swapper } from "./rollers.js";
@@ -63,6 +65,7 @@ export class Inputs {
       this.runningGroup(tree),
       sheetGroup(tree, this),
       faceGroup(tree, this),
+      heatGroup(tree, this),
       this.advancedGroup(tree),
     );
     if (focused && document.activeElement?.id !== focused) document.getElementById(focused)?.focus();
@@ -86,8 +89,9 @@ export class Inputs {
     );
   }
 
+  /** Take a design; what a heat balance needs besides has usual values. */
   change(tree) {
-    this.app.store.design({ case: tree });
+    this.app.store.design({ case: heated(tree) });
   }
 
   /** Show what the server found wrong at the controls it belongs to. */

@@ -2,6 +2,7 @@
 
 import { kindOf, materialAs } from "./design.js";
 import { el, select } from "./dom.js";
+import { warmedAs } from "./heat.js";
 import { rangeText } from "./known.js";
 import { getAt, idOf, setAt } from "./paths.js";
 import { rowsEditor } from "./rows.js";
@@ -137,9 +138,10 @@ class Choice {
   chosen(value) {
     const named = ({ name }) => LIBRARY + name === value || FAMILY + name === value;
     const entry = [...this.app.families, ...this.app.library].find(named);
-    if (!entry) return materialAs(value, getAt(this.app.store.state.case, this.path));
-    const { shore_a: now } = getAt(this.app.store.state.case, this.path);
-    const made = structuredClone(entry.material);
+    const old = getAt(this.app.store.state.case, this.path);
+    if (!entry) return materialAs(value, old);
+    const { shore_a: now } = old;
+    const made = warmedAs(structuredClone(entry.material), old);
     return entry.family && now !== undefined ? { ...made, shore_a: now } : made;
   }
 }

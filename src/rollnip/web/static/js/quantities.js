@@ -200,6 +200,27 @@ const SHEET = {
   friction_lower: { label: say("sheet.friction-lower"), dimension: "ratio", low: 0.02, high: 2 },
 };
 
+const DEGREES = { dimension: "temperature", low: -20, high: 150 };
+const FILM = { label: say("heat.film"), dimension: "film coefficient", low: 1, high: 2000, log: true, hint: say("hint.film") };
+const THERMAL = {
+  conductivity: { label: say("heat.conductivity"), dimension: "thermal conductivity", low: 0.05, high: 400, log: true },
+  density: { label: say("heat.density"), dimension: "density", low: 500, high: 12000 },
+  heat_capacity: { label: say("heat.capacity"), dimension: "heat capacity", low: 200, high: 3000 },
+  expansion: { label: say("heat.expansion"), dimension: "thermal expansion", low: 0, high: 0.0004 },
+};
+const COOLING = {
+  film: FILM,
+  core: { ...DEGREES, label: say("heat.held") },
+  "core.coolant": { ...DEGREES, label: say("heat.coolant") },
+  "core.film": { ...FILM, label: say("heat.inner-film"), hint: null, high: 20000 },
+  "shell.thickness": { label: say("heat.shell"), dimension: "length", low: 0.5, high: 100, log: true },
+};
+const HEAT = {
+  ambient: { ...DEGREES, label: say("heat.ambient"), high: 80 },
+  start: { ...DEGREES, label: say("heat.start") },
+  "sheet.temperature": { ...DEGREES, label: say("heat.entry") },
+};
+
 const POINTS = {
   temperature: { ...MATERIAL.temperature },
   factor: { label: say("input.factor"), dimension: "ratio", low: 1e-6, high: 1e6, log: true, hint: null },
@@ -211,13 +232,16 @@ export function inputAt(path, tree) {
   const start = { path, factor: 1 };
   if (path.startsWith("sheet.")) return { ...start, ...SHEET[path.slice(6)] };
   if (path.startsWith("face.")) return { ...start, ...FACE[path.slice(5)] };
+  if (path.startsWith("heat.")) return { ...start, ...(HEAT[path.slice(5)] ?? THERMAL[last]) };
+  const [, cooling] = path.match(/^(?:upper|lower)\.heat\.(.+)$/) ?? [];
+  if (cooling) return { ...start, ...(COOLING[cooling] ?? THERMAL[last]) };
   const [, shaft] = path.match(/\.shaft\.(.+)$/) ?? [];
   if (shaft) return { ...start, ...SHAFT[shaft] };
   if (path.startsWith("nip.")) return { ...start, ...NIP[last], ...tractionRange(last, tree) };
   if (path.includes(".points[")) return { ...start, ...POINTS[last] };
   if (path.includes(".terms[")) return { ...start, ...TERMS[last] };
   const hint = path === "upper.radius" ? say("hint.diameter") : null;
-  return { ...start, hint, ...(SIZES[last] ?? MATERIAL[last]) };
+  return { ...start, hint, ...(SIZES[last] ?? MATERIAL[last] ?? THERMAL[last]) };
 }
 
 function tractionRange(name, tree) {

@@ -5,6 +5,8 @@ import { svgOf } from "./charts.js";
 import { driving, kindOf, nameOf } from "./design.js";
 import { byId, el } from "./dom.js";
 import { facePaths } from "./face.js";
+import { heatPaths } from "./heat.js";
+import { heatTables } from "./heatview.js";
 import { bentPicture, printPicture } from "./facedrawing.js";
 import { faceRows } from "./faceview.js";
 import { drawingOf } from "./files.js";
@@ -81,6 +83,7 @@ export function fillReport(answer, units, palette, date) {
     ),
     el("div", { class: "two" }, ...pictures),
     ...faceParts(answer, units, palette),
+    ...heatParts(answer, units),
     el("h2", { text: say("report.assumptions") }),
     el("ul", {}, ...assumptionsOf(tree, result).map((text) => el("li", { text }))),
     ...warnings(result, units),
@@ -109,6 +112,15 @@ function faceParts({ tree, face }, units, palette) {
     el("p", { text: say("face.print", { times: number(print.times) }) }),
     el("ul", {}, ...sentenceItems(face.warnings, units)),
   ];
+}
+
+/** Heat: its inputs and its figures. */
+function heatParts({ tree, heat }, units) {
+  if (!heat) return [];
+  const inputs = heatPaths(tree).map((path) => row(tree, path, units, faceLabel(path, tree)));
+  const said = heat.converged ? heatTables(heat, tree, units) : [el("p", { class: "alarm", text: heat.status })];
+  const notes = heat.warnings.map((text) => el("li", { text }));
+  return [el("h2", { text: say("heat.title") }), table(inputs), ...said, el("ul", {}, ...notes)];
 }
 
 function assumptionsOf(tree, { geometry }) {

@@ -4,6 +4,8 @@ import { DE } from "./texts/de.js";
 import { EN } from "./texts/en.js";
 import { FACE_DE } from "./texts/face-de.js";
 import { FACE_EN } from "./texts/face-en.js";
+import { HEAT_DE } from "./texts/heat-de.js";
+import { HEAT_EN } from "./texts/heat-en.js";
 import { LIBRARY_DE } from "./texts/library-de.js";
 import { PATCH_DE } from "./texts/patch-de.js";
 import { PATCH_EN } from "./texts/patch-en.js";
@@ -12,8 +14,8 @@ import { SOLVER_EN } from "./texts/solver-en.js";
 import { remembered } from "./saved.js";
 
 const MESSAGES = {
-  en: { ...EN, ...FACE_EN, ...PATCH_EN, ...SOLVER_EN },
-  de: { ...DE, ...FACE_DE, ...PATCH_DE, ...SOLVER_DE, ...LIBRARY_DE },
+  en: { ...EN, ...FACE_EN, ...HEAT_EN, ...PATCH_EN, ...SOLVER_EN },
+  de: { ...DE, ...FACE_DE, ...HEAT_DE, ...PATCH_DE, ...SOLVER_DE, ...LIBRARY_DE },
 };
 const HOLE = /\{(\w+)\}/g;
 

@@ -3,7 +3,17 @@
 import { RESULT_UNITS } from "./figures.js";
 
 const DIGITS = 4;
-const WRITTEN = { degC: "°C", degF: "°F", "N m/m": "N·m/m", "lbf in/in": "lbf·in/in" };
+const WRITTEN = {
+  degC: "°C",
+  degF: "°F",
+  "N m/m": "N·m/m",
+  "lbf in/in": "lbf·in/in",
+  "W/(m2 K)": "W/(m² K)",
+  "BTU/(h ft2 degF)": "BTU/(h ft² °F)",
+  "BTU/(h ft degF)": "BTU/(h ft °F)",
+  "BTU/(lb degF)": "BTU/(lb °F)",
+  "1/degF": "1/°F",
+};
 
 /** Shows values of the base system in metric or US units. */
 export class Units {

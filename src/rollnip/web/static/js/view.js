@@ -11,6 +11,7 @@ export const VIEW = {
   measured: {}, // {modulus, band} by path of a material
   machine: { bore: 50, count: 2, ratio: 1 }, // cylinders that press [mm]
   face: { curve: "load", roller: "upper" },
+  heat: { parameter: "speed" },
   press: "load",
   keeps: { upper: "diameter", lower: "diameter" },
 };

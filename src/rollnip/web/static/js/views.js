@@ -4,6 +4,7 @@ import { CompareView } from "./compare.js";
 import { CurveView } from "./curves.js";
 import { FaceView } from "./faceview.js";
 import { FindView } from "./find.js";
+import { HeatView } from "./heatview.js";
 import { InsideView } from "./inside.js";
 import { MeasuredView } from "./measured.js";
 import { PatchView } from "./patchview.js";
@@ -19,6 +20,7 @@ export function viewsOf(app) {
     new CurveView("speed", say("tab.speed"), app),
     new CurveView("sheet", say("tab.sheet"), app),
     new FaceView(app),
+    new HeatView(app),
     new InsideView(app),
     new WhatIfView(app),
     new FindView(app),

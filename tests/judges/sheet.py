@@ -38,7 +38,8 @@ class Case:
     stretch: float  # strain of the sheet per tension, (1 - nu^2)/(E h) [mm/N]
     by_pressure: float = 0.0  # strain of the sheet per pressure [1/MPa]
     through: float = 0.0  # thickness over shear modulus [mm/MPa]
-    squeeze: float = 0.0  # loss of thickness per pressure [mm/MPa]
+    squeeze: float = 0.0  # loss of thickness per even pressure [mm/MPa]
+    thickness: float = 0.0  # over which a squeezed sheet carries its neighbours with it [mm]
     tensions: tuple[float, float] = (0.0, 0.0)  # inlet, outlet
     traction: float | None = 0.0  # T_l; None: the creepage is prescribed
     creepage: float = 0.0
@@ -93,6 +94,29 @@ def influence(layer: Covering | None, width: float, count: int) -> np.ndarray:
     out[:2, : count - 1] = out[:2, : count - 1 : -1]
     out[2, : count - 1] = -out[2, : count - 1 : -1]
     return out
+
+
+def thinning(case: Case, width: float, count: int) -> np.ndarray:
+    """Return the loss of thickness at distances -(count-1) ... count-1 elements, (2 count - 1,).
+
+    An elastic layer between equal pressures: its share of the springs' compliance is
+    (4/y) (cosh y - 1)/(sinh y + y) at y = k times the thickness, which goes as 4/y.
+    """
+    out = np.zeros(2 * count - 1)
+    if case.squeeze == 0.0:
+        return out
+    h = case.thickness
+    spacing = np.pi / (6.0 * count * width + 40.0 * h)
+    k = spacing * (np.arange(int(60.0 / (width * spacing))) + 0.5)
+    y = np.minimum(k * h, 300.0)
+    share = 4.0 / (k * h) * (np.cosh(y) - 1.0) / (np.sinh(y) + y)
+    element = 2.0 * np.sin(0.5 * k * width) / k
+    x = width * np.arange(count)
+    for block in np.array_split(np.arange(k.size), max(1, k.size * count // 4_000_000)):
+        cosine = np.cos(np.outer(x, k[block]))
+        out[count - 1 :] += cosine @ (spacing / np.pi * element[block] * share[block])
+    out[: count - 1] = out[: count - 1 : -1]
+    return case.squeeze * out
 
 
 def _toeplitz(row: np.ndarray, count: int) -> np.ndarray:
@@ -158,7 +182,7 @@ def _matrix(case, upper, lower, beyond, width):
     count = beyond.shape[0]
     (xx_u, zz_u, xz_u), (xx_l, zz_l, xz_l) = upper, lower
     out = np.zeros((3, count, 3, count))
-    out[0, :, 0] = zz_u + zz_l + case.squeeze * np.eye(count)
+    out[0, :, 0] = zz_u + zz_l + _toeplitz(thinning(case, width, count), count)
     out[0, :, 1], out[0, :, 2] = -xz_u, xz_l
     out[0, :, 1] -= case.by_pressure * (beyond + 0.5 * width * np.eye(count))
     out[0, :, 2] += case.by_pressure * (beyond + 0.5 * width * np.eye(count))
@@ -265,7 +289,7 @@ CASES = {
     ),
     "compressible": Case(
         (40.0, 30.0), (SOFT, RUBBER[1]), 1.2, (0.4, 0.3), stretch=0.02, by_pressure=0.001,
-        squeeze=0.05, tensions=(0.05, 0.1), traction=0.1,
+        squeeze=0.05, thickness=0.1167, tensions=(0.05, 0.1), traction=0.1,
     ),
     "one rigid": Case(
         (50.0, 20.0), (RUBBER[0], None), 1.78, (0.3, 0.3), tensions=(0.2, 0.0), **PAPER,

@@ -14,6 +14,7 @@ from rollnip.nip import Nip, Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
 from rollnip.rolling.largest import largest
+from rollnip.rolling.round import scale_of_creepage
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
@@ -65,7 +66,9 @@ def change_of(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState
     approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
     drift = new.offsets - old.offsets
     rough = max(sqrt(float(row @ (row / mesh.dx)) / (2.0 * half)) for row in drift)
-    changes = [float(np.abs(new.clearance - old.clearance).max()) / approach, rough / strain]
+    creepage = max(abs(state.creepage), abs(state.creepage_lower))
+    scale = scale_of_creepage(creepage, strain)
+    changes = [float(np.abs(new.clearance - old.clearance).max()) / approach, rough / scale]
     if new.traction is not None and old.traction is not None:
         load = float(mesh.weights @ state.pressure)
         changes.append(abs(new.traction - old.traction) / (strain * load))

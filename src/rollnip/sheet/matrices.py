@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.squeeze import squeezed
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -57,7 +58,10 @@ def influence(mesh: Mesh, sheet: Sheet, integrals: tuple[Array, Array]) -> Array
     by_pressure, sheared = sheet.stretch_by_pressure, sheet.shear_by_thickness
     hoop_u, hoop_l = mesh.kernels.hoops
     out = np.zeros((3, n, 3, n))
-    out[0, :, 0] = zz_u[:-1] + zz_l[:-1] + sheet.squeeze * np.eye(n)
+    fine = mesh.fine
+    assert fine.acting is not None
+    thinner = squeezed(sheet, mesh.inner, fine.nodes, fine.acting[1:-1, 1:-1])
+    out[0, :, 0] = zz_u[:-1] + zz_l[:-1] + thinner
     out[0, :, 1] = -xz_u[:-1] - by_pressure * at_nodes
     out[0, :, 2] = xz_l[:-1] + by_pressure * at_nodes
     stretch, rise = by_pressure * pressed, sheared * (np.eye(n, k=1) - np.eye(n))

@@ -28,6 +28,7 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import NO_SECOND_ORDER, pair_displacements
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
+from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import (
     SIGNS,
     Factorised,
@@ -104,7 +105,6 @@ class Search:
         elements: NDArray[np.intp] | None = None
         crowding: tuple[float, ...] = ()
         stand = before
-        earlier: tuple[Zones, Zones] | None = None
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().aligned()
             breaks = zones.breaks
@@ -123,11 +123,9 @@ class Search:
             if rough or violation(stand) <= self._slack:
                 if off <= placed and stand.stands_still and is_fine:
                     return replace(stand, zones=asked, off=off)
-                there = asked if problem.is_squeezed else zones.hastened(asked, earlier)
-                earlier, zones = (zones, asked), there
+                zones = asked
                 continue
             changes += 1
-            earlier = None
             if changes > _MOST_CHANGES:
                 break
             other = self._other(stand, asked)
@@ -144,7 +142,7 @@ class Search:
     @cached_property
     def boundary(self) -> float:
         """Length of the shortest boundary layer at the ends of zones [mm]."""
-        return min(boundary_layer(self.nip), sheet_layer(self.nip))
+        return min(boundary_layer(self.nip), sheet_layer(self.nip), squeeze_layer(self.nip))
 
     def _problem(
         self,
@@ -258,6 +256,7 @@ def overlap(stand: Standing, kernels: PairKernels) -> float:
     clearance = np.interp(x, mesh.inner, stand.lagged.clearance)
     sides = np.repeat([problem.sheet.tension_out, problem.sheet.tension_in], away.size)
     gap += clearance + problem.sheet.stretch_by_pressure * sides
+    gap += squeezed(problem.sheet, x, mesh.fine.nodes, acting[0][:, None])[:, 0]
     depth = 0.125 * nip.curvature * width**2
     if not nip.has_half_space:
         depth = max(depth, abs(state.approach))
@@ -290,6 +289,20 @@ def sheet_layer(nip: Nip) -> float:
     along = 1.0 / (by_tension * stiffest)
     rigid = nip.upper.is_rigid or nip.lower.is_rigid
     return through if rigid else max(through, along)
+
+
+def squeeze_layer(nip: Nip) -> float:
+    """Return the length over which the sheet's thickness takes part in a change of the pressure.
+
+    That is its thickness h where the surfaces are stiff, for beyond h its compliance is that of
+    springs and below that of half-spaces. On surfaces much softer than the sheet it changes little
+    there, and over lengths longer by the ratio of the two compliances over h.
+    """
+    sheet = nip.sheet
+    assert sheet is not None
+    tops = [roller.materials[0] for roller in (nip.upper, nip.lower) if roller.materials]
+    yielding = sum((1.0 - top.poisson**2) / top.glassy_modulus for top in tops)
+    return sheet.thickness * (1.0 + 0.5 * sheet.thickness * yielding / sheet.squeeze)
 
 
 def _with_stick(states: States) -> States:

@@ -32,6 +32,7 @@ from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
 from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, Refined, scales
 from rollnip.sheet.result import Grip, SheetProfiles, SheetResult
+from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of
 from rollnip.solution import Solution
 
@@ -130,7 +131,7 @@ class SheetSolution(Solution):
         strains = [self._strain(x, side) for side in (0, 1)]
         pressure = self._at(x, self.final.pressure)
         upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
-        gap = upper + lower - self.final.state.approach + self._thinned(x, pressure)
+        gap = upper + lower - self.final.state.approach + self._thinned(x)
         return Profiles(
             x=x,
             pressure=pressure,
@@ -287,11 +288,13 @@ class SheetSolution(Solution):
         values = sheet.tension_in - beyond
         return np.interp(x, nodes, values, left=sheet.tension_out, right=sheet.tension_in)
 
-    def _thinned(self, x: Array, pressure: Array) -> Array:
+    def _thinned(self, x: Array) -> Array:
         """Return by how much the sheet is thinner than without load [mm]."""
         sheet = self.nip.sheet
         assert sheet is not None
-        return sheet.squeeze * pressure + sheet.stretch_by_pressure * self._tension(x)
+        acting = self.refined.stand.problem.mesh.acting(self._state.pressure)
+        thinner = squeezed(sheet, x, self.final.nodes, acting[:, None])[:, 0]
+        return thinner + sheet.stretch_by_pressure * self._tension(x)
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:

@@ -124,7 +124,20 @@ def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, R
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    return kernels, refine_sheet(nip, model, kernels, half_width)
+    return kernels, refine_sheet(nip, model, kernels, _with_sheet(nip, half_width))
+
+
+def _with_sheet(nip: Nip, half_width: float) -> float:
+    """Return a first half-width [mm] from that of the rollers alone, of a sheet that is squeezed.
+
+    Between rigid rollers a sheet of springs would take (3 F c/(2 kappa))^(1/3), c its squeeze and
+    kappa the curvature of the gap; both widths together as if their cubes, the loads, added up.
+    """
+    assert nip.sheet is not None
+    if not isinstance(nip.normal, LineLoad):
+        return half_width
+    squeezed = 1.5 * nip.normal.load * nip.sheet.squeeze / nip.curvature
+    return float(np.cbrt(half_width**3 + squeezed))
 
 
 def as_round(nip: Nip, refined: Refined) -> Round:

@@ -37,7 +37,6 @@ Array = NDArray[np.float64]
 SIGNS = np.array([0.0, 0.0, 1.0, -1.0])
 """Signs of the shear in the states of a node, in their order."""
 _TINY = 1e-12  # mm/MPa
-_MUCH = 4.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -170,12 +169,6 @@ class SheetProblem:
     def dx(self) -> Array:
         """Return the lengths of the intervals [mm], (n,)."""
         return self.mesh.dx
-
-    @property
-    def is_squeezed(self) -> bool:
-        """Return whether beside its edges the sheet gives way much more than both surfaces do."""
-        rollers = float(self.matrix[3, 3]) - self.sheet.squeeze
-        return self.sheet.squeeze > _MUCH * rollers
 
     def right(self, lagged: Lagged) -> Array:
         """Return what the tractions must make up for: (3, n) gaps and creeps, without unknowns."""

@@ -15,7 +15,6 @@ Array = NDArray[np.float64]
 _TOGETHER = (
     5e-4  # over the width: transitions of both interfaces so near to each other share a node
 )
-_SLOPES = 0.1, 3.0  # bounds of the move computed for an edge over how far it is off
 _SLIVER = 1e-3  # over the width: zones that are left out
 _OF_TRANSITIONS = 1.0 / 30.0  # of the distance of transitions, beside that of edges
 
@@ -107,11 +106,7 @@ class Zones:
             )
         ]
         edges = self.edges
-        if problem.is_squeezed:
-            trailing = _straight_edge(x[:4], state.pressure[:4])
-            leading = _straight_edge(x[:-5:-1], state.pressure[:-5:-1])
-        else:
-            trailing, leading = float(asked[0][0]), float(asked[0][-1])
+        trailing, leading = float(asked[0][0]), float(asked[0][-1])
         if not (np.isfinite(trailing) and np.isfinite(leading) and trailing < leading):
             trailing, leading = edges
         sides = [
@@ -119,26 +114,6 @@ class Zones:
             for side, wanted in zip(self.sides, asked, strict=True)
         ]
         return Zones(sides[0], sides[1])
-
-    def hastened(self, asked: Zones, earlier: tuple[Zones, Zones] | None) -> Zones:
-        """Return the next zones: those asked for, with each edge by the secant of its last two.
-
-        ``earlier``: where the zones were on the mesh before, and where that solution put them.
-        Where the pressure does not rise as a square root from the edge, a sheet being squeezed
-        there, a solution moves its edges by a part of what is needed.
-        """
-        if earlier is None:
-            return asked
-        edges = []
-        for i in (0, -1):
-            here, there = float(self.upper.breaks[i]), float(earlier[0].upper.breaks[i])
-            step = float(asked.upper.breaks[i]) - here
-            before = float(earlier[1].upper.breaks[i]) - there
-            slope = (before - step) / (here - there) if here != there else 1.0
-            edges.append(here + step / min(max(slope, _SLOPES[0]), _SLOPES[1]))
-        pair = edges[0], edges[1]
-        sides = [Layout(_held(side.breaks, side.breaks, pair), side.states) for side in asked.sides]
-        return Zones(sides[0], sides[1]) if edges[0] < edges[1] else asked
 
     def without_slivers(self) -> Zones:
         """Return the zones without those too short to matter."""
@@ -173,16 +148,6 @@ def _as_contact(state: SheetState, side: int) -> ContactState:
         steps=state.steps,
         settled=state.settled,
     )
-
-
-def _straight_edge(x: Array, pressure: Array) -> float:
-    """Return where a pressure that rises in proportion to the distance begins; nan if nowhere.
-
-    ``x`` and ``pressure`` begin at the edge. So rises the pressure of a sheet that is squeezed
-    between surfaces stiffer than itself.
-    """
-    rise = (pressure[3] - pressure[2]) / (x[3] - x[2])
-    return float(x[2] - pressure[2] / rise) if rise * (x[3] - x[0]) > 0.0 else float("nan")
 
 
 def _held(breaks: Array, asked: Array, edges: tuple[float, float]) -> Array:

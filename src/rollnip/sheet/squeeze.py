@@ -1,0 +1,87 @@
+r"""How the thickness of a sheet gives way to the pressure on its faces.
+
+The sheet is an elastic layer of modulus E_z between equal pressures on both faces. Its thickness
+changes by h (1 - nu^2)/E_z times the pressure where that changes slowly, and by less where it
+changes over lengths of about h, for then the neighbours carry with it. By wave number k the share
+of the springs' compliance is, with y = kh,
+
+    f(y) = (4/y) (cosh y - 1)/(sinh y + y),
+
+1 for long waves and 4/y, that of two half-spaces, for short ones (Sneddon, Fourier Transforms,
+1951, section 45, for a layer of half the thickness on a smooth rigid base). Springs alone would
+make the pressure rise in proportion to the distance from the edge of the contact, over a length
+h E_rubber/E_z far below the thickness, where they no longer apply.
+
+In space the share is 1/h times a function of x/h, whose double integral is |x|/2 plus h times the
+function `_spread` of |x|/h. It is a sum over the roots of sinh y = -y in the first quadrant.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import CubicSpline
+
+from rollnip.sheets import Sheet
+
+Array = NDArray[np.float64]
+
+_FAR = 16.0  # over the thickness: there `_spread` is 1e-16
+_PLACES = 400  # of the table, crowded at 0
+_ROOTS = 1000
+
+
+def squeezed(sheet: Sheet, x: Array, nodes: Array, tractions: Array) -> Array:
+    """Return by how much pressures make the sheet thinner at some places, (m, s) [mm].
+
+    Parameters
+    ----------
+    sheet : the sheet.
+    x : (m,) places [mm].
+    nodes : (N + 1,) between which pressures are straight lines, 0 at both ends [mm].
+    tractions : (N - 1, s) sets of pressures at nodes[1:-1] [MPa].
+    """
+    slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
+    slopes[1:-2] = tractions
+    slopes[2:-1] -= tractions
+    slopes[1:-1] /= np.diff(nodes)[:, None]
+    away = np.abs(x[:, None] - nodes[None, :]) / sheet.thickness
+    spread = sheet.thickness * _spread(away)
+    here = _straight(x, nodes) @ tractions
+    return np.asarray(sheet.squeeze * (here + spread @ np.diff(slopes, axis=0)))
+
+
+def _straight(x: Array, nodes: Array) -> Array:
+    """Return the values at ``x`` of straight lines between nodes per value at nodes[1:-1]."""
+    at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
+    share = np.clip((x - nodes[at]) / (nodes[at + 1] - nodes[at]), 0.0, 1.0)
+    out = np.zeros((x.size, nodes.size))
+    rows = np.arange(x.size)
+    out[rows, at] = np.where((x < nodes[0]) | (x > nodes[-1]), 0.0, 1.0 - share)
+    out[rows, at + 1] = np.where((x < nodes[0]) | (x > nodes[-1]), 0.0, share)
+    return out[:, 1:-1]
+
+
+def _spread(away: Array) -> Array:
+    """Return the double integral of the share in space, less half of the distance, over h."""
+    out = np.zeros(away.shape)
+    near = away < _FAR
+    out[near] = _table()(np.cbrt(away[near] / _FAR))
+    return out
+
+
+@lru_cache(maxsize=1)
+def _table() -> CubicSpline:
+    number = np.arange(1, _ROOTS + 1)
+    about = pi * (2.0 * number - 0.5)
+    root = np.log(2.0 * about) + 1j * about
+    for _ in range(20):  # Newton's method
+        root = root - (np.sinh(root) + root) / (np.cosh(root) + 1.0)
+    cosh = np.cosh(root)
+    shares = -1j * 4.0 / root**3 * (cosh - 1.0) / (cosh + 1.0)
+    place = np.linspace(0.0, 1.0, _PLACES)
+    values = [2.0 * float(np.sum(shares * np.exp(1j * root * _FAR * t**3)).real) for t in place]
+    return CubicSpline(place, values)

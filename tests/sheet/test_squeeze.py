@@ -1,0 +1,64 @@
+"""The sheet's thickness under pressure: an elastic layer, springs only under long waves."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from sheet_nips import nip_with, paper
+from sheet_population import random_case
+
+import rollnip as rn
+from rollnip.sheet.squeeze import squeezed
+
+LAYER = rn.Sheet(thickness=0.2, modulus=5.0, poisson=0.3, modulus_thickness=3.0)
+
+
+def _by_waves(length, x):
+    """Loss of thickness at ``x`` under a hat of 1 MPa and base 2 ``length``, from the transform."""
+
+    def integrand(k):
+        y = k * LAYER.thickness
+        by_sinh = -2.0 * y * np.exp(-y) / np.expm1(-2.0 * y)  # y/sinh y
+        share = 4.0 / y * np.tanh(0.5 * y) / (1.0 + by_sinh)  # (cosh - 1)/(sinh + y)
+        return share * length * np.sinc(0.5 * k * length / np.pi) ** 2 * np.cos(k * x) / np.pi
+
+    ends = np.arange(0.0, 600.0, 2.0) / length
+    return LAYER.squeeze * sum(quad(integrand, max(a, 1e-9), b)[0] for a, b in pairwise(ends))
+
+
+@pytest.mark.parametrize("length", [0.02, 0.2, 1.0])
+def test_a_hat_of_pressure_is_that_of_its_waves(length):
+    x = length * np.array([0.0, 0.5, 1.0, 2.5])
+    nodes = np.array([-length, 0.0, length])
+    found = squeezed(LAYER, x, nodes, np.ones((1, 1)))[:, 0]
+    wanted = [_by_waves(length, place) for place in x]
+    # beyond 600/length the waves add at most int 4/(y k^2) dk, 1e-5 of the peak and less
+    assert found == pytest.approx(wanted, abs=2e-5 * LAYER.squeeze)
+
+
+def test_an_even_pressure_is_that_of_springs():
+    x, nodes = np.array([0.0, 3.0]), np.linspace(-50.0, 50.0, 11)
+    found = squeezed(LAYER, x, nodes, np.ones((9, 1)))[:, 0]
+    assert found == pytest.approx([LAYER.squeeze] * 2, rel=1e-12)
+
+
+@pytest.mark.parametrize("number", [26, 66, 83, 95, 126, 140])
+def test_widths_settle_where_springs_would_make_an_edge_layer(number):
+    """Springs change the root of the pressure to a straight line over a layer no mesh resolves."""
+    case = random_case(number)
+    solution = rn.solve(case.nip, rn.Model(geometry=case.geometry))
+    assert solution.converged
+    assert solution.solver.elements < 100
+
+
+def test_the_surfaces_close_on_a_squeezed_sheet():
+    sheet = paper(tension_in=0.05)
+    soft = rn.Sheet(thickness=0.1, modulus=3500.0, poisson=0.3, modulus_thickness=5.0)
+    for one in (sheet, soft):
+        solution = rn.solve(nip_with(one), rn.Model(geometry="linear"))
+        profiles = solution.profiles
+        beside = (profiles.x > solution.contact[0][1]) & (profiles.x < solution.contact[0][1] + 1.0)
+        # it opens from zero, as (distance)^(3/2), without a step
+        assert profiles.gap[beside][0] < 0.02 * profiles.gap[beside][-1]
+        assert np.all(np.diff(profiles.gap[beside]) >= 0.0)

@@ -36,6 +36,7 @@ __all__ = [
 Array = NDArray[np.float64]
 AnyCrown = Crown | CrownTable
 Across = Literal["free", "one-speed"]
+Ends = Literal["plane", "edge"]
 
 LARGEST_SKEW = 0.1
 """Largest angle between the axes [rad]; beyond, the gap is no parabola."""
@@ -212,6 +213,11 @@ class Face:
         how a sheet in the nip runs: "free", each part of its width at its own speed under the
         tensions given, or "one-speed", as a web that holds together, with the tension at the
         inlet that this asks for at each place and a mean that is given.
+    ends :
+        "plane": the nip is plane up to both ends of the face; "edge": there the face of one roller
+        ends on the longer covering of the other, which carries more or less than in a plane nip.
+    end_radius :
+        with which the shorter face is rounded at its ends [mm]; 0: a sharp edge.
 
     Raises
     ------
@@ -225,6 +231,8 @@ class Face:
     bearing_offset: float | None = None
     nip_angle: float = 0.0
     sheet_across: Across = "free"
+    ends: Ends = "plane"
+    end_radius: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "length", require_positive("length", self.length))
@@ -242,9 +250,14 @@ class Face:
                 )
             offset = require_finite("bearing_offset", self.bearing_offset)
             object.__setattr__(self, "bearing_offset", offset)
+        object.__setattr__(self, "end_radius", require_not_negative("end_radius", self.end_radius))
+        if self.ends not in ("plane", "edge"):
+            raise InvalidInputError(f'`ends` must be "plane" or "edge", got "{self.ends}".')
+        if self.ends == "plane" and self.end_radius > 0.0:
+            raise InvalidInputError('`end_radius` needs `ends` = "edge".')
         if self.sheet_across not in ("free", "one-speed"):
             raise InvalidInputError(
-                f'`sheet_across` must be "free" or "one-speed", got {self.sheet_across!r}.'
+                f'`sheet_across` must be "free" or "one-speed", got "{self.sheet_across}".'
             )
 
 

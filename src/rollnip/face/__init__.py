@@ -13,12 +13,13 @@ from rollnip.face.design import (
 from rollnip.face.find import solve_face
 from rollnip.face.impression import Estimate, Impression, Reading, read_impressions
 from rollnip.face.law import NipLaw
+from rollnip.face.problem import FaceProblem, face_problem
 from rollnip.face.rows import NipRows
 from rollnip.face.sheet_balance import SheetBalance
 from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.sheet_solution import SheetFaceSolution
 from rollnip.face.solution import Bearings, FaceSolution
-from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
+from rollnip.face.solve import Balance, balance
 from rollnip.shafts import (
     CoveringTable,
     Crown,

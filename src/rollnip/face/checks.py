@@ -102,7 +102,7 @@ def _worst(
         most = max(most, sum(lost))
         found["loss"] = max(abs(one) for one in gone)
         for name, value in found.items():
-            error[name] = max(error[name], abs(value))
+            error[name] = max(error[name], float(abs(value)))
     return error | {"loss": error["loss"] / most if error["loss"] else 0.0}
 
 

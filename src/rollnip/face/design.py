@@ -13,9 +13,9 @@ from scipy.optimize import brentq, minimize_scalar
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw, slip_measure
+from rollnip.face.problem import FaceProblem, face_problem
 from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solution import FaceSolution
-from rollnip.face.solve import FaceProblem, face_problem
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip, Traction

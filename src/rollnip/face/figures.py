@@ -96,6 +96,10 @@ FACE_FIGURES: Mapping[str, FaceFigure] = _of(
         "Largest departure of the traction from its mean: there the surfaces rub each other.",
     ),
     _F(
+        "added_length", "both ends add", "mm",
+        "Length of face that both ends add to the load; negative where they carry less.",
+    ),
+    _F(
         "bearing_offset", "bearing offset", "mm",
         "How much further the upper bearing at y > 0 has come than the other.",
     ),

@@ -16,12 +16,14 @@ from rollnip.face.covering import Axis, axes_of, covers
 from rollnip.face.lattice import Lattice, cells_of
 from rollnip.face.law import NipLaw, slip_measure
 from rollnip.face.notes import warnings_of
+from rollnip.face.problem import FaceProblem, face_problem
+from rollnip.face.relief import relief_of
 from rollnip.face.rows import NipRows
 from rollnip.face.sheet_find import require_even_covering, solve_face_with_sheet
 from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.sheet_solution import SheetFaceSolution
 from rollnip.face.solution import FaceSolution
-from rollnip.face.solve import Balance, FaceProblem, balance, face_problem
+from rollnip.face.solve import Balance, balance, plane_load
 from rollnip.face.span import MOST_SLIP, SLIP_STEP, Span, span_of
 from rollnip.face.table import Progress, nip_law, require_solution
 from rollnip.influence import KernelCache
@@ -36,6 +38,7 @@ _PLACES = 65  # along the face
 _FIRST_SLIP = 0.14  # to either side of that of the mean traction
 _FINEST = 3  # halvings of the lattice
 _MOST_TABLES = 20
+_MOST_ENDS, _ENDS_SETTLED = 12, 1e-4  # turns, and what an approach may still change by
 _SMALLEST_LOAD = 1e-3  # of the largest: below, the law is a power of the approach
 _HEAVY = 0.02  # of the largest load: lighter cross-sections need no slip of their own
 _CLAIM = 5.0
@@ -108,6 +111,8 @@ def solve_face(
             rows = NipRows(cache) if law is None or law.rows is None else law.rows
         maker = _Maker(problem, model, rows, progress, executor)
         law, found = maker.covered(law)
+        if face.ends == "edge":
+            problem, law, found = _with_ends(maker, law, found)
         error = {**law.error, "places": _error_of_places(problem, law, found)}
     worst = max(value for name, value in error.items() if name not in REPORTED)
     allowed = _CLAIM * model.tolerance
@@ -119,6 +124,23 @@ def solve_face(
     )
     notes = warnings_of(problem, found)
     return FaceSolution(nip, face, model, converged, status, notes, error, law, problem, found)
+
+
+def _with_ends(maker: _Maker, law: NipLaw, found: Balance) -> tuple[FaceProblem, NipLaw, Balance]:
+    """Return a face whose ends give way or carry more, beginning with one whose nip is plane."""
+    problem = maker.problem
+    for _ in range(_MOST_ENDS):
+        at_ends = float(found.approach[0]), float(found.approach[-1])
+        relief = relief_of(problem.nip, problem.face, at_ends, maker.rows)
+        problem = replace(problem, relief=relief)
+        law, found = replace(maker, problem=problem).covered(law)
+        change = np.abs(found.approach[[0, -1]] - at_ends)
+        if float(np.max(change)) <= _ENDS_SETTLED * float(np.max(found.approach)):
+            return problem, law, found
+    raise ConvergenceError(
+        "The approaches at the ends of the face did not settle; try a smaller crown or skew, or "
+        '`ends` = "plane".'
+    )
 
 
 def _with_sheet(
@@ -335,7 +357,13 @@ def _wider(law: NipLaw, found: Balance, span: Span) -> Span | None:
 
 
 def _error_of_places(problem: FaceProblem, law: NipLaw, found: Balance) -> float:
-    """Return the change of the load with half as many places, over the largest load."""
+    """Return the change of the load with half as many places, over the largest load.
+
+    Where ends carry more or less, a place holds the mean over its share of the length: the plane
+    nips of the places are compared.
+    """
     coarse = face_problem(problem.nip, problem.face, _PLACES // 2 + 1, problem.stiffness)
-    again = balance(coarse, law).section.load
-    return float(np.max(np.abs(found.section.load[::2] - again)) / found.section.load.max())
+    coarse = replace(coarse, relief=problem.relief)
+    again = plane_load(coarse, balance(coarse, law))
+    load = plane_load(problem, found)
+    return float(np.max(np.abs(load[::2] - again)) / load.max())

@@ -20,8 +20,8 @@ from rollnip._errors import InvalidInputError, require_positive
 from rollnip.face.design import AnyLaw, Name, with_crown
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw
+from rollnip.face.problem import face_problem
 from rollnip.face.solution import FaceSolution
-from rollnip.face.solve import face_problem
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
 from rollnip.shafts import Crown, Face

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.face.solve import Balance, FaceProblem
+from rollnip.face.problem import FaceProblem
+from rollnip.face.solve import Balance
 
 Array = NDArray[np.float64]
 
@@ -13,7 +14,7 @@ Array = NDArray[np.float64]
 def warnings_of(problem: FaceProblem, found: Balance) -> tuple[str, ...]:
     """Return reservations on a face: where it is open, and where it slides."""
     notes = []
-    y, carries = problem.grid.y, found.section.load > 0.0
+    y, carries = problem.grid.y, found.approach > 0.0
     if not carries.all():
         notes.append(f"The nip is open over a part of the face: {places(y, ~carries)}.")
     if np.any(np.abs(found.section.s[carries]) >= 1.0):

@@ -95,6 +95,8 @@ def face_parts(solution: FaceSolution) -> dict[str, Any]:
     }
     if solution.nip.sheet is not None:
         table["sheet_across"] = face.sheet_across
+    if face.ends != "plane":
+        table |= {"ends": face.ends, "end_radius": face.end_radius}
     if face.bearing_offset is not None:
         table["bearing_offset"] = face.bearing_offset
     case = case_tree(solution.nip, solution.model) | {"face": table}

@@ -8,6 +8,7 @@ from rollnip._errors import InvalidInputError
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.patch import FaceEnd
 
 Row = tuple[float, ...]
 Place = tuple[float, float]
@@ -34,6 +35,8 @@ class NipRows:
             raise InvalidInputError(f"`most` must be 1 or more, got {most}.")
         self.kernels = KernelCache() if kernels is None else kernels
         self.most = most
+        self.ends: dict[tuple[object, ...], FaceEnd] = {}
+        """Ends of faces that were solved."""
         self._rows: OrderedDict[tuple[object, ...], Row | str] = OrderedDict()
 
     def __len__(self) -> int:

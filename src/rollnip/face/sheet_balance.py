@@ -26,8 +26,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError
+from rollnip.face.problem import FaceProblem
 from rollnip.face.sheet_law import SheetLaw
-from rollnip.face.solve import FaceProblem
 from rollnip.nip import Approach, Creepage, Torque, Traction
 
 Array = NDArray[np.float64]

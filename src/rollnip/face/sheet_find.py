@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.law import Places, Section
+from rollnip.face.problem import FaceProblem, face_problem
 from rollnip.face.sheet_balance import SheetBalance, sheet_balance
 from rollnip.face.sheet_law import (
     MOST_SLIP,
@@ -22,7 +23,7 @@ from rollnip.face.sheet_law import (
     values_at,
 )
 from rollnip.face.sheet_solution import SheetFaceSolution
-from rollnip.face.solve import Balance, FaceProblem, face_problem
+from rollnip.face.solve import Balance
 from rollnip.face.table import Progress
 from rollnip.influence import KernelCache
 from rollnip.model import Model
@@ -253,7 +254,9 @@ def solve_face_with_sheet(
 
 
 def require_even_covering(problem: FaceProblem) -> None:
-    """Raise InvalidInputError where the covering varies along the face."""
+    """Raise InvalidInputError where the covering varies along the face, or its ends give way."""
+    if problem.face.ends != "plane":
+        raise InvalidInputError('`ends` must be "plane" beside a sheet, got "edge".')
     coverings = problem.coverings
     if coverings.values or np.ptp(coverings.scale) > 0.0 or problem.stiffness != 1.0:
         raise InvalidInputError(

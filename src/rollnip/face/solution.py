@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 
 from rollnip._extras import require_extra
 from rollnip.face.law import NipLaw
+from rollnip.face.problem import FaceProblem
 from rollnip.face.sheet_law import SheetLaw
-from rollnip.face.solve import Balance, FaceProblem, torque
+from rollnip.face.solve import Balance, plane_load, torque
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.shafts import Face
@@ -99,7 +100,12 @@ class FaceSolution:
     @cached_property
     def peak_pressure(self) -> Array:
         """Peak pressure, (n,) [MPa]."""
-        return self._of_law("peak_pressure")
+        relief = self.problem.relief
+        if relief is None:
+            return self._of_law("peak_pressure")
+        load, peak = relief.ratios(self.problem.grid)
+        safe = np.where(load > 0.0, load, 1.0)
+        return self._of_law("peak_pressure") * np.where(load > 0.0, peak / safe, 0.0)
 
     @cached_property
     def slip_width(self) -> Array:
@@ -191,14 +197,35 @@ class FaceSolution:
         return None if shaft is None else self.balance.tilt * shaft.bearing_distance
 
     @property
+    def plane_load(self) -> Array:
+        """Line load of plane nips at the approaches of the face, (n,) [N/mm].
+
+        Like `load`, but for what the ends of the face do.
+        """
+        return plane_load(self.problem, self.balance)
+
+    @property
+    def added_length(self) -> float | None:
+        """Length of face that both ends add to the load [mm]; negative where they carry less.
+
+        None where the nip is taken as plane up to the ends.
+        """
+        relief = self.problem.relief
+        return None if relief is None else relief.added_length
+
+    @property
     def evenness(self) -> float:
-        """Smallest over largest line load; 0 where the nip is open somewhere."""
-        return float(self.load.min() / self.load.max())
+        """Smallest over largest line load; 0 where the nip is open somewhere.
+
+        This and the other figures of evenness take the plane nip up to both ends of the face.
+        """
+        return float(self.plane_load.min() / self.plane_load.max())
 
     @property
     def largest_departure(self) -> float:
         """Largest departure of the line load from its mean, over the mean."""
-        return float(np.max(np.abs(self.load / self.mean_load - 1.0)))
+        load = self.plane_load
+        return float(np.max(np.abs(load / self._mean(load) - 1.0)))
 
     @property
     def even_share(self) -> float:
@@ -208,7 +235,8 @@ class FaceSolution:
     def share_within(self, share: float) -> float:
         """Return the part of the face whose line load is within ``share`` of the mean."""
         y = np.linspace(self.y[0], self.y[-1], _FINE)
-        off = np.abs(np.interp(y, self.y, self.load) / self.mean_load - 1.0)
+        load = self.plane_load
+        off = np.abs(np.interp(y, self.y, load) / self._mean(load) - 1.0)
         return float(np.mean(off <= share))
 
     @property
@@ -257,6 +285,9 @@ class FaceSolution:
         if torque is None or speed is None:
             return None
         return torque * curvature * speed * (1.0 + sign * 0.5 * self.creepage)
+
+    def _mean(self, values: Array) -> float:
+        return float(self.problem.grid.weights @ values) / self.face.length
 
     def _total(self, values: Array | None) -> float | None:
         return None if values is None else float(self.problem.grid.weights @ values)

@@ -10,191 +10,20 @@ traction or torque (or is given). Newton's method on delta(y), delta_0, b and xi
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import cos
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.face.beam import Beam, FaceGrid
-from rollnip.face.covering import Coverings, coverings_of, thinnest
+from rollnip._errors import ConvergenceError
 from rollnip.face.law import NipLaw, Places, Section
-from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
-from rollnip.rollers import Roller
-from rollnip.shafts import Face
+from rollnip.face.problem import FaceProblem
+from rollnip.nip import Approach, Creepage, Torque, Traction
 
 Array = NDArray[np.float64]
 
-_GRAVITY = 9.80665e-9  # N per (kg/m3) mm3
 _MOST_STEPS = 60
 _SETTLED = 1e-10  # largest change of an approach over the mean one
 _SMALLEST_STEP = 1e-6
-_LARGEST_CROWN = 0.05  # of the radius
-
-
-@dataclass(frozen=True, slots=True)
-class FaceProblem:
-    """Everything of a face but the law of its cross-sections.
-
-    Attributes
-    ----------
-    nip, face : the problem.
-    grid : places along the face.
-    upper, lower : (n, n) deflection of each axis by the line load [mm2/N].
-    weights : (2,) weight per length of each roller towards the lower one [N/mm].
-    still : (n,) what delta has without load: crowns and skew, less what weight bends [mm].
-    rise : (2, n) crown of each roller over its radius.
-    coverings : what the coverings are at the places.
-    stiffness : factor on every modulus of the layers.
-    """
-
-    nip: Nip
-    face: Face
-    grid: FaceGrid
-    upper: Array
-    lower: Array
-    weights: tuple[float, float]
-    still: Array
-    rise: Array
-    coverings: Coverings
-    stiffness: float = 1.0
-
-    @property
-    def local(self) -> Array:
-        """Creepage that the local radii add, (n,)."""
-        return np.asarray(self.rise[0] - self.rise[1])
-
-    @property
-    def total(self) -> float | None:
-        """Total load of the nip [N]; None where the approach is given."""
-        if self.face.end_loads is not None:
-            return sum(self.face.end_loads) + self.weights[0] * self.face.length
-        if isinstance(self.nip.normal, LineLoad):
-            return self.nip.normal.load * self.face.length
-        return None
-
-    @property
-    def moment(self) -> float | None:
-        """Moment of the load about the middle of the face [N mm]; None where the tilt is given.
-
-        Weights act in the middle of the face, end loads at the bearings of the upper roller.
-        """
-        shaft, total = self.nip.upper.shaft, self.total
-        if self.tilt is not None or total is None:
-            return None
-        if self.face.end_loads is not None:
-            assert shaft is not None
-            pairs = zip(self.face.end_loads, shaft.bearings, strict=True)
-            return sum(force * place for force, place in pairs)
-        if shaft is None:
-            return 0.0
-        return (total - self.weights[0] * self.face.length) * shaft.bearing_middle
-
-    @property
-    def tilt(self) -> float | None:
-        """Tilt b that is given; None where it follows from the moment."""
-        if self.face.bearing_offset is not None:
-            assert self.nip.upper.shaft is not None
-            return self.face.bearing_offset / self.nip.upper.shaft.bearing_distance
-        if self.face.end_loads is None and isinstance(self.nip.normal, Approach):
-            return 0.0
-        return None
-
-
-def face_problem(nip: Nip, face: Face, count: int, stiffness: float = 1.0) -> FaceProblem:
-    """Return beams, crowns and skew of a face on ``count`` places.
-
-    ``stiffness`` is a factor on every modulus of the layers.
-
-    Raises
-    ------
-    InvalidInputError
-        where a shaft does not fit its roller, a crown is larger than the covering can take, or
-        end loads are given without a shaft of the upper roller.
-    """
-    for name in ("end_loads", "bearing_offset"):
-        if getattr(face, name) is not None and nip.upper.shaft is None:
-            raise InvalidInputError(f"`{name}` needs `upper.shaft`, which says where bearings are.")
-    grid = FaceGrid.of(face.length, count)
-    upper, lower = (_flexibility(roller, face, grid) for roller in (nip.upper, nip.lower))
-    down = cos(face.nip_angle)
-    weights = (_weight(nip.upper) * down, _weight(nip.lower) * down)
-    crowns = [_crown(roller, grid) for roller in (nip.upper, nip.lower)]
-    for roller, crown in zip((nip.upper, nip.lower), crowns, strict=True):
-        _require_covered(roller, crown)
-    skew = (grid.y * face.skew) ** 2 / (2.0 * (nip.upper.radius + nip.lower.radius))
-    ones = np.ones(grid.y.size)
-    # Weight bends the upper roller towards the lower one, and the lower one away from it.
-    bent = -upper @ (weights[0] * ones) + lower @ (weights[1] * ones)
-    problem = FaceProblem(
-        nip,
-        face,
-        grid,
-        upper,
-        lower,
-        weights,
-        crowns[0] + crowns[1] - skew - bent,
-        np.array([crowns[0] * nip.upper.curvature, crowns[1] * nip.lower.curvature]),
-        coverings_of(nip, grid.y, face.length, stiffness),
-        stiffness,
-    )
-    _require_possible(problem)
-    return problem
-
-
-def _flexibility(roller: Roller, face: Face, grid: FaceGrid) -> Array:
-    if roller.shaft is None:
-        return np.zeros((grid.y.size, grid.y.size))
-    return Beam.of(roller, roller.shaft, face.length).flexibility(grid)
-
-
-def _weight(roller: Roller) -> float:
-    """Return the weight of a core per length [N/mm]; 0 where it has no density."""
-    if roller.shaft is None or roller.shaft.density is None:
-        return 0.0
-    core = 2.0 * (roller.radius - roller.coating_thickness)
-    area = np.pi / 4.0 * (core**2 - roller.shaft.bore**2)
-    return float(_GRAVITY * roller.shaft.density * area)
-
-
-def _crown(roller: Roller, grid: FaceGrid) -> Array:
-    if roller.shaft is None:
-        return np.zeros(grid.y.size)
-    return roller.shaft.radial_crown(grid.y, grid.length)
-
-
-def _require_possible(problem: FaceProblem) -> None:
-    """Raise InvalidInputError where no face can be in balance, whatever its law."""
-    total, moment, length = problem.total, problem.moment, problem.face.length
-    if total is not None and moment is not None and total > 0.0:
-        place = moment / total
-        if abs(place) >= 0.5 * length:
-            raise InvalidInputError(
-                f"`end_loads` must press between the ends of the face, at most {0.5 * length:g} mm "
-                f"from its middle; together they press at y = {place:.4g} mm."
-            )
-    if isinstance(problem.nip.normal, Approach) and total is None:
-        tilt = problem.tilt or 0.0
-        needed = -float(np.max(problem.still + tilt * problem.grid.y))
-        if problem.nip.normal.approach <= needed:
-            raise InvalidInputError(
-                f"`approach` must be larger than {needed:.4g} mm, where the rollers first touch "
-                f"somewhere along the face, got {problem.nip.normal.approach:.4g}."
-            )
-
-
-def _require_covered(roller: Roller, crown: Array) -> None:
-    size = float(np.ptp(crown))
-    if roller.layers and size >= thinnest(roller):
-        raise InvalidInputError(
-            f"`crown` must be smaller than the covering, {thinnest(roller):g} mm thick, "
-            f"got {2.0 * size:g} mm on the diameter."
-        )
-    if size * roller.curvature >= _LARGEST_CROWN:
-        raise InvalidInputError(
-            f"`crown` must be small against the diameter, at most {_LARGEST_CROWN:.0%} of "
-            f"{2.0 * roller.radius:g} mm, got {2.0 * size:g} mm on the diameter."
-        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -245,7 +74,7 @@ def balance(problem: FaceProblem, law: NipLaw) -> Balance:
     ConvergenceError
         where Newton's method does not settle.
     """
-    places = law.places(problem.coverings)
+    places = problem.places(law)
     middle_load = float(np.sqrt(law.loads[0] * law.loads[-1])) * float(np.mean(places.scale))
     system = _System(problem, law, places, law.approach_at(middle_load, 0.0, places.mean))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
@@ -385,6 +214,14 @@ def _drive(system: _System, section: Section, creepage: float, wrong: Array, slo
     wrong[n + 2] = unit * (float(weights @ values) - goal * problem.face.length)
     slopes[n + 2, :n] = unit * weights * by_approach
     slopes[n + 2, n + 2] = unit * float(weights @ by_creepage)
+
+
+def plane_load(problem: FaceProblem, found: Balance) -> Array:
+    """Return the line loads of plane nips at the approaches of a face, (n,) [N/mm]."""
+    if problem.relief is None:
+        return found.section.load
+    load = np.exp(found.section.log_load) * problem.coverings.scale
+    return np.where(found.approach > 0.0, load, 0.0)
 
 
 def torque(

@@ -41,6 +41,8 @@ def face_of(table: FaceTable) -> Face:
         bearing_offset=table.bearing_offset,
         nip_angle=table.nip_angle,
         sheet_across=table.sheet_across,
+        ends=table.ends,
+        end_radius=table.end_radius,
     )
 
 

@@ -116,3 +116,8 @@ class FaceTable(FileTable):
         "free",
         description="Whether a sheet in the nip runs as strips of their own speed, or as one web.",
     )
+    ends: Literal["plane", "edge"] = Field(
+        "plane",
+        description="Whether the nip is plane up to the ends, or one face ends on a longer one.",
+    )
+    end_radius: Length = Field(0.0, description="Of the ends of the shorter face; 0: sharp.")

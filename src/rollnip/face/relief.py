@@ -1,0 +1,145 @@
+"""Ends of a face: how load and peak pressure depart there from those of the plane nip.
+
+Where one roller ends on the longer covering of the other, the cross-sections near the end are not
+plane (see `rollnip.patch.face_end`). Three-dimensional patches are solved at a few approaches,
+evenly spaced in their logarithm and kept for the next face. Between them the ratios to the plane
+nip are interpolated over the distance from the end, in units of the length that each patch covers.
+A place of the face stands for its share of the length, so that it holds the mean ratio over this
+share: then the load of the whole face has what the end adds or takes, however few places lie there.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import floor, log
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._errors import InvalidInputError, RollnipError
+from rollnip.face.beam import FaceGrid
+from rollnip.face.rows import NipRows
+from rollnip.nip import Nip
+from rollnip.patch import FaceEnd, face_end
+from rollnip.rollers import Roller
+from rollnip.shafts import Face
+
+Array = NDArray[np.float64]
+
+_STEP = 0.25  # of the logarithm of the approach, between patches
+
+
+@dataclass(frozen=True, slots=True)
+class End:
+    """One end of a face.
+
+    Attributes
+    ----------
+    distance : (k + 1,) from the end [mm], increasing from 0.
+    load, peak : (k + 1,) integrals from the end of the ratios of load and peak pressure to those
+        of the plane nip [mm]; beyond, the ratios are 1.
+    added_length : length of face that the end adds to the load [mm]; negative: it carries less.
+    error : of that length [mm].
+    """
+
+    distance: Array
+    load: Array
+    peak: Array
+    added_length: float
+    error: float
+
+    def mean(self, which: str, edges: Array) -> Array:
+        """Return the mean ratio between edges, (n,); edges (n + 1,) are distances from the end."""
+        values = self.load if which == "load" else self.peak
+        beyond = np.maximum(edges - self.distance[-1], 0.0)
+        whole = np.interp(edges, self.distance, values) + beyond
+        return np.asarray(np.diff(whole) / np.diff(edges))
+
+
+@dataclass(frozen=True, slots=True)
+class Relief:
+    """Both ends of a face, at y < 0 and at y > 0; None: there the nip is open."""
+
+    ends: tuple[End | None, End | None]
+
+    def ratios(self, grid: FaceGrid) -> tuple[Array, Array]:
+        """Return load and peak pressure at the places over those of plane nips, each (n,)."""
+        edges = np.concatenate([[0.0], np.cumsum(grid.weights)])
+        load, peak = np.ones(grid.y.size), np.ones(grid.y.size)
+        first, second = self.ends
+        if first is not None:
+            load *= first.mean("load", edges)
+            peak *= first.mean("peak", edges)
+        if second is not None:
+            load *= second.mean("load", edges)[::-1]
+            peak *= second.mean("peak", edges)[::-1]
+        return load, peak
+
+    @property
+    def added_length(self) -> float:
+        """Length of face that both ends add to the load [mm]."""
+        return sum(one.added_length for one in self.ends if one is not None)
+
+
+def relief_of(nip: Nip, face: Face, approaches: tuple[float, float], rows: NipRows) -> Relief:
+    """Return the ends of a face at the approaches there [mm].
+
+    Raises
+    ------
+    InvalidInputError
+        where the rollers make no patch, as with cores that are half-spaces.
+    """
+    ends = [
+        None if approach <= 0.0 else _end(nip, face.end_radius, approach, rows)
+        for approach in approaches
+    ]
+    return Relief((ends[0], ends[1]))
+
+
+def _end(nip: Nip, radius: float, approach: float, rows: NipRows) -> End:
+    place = log(approach) / _STEP
+    low = floor(place)
+    share = place - low
+    both = [_kept(nip, radius, low + i, rows) for i in (0, 1)]
+    curves = [_integrated(one) for one in both]
+
+    def between(i: int) -> Array:
+        return np.asarray((1.0 - share) * curves[0][i] + share * curves[1][i])
+
+    return End(
+        distance=between(0),
+        load=between(1),
+        peak=between(2),
+        added_length=(1.0 - share) * both[0].added_length + share * both[1].added_length,
+        error=max(one.error for one in both),
+    )
+
+
+def _kept(nip: Nip, radius: float, node: int, rows: NipRows) -> FaceEnd:
+    """Return the end at the approach of a node, from those kept or solved now."""
+    upper, lower = (replace(one, shaft=None) for one in (nip.upper, nip.lower))
+    key = (upper, lower, radius, node)
+    if key not in rows.ends:
+        rows.ends[key] = _solved(upper, lower, radius, float(np.exp(_STEP * node)))
+    return rows.ends[key]
+
+
+def _solved(upper: Roller, lower: Roller, radius: float, approach: float) -> FaceEnd:
+    try:
+        return face_end(upper, lower, approach, radius)
+    except InvalidInputError as error:
+        raise InvalidInputError(f'`ends` cannot be "edge": {error}') from None
+    except RollnipError as error:
+        raise type(error)(f"The end of the face at {approach:.4g} mm: {error}") from None
+
+
+def _integrated(end: FaceEnd) -> tuple[Array, Array, Array]:
+    """Return edges of the rectangles along y and the integrals up to them, each (k + 1,)."""
+    step = float(end.distance[1] - end.distance[0])
+    count = end.distance.size
+    edges = step * np.arange(count + 1.0)
+    parts = (
+        np.concatenate([[0.0], np.cumsum(one) * step]) for one in (end.load, end.peak_pressure)
+    )
+    load, peak = parts
+    return edges, load, peak

@@ -1,0 +1,105 @@
+"""Ends of a face, where one roller ends on the longer covering of the other: against patches."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from press_face import FACE, press
+
+import rollnip as rn
+from rollnip.face import Face, NipRows, solve_face
+from rollnip.face.report import face_dict, face_parts
+from rollnip.io import parse_case
+from rollnip.patches import Across, Patch
+
+SHORT = Face(length=150.0, ends="edge", end_radius=2.0)
+LINEAR = rn.Model(geometry="linear")
+
+
+def stiff(approach=0.8):
+    """The press with rigid shafts, without friction."""
+    nip = replace(press(), friction=0.0, normal=rn.Approach(approach))
+    return replace(nip, upper=replace(nip.upper, shaft=None), lower=replace(nip.lower, shaft=None))
+
+
+@pytest.fixture(scope="module")
+def rows():
+    return NipRows()
+
+
+@pytest.fixture(scope="module")
+def short(rows):
+    return solve_face(stiff(), SHORT, LINEAR, rows=rows)
+
+
+def patch_of(face):
+    nip = stiff()
+    across = Across(face=face.length, end_radius=face.end_radius)
+    patch = Patch(
+        upper=nip.upper, lower=nip.lower, normal=nip.normal, friction=0.0, across_upper=across
+    )
+    return rn.solve_patch(patch, tolerance=0.01, grid=(64, 512))
+
+
+def test_a_short_roller_is_the_patch_in_three_dimensions(short):
+    """Load of the whole roller to 3e-3, of which its ends take 5 %; the line load where it dips."""
+    found = patch_of(SHORT)
+    plane = solve_face(stiff(), replace(SHORT, ends="plane", end_radius=0.0), LINEAR, law=short.law)
+    assert plane.total_load / found.load - 1.0 > 0.04
+    assert short.total_load == pytest.approx(found.load, rel=3e-3)
+    assert short.total_load - plane.total_load == pytest.approx(
+        short.added_length * plane.load[32], rel=1e-3
+    )
+    line = np.sum(found.pressure, axis=1) * (found.x[1] - found.x[0])
+    for i in (6, 8, 10, 16, 32):  # 3 to 75 mm from the end
+        assert short.load[i] == pytest.approx(np.interp(short.y[i], found.y, line), rel=0.02)
+
+
+@pytest.mark.slow
+def test_a_sharp_end_carries_more_at_the_very_edge(rows):
+    face = replace(SHORT, end_radius=0.0)
+    sharp = solve_face(stiff(), face, LINEAR, rows=rows)
+    assert sharp.total_load == pytest.approx(patch_of(face).load, rel=4e-3)
+    assert sharp.load[0] > 1.3 * sharp.load[32] > 1.3 * sharp.load[6]
+    assert sharp.peak_pressure[0] > sharp.peak_pressure[32]
+
+
+def test_the_figures_of_evenness_leave_the_ends_out(short):
+    assert short.evenness == pytest.approx(1.0, abs=1e-12)
+    assert short.load.min() < 0.9 * short.load[32]
+    assert short.warnings == ()  # rounded off at the very ends, the nip is not called open
+
+
+def test_the_mean_load_is_kept_and_the_ends_are_not_solved_again(rows, monkeypatch):
+    from rollnip.face import relief as module
+
+    nip = replace(press(), friction=0.0)
+    face = replace(FACE, ends="edge", end_radius=2.0)
+    first = solve_face(nip, face, rows=rows)
+    assert first.converged
+    assert first.mean_load == pytest.approx(6.0, rel=1e-9)
+    plane = solve_face(nip, FACE, law=first.law)
+    # The middle carries what the ends do not: 5 of 1600 mm, and the rollers bend a little more.
+    assert 1.0 < first.load[32] / plane.load[32] < 1.0 - 3.0 * first.added_length / 1600.0
+    monkeypatch.setattr(module, "face_end", lambda *a: pytest.fail("an end was solved"))
+    nearly = replace(nip, normal=rn.LineLoad(6.01))
+    assert solve_face(nearly, face, law=first.law).converged
+
+
+def test_ends_are_in_the_result_and_in_its_case(short):
+    assert face_dict(short)["added_length"] == short.added_length < -3.0
+    tree = face_parts(short)["case"]
+    assert tree["face"]["ends"] == "edge"
+    assert parse_case(tree).face == SHORT
+
+
+def test_ends_that_cannot_be(short):
+    with pytest.raises(rn.InvalidInputError, match='`ends` must be "plane" or "edge", got "round"'):
+        Face(length=100.0, ends="round")
+    with pytest.raises(rn.InvalidInputError, match='`end_radius` needs `ends` = "edge"'):
+        Face(length=100.0, end_radius=1.0)
+    with pytest.raises(rn.InvalidInputError, match="`end_radius` must be zero or positive"):
+        Face(length=100.0, ends="edge", end_radius=-1.0)
+    web = replace(press(), sheet=rn.Sheet.usual("newsprint"))
+    with pytest.raises(rn.InvalidInputError, match='`ends` must be "plane" beside a sheet'):
+        solve_face(web, replace(FACE, ends="edge"))

@@ -2,7 +2,7 @@
 
 import json
 from dataclasses import replace
-from math import inf
+from math import inf, isnan
 from pathlib import Path
 
 import pytest
@@ -264,7 +264,9 @@ def test_netcdf_holds_the_face(tmp_path):
         assert list(file["y"].values) == tree["y"]
         for key in FACE_PROFILES.keys() - {"y"}:
             assert list(file[f"face_{key}"].values) == tree[key], key
-        for key in FACE_FIGURES.keys() - {"creepage"}:
+        assert tree["added_length"] is None  # the nip is plane up to the ends
+        assert isnan(float(file["face_added_length"]))
+        for key in FACE_FIGURES.keys() - {"creepage", "added_length"}:
             assert float(file[f"face_{key}"]) == tree[key], key
         assert list(file["face_bearing_forces_upper"].values) == tree["bearing_forces"]["upper"]
         assert float(file["face_error_places"]) == tree["error"]["places"]

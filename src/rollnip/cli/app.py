@@ -158,10 +158,11 @@ def _along_the_face(problem: Case, model: Model) -> FaceSolution | None:
     """Solve the face of a case; None where it has none."""
     if problem.face is None:
         return None
+    from rollnip.cli.progress import counting
     from rollnip.face import solve_face
 
-    with named(problem.source):
-        return solve_face(problem.nip, problem.face, model)
+    with named(problem.source), counting() as progress:
+        return solve_face(problem.nip, problem.face, model, progress=progress)
 
 
 def _warm(problem: Case, model: Model) -> HeatSolution | None:

@@ -54,11 +54,12 @@ def solve(
     with clear_failures(), one_run(force=force) as run:
         nip, along, model = _read(case)
         run.reserve({"--plot": plot})
+        from rollnip.cli.progress import counting
         from rollnip.face import solve_face
         from rollnip.face.report import face_dict, face_lines
 
-        with _processes(workers) as executor:
-            solution = solve_face(nip, along, model, executor=executor)
+        with _processes(workers) as executor, counting() as progress:
+            solution = solve_face(nip, along, model, executor=executor, progress=progress)
         _draw(solution, plot)
         _print(face_dict(solution) if json else "\n".join(face_lines(solution)) + "\n")
     if not solution.converged:

@@ -92,3 +92,19 @@ def progress(total: int, what: str) -> Iterator[Callable[[], None]]:
     ) as bar:
         task = bar.add_task(what, total=total)
         yield lambda: bar.advance(task)
+
+
+@contextmanager
+def counting() -> Iterator[Callable[[int, int], None] | None]:
+    """Show a bar of the cross-sections of a face on a terminal; yield what is told their numbers.
+
+    Elsewhere None is yielded: a face takes seconds.
+    """
+    console = Console(stderr=True)
+    if not console.is_terminal:
+        yield None
+        return
+    columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
+    with Progress(*columns, console=console, transient=True) as bar:
+        task = bar.add_task("cross-sections", total=None)
+        yield lambda done, total: bar.update(task, completed=done, total=total)

@@ -14,6 +14,7 @@ from rollnip.identification.costs import (
     Total,
 )
 from rollnip.identification.fit import LeastSquares, identify
+from rollnip.identification.impressions import Impressions
 from rollnip.identification.pictures import plot_fit, plot_residuals, plot_set
 from rollnip.identification.report import fit_case, fit_dict, fit_report
 from rollnip.identification.result import Estimate, Fit, FittedSet, Start
@@ -29,6 +30,7 @@ __all__ = [
     "Fit",
     "FitStudy",
     "FittedSet",
+    "Impressions",
     "LeastSquares",
     "Loads",
     "Measurements",

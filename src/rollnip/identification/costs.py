@@ -81,6 +81,8 @@ class Measurements(Cost):
     needs_speed: ClassVar[bool] = False
     nuisances: ClassVar[int] = 0
     """Numbers fitted within the set, beside the unknowns."""
+    along_face: ClassVar[bool] = False
+    """Whether faces are solved for it, not nips alone."""
 
     at: Mapping[str, Any]
     measured: ArrayLike
@@ -172,7 +174,7 @@ class Scalars(Measurements):
     def conditions(self) -> list[dict[str, Any]]:
         """The changes of the case for each value: one nip each."""
         return [
-            {path: _entry(value, index) for path, value in self.at.items()}
+            {path: entry_of(value, index) for path, value in self.at.items()}
             for index in range(self.values.size)
         ]
 
@@ -274,5 +276,6 @@ def _condition(path: str, value: Any) -> Array | float | str:
     return numbers if numbers.ndim else float(numbers)
 
 
-def _entry(value: Any, index: int) -> Any:
+def entry_of(value: Any, index: int) -> Any:
+    """Return the condition of one measurement: its own, or that of the whole set."""
     return float(value[index]) if isinstance(value, np.ndarray) else value

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip.face import NipRows, solve_face
 from rollnip.identification.costs import Measurements, Scalars
 from rollnip.identification.unknowns import Unknown
 from rollnip.io import case_hash, dimension_at, parse_case, with_values
@@ -92,6 +93,7 @@ class Forward:
         self.is_verified = True  # all nips of the last prediction
         self.fallbacks = 0  # solves with another geometry than wanted
         self._on_solve = on_solve
+        self._rows = NipRows()
         self._workforce = workforce
 
     def predict(self, values: Mapping[str, float]) -> Predictions | None:
@@ -151,8 +153,19 @@ class Forward:
         values: Mapping[str, float],
         known: dict[str, Solution | Numbers],
     ) -> Array:
+        if part.along_face:
+            return part.predict([self._face(values, row) for row in part.conditions])
         found = [self._solved(values, row, known) for row in part.conditions]
         return part.predict(cast("list[Solution]", found))
+
+    def _face(self, values: Mapping[str, float], row: Mapping[str, Any]) -> Any:
+        """Return the solution of one face; faces share the cross-sections that were solved."""
+        case = parse_case(with_values(self.tree, {**values, **row}))
+        if case.face is None:
+            raise InvalidInputError("The case must have a table [face] to fit an impression.")
+        found = solve_face(case.nip, case.face, case.model, rows=self._rows)
+        self._count(found.converged, False)
+        return found
 
     def _solved(
         self,

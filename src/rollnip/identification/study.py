@@ -26,6 +26,7 @@ from rollnip.identification.costs import (
     Total,
 )
 from rollnip.identification.fit import LeastSquares
+from rollnip.identification.impressions import Impressions
 from rollnip.identification.quality import row_names
 from rollnip.identification.surface import Strains, Velocities
 from rollnip.identification.unknowns import Prior, Unknown
@@ -149,6 +150,8 @@ class _Reader:
         columns = read_columns(self.folder / table.file, sheet=table.sheet)
         if table.kind == "strain":
             return self._strains(where, table, columns, at)
+        if table.kind == "impression":
+            return self._impressions(where, table, columns, at)
         kind, dimension = _SCALARS[table.kind]
         column = table.column or kind.quantity
         measured = columns.numbers(column, dimension)
@@ -165,6 +168,28 @@ class _Reader:
                 name=table.name or kind.quantity,
                 rows=row_names(Path(columns.source).name, columns.lines),
                 **shared,
+            )
+
+    def _impressions(
+        self, where: str, table: DataTable, columns: Columns, at: dict[str, Any]
+    ) -> Impressions:
+        if "face" not in self.case:
+            raise CaseFileError(
+                f"{self.source}: {where}: an impression needs a table [face] in the case."
+            )
+        column = table.column or "width"
+        measured = columns.numbers(column, "length")
+        _require_positive(columns, column, measured)
+        at |= self._conditions(columns, {"y", column, _ERROR, *table.ignore})
+        with self._placed(where):
+            return Impressions(
+                y=columns.numbers("y", "length"),
+                measured=measured,
+                standard_error=self._errors(where, table, columns, "length"),
+                at=at,
+                weight=table.weight,
+                name=table.name,
+                rows=row_names(Path(columns.source).name, columns.lines),
             )
 
     def _strains(

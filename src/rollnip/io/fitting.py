@@ -18,6 +18,7 @@ Kind = Literal[
     "creepage",
     "torque",
     "rolling-resistance",
+    "impression",
     "strain",
     "velocity",
 ]

@@ -19,6 +19,7 @@ from rollnip.face import (
     NipRows,
     balance,
     solve_face,
+    with_crown,
 )
 from rollnip.face.covering import Coverings
 from rollnip.shafts import Crown, CrownTable, Shaft
@@ -250,13 +251,20 @@ def test_the_table_kept_answers_without_solving(straight, monkeypatch):
     assert again.converged
 
 
-def test_field_rule_of_deflection():
-    """Five thousandths of an inch of deflection make a difference of 5 to 40 pli (trade rule)."""
+@pytest.mark.parametrize(("modulus", "thickness"), [(2.0, 15.0), (10.0, 12.0)])
+def test_field_rule_of_deflection(modulus, thickness):
+    """Five thousandths of an inch of deflection make a difference of 5 to 40 pli (trade rule).
+
+    A hollow of twice as much on the diameter opens the gap by it; soft and hard rubber.
+    """
     pli = 0.1751268
-    found = solve_face(press(crown=Crown(-0.127), load=30 * pli), Face(length=1600.0))
-    even = solve_face(press(crown=Crown(0.0), load=30 * pli), Face(length=1600.0), law=found.law)
-    change = abs((found.load[0] - found.load[32]) - (even.load[0] - even.load[32])) / pli
-    assert 3.0 < change < 40.0
+    nip = replace(press(load=30 * pli), friction=0.0)
+    layer = rn.Layer(thickness, rn.Elastic(modulus=modulus, poisson=0.5))
+    nip = replace(nip, upper=replace(nip.upper, layers=(layer,)))
+    hollow = solve_face(with_crown(nip, "upper", Crown(-2 * 0.127)), FACE)
+    straight = solve_face(nip, FACE, law=hollow.law)
+    change = (hollow.load[0] - hollow.load[32]) - (straight.load[0] - straight.load[32])
+    assert 5.0 < change / pli < 40.0
 
 
 def test_a_shaft_is_a_shaft():

@@ -2,10 +2,12 @@
 
 import json
 from dataclasses import replace
+from io import StringIO
 from math import inf, isnan
 from pathlib import Path
 
 import pytest
+from rich.console import Console
 from typer.testing import CliRunner
 
 import rollnip as rn
@@ -211,6 +213,18 @@ def test_face_solve_draws(tmp_path):
     assert result.exit_code == 0, result.output
     assert "line load" in result.stdout
     assert (tmp_path / "face.png").stat().st_size > 10_000
+
+
+def test_a_bar_tells_how_many_cross_sections_are_solved(monkeypatch):
+    from rollnip.cli import progress as module
+
+    out = StringIO()
+    monkeypatch.setattr(module, "Console", lambda **_: Console(file=out, force_terminal=True))
+    with module.counting() as tell:
+        tell(3, 40)
+        tell(40, 40)
+    assert "cross-sections" in out.getvalue()
+    assert "40/40" in out.getvalue()
 
 
 def test_face_crown():

@@ -55,7 +55,7 @@ def test_a_plain_iteration_leads_to_the_same_temperatures(warm):
         solution = rn.solve(nip, PLAIN)
         power = solution.dissipation_viscous
         new = 23.0 + power * _mean_per_power(warm, thermal)
-        if abs(new - temperature) < 1e-4:
+        if abs(new - temperature) < 1e-2:
             break
         temperature = 0.5 * (temperature + new)
     assert warm.power == pytest.approx(power, rel=0.01)  # one temperature in all the covering
@@ -84,7 +84,8 @@ def test_a_prescribed_approach_is_that_of_the_cold_rollers():
 
 def test_perfect_cooling_leaves_the_cold_nip():
     # cooled at both faces of a thin covering nothing can get warm
-    nip = replace(press(SHIFTED), upper=rn.Roller(radius=100.0, layers=[rn.Layer(0.5, SHIFTED)]))
+    rubber = lossy(shift=WLF)
+    nip = replace(press(rubber), upper=rn.Roller(radius=100.0, layers=[rn.Layer(0.5, rubber)]))
     heat = rn.HeatBalance(
         ambient=23.0,
         upper=rn.Cooling(film=1e7, core=rn.Held(23.0)),

@@ -14,6 +14,7 @@ from rollnip._errors import InvalidInputError
 from rollnip._results.presented import Presented
 from rollnip.contact import State, contact_intervals
 from rollnip.interior import (
+    FiniteFields,
     InterfaceStress,
     InteriorField,
     SurfaceTractions,
@@ -276,6 +277,9 @@ class Solution(Presented):
     ) -> InteriorField:
         """Displacements, stresses and strains inside the "upper" or "lower" roller, in its frame.
 
+        In geometry "full" those of finite strain, in present places, inside elastic layers on a
+        rigid core; else those of linear theory under the tractions of the solution.
+
         Parameters
         ----------
         z : (nz,) or scalar depths [mm], 0 at the surface; on a half-space core to any depth.
@@ -305,6 +309,7 @@ class Solution(Presented):
             speed=self.nip.speed,
             side=side,
             window=float(np.pi) * min(self.nip.upper.radius, self.nip.lower.radius),
+            beyond=self._beyond_upper if roller == "upper" else self._beyond_lower,
         )
 
     def heat_below(self, roller: Literal["upper", "lower"], z: ArrayLike) -> Array | None:
@@ -338,9 +343,36 @@ class Solution(Presented):
         """Stresses on every interface and bond of the upper, then of the lower roller."""
         x = np.union1d(self._section, self.nodes)
         model = (self.model.geometry, self.nip.speed)
-        upper = interface_stresses("upper", self.nip.upper, self._tractions_on("upper"), x, *model)
-        lower = interface_stresses("lower", self.nip.lower, self._tractions_on("lower"), x, *model)
-        return upper + lower
+        return interface_stresses(
+            "upper", self.nip.upper, self._tractions_on("upper"), x, model, self._beyond_upper
+        ) + interface_stresses(
+            "lower", self.nip.lower, self._tractions_on("lower"), x, model, self._beyond_lower
+        )
+
+    def is_finite_inside(self, roller: Literal["upper", "lower"]) -> bool:
+        """Return whether the fields inside "upper" or "lower" are those of finite strain.
+
+        They are in geometry "full", inside elastic layers on a rigid core; elsewhere they are those
+        of linear theory under the tractions of the solution.
+        """
+        return (self._beyond_upper if roller == "upper" else self._beyond_lower) is not None
+
+    @cached_property
+    def _beyond_upper(self) -> FiniteFields | None:
+        """What finite strain adds to the linear fields inside the upper roller."""
+        return self._beyond("upper")
+
+    @cached_property
+    def _beyond_lower(self) -> FiniteFields | None:
+        """What finite strain adds to the linear fields inside the lower roller."""
+        return self._beyond("lower")
+
+    def _beyond(self, name: Literal["upper", "lower"]) -> FiniteFields | None:
+        roller = self.nip.upper if name == "upper" else self.nip.lower
+        bonded = bool(roller.layers) and roller.core is None and not roller.is_viscoelastic
+        if self.model.geometry != "full" or not bonded or not np.any(self.pressure > 0.0):
+            return None
+        return FiniteFields.of(roller, self._tractions_on(name))
 
     @property
     def _section(self) -> Array:

@@ -43,6 +43,23 @@ def test_second_derivatives_are_those_of_the_first(energy):
 
 
 @pytest.mark.parametrize("energy", ENERGIES, ids=IDS)
+def test_slopes_are_those_of_the_energy(energy):
+    at, step = np.array([1.3, 0.8, 1.0]), 1e-6
+    for place, slope in enumerate(energy.principal(at)[:2]):
+        ahead, behind = (at[:2] + way * step * np.eye(2)[place] for way in (1.0, -1.0))
+        found = energy.value(*invariants(*ahead)) - energy.value(*invariants(*behind))
+        assert found / (2.0 * step) == pytest.approx(slope, rel=1e-8)
+    tiny = 1e-7  # a shear: w is half its square, to all digits but rounding of the square
+    assert energy.value(np.array(1.0), np.array(tiny**2)) == pytest.approx(0.5 * tiny**2, rel=1e-6)
+    volume, lame = np.array([0.8, 1.1]), np.array([2.0, 3.0])
+    for law in ("log", "square"):
+        of = NeoHookean(volumetric=law)
+        ahead, behind = (of.volume_energy(volume + way, lame) for way in (step, -step))
+        first, _ = of.volume_slopes(volume, lame)
+        np.testing.assert_allclose((ahead - behind) / (2.0 * step), first, rtol=1e-7)
+
+
+@pytest.mark.parametrize("energy", ENERGIES, ids=IDS)
 def test_the_shear_modulus_at_rest_is_one(energy):
     """w is stress-free with -r ln J at rest; a small shear g gives the stress g."""
     shear = 1e-4

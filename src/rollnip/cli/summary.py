@@ -44,7 +44,9 @@ def _parts(solution: Solution) -> Iterator[RenderableType]:
         yield Text(f"\n{heading}", style="bold")
         yield _table(lines, label=6, value=18)
     if solution.interfaces:
-        yield Text("\nInterfaces, each revolution", style="bold")
+        is_finite = solution.is_finite_inside("upper") or solution.is_finite_inside("lower")
+        heading = "Interfaces, each revolution" + (", finite strain" if is_finite else "")
+        yield Text(f"\n{heading}", style="bold")
         yield _interfaces(solution)
     yield Text()
     for warning in solution.warnings:

@@ -1,5 +1,6 @@
 """Finite strain of all orders: equilibrium of a covering under given tractions."""
 
+from rollnip.finite._spline import Spline
 from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions
 from rollnip.finite.response import (
     DeformedSurface,
@@ -8,18 +9,23 @@ from rollnip.finite.response import (
     linear_surface,
     nodal,
 )
+from rollnip.finite.stress import PARTS, element_fields, present_place
 from rollnip.finite.strip import Depths, Strip
 
 __all__ = [
+    "PARTS",
     "Body",
     "DeformedSurface",
     "Depths",
     "FiniteResponse",
     "NoEquilibriumError",
+    "Spline",
     "State",
     "Strip",
     "Tractions",
     "deformed_surface",
+    "element_fields",
     "linear_surface",
     "nodal",
+    "present_place",
 ]

@@ -3,11 +3,13 @@
 from rollnip.interior.bonds import INTERFACE_FIGURES, InterfaceStress, interface_stresses
 from rollnip.interior.evaluate import interior_field
 from rollnip.interior.field import InteriorField, StressRanges
+from rollnip.interior.finite import FiniteFields
 from rollnip.interior.losses import loss_below, loss_per_distance
 from rollnip.interior.tractions import SurfaceTractions
 
 __all__ = [
     "INTERFACE_FIGURES",
+    "FiniteFields",
     "InterfaceStress",
     "InteriorField",
     "StressRanges",

@@ -8,6 +8,7 @@ import numpy as np
 
 from rollnip.interior.evaluate import interior_field
 from rollnip.interior.field import InteriorField
+from rollnip.interior.finite import FiniteFields
 from rollnip.interior.tractions import Array, SurfaceTractions
 from rollnip.rollers import Roller
 
@@ -38,7 +39,7 @@ class InterfaceStress:
     depth : below the surface [mm].
     is_bond : True for the lower face of the last layer, on the core.
     x : (n,) places [mm], from trailing to leading.
-    shear : (n,) s_xz in the roller's frame [MPa].
+    shear : (n,) s_xz in the roller's frame; at finite strain along the deformed interface [MPa].
     peel : (n,) s_zz, tension positive [MPa].
     shear_min, shear_max, peel_min, peel_max : extremes over x [MPa].
     shear_min_x, shear_max_x, peel_min_x, peel_max_x : their places [mm].
@@ -76,16 +77,17 @@ def interface_stresses(
     roller: Roller,
     tractions: SurfaceTractions,
     x: Array,
-    geometry: str,
-    speed: float | None,
+    medium: tuple[str, float | None],
+    beyond: FiniteFields | None = None,
 ) -> tuple[InterfaceStress, ...]:
     """Stresses on every interface of a roller, from the surface to the core.
 
     Parameters
     ----------
     name : of the roller.
-    roller, tractions, geometry, speed : as in ``interior_field``.
+    roller, tractions, beyond : as in ``interior_field``.
     x : (n,) increasing places [mm].
+    medium : geometry and speed, as there.
 
     Returns
     -------
@@ -99,12 +101,22 @@ def interface_stresses(
     if not roller.layers:
         return ()
     depths = np.array(roller.interfaces)
-    above = interior_field(roller, tractions, depths, x, geometry=geometry, speed=speed)
+    geometry, speed = medium
+    above = interior_field(
+        roller, tractions, depths, x, geometry=geometry, speed=speed, beyond=beyond
+    )
     von_mises = above.von_mises.max(axis=1)
     shared = depths if roller.core is not None else depths[:-1]
     if shared.size:
         below = interior_field(
-            roller, tractions, shared, x, geometry=geometry, speed=speed, side="below"
+            roller,
+            tractions,
+            shared,
+            x,
+            geometry=geometry,
+            speed=speed,
+            side="below",
+            beyond=beyond,
         )
         beneath = below.von_mises.max(axis=1)
         von_mises[: shared.size] = np.maximum(von_mises[: shared.size], beneath)

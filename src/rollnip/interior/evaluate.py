@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import ArrayLike
 
 from rollnip._errors import InvalidInputError
+from rollnip.finite import PARTS
 from rollnip.interior.field import InteriorField
+from rollnip.interior.finite import FiniteFields
 from rollnip.interior.medium import Medium, Side
 from rollnip.interior.tractions import Array, SurfaceTractions
 from rollnip.interior.transform import Transformed, fields_in_space, strain_of
@@ -26,6 +30,7 @@ def interior_field(
     speed: float | None = None,
     side: Side = "above",
     window: float | None = None,
+    beyond: FiniteFields | None = None,
 ) -> InteriorField:
     """Displacements, stresses and strains inside a roller that rolls steadily.
 
@@ -52,6 +57,8 @@ def interior_field(
         or "below" it.
     window :
         largest |x| that is accepted [mm]; None: half the circumference, any x of a plane.
+    beyond :
+        what finite strain adds under these tractions; None: the fields of linear theory.
 
     Returns
     -------
@@ -80,7 +87,22 @@ def interior_field(
             f"`x` must lie within {reach:.6g} mm of the centre of the nip, got {worst!r}."
         )
     medium = Medium(roller, speed, geometry, side)
-    return _wrapped(medium, depths, places, _in_pieces(medium, tractions, depths, places))
+    linear = _wrapped(medium, depths, places, _in_pieces(medium, tractions, depths, places))
+    if beyond is None:
+        return linear
+    return _deformed(linear, beyond.at(depths, places, is_below=side == "below"))
+
+
+def _deformed(linear: InteriorField, beyond: Array) -> InteriorField:
+    """Return the fields of finite strain: linear ones and what is beyond, by `PARTS`."""
+    more = dict(zip(PARTS, beyond, strict=True))
+    axial, energy = more.pop("s_yy"), more.pop("energy")
+    return replace(
+        linear,
+        **{name: getattr(linear, name) + part for name, part in more.items()},
+        axial=linear.s_yy + axial,
+        stored=linear.energy_density + energy,
+    )
 
 
 def _values(name: str, values: ArrayLike) -> Array:

@@ -38,6 +38,12 @@ class InteriorField:
     On ring layers x = R theta at every depth and the components are the polar ones: s_xx the hoop
     stress, s_zz = s_rr, s_xz = -s_rt, u_x = u_t, u_z = -u_r. Plane strain.
 
+    At finite strain (``is_finite``) z is the undeformed depth and x the place where the material of
+    that depth is now: its abscissa over 1 - z/R. Stresses are Cauchy's. Components are along (x)
+    and across (z) the present line of that depth: at the surface they are the tractions, at an
+    interface or a bond what it carries. e_xx and e_zz are the stretches along and across that line
+    less 1, e_xz half the shear angle.
+
     Attributes
     ----------
     x : (nx,) [mm].
@@ -58,6 +64,8 @@ class InteriorField:
         factor): heat per depth and axial length; over 2 pi R the mean power per volume of a
         turn. Its integral over the layers is the viscous dissipation. Zero where elastic.
     poisson : (nz,) Poisson ratios.
+    axial : (nz, nx) axial stress at finite strain [MPa]; None: as in linear theory.
+    stored : (nz, nx) strain energy per undeformed volume at finite strain [MPa]; None: likewise.
     """
 
     x: Array
@@ -74,10 +82,19 @@ class InteriorField:
     loss_density: Array
     loss_per_depth: Array
     poisson: Array
+    axial: Array | None = None
+    stored: Array | None = None
+
+    @property
+    def is_finite(self) -> bool:
+        """Whether these are the fields of finite strain, and not of linear theory."""
+        return self.axial is not None
 
     @property
     def s_yy(self) -> Array:
-        """Axial stress nu (s_xx + s_zz) of plane strain, (nz, nx) [MPa]."""
+        """Axial stress of plane strain, linear nu (s_xx + s_zz), (nz, nx) [MPa]."""
+        if self.axial is not None:
+            return self.axial
         return self.poisson[:, None] * (self.s_xx + self.s_zz)
 
     @property
@@ -111,11 +128,16 @@ class InteriorField:
     @property
     def pressure(self) -> Array:
         """Hydrostatic pressure -(s_xx + s_yy + s_zz)/3, (nz, nx) [MPa]."""
-        return -(1.0 + self.poisson[:, None]) * (self.s_xx + self.s_zz) / 3.0
+        return -(self.s_xx + self.s_yy + self.s_zz) / 3.0
 
     @property
     def energy_density(self) -> Array:
-        """s_ij e_ij/2, (nz, nx) [MPa = mJ/mm3]: the strain energy where the layer is elastic."""
+        """s_ij e_ij/2, (nz, nx) [MPa = mJ/mm3]: the strain energy where the layer is elastic.
+
+        At finite strain the strain energy itself, per undeformed volume.
+        """
+        if self.stored is not None:
+            return self.stored
         normal = self.s_xx * self.e_xx + self.s_zz * self.e_zz
         return 0.5 * normal + self.s_xz * self.e_xz
 

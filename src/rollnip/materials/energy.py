@@ -81,6 +81,19 @@ class Energy(ABC):
     def principal(self, stretches: Array) -> Array:
         """Return dw/dl_i at principal stretches, both (3, ...); nan where there is no such one."""
 
+    @abstractmethod
+    def value(self, volume: Array, spread: Array) -> Array:
+        """Return w in plane strain, of J and the spread of stretches as in `slopes`.
+
+        Exact also where it is as small as a square of rounding, so that it may be compared with
+        the energy of linear theory.
+        """
+
+    def volume_energy(self, volume: Array, lame: Array) -> Array:
+        """Return U at J for a compressible material with lambda."""
+        change = volume - 1.0 if self.volumetric == "square" else np.log(volume)
+        return np.asarray(0.5 * lame * change**2)
+
     def volume_slopes(self, volume: Array, lame: Array) -> tuple[Array, Array]:
         """Return U' and U'' at J for a compressible material with lambda."""
         if self.volumetric == "square":
@@ -95,6 +108,14 @@ class _OfFirstInvariant(Energy):
     @abstractmethod
     def _by_excess(self, excess: Array) -> tuple[Array, Array]:
         """Return f' and f'' at I1 - 3."""
+
+    @abstractmethod
+    def _at(self, excess: Array) -> Array:
+        """Return f at I1 - 3."""
+
+    def value(self, volume: Array, spread: Array) -> Array:
+        """Return w = f/2."""
+        return np.asarray(0.5 * self._at(spread + 2.0 * (volume - 1.0)))
 
     def slopes(self, volume: Array, spread: Array) -> Slopes:
         """Return the derivatives of w by I and J in plane strain."""
@@ -120,6 +141,9 @@ class NeoHookean(_OfFirstInvariant):
 
     def _by_excess(self, excess: Array) -> tuple[Array, Array]:
         return np.ones_like(excess), np.zeros_like(excess)
+
+    def _at(self, excess: Array) -> Array:
+        return excess
 
 
 @dataclass(frozen=True)
@@ -149,6 +173,9 @@ class Yeoh(_OfFirstInvariant):
         b, c = self.second, self.third
         return 1.0 + 2.0 * b * excess + 3.0 * c * excess**2, 2.0 * b + 6.0 * c * excess
 
+    def _at(self, excess: Array) -> Array:
+        return np.asarray(excess * (1.0 + excess * (self.second + excess * self.third)))
+
 
 @dataclass(frozen=True)
 class Gent(_OfFirstInvariant):
@@ -176,6 +203,10 @@ class Gent(_OfFirstInvariant):
     def _by_excess(self, excess: Array) -> tuple[Array, Array]:
         left = np.where(excess < self.limit, self.limit - excess, np.nan)
         return self.limit / left, self.limit / left**2
+
+    def _at(self, excess: Array) -> Array:
+        inside = np.where(excess < self.limit, excess, np.nan)
+        return np.asarray(-self.limit * np.log1p(-inside / self.limit))
 
 
 @dataclass(frozen=True)
@@ -216,6 +247,15 @@ class Ogden(Energy):
     def principal(self, stretches: Array) -> Array:
         """Return dw/dl_i = sum m_n l_i^(a_n - 1)."""
         return np.asarray(sum(m * stretches ** (a - 1.0) for m, a in self._scaled))
+
+    def value(self, volume: Array, spread: Array) -> Array:
+        """Return w; with J^n T_n(t) - 1 = J^n (T_n(t) - 1) + (J^n - 1)."""
+        angle, swell = _angle(spread / (2.0 * volume)), np.log1p(volume - 1.0)
+        out = np.zeros_like(angle)
+        for m, a in self._scaled:
+            apart = 2.0 * np.exp(0.5 * a * swell) * np.sinh(0.25 * a * angle) ** 2
+            out += 2.0 * m / a * (apart + np.expm1(0.5 * a * swell))
+        return out
 
     def slopes(self, volume: Array, spread: Array) -> Slopes:
         """Return the derivatives of w by I and J in plane strain, also at equal stretches.
@@ -264,13 +304,18 @@ def _checked_terms(terms: object) -> tuple[tuple[float, float], ...]:
     return tuple(checked)
 
 
+def _angle(excess: Array) -> Array:
+    """Return arcosh(1 + excess), exact where this is small."""
+    return np.asarray(2.0 * np.arcsinh(np.sqrt(0.5 * excess)))
+
+
 def _chebyshev(n: float, excess: Array) -> tuple[Array, Array, Array]:
     """Return T_n, T_n' and T_n'' at t = 1 + excess, excess >= 0.
 
     T'(1) = n^2, and from Chebyshev's equation (1 - t^2) T'' - t T' + n^2 T = 0 each further
     derivative at 1 is (n^2 - k^2)/(2 k + 1) times the one before.
     """
-    angle = np.arcsinh(np.sqrt(0.5 * excess)) * 2.0  # cosh(angle) = 1 + excess
+    angle = _angle(excess)
     near = excess <= _NEAR
     safe = np.where(near, 1.0, angle)
     sinh, cosh = np.sinh(safe), np.cosh(safe)

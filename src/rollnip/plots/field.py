@@ -100,6 +100,9 @@ def plot_field(
     _frame(ax, look, pieces, scale)
     _name_layers(ax, look, pieces)
     text = QUANTITIES[component].label + ("" if rollers == "both" else f", {rollers} roller")
+    soft = [name for name in names if not roller_of(solution, name).is_rigid]
+    if all(solution.is_finite_inside(name) for name in soft):
+        text += ", finite strain"
     _colour_bar(ax, look, drawn[0], shades, text)
     title(ax, look, solution, "Inside the layers", room=0.5)
     engine = figure_of(ax).get_layout_engine()

@@ -203,8 +203,8 @@ class RoughSolution(Solution):
         x = np.union1d(self._section, self._thin[0][1:-1])
         model = (self.model.geometry, self.nip.speed)
         tractions = self._tractions_on("upper")
-        upper = interface_stresses("upper", self.nip.upper, tractions, x, *model)
-        lower = interface_stresses("lower", self.nip.lower, tractions, x, *model)
+        upper = interface_stresses("upper", self.nip.upper, tractions, x, model)
+        lower = interface_stresses("lower", self.nip.lower, tractions, x, model)
         return upper + lower
 
     @cached_property

@@ -150,6 +150,7 @@ class Tasks:
         tree |= {key: _numbers(_rounded(value)) for key, value in values.items()}
         tree["layer"] = field.layer.tolist()
         tree["interfaces"] = list(roller.interfaces)
+        tree["finite_strain"] = field.is_finite
         return Reply(200, json_bytes(tree), case_hash(case))
 
     def _value(self, body: Body) -> Reply:

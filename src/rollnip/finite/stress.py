@@ -1,0 +1,223 @@
+"""Stresses and stretches inside a covering at finite strain, from a state of its elements.
+
+Cauchy stress  J s = P F^T,  with the nominal stress P of `rollnip.finite.equilibrium`. Along the
+axle, where nothing is stretched,  s_yy = G w_3/J + c,  w_3 = dw/dl3 at l3 = 1.
+
+Components belong to the present lines of constant undeformed depth: x along such a line, z across
+it into the roller. At the surface s_zz = -p and s_xz = -q then hold at any strain, at a bond they
+are what it carries, and at small strains they are the polar components of linear theory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.finite.equilibrium import State
+from rollnip.finite.strip import LINEAR, Array, Strip, below_radius, on_circle, quadratics
+from rollnip.materials import Energy, NeoHookean
+
+PARTS = ("u_x", "u_z", "s_xx", "s_zz", "s_xz", "s_yy", "e_xx", "e_zz", "e_xz", "energy")
+"""What `element_fields` returns, in this order."""
+Masked = tuple[Energy, NDArray[np.bool_]]
+
+
+@dataclass(frozen=True)
+class _Law:
+    """Constants of every element: G and lambda (elements, 1), the energies with their elements."""
+
+    shear: Array
+    lame: Array
+    rigid: NDArray[np.bool_]
+    rest: Array
+    energies: list[Masked]
+
+    @classmethod
+    def of(cls, strip: Strip) -> _Law:
+        materials = [layer.material for layer in strip.depths.roller.layers]
+        given = [material.energy or NeoHookean() for material in materials]
+        different = list(dict.fromkeys(given))
+        which = np.array([different.index(one) for one in given])[strip.layer]
+        young = np.array([material.relaxed_modulus for material in materials])[strip.layer, None]
+        nu = np.array([material.poisson for material in materials])[strip.layer, None]
+        shear, rigid = 0.5 * young / (1.0 + nu), nu == 0.5
+        lame = 2.0 * shear * nu / np.where(rigid, 1.0, 1.0 - 2.0 * nu)
+        return cls(
+            shear,
+            lame,
+            rigid,
+            np.array([energy.rest for energy in given])[strip.layer, None],
+            [(energy, which == place) for place, energy in enumerate(different)],
+        )
+
+
+def element_fields(
+    strip: Strip, state: State, along: Array, down: Array, near: float | None = None
+) -> tuple[Array, Array]:
+    """Return the fields of a state at the same places of every element.
+
+    Parameters
+    ----------
+    strip, state :
+        a mesh and its equilibrium.
+    along, down :
+        (points,) places in each element, from -1 to 1.
+    near :
+        abscissa beyond which places follow the arc [mm]; None: the state is so small that linear
+        theory holds. Places are then undeformed arcs, and displacements those along and into the
+        undeformed roller.
+
+    Returns
+    -------
+    Present places (columns, rows, points) [mm]: x/(1 - z/R) with the undeformed depth z, at the
+    surface x itself; beyond ``near`` they grow with the angle.
+
+    Fields (parts, columns, rows, points), the parts named by `PARTS`: displacements along and into
+    the roller, defined as at its surface [mm]; stresses [MPa]; stretches less 1 along and across
+    the present line of constant depth, and half the shear angle; strain energy per undeformed
+    volume [MPa].
+    """
+    law = _Law.of(strip)
+    local = np.append(state.displacement, 0.0)[strip.unknowns].reshape(-1, 9, 2)
+    arc, depth, moved, hoop, inward = _deformed(strip, local, along, down)
+    c, stored = _volume_law(strip, law, local, state.pressure, np.stack([along, down], axis=-1))
+    stretch = np.hypot(hoop[..., 0], hoop[..., 1])
+    tangent = hoop / stretch[..., None]
+    normal = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
+    ratio = hoop[..., 0] * inward[..., 1] - hoop[..., 1] * inward[..., 0]
+    thinning = ratio / stretch
+    stress, axial, energy = _stresses(law, (hoop, inward, ratio), c)
+    curvature = strip.depths.roller.curvature
+    if near is None:
+        place, u_x, u_z = arc, *_polar(curvature * arc, moved)
+    else:
+        place, u_x, u_z = _places(curvature, arc, depth, moved, near)
+    parts = [
+        u_x,
+        u_z,
+        _component(stress, tangent, tangent),
+        _component(stress, normal, normal),
+        _component(stress, tangent, normal),
+        axial,
+        stretch - 1.0,
+        thinning - 1.0,
+        0.5 * np.arctan2((inward * tangent).sum(axis=-1), thinning),
+        energy + stored,
+    ]
+    shape = (strip.columns, strip.depths.owner.size, along.size)
+    return place.reshape(shape), np.stack(parts).reshape(-1, *shape)
+
+
+def _deformed(strip: Strip, local: Array, along: Array, down: Array) -> tuple[Array, ...]:
+    """Return arc, depth, displacement, and F on the unit vectors along and into the roller."""
+    (n_s, d_s), (n_z, d_z) = quadratics(along), quadratics(down)
+    z, rows = strip.depths.ends, strip.depths.owner.size
+    half_s = np.repeat(0.5 * np.diff(strip.ends), rows)[:, None]
+    half_z = np.tile(0.5 * np.diff(z), strip.columns)[:, None]
+    arc = np.repeat(strip.arcs[1::2], rows)[:, None] + half_s * along
+    depth = np.tile(0.5 * (z[1:] + z[:-1]), strip.columns)[:, None] + half_z * down
+    curvature = strip.depths.roller.curvature
+    angle = curvature * arc
+    way = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    moved, by_arc, by_depth = (
+        (one[:, :, None] * other[:, None, :]).reshape(-1, 9) @ local
+        for one, other in ((n_s, n_z), (d_s, n_z), (n_s, d_z))
+    )
+    hoop = way + by_arc / (half_s * (1.0 - curvature * depth))[..., None]
+    inward = np.stack([-way[..., 1], way[..., 0]], axis=-1) + by_depth / half_z[..., None]
+    return arc, depth, moved, hoop, inward
+
+
+def _places(
+    curvature: float, arc: Array, depth: Array, moved: Array, near: float
+) -> tuple[Array, ...]:
+    """Return places, and u_x and u_z: at the depth as they are defined at the surface."""
+    shrink = 1.0 - curvature * depth
+    x, y = on_circle(arc, curvature)
+    x, y = x * shrink + moved[..., 0], depth + y * shrink + moved[..., 1]
+    place = present_place(x, y, depth, (curvature, near))
+    return place, (place - arc) * shrink, below_radius(x, y, curvature) - depth
+
+
+def present_place(x: Array, y: Array, depth: Array, circle: tuple[float, float]) -> Array:
+    """Return x/(1 - z/R) of points (x, y) of undeformed depth z; far off it grows with the angle.
+
+    ``circle``: 1/R, and the abscissa up to which it is that.
+    """
+    curvature, near = circle
+    if curvature == 0.0:
+        return x
+    angle, front = np.arctan2(curvature * x, 1.0 - curvature * y), min(curvature * near, 1.0)
+    beyond = np.sign(angle) * (np.sin(front) + np.abs(angle) - front)
+    turned = np.where(np.abs(angle) <= front, np.sin(angle), beyond)
+    radius = np.hypot(x, 1.0 / curvature - y)
+    return np.asarray(turned * radius / (1.0 - curvature * depth))
+
+
+def _polar(angle: Array, moved: Array) -> tuple[Array, Array]:
+    """Return the displacements along and into the undeformed roller."""
+    cos, sin, x, y = np.cos(angle), np.sin(angle), moved[..., 0], moved[..., 1]
+    return x * cos + y * sin, y * cos - x * sin
+
+
+def _volume_law(
+    strip: Strip, law: _Law, local: Array, pressure: Array, at: Array
+) -> tuple[Array, Array]:
+    """Return c of P = 2 G w_I F + (G w_J + c) cof F, and U, at places ``at`` (points, 2)."""
+    basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
+    c = pressure @ basis - law.rest * law.shear
+    if law.rigid.all():
+        return c, np.zeros(c.shape)
+    by_x, by_y, volume = strip.gradients
+    x, y = by_x @ local, by_y @ local
+    ratio = (1.0 + x[..., 0]) * (1.0 + y[..., 1]) - x[..., 1] * y[..., 0]
+
+    def projected(values: Array) -> Array:
+        sums = (volume * values) @ LINEAR
+        return np.asarray((strip.inverse_mass @ sums[..., None])[..., 0])
+
+    mean = projected(ratio) @ LINEAR.T
+    slope, stored = np.empty(mean.shape), np.empty(mean.shape)
+    for energy, where in law.energies:
+        slope[where] = energy.volume_slopes(mean[where], law.lame[where])[0]
+        stored[where] = energy.volume_energy(mean[where], law.lame[where])
+    soft = projected(slope - law.rest * law.shear / mean) @ basis
+    return np.where(law.rigid, c, soft), np.where(law.rigid, 0.0, projected(stored) @ basis)
+
+
+def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, Array, Array]:
+    """Return the Cauchy stress in space as xx, yy, xy, the axial one, and psi less U."""
+    hoop, inward, ratio = deformed
+    left = np.stack(
+        [
+            hoop[..., 0] ** 2 + inward[..., 0] ** 2,
+            hoop[..., 1] ** 2 + inward[..., 1] ** 2,
+            hoop[..., 0] * hoop[..., 1] + inward[..., 0] * inward[..., 1],
+        ],
+        axis=-1,
+    )
+    spread = (hoop[..., 0] - inward[..., 1]) ** 2 + (hoop[..., 1] + inward[..., 0]) ** 2
+    stress, axial, psi = np.empty(left.shape), np.empty(ratio.shape), np.empty(ratio.shape)
+    for energy, where in law.energies:
+        shear, volume, apart = law.shear[where], ratio[where], spread[where]
+        slopes = energy.slopes(volume, apart)
+        stress[where] = (2.0 * shear * slopes.i / volume)[..., None] * left[where]
+        stress[where, :, :2] += (shear * slopes.j + c[where])[..., None]
+        total, apart = np.sqrt(apart + 4.0 * volume), np.sqrt(apart)
+        principal = np.stack([0.5 * (total + apart), 0.5 * (total - apart), np.ones_like(total)])
+        axial[where] = shear * energy.principal(principal)[2] / volume + c[where]
+        stored = energy.value(volume, spread[where]) - energy.rest * np.log1p(volume - 1.0)
+        psi[where] = shear * stored
+    return stress, axial, psi
+
+
+def _component(stress: Array, one: Array, other: Array) -> Array:
+    """Return one . s . other, s as xx, yy, xy."""
+    mixed = one[..., 0] * other[..., 1] + one[..., 1] * other[..., 0]
+    return np.asarray(
+        stress[..., 0] * one[..., 0] * other[..., 0]
+        + stress[..., 1] * one[..., 1] * other[..., 1]
+        + stress[..., 2] * mixed
+    )

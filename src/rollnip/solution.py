@@ -18,6 +18,7 @@ from rollnip.interior import (
     InterfaceStress,
     InteriorField,
     SurfaceTractions,
+    beyond_linear,
     interface_stresses,
     interior_field,
     loss_below,
@@ -277,8 +278,7 @@ class Solution(Presented):
     ) -> InteriorField:
         """Displacements, stresses and strains inside the "upper" or "lower" roller, in its frame.
 
-        In geometry "full" those of finite strain, in present places, inside elastic layers on a
-        rigid core; else those of linear theory under the tractions of the solution.
+        Of finite strain in geometry "full", inside elastic layers on rigid cores; else linear.
 
         Parameters
         ----------
@@ -309,7 +309,7 @@ class Solution(Presented):
             speed=self.nip.speed,
             side=side,
             window=float(np.pi) * min(self.nip.upper.radius, self.nip.lower.radius),
-            beyond=self._beyond_upper if roller == "upper" else self._beyond_lower,
+            beyond=self._beyond(roller),
         )
 
     def heat_below(self, roller: Literal["upper", "lower"], z: ArrayLike) -> Array | None:
@@ -343,36 +343,27 @@ class Solution(Presented):
         """Stresses on every interface and bond of the upper, then of the lower roller."""
         x = np.union1d(self._section, self.nodes)
         model = (self.model.geometry, self.nip.speed)
-        return interface_stresses(
-            "upper", self.nip.upper, self._tractions_on("upper"), x, model, self._beyond_upper
-        ) + interface_stresses(
-            "lower", self.nip.lower, self._tractions_on("lower"), x, model, self._beyond_lower
-        )
+        found: tuple[InterfaceStress, ...] = ()
+        for name, roller in (("upper", self.nip.upper), ("lower", self.nip.lower)):
+            given = self._tractions_on(name), x, model, self._beyond(name)
+            found += interface_stresses(name, roller, *given)
+        return found
 
     def is_finite_inside(self, roller: Literal["upper", "lower"]) -> bool:
-        """Return whether the fields inside "upper" or "lower" are those of finite strain.
+        """Return whether `interior` gives fields of finite strain there, or of linear theory."""
+        return self._beyond(roller) is not None
 
-        They are in geometry "full", inside elastic layers on a rigid core; elsewhere they are those
-        of linear theory under the tractions of the solution.
-        """
-        return (self._beyond_upper if roller == "upper" else self._beyond_lower) is not None
+    def _beyond(self, roller: str) -> FiniteFields | None:
+        """What finite strain adds to the linear fields inside a roller."""
+        return self._beyond_upper if roller == "upper" else self._beyond_lower
 
     @cached_property
     def _beyond_upper(self) -> FiniteFields | None:
-        """What finite strain adds to the linear fields inside the upper roller."""
-        return self._beyond("upper")
+        return beyond_linear(self.nip.upper, self.model.geometry, self._tractions_on("upper"))
 
     @cached_property
     def _beyond_lower(self) -> FiniteFields | None:
-        """What finite strain adds to the linear fields inside the lower roller."""
-        return self._beyond("lower")
-
-    def _beyond(self, name: Literal["upper", "lower"]) -> FiniteFields | None:
-        roller = self.nip.upper if name == "upper" else self.nip.lower
-        bonded = bool(roller.layers) and roller.core is None and not roller.is_viscoelastic
-        if self.model.geometry != "full" or not bonded or not np.any(self.pressure > 0.0):
-            return None
-        return FiniteFields.of(roller, self._tractions_on(name))
+        return beyond_linear(self.nip.lower, self.model.geometry, self._tractions_on("lower"))
 
     @property
     def _section(self) -> Array:

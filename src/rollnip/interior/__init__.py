@@ -3,7 +3,7 @@
 from rollnip.interior.bonds import INTERFACE_FIGURES, InterfaceStress, interface_stresses
 from rollnip.interior.evaluate import interior_field
 from rollnip.interior.field import InteriorField, StressRanges
-from rollnip.interior.finite import FiniteFields
+from rollnip.interior.finite import FiniteFields, beyond_linear
 from rollnip.interior.losses import loss_below, loss_per_distance
 from rollnip.interior.tractions import SurfaceTractions
 
@@ -14,6 +14,7 @@ __all__ = [
     "InteriorField",
     "StressRanges",
     "SurfaceTractions",
+    "beyond_linear",
     "interface_stresses",
     "interior_field",
     "loss_below",

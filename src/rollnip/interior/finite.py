@@ -122,6 +122,19 @@ class FiniteFields:
         return out
 
 
+def beyond_linear(
+    roller: Roller, geometry: str, tractions: SurfaceTractions
+) -> FiniteFields | None:
+    """Return what finite strain adds to the linear fields inside a roller; None for nothing.
+
+    It adds something in geometry "full", to elastic layers on a rigid core that carry a load.
+    """
+    is_bonded = bool(roller.layers) and roller.core is None and not roller.is_viscoelastic
+    if geometry != "full" or not is_bonded or not np.any(tractions.t_z > 0.0):
+        return None
+    return FiniteFields.of(roller, tractions)
+
+
 def _through_zero(upper: Array, lower: Array, eta: float) -> Array:
     """Return what is linear in eta and has the given values over 1 + eta at -+ 1/sqrt(3)."""
     first, second = upper / (1.0 - _GAUSS), lower / (1.0 + _GAUSS)

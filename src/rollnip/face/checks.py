@@ -21,6 +21,8 @@ CHECKED = ("approach", "nip_width", "peak_pressure")
 """Figures whose relative error between the nips of a table is looked for."""
 REPORTED = ("torque", "loss")
 """Errors that are reported, and ask for no finer table."""
+LIGHT = 0.02
+"""Lighter nips than this, over the heaviest of the table, are not asked how well they are known."""
 
 
 def checked(
@@ -53,10 +55,10 @@ def _between(law: NipLaw) -> tuple[list[Place], list[Place]]:
     """Return places in the middle between two loads, and between two slips, in its cells.
 
     One for each step of the lattice; the other number goes from place to place through what the
-    cells allow.
+    cells allow. Nips that carry next to nothing are left out.
     """
     loads, s = law.loads, law.s
-    cells = law.lattice.cells
+    cells = law.lattice.cells & (loads[1:] > LIGHT * loads[-1])[:, None]
     along, across = [], []
     for i in np.flatnonzero(cells.any(axis=1)):
         found = np.flatnonzero(cells[i])

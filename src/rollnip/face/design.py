@@ -14,6 +14,7 @@ from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw, slip_measure
 from rollnip.face.problem import FaceProblem, face_problem
+from rollnip.face.rows import NipRows
 from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solution import FaceSolution
 from rollnip.influence import KernelCache
@@ -69,6 +70,7 @@ def even_crown(
     *,
     roller: Name = "upper",
     cache: KernelCache | None = None,
+    rows: NipRows | None = None,
 ) -> EvenCrown:
     """Return the crown of one roller that makes the line load even; the other keeps its own.
 
@@ -79,6 +81,7 @@ def even_crown(
     ----------
     nip, face, model : the problem; ``nip.normal`` must be a LineLoad, or ``face`` hold end loads.
     roller : which one is ground.
+    cache, rows : influence functions and plane nips of earlier faces, as `solve_face` takes them.
 
     Raises
     ------
@@ -94,7 +97,7 @@ def even_crown(
     mean = _even_load(problem)
     needed = (problem.upper + problem.lower) @ np.full(_PLACES, mean) - problem.still
     guess = 2.0 * _rise(needed)
-    law = solve_face(with_crown(nip, roller, Crown(guess)), face, model, cache=cache).law
+    law = solve_face(with_crown(nip, roller, Crown(guess)), face, model, rows=rows, cache=cache).law
     radial = needed + _local_approach(nip, problem, law, mean)
     radial = radial - 0.5 * (radial[0] + radial[-1])
 

@@ -21,6 +21,7 @@ from rollnip.face.design import AnyLaw, Name, with_crown
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw
 from rollnip.face.problem import face_problem
+from rollnip.face.rows import NipRows
 from rollnip.face.solution import FaceSolution
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
@@ -143,6 +144,7 @@ def read_impressions(
     model: Model | None = None,
     *,
     roller: Name = "upper",
+    rows: NipRows | None = None,
 ) -> Reading:
     """Fit loads, crown, tilt or modulus to measured nip widths.
 
@@ -155,6 +157,7 @@ def read_impressions(
         "tilt", second less first end load [N], the same in all; "crown", of ``roller``, parabolic;
         "modulus", a factor on all moduli.
     roller : whose crown is unknown.
+    rows : plane nips of earlier faces, and where those of these are kept.
 
     Raises
     ------
@@ -172,7 +175,7 @@ def read_impressions(
     crown = one.shaft.crown.height if isinstance(one.shaft.crown, Crown) else 0.0
     start = {"load": first[0], "tilt": 0.0, "crown": crown, "modulus": 1.0}
     scales = {"load": first[0], "tilt": 0.2 * first[0] * face.length, "crown": 0.1, "modulus": 1.0}
-    law = _wide_law(nip, face, first, model)
+    law = _wide_law(nip, face, first, model, rows)
 
     def solved(values: Array) -> list[FaceSolution]:
         named: dict[str, float] = dict(start)
@@ -229,11 +232,13 @@ def _loads(nip: Nip, impressions: Sequence[Impression]) -> list[float]:
     return loads
 
 
-def _wide_law(nip: Nip, face: Face, loads: list[float], model: Model | None) -> NipLaw:
+def _wide_law(
+    nip: Nip, face: Face, loads: list[float], model: Model | None, rows: NipRows | None
+) -> NipLaw:
     """Return a table that covers all impressions as they are expected."""
     law: AnyLaw | None = None
     for load in sorted(loads):
-        law = solve_face(replace(nip, normal=LineLoad(load)), face, model, law=law).law
+        law = solve_face(replace(nip, normal=LineLoad(load)), face, model, law=law, rows=rows).law
     assert isinstance(law, NipLaw)
     return law
 

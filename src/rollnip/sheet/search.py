@@ -107,6 +107,8 @@ class Search:
         stand = before
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().aligned()
+            if not zones.is_proper:
+                break
             breaks = zones.breaks
             crowd = self._crowding(breaks, known)
             is_fine = crowd == self._crowding(breaks, 0.0)
@@ -131,8 +133,10 @@ class Search:
             other = self._other(stand, asked)
             stand, zones = (stand, asked) if other is None else other
             steps, elements = stand.steps, None
-        assert stand is not None
-        return replace(stand, zones=zones, stands_still=False, off=off)
+        if stand is None:
+            raise np.linalg.LinAlgError("zones without length")
+        proper = zones if zones.is_proper else stand.zones
+        return replace(stand, zones=proper, stands_still=False, off=off)
 
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return how nodes crowd at ends that are known to some share of the width."""

@@ -15,8 +15,9 @@ Array = NDArray[np.float64]
 _TOGETHER = (
     5e-4  # over the width: transitions of both interfaces so near to each other share a node
 )
+_COINCIDENT = 1e-8  # over the width: breaks so near leave elements of no length
 _SLIVER = 1e-3  # over the width: zones that are left out
-_OF_TRANSITIONS = 1.0 / 30.0  # of the distance of transitions, beside that of edges
+_OF_TRANSITIONS = 0.1  # of the distance of transitions, beside that of edges
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,8 +54,9 @@ class Zones:
 
     @property
     def is_proper(self) -> bool:
-        """Return whether all breaks are finite and every zone has a positive length."""
-        return self.upper.is_proper and self.lower.is_proper
+        """Return whether all breaks are finite and clearly apart, also those of both sides."""
+        apart = np.diff(self.breaks)
+        return bool(np.all(apart > _COINCIDENT * self.width))
 
     @property
     def breaks(self) -> Array:
@@ -69,7 +71,7 @@ class Zones:
     def distance(self, other: Zones) -> float:
         """Return how far apart the breaks of like zones are, over the width.
 
-        Transitions count a thirtieth, for figures depend on them to second order.
+        Transitions count a tenth, for figures depend on them to second order.
         """
         moves = [np.abs(a.breaks - b.breaks) for a, b in zip(self.sides, other.sides, strict=True)]
         edges = max(float(max(move[0], move[-1])) for move in moves)

@@ -29,6 +29,7 @@ if TYPE_CHECKING:
         Shell,
     )
     from rollnip.face import solve_face
+    from rollnip.feed import feed_sensitivity
     from rollnip.heat import follow_heat, solve_heat, warm_up
     from rollnip.identification import identify
     from rollnip.influence import KernelCache
@@ -102,6 +103,7 @@ _HOMES = {
         "Shell",
     ),
     "rollnip.face": ("solve_face",),
+    "rollnip.feed": ("feed_sensitivity",),
     "rollnip.patch": ("solve_patch",),
     "rollnip.patches": ("Across", "Force", "Patch"),
     "rollnip.heat": ("follow_heat", "solve_heat", "warm_up"),
@@ -173,6 +175,7 @@ __all__ = [
     "Traction",
     "Yeoh",
     "__version__",
+    "feed_sensitivity",
     "follow_heat",
     "identify",
     "read_case",

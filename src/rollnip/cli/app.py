@@ -12,6 +12,7 @@ from rollnip.cli.console import clear_failures, named, overridden, write
 from rollnip.cli.design import find, optimise, pareto, tolerance
 from rollnip.cli.dma import dma
 from rollnip.cli.face import face
+from rollnip.cli.feed import feed
 from rollnip.cli.fit import fit
 from rollnip.cli.heat import heat
 from rollnip.cli.lda import lda
@@ -45,6 +46,7 @@ app.add_typer(sweep)
 app.add_typer(face)
 app.add_typer(patch)
 app.command()(heat)
+app.command()(feed)
 app.add_typer(paper)
 app.command()(fit)
 app.command()(find)

@@ -1,0 +1,84 @@
+"""How the feed depends on each quantity: laws of dimensions, and what the command prints."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner
+
+import rollnip as rn
+from rollnip.cli.app import app
+
+EXAMPLES = Path(__file__).parents[1] / "examples"
+PAPER = rn.Sheet(thickness=0.1, modulus=500.0, poisson=0.3, tension_in=0.05, tension_out=0.02)
+UPPER = rn.Roller(radius=50, layers=[rn.Layer(2.0, rn.Elastic(modulus=0.91, poisson=0.5))])
+LOWER = rn.Roller(radius=25, layers=[rn.Layer(2.7, rn.Elastic(modulus=2.04, poisson=0.5))])
+NIP = rn.Nip(upper=UPPER, lower=LOWER, normal=rn.LineLoad(1.0), friction=0.4, sheet=PAPER)
+LINEAR = rn.Model(geometry="linear", tolerance=1e-4)
+FORCES = ("nip.load", "sheet.tension_in", "sheet.tension_out")
+
+
+@pytest.fixture(scope="module")
+def changes():
+    found = rn.feed_sensitivity(NIP, LINEAR, share=0.02)
+    assert all(one.converged for one in found)
+    return {one.path: one for one in found}
+
+
+def test_all_that_the_feed_depends_on_is_there(changes):
+    assert set(changes) == {
+        *FORCES,
+        *("sheet.thickness", "sheet.modulus"),
+        *(f"{side}.radius" for side in ("upper", "lower")),
+        *(f"{side}.layers.0.thickness" for side in ("upper", "lower")),
+        *(f"{side}.layers.0.material.modulus" for side in ("upper", "lower")),
+    }
+
+
+@pytest.mark.parametrize("side", ["upper", "lower"])
+@pytest.mark.parametrize("what", ["modulus", "length"])
+def test_the_feed_is_a_matter_of_ratios(changes, side, what):
+    """All moduli and line loads together change nothing; nor all lengths and line loads."""
+    lengths = [path for path in changes if path.endswith(("thickness", "radius"))]
+    moduli = [path for path in changes if path.endswith("modulus")]
+    paths = [*FORCES, *(moduli if what == "modulus" else lengths)]
+    total = sum(getattr(changes[path], side) for path in paths)
+    largest = max(abs(getattr(changes[path], side)) for path in paths)
+    assert abs(total) <= sum(changes[path].error for path in paths)
+    assert abs(total) < 0.02 * largest
+
+
+def test_a_larger_load_feeds_what_two_solutions_say(changes):
+    feeds = []
+    for load in (0.99, 1.01):
+        nip = rn.Nip(upper=UPPER, lower=LOWER, normal=rn.LineLoad(load), friction=0.4, sheet=PAPER)
+        feeds.append(rn.solve(nip, LINEAR).sheet.feed_upper)
+    found = changes["nip.load"]
+    assert found.upper == pytest.approx((feeds[1] - feeds[0]) / 0.02, abs=0.2 * found.error)
+
+
+def test_a_larger_roller_feeds_more_in_a_turn(changes):
+    found = changes["upper.radius"]
+    assert found.per_turn == pytest.approx(1.0 + found.upper, rel=2e-3)
+
+
+def test_a_nip_without_a_sheet_is_refused():
+    nip = rn.Nip(upper=UPPER, lower=LOWER, normal=rn.LineLoad(1.0), friction=0.4)
+    with pytest.raises(rn.InvalidInputError, match=r"^`sheet` must be given"):
+        rn.feed_sensitivity(nip)
+    with pytest.raises(rn.InvalidInputError, match=r"^`share` must be at most 0\.2, got 0\.5"):
+        rn.feed_sensitivity(NIP, share=0.5)
+
+
+def test_the_command():
+    file = str(EXAMPLES / "sheet-feed-nip.toml")
+    given = ["feed", file, "--geometry", "linear"]
+    text = CliRunner().invoke(app, given)
+    assert text.exit_code == 0
+    assert "modulus of the upper covering" in text.stdout
+    rows = json.loads(CliRunner().invoke(app, [*given, "--json"]).stdout)
+    assert abs(rows[0]["upper"]) == max(abs(row["upper"]) for row in rows)
+    other = str(EXAMPLES / "press-driven.toml")
+    refused = CliRunner().invoke(app, ["feed", other])
+    assert refused.exit_code == 2
+    assert "add a table [sheet]" in refused.output

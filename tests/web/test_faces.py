@@ -116,3 +116,36 @@ def test_the_crown_is_that_of_the_designer_in_python(post, face_case):
     del face_case["upper"]["shaft"]
     (detail,) = post("crown", {"case": face_case}, status=422)["details"]
     assert detail["path"] == "upper.shaft"
+
+
+@pytest.mark.parametrize(
+    ("side", "key", "value"),
+    [
+        ("upper", "bearing_middle", "20 mm"),
+        ("lower", "journals", [{"diameter": "90 mm", "length": "60 mm"}, {"diameter": "70 mm"}]),
+        ("upper", "crown", {"y": [-800, 0, 800], "diameter": [0, 0.3, 0]}),
+    ],
+)
+def test_what_bends_a_roller_needs_no_new_table(monkeypatch, face_case, side, key, value):
+    faces = Faces(KernelCache())
+    faces.face(parse_case(face_case))
+    laws = []
+
+    def watched(*given, law, **more):
+        laws.append(law)
+        return rn.solve_face(*given, law=law, **more)
+
+    monkeypatch.setattr(module, "solve_face", watched)
+    before = faces.face(parse_case(face_case))
+    face_case[side]["shaft"][key] = value
+    after = faces.face(parse_case(face_case))
+    names = ("load", f"deflection_{side}")
+    assert not all(np.allclose(after[name], before[name], rtol=1e-3) for name in names)
+    assert all(law is not None for law in laws)
+
+
+def test_a_bearing_offset_is_no_error_of_either_roller(face_case):
+    face_case["face"]["bearing_offset"] = "0.05 mm"
+    answer = Faces(KernelCache()).face(parse_case(face_case))
+    assert answer["load"][-1] > answer["load"][0]
+    assert answer["bearing_offset"] == pytest.approx(0.05)

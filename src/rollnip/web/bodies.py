@@ -91,6 +91,28 @@ class RunawayBody(Body):
     parameter: Literal["speed", "load"] = "speed"
 
 
+class ImpressionOf(Body):
+    """Nip widths of one impression."""
+
+    y: list[float] = Field(min_length=1, max_length=200, description="From the middle [mm].")
+    width: list[float] = Field(min_length=1, max_length=200, description="Nip width there [mm].")
+    load: float | None = Field(
+        None, description="Mean line load [N/mm] under which it was made; none: that of the case."
+    )
+
+
+class ImpressionBody(Body):
+    """A request for what measured nip widths along a face tell."""
+
+    case: Case
+    roller: Literal["upper", "lower"] = "upper"
+    unknowns: list[Literal["load", "tilt", "crown", "modulus"]] = Field(
+        ["crown", "tilt"], min_length=1, max_length=4
+    )
+    scatter: float = Field(0.2, gt=0.0, description="Standard deviation of a width [mm].")
+    impressions: list[ImpressionOf] = Field(min_length=1, max_length=10)
+
+
 class TomlBody(Body):
     """The text of a case file."""
 

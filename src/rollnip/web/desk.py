@@ -9,7 +9,15 @@ from contextlib import asynccontextmanager
 from typing import Any, TypeGuard
 
 from rollnip.web.answers import RefusedError, Reply, json_bytes
-from rollnip.web.bodies import CrownBody, FindBody, InteriorBody, KnownBody, RunawayBody, SweepBody
+from rollnip.web.bodies import (
+    CrownBody,
+    FindBody,
+    ImpressionBody,
+    InteriorBody,
+    KnownBody,
+    RunawayBody,
+    SweepBody,
+)
 from rollnip.web.limits import Limits
 from rollnip.web.patches import is_coarse
 from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError
@@ -124,6 +132,15 @@ class Desk:
             seconds = self._limits.long_seconds
             try:
                 return await self.pool.run(name, body, seconds, patient=True)
+            except (OverloadedError, TimeLimitError, WorkerError) as error:
+                raise _refused(error, seconds) from None
+
+    async def impression(self, body: ImpressionBody) -> Reply:
+        """Read measured nip widths along a face. Raises RefusedError."""
+        async with self._long_task(), self._gate:
+            seconds = self._limits.long_seconds
+            try:
+                return await self.pool.run("impression", body.model_dump(), seconds, patient=True)
             except (OverloadedError, TimeLimitError, WorkerError) as error:
                 raise _refused(error, seconds) from None
 

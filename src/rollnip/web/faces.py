@@ -148,12 +148,15 @@ def _unbent(roller: Roller) -> Roller:
     plain = replace(
         roller.shaft,
         bearing_distance=1.0,
+        bearing_middle=0.0,
         bore=0.0,
         journal_diameter=None,
+        journals=(),
         modulus=STEEL,
         poisson=0.3,
         density=None,
         crown=0.0,
+        profiles=(),
     )
     return replace(roller, shaft=plain)
 
@@ -164,7 +167,7 @@ def _check(nip: Nip, face: Face) -> None:
         other = "lower" if side == "upper" else "upper"
         one = replace(nip, **{other: replace(getattr(nip, other), shaft=None)})
         try:
-            face_problem(one, replace(face, end_loads=None), _FEW)
+            face_problem(one, replace(face, end_loads=None, bearing_offset=None), _FEW)
         except InvalidInputError as error:
             raise _placed(error, side) from None
 

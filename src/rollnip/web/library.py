@@ -51,6 +51,7 @@ _SHOWN_RESULTS = {
     "angle": {"metric": _DEGREE, "us": _DEGREE},
     "angle of axes": {"metric": ["deg", radians(1.0)], "us": ["deg", radians(1.0)]},
     "roller force": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
+    "feed per metre": {"metric": ["mm/m", 1.0], "us": ["in/100 ft", 1.0 / 1.2]},
     "area": {"metric": ["mm²", 1.0], "us": ["in²", 25.4**2]},
     "moment": {"metric": ["N·m", 1e3], "us": ["lbf·in", 112.98482902762]},
     "power": {"metric": ["W", 1e3], "us": ["hp", 1e3 * _HORSEPOWER]},

@@ -18,6 +18,7 @@ from rollnip.web.bodies import (
     Case,
     CrownBody,
     FindBody,
+    ImpressionBody,
     InteriorBody,
     KnownBody,
     NumberInBaseUnit,
@@ -123,6 +124,12 @@ async def warm_up(request: Request, case: CaseBody) -> Response:
 async def runaway(request: Request, body: RunawayBody) -> Response:
     """The steady states over speed or load, and how far the case is from thermal runaway."""
     return await _answer(request, _desk(request).runaway(body))
+
+
+@posts.post("/impression", response_model=dict[str, Any])
+async def impression(request: Request, body: ImpressionBody) -> Response:
+    """Crown, tilt, load or modulus from nip widths that were measured along a face."""
+    return await _answer(request, _desk(request).impression(body))
 
 
 @posts.post("/patch", response_model=dict[str, Any])

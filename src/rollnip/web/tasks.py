@@ -37,6 +37,7 @@ from rollnip.sweeps import scalars
 from rollnip.web.answers import SOURCE, Reply, as_json, error_tree, json_bytes, refusal
 from rollnip.web.faces import Faces
 from rollnip.web.heats import Heats
+from rollnip.web.impressions import read_impression
 from rollnip.web.known import JUDGED, at_end, bands, is_judged, spread
 from rollnip.web.library import Library
 from rollnip.web.limits import Limits
@@ -96,6 +97,7 @@ class Tasks:
             "warm-up": self._warm_up,
             "runaway": self._runaway,
             "patch": self._patch,
+            "impression": self._impression,
             "case": self._case,
             "toml": self._toml,
         }
@@ -232,6 +234,10 @@ class Tasks:
 
     def _patch(self, body: Body) -> Reply:
         return Reply(200, json_bytes(solved_patch(body["case"], self._limits)))
+
+    def _impression(self, body: Body) -> Reply:
+        case = self._read(body["case"])
+        return Reply(200, json_bytes(read_impression(case, body)), case_hash(case))
 
     def _sound_row(self, tree: Body) -> dict[str, Any]:
         """The scalars of a case's solution. Raises CaseFileError where it did not converge."""

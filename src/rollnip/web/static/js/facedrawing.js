@@ -24,7 +24,7 @@ export function bentPicture(tree, face, { width, palette, units }) {
 
 function frameOf(tree, face, width) {
   const { y } = face;
-  const half = Math.max(-y[0], ...SIDES.map((side) => 0.5 * (tree[side].shaft?.bearing_distance ?? 0)));
+  const half = Math.max(-y[0], ...SIDES.map((side) => reachOf(tree[side].shaft)));
   const radii = SIDES.map((side) => sizeOf(tree, side));
   const scale = Math.min((width - 2 * MARGIN) / (2 * half), TALLEST / (2 * (radii[0] + radii[1])));
   const shapes = SIDES.flatMap((side) => [face[`deflection_${side}`], face.crown[side]]);
@@ -43,6 +43,11 @@ function frameOf(tree, face, width) {
     x: (at) => width / 2 + at * scale,
     bent: (value) => value * times * scale,
   };
+}
+
+/** How far from the middle of the face the farther bearing of a shaft stands [mm]. */
+function reachOf(shaft) {
+  return shaft ? 0.5 * shaft.bearing_distance + Math.abs(shaft.bearing_middle ?? 0) : 0;
 }
 
 /** How far both surfaces have come towards each other at a place, without a common approach [mm]. */
@@ -88,10 +93,10 @@ function bearings(side, tree, face, frame, { palette, units }) {
   const up = side === "upper" ? -1 : 1;
   const rest = axis(0) - up * frame.bent(face[`deflection_${side}`][0]);
   const core = coreDiameter(tree[side]) ?? 0;
-  const half = Math.max(2, 0.5 * (shaft.journal_diameter ?? 0.5 * core) * frame.scale);
+  const half = Math.max(2, 0.5 * (shaft.journal_diameter ?? shaft.journals?.at(-1)?.diameter ?? 0.5 * core) * frame.scale);
   return [0, 1].flatMap((end) => {
     const [sign, at] = end === 0 ? [-1, 0] : [1, face.y.length - 1];
-    const [inner, outer] = [frame.x(face.y[at]), frame.x(0.5 * sign * shaft.bearing_distance)];
+    const [inner, outer] = [frame.x(face.y[at]), frame.x((shaft.bearing_middle ?? 0) + 0.5 * sign * shaft.bearing_distance)];
     const force = face.bearing_forces[side][end];
     const points = [
       [inner, axis(at) - half],

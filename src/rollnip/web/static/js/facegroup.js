@@ -1,11 +1,12 @@
 // The inputs along the face: its length, the shafts and crowns of both rollers.
 
-import { SIDES, STEEL_DENSITY, journalFor, withFace, withShaft, withoutFace } from "./face.js";
+import { SIDES, STEEL_DENSITY, endLoads, journalFor, withFace, withShaft, withoutFace } from "./face.js";
 import { checkbox, el, select } from "./dom.js";
+import { coveringInputs, crownAs, crownTable, journalTable, stepsFor } from "./facetables.js";
 import { getAt, setAt } from "./paths.js";
 import { say } from "./texts.js";
 
-const SHAPES = ["parabolic", "cosine", "circular"];
+const SHAPES = ["parabolic", "cosine", "circular", "table"];
 
 /** The group of inputs; `panel` is the Inputs it stands in. */
 export function faceGroup(tree, panel) {
@@ -19,6 +20,8 @@ export function faceGroup(tree, panel) {
     ? [
         panel.control("face.length"),
         panel.control("face.skew"),
+        ...offsetInputs(tree, panel),
+        tree.sheet ? acrossChoice(tree, panel) : null,
         ...SIDES.map((side) => shaftCard(side, tree, panel)),
       ]
     : [el("p", { class: "hint", text: say("face.hint") })];
@@ -31,6 +34,25 @@ export function faceGroup(tree, panel) {
   );
 }
 
+/** How much further one bearing of the upper roller comes; forces at the bearings settle it themselves. */
+function offsetInputs(tree, panel) {
+  if (endLoads(tree) || !tree.upper.shaft) return [];
+  const has = tree.face.bearing_offset !== undefined;
+  const act = (yes) => panel.change(panel.withAt("face.bearing_offset", yes ? 0 : undefined));
+  return [checkbox("in-has-offset", say("face.has-offset"), has, act), has ? panel.control("face.bearing_offset") : null];
+}
+
+/** How a sheet runs across its width. */
+function acrossChoice(tree, panel) {
+  return select({
+    id: "in-sheet-across",
+    label: say("face.sheet-across"),
+    options: ["free", "one-speed"].map((kind) => [kind, say(`face.sheet-${kind}`)]),
+    value: tree.face.sheet_across ?? "free",
+    act: (kind) => panel.change(panel.withAt("face.sheet_across", kind)),
+  });
+}
+
 function shaftCard(side, tree, panel) {
   const { radius, shaft } = tree[side];
   if (radius === "inf") return null;
@@ -41,7 +63,7 @@ function shaftCard(side, tree, panel) {
     if (yes) panel.change(withShaft(now, side, view.system));
     else change("", undefined);
   };
-  const isHeld = side === "upper" && Boolean(tree.face.end_loads); // forces at its bearings
+  const isHeld = side === "upper" && Boolean(endLoads(tree)); // forces at its bearings
   const box = checkbox(`in-${side}-has-shaft`, say(`face.bends-${side}`), Boolean(shaft), bends);
   box.querySelector("input").disabled = isHeld;
   const label = say(`roller.${side}`);
@@ -59,20 +81,32 @@ function shaftInputs(side, tree, panel, change) {
   const path = `${side}.shaft`;
   const journals = (kind) => {
     const { case: now, view } = panel.app.store.state;
-    change(".journal_diameter", kind === "rigid" ? undefined : journalFor(now[side], view.system));
+    const { journal_diameter: _one, journals: _steps, ...rest } = now[side].shaft;
+    const own = {
+      rigid: {},
+      round: { journal_diameter: journalFor(now[side], view.system) },
+      steps: { journals: stepsFor(now[side]) },
+    };
+    change("", { ...rest, ...own[kind] });
   };
   const hasHeight = typeof getAt(shaft, "crown.height") === "number";
+  const isTable = Boolean(shaft.crown.y);
+  const kind = shaft.journals?.length ? "steps" : shaft.journal_diameter === undefined ? "rigid" : "round";
   return [
     hasHeight ? panel.control(`${path}.crown.height`) : null,
-    hasHeight
+    hasHeight || isTable
       ? select({
           id: `in-${side}-crown-shape`,
           label: say("face.shape"),
           options: SHAPES.map((shape) => [shape, say(`face.${shape}`)]),
-          value: shaft.crown.shape,
-          act: (shape) => change(".crown.shape", shape),
+          value: isTable ? "table" : shaft.crown.shape,
+          act: (shape) => {
+            const { case: now } = panel.app.store.state;
+            change(".crown", crownAs(shape, now[side].shaft.crown, now.face.length));
+          },
         })
       : null,
+    isTable ? crownTable(path, panel) : null,
     panel.control(`${path}.bearing_distance`),
     panel.control(`${path}.bore`),
     select({
@@ -80,13 +114,17 @@ function shaftInputs(side, tree, panel, change) {
       label: say("face.journals"),
       options: [
         ["round", say("face.journals-round")],
+        ["steps", say("face.journals-steps")],
         ["rigid", say("face.journals-rigid")],
       ],
-      value: shaft.journal_diameter === undefined ? "rigid" : "round",
+      value: kind,
       act: journals,
     }),
-    shaft.journal_diameter === undefined ? null : panel.control(`${path}.journal_diameter`),
+    kind === "round" ? panel.control(`${path}.journal_diameter`) : null,
+    kind === "steps" ? journalTable(path, panel) : null,
+    ...coveringInputs(side, tree, panel, change),
     panel.fold(`in-${side}-shaft-more`, say("face.more"), [
+      panel.control(`${path}.bearing_middle`),
       panel.control(`${path}.modulus`),
       checkbox(`in-${side}-weighs`, say("face.weighs"), shaft.density !== undefined, (yes) =>
         change(".density", yes ? STEEL_DENSITY : undefined),

@@ -7,6 +7,7 @@ import { Control } from "./control.js";
 import { button, el, select, withUnit } from "./dom.js";
 import { SIDES, facePaths, withFace } from "./face.js";
 import { bentPicture, printPicture } from "./facedrawing.js";
+import { ImpressionPart } from "./impression.js";
 import { getAt, placeInWords, same, setAt } from "./paths.js";
 import { PressControl, pressKind } from "./press.js";
 import { faceLabel } from "./quantities.js";
@@ -19,6 +20,17 @@ const CURVES = [
   ["peak_pressure", "pressure", "pressure"],
   ["nip_width", "length", "upper"],
   ["traction", "line load", "shear"],
+];
+const SHEET_CURVES = [
+  ["feed_upper", "share", "upper"],
+  ["feed_lower", "share", "lower"],
+  ["tension_in", "line load", "shear"],
+];
+const SHEET_ROWS = [
+  ["mean_feed", "share", 4],
+  ["feed_difference", "feed per metre", 3],
+  ["least_tension_in", "line load", 3],
+  ["taut_tension", "line load", 3],
 ];
 const NOISE = 1e-9; // of the mean load: a traction below it is rounding
 const WITHIN = 0.1;
@@ -88,7 +100,8 @@ export class FaceView {
       }),
     );
     this.foot = el("div", { class: "chart-foot" }, el("p", { class: "hint", text: say("face.foot") }), el("div", { class: "row" }, ...exports));
-    this.whole = el("div", { class: "face" }, this.sliders, this.said, this.busy, this.pictures, this.notes, this.asks, this.chart.node, this.foot, this.figures, this.found);
+    this.impression = new ImpressionPart(app);
+    this.whole = el("div", { class: "face" }, this.sliders, this.said, this.busy, this.pictures, this.notes, this.asks, this.chart.node, this.foot, this.figures, this.found, this.impression.node);
     this.node = el("div", {}, this.none, this.whole);
     new ResizeObserver(() => this.drawn && this.draw(this.drawn.tree, this.drawn.face)).observe(this.pictures);
   }
@@ -107,6 +120,7 @@ export class FaceView {
     if (!tree.face) return;
     this.build(tree, view);
     for (const control of this.controls) control.refresh(tree);
+    this.impression.refresh(tree);
     const failure = this.app.faces.failureOf(tree);
     this.said.textContent = failure ? this.sentence(failure, tree) : "";
     this.said.hidden = !failure;
@@ -130,7 +144,7 @@ export class FaceView {
   build(tree, view) {
     const crowned = SIDES.filter((side) => typeof getAt(tree, `${side}.shaft.crown.height`) === "number");
     const kind = pressKind(this.app);
-    const key = JSON.stringify([crowned, kind, view.system, view.face, Boolean(view.crowned)]);
+    const key = JSON.stringify([crowned, kind, view.system, view.face, Boolean(tree.sheet)]);
     if (key === this.key) return;
     this.key = key;
     const focused = document.activeElement?.id;
@@ -143,8 +157,8 @@ export class FaceView {
       select({
         id: "face-curve",
         label: say("face.show"),
-        options: CURVES.map(([name]) => [name, say(`face.curve-${name}`)]),
-        value: view.face.curve,
+        options: curvesIn(tree).map(([name]) => [name, say(`face.curve-${name}`)]),
+        value: curveIn(tree, view.face.curve),
         act: (curve) => put({ curve }),
       }),
       ...(rollers.length === 0 || kind === "approach"
@@ -164,6 +178,7 @@ export class FaceView {
   }
 
   loads(kind) {
+    if (kind === "arms") return [0, 1].map((end) => new LiveControl(`face.arms[${end}].bearing_lever`, this.app, say(`face.arm-lever-${end}`)));
     if (kind === "force" || kind === "cylinders") return [new LiveForce("force", this.app)];
     const paths = kind === "ends" ? ["face.end_loads[0]", "face.end_loads[1]"] : [`nip.${kind}`];
     return paths.map((path) => new LiveControl(path, this.app));
@@ -186,7 +201,8 @@ export class FaceView {
   }
 
   get curve() {
-    return this.app.store.state.view.face.curve;
+    const { case: tree, view } = this.app.store.state;
+    return curveIn(tree, view.face.curve);
   }
 
   /** Whether what is drawn is of another design. */
@@ -245,6 +261,15 @@ export class FaceView {
   }
 }
 
+/** The curves of a design: those of its sheet, too, where it has one. */
+function curvesIn(tree) {
+  return tree.sheet ? [...CURVES, ...SHEET_CURVES] : CURVES;
+}
+
+function curveIn(tree, wanted) {
+  return curvesIn(tree).some(([name]) => name === wanted) ? wanted : CURVES[0][0];
+}
+
 function servedText({ served, low, high, within }, text) {
   const share = number(100 * within);
   if (!served) return say("crown.serves-none", { share });
@@ -256,7 +281,8 @@ function servedText({ served, low, high, within }, text) {
 
 /** A curve over the face. */
 export function faceChart(face, curve, units, palette) {
-  const [key, dimension, colour] = CURVES.find(([name]) => name === curve) ?? CURVES[0];
+  const known = [...CURVES, ...SHEET_CURVES].find(([name]) => name === curve && face[name]);
+  const [key, dimension, colour] = known ?? CURVES[0];
   const name = say(`face.curve-${key}`);
   const unit = units.name(dimension);
   const x = units.list(face.y, "length");
@@ -269,7 +295,7 @@ export function faceChart(face, curve, units, palette) {
   }
   const layout = layoutOf(palette, titled(say("axis.face"), units.name("length")), titled(name, unit), {
     along: units.name("length"),
-    yaxis: key === "traction" ? {} : { rangemode: "tozero" },
+    yaxis: ["traction", "feed_upper", "feed_lower", "tension_in"].includes(key) ? {} : { rangemode: "tozero" },
     showlegend: key === "load",
   });
   return { data, layout, label: say("face.chart", { name }) };
@@ -297,6 +323,7 @@ export function faceRows(face, units) {
     row("evenness", 100 * face.evenness, "ratio", 3),
     row("even_share", 100 * face.even_share, "ratio", 3),
     row("largest_scrub", cleanedScrub(face), "line load", 3),
+    ...SHEET_ROWS.filter(([key]) => Number.isFinite(face[key])).map(([key, dimension, digits]) => row(key, face[key], dimension, digits)),
     row("error", 100 * worst, "ratio", 2),
   ];
   const shares = ["evenness", "even_share", "error"];
@@ -321,7 +348,9 @@ function figureOf({ key, label, hint, ...shown }) {
 export function faceColumns(face, units) {
   const columns = [
     ["y", "y", "length"],
-    ...CURVES.map(([key, dimension]) => [say(`face.curve-${key}`), key, dimension]),
+    ...[...CURVES, ...SHEET_CURVES]
+      .filter(([key]) => face[key])
+      .map(([key, dimension]) => [say(`face.curve-${key}`), key, dimension]),
     ...SIDES.map((side) => [say(`face.deflection-${side}`), `deflection_${side}`, "length"]),
   ];
   const head = columns.map(([name, , dimension]) => `${name} [${units.of(dimension).name}]`);

@@ -10,6 +10,7 @@ import { idOf, setAt } from "./paths.js";
 import { choosePress, pressControls, pressKind, pressKinds } from "./press.js";
 import { coreEditor, rollerGroup, swapper } from "./rollers.js";
 import { sheetGroup } from "./sheet.js";
+import { TableBox } from "./tablebox.js";
 import { say } from "./texts.js";
 
 const GEOMETRIES = [
@@ -76,6 +77,18 @@ export class Inputs {
     const control = new Control(path, this.app);
     this.controls.push(control);
     return control.node;
+  }
+
+  /** A table of numbers in a text box. */
+  table(options) {
+    const box = new TableBox(options, this);
+    this.controls.push(box);
+    return box.node;
+  }
+
+  /** The design at hand with a value at a path. */
+  withAt(path, value) {
+    return setAt(this.app.store.state.case, path, value);
   }
 
   /** A fold that stays open over a rebuild. */

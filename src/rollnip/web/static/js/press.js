@@ -2,7 +2,9 @@
 
 import { Control } from "./control.js";
 import { pressBy, pressing, withSize } from "./design.js";
-import { byEndLoads } from "./face.js";
+import { byArms, byEndLoads, endLoads } from "./face.js";
+import { rowsEditor } from "./rows.js";
+import { el } from "./dom.js";
 import { setAt } from "./paths.js";
 import { say } from "./texts.js";
 
@@ -19,6 +21,7 @@ const CYLINDERS = ["pressure", "bore", "count", "ratio"];
 /** "load", "approach", "force" or "cylinders". */
 export function pressKind(app) {
   const { case: tree, view } = app.store.state;
+  if (tree.face?.arms) return "arms";
   if (tree.face?.end_loads) return "ends";
   if (pressing(tree) === "approach") return "approach";
   const isWhole = view.press !== "load" && tree.nip.face_width !== undefined;
@@ -27,7 +30,7 @@ export function pressKind(app) {
 
 /** The kinds of pressing as [key, text]; forces at the ends need bearings. */
 export function pressKinds(tree) {
-  const ends = tree.face && tree.upper.shaft ? ["ends"] : [];
+  const ends = tree.face && tree.upper.shaft ? ["ends", "arms"] : [];
   return ["load", "approach", "force", "cylinders", ...ends].map((key) => [key, say(`press.${key}`)]);
 }
 
@@ -37,8 +40,10 @@ export function choosePress(app, kind) {
   store.state = { ...store.state, view: { ...store.state.view, press: kind } };
   const wanted = kind === "approach" ? "approach" : "load";
   const { case: now } = store.state;
-  if (kind === "ends") return store.design({ case: byEndLoads(now, app.result()?.load ?? now.nip.load) });
-  const isThere = pressing(now) === wanted && !now.face?.end_loads;
+  const load = app.result()?.load ?? now.nip.load;
+  if (kind === "ends") return store.design({ case: byEndLoads(now, load) });
+  if (kind === "arms") return store.design({ case: byArms(now, load) });
+  const isThere = pressing(now) === wanted && !endLoads(now);
   const tree = isThere ? now : pressBy(now, wanted, app.result());
   const isWhole = kind === "force" || kind === "cylinders";
   const face = tree.nip.face_width ?? (isWhole ? (tree.face?.length ?? FACE[store.state.view.system]) : undefined);
@@ -49,11 +54,26 @@ export function choosePress(app, kind) {
 export function pressControls(kind, panel) {
   if (kind === "load" || kind === "approach") return [panel.control(`nip.${kind}`)];
   if (kind === "ends") return [0, 1].map((end) => panel.control(`face.end_loads[${end}]`));
+  if (kind === "arms") return [0, 1].map((end) => armInputs(end, panel));
   const names = kind === "force" ? ["force"] : CYLINDERS;
   const controls = names.map((name) => new PressControl(name, panel.app));
   const face = new FaceControl("nip.face_width", panel.app);
   panel.controls.push(...controls, face);
   return [...controls, face].map(({ node }) => node);
+}
+
+/** One arm: how far the bearing is from its pivot, and the forces on it. */
+function armInputs(end, panel) {
+  const path = `face.arms[${end}]`;
+  const label = say(`face.arm-${end}`);
+  const forces = { kind: "force", names: ["force", "lever"], fewest: 1, next: (last) => ({ ...last }) };
+  return el(
+    "div",
+    { class: "layer", role: "group", "aria-label": label },
+    el("h3", { text: label }),
+    panel.control(`${path}.bearing_lever`),
+    rowsEditor(`${path}.forces`, forces, panel),
+  );
 }
 
 /** Area of all cylinders times their lever [mm2]. */

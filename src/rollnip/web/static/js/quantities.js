@@ -149,6 +149,10 @@ const FACE = {
   length: { label: say("face.length"), dimension: "length", low: 50, high: 12000, log: true },
   skew: { label: say("face.skew"), dimension: "angle of axes", low: 0, high: 0.02, hint: say("hint.skew") },
   nip_angle: { label: say("face.angle"), dimension: "angle of axes", low: 0, high: Math.PI, hint: say("hint.angle") },
+  bearing_offset: { label: say("face.offset"), dimension: "length", low: -0.5, high: 0.5, hint: say("hint.offset") },
+  bearing_lever: { label: say("face.bearing-lever"), dimension: "length", low: 20, high: 3000, log: true },
+  force: { label: say("face.arm-force"), dimension: "roller force", low: 1, high: 100000, log: true, hint: say("hint.arm-force") },
+  lever: { label: say("face.lever"), dimension: "length", low: 1, high: 5000, log: true },
   "end_loads[0]": { ...END, label: say("face.end-first") },
   "end_loads[1]": { ...END, label: say("face.end-second"), hint: null },
 };
@@ -161,6 +165,7 @@ const SHAFT = {
     log: true,
     hint: say("hint.bearings"),
   },
+  bearing_middle: { label: say("face.bearing-middle"), dimension: "length", low: -200, high: 200, hint: say("hint.bearing-middle") },
   bore: { label: say("face.bore"), dimension: "length", low: 0, high: 1000, hint: say("hint.bore") },
   journal_diameter: { label: say("face.journal"), dimension: "length", low: 5, high: 1000, log: true },
   modulus: { label: say("face.modulus"), dimension: "pressure", low: 10000, high: 400000, log: true },
@@ -231,7 +236,7 @@ export function inputAt(path, tree) {
   const last = path.replace(/^.*?(shift\.[a-z0-9_]+|[a-z_]+)$/, "$1");
   const start = { path, factor: 1 };
   if (path.startsWith("sheet.")) return { ...start, ...SHEET[path.slice(6)] };
-  if (path.startsWith("face.")) return { ...start, ...FACE[path.slice(5)] };
+  if (path.startsWith("face.")) return { ...start, ...FACE[path.replace(/^face\.(arms\[.*\]\.)?/, "")] };
   if (path.startsWith("heat.")) return { ...start, ...(HEAT[path.slice(5)] ?? THERMAL[last]) };
   const [, cooling] = path.match(/^(?:upper|lower)\.heat\.(.+)$/) ?? [];
   if (cooling) return { ...start, ...(COOLING[cooling] ?? THERMAL[last]) };

@@ -1,0 +1,57 @@
+"""Nip impressions for the page: loads, crown, tilt and modulus from measured widths."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from rollnip._errors import CaseFileError, InvalidInputError
+from rollnip.face import Impression, Reading, read_impressions
+from rollnip.io import Case
+from rollnip.web.answers import SOURCE
+
+
+def read_impression(case: Case, body: Mapping[str, Any]) -> dict[str, Any]:
+    """Return what measured nip widths along the face tell, and the widths of the fitted faces.
+
+    Each estimate has ``value``, ``low`` and ``high``, the ends of its 95 % interval, and ``unit``.
+    ``shop_crown`` is what the shop formula asks to be added to the crown, ``needed_crown`` what the
+    fitted face needs [mm on the diameter].
+
+    Raises
+    ------
+    CaseFileError
+        where the case has no face, or the widths cannot be read.
+    """
+    if case.face is None:
+        raise CaseFileError(f"{SOURCE}: face: is missing; add a table [face] with a length.")
+    try:
+        impressions = [
+            Impression(one["y"], one["width"], body["scatter"], one["load"])
+            for one in body["impressions"]
+        ]
+        unknowns = tuple(body["unknowns"])
+        reading = read_impressions(
+            case.nip, case.face, impressions, unknowns, case.model, roller=body["roller"]
+        )
+    except InvalidInputError as error:
+        raise CaseFileError(f"{SOURCE}: impressions: {error}") from None
+    return _tree(reading)
+
+
+def _tree(reading: Reading) -> dict[str, Any]:
+    return {
+        "estimates": {
+            one.name: {"value": one.value, "low": one.low, "high": one.high, "unit": one.unit}
+            for one in reading.estimates
+        },
+        "end_loads": [list(one.face.end_loads or ()) for one in reading.solutions],
+        "chi_squared": reading.chi_squared,
+        "freedom": reading.freedom,
+        "shop_crown": reading.shop_crown,
+        "needed_crown": reading.needed_crown,
+        "bearing_offset": reading.bearing_offset,
+        "warnings": list(reading.warnings),
+        "y": reading.solutions[0].y.tolist(),
+        "nip_width": [one.nip_width.tolist() for one in reading.solutions],
+    }

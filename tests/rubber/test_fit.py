@@ -88,7 +88,10 @@ def test_known_constants_are_found_again(law):
     assert fit.warnings == ()
 
 
-@pytest.mark.parametrize(("law", "name"), [("yeoh", "second"), ("gent", "limit")])
+@pytest.mark.parametrize(
+    ("law", "name"),
+    [("yeoh", "second"), pytest.param("gent", "limit", marks=pytest.mark.slow)],
+)
 def test_intervals_hold_the_truth_of_noisy_tests(law, name):
     """Nineteen times in twenty, for stresses that scatter by 3 %; 33 or more of 40 by chance."""
     shear, energy = KNOWN[law]

@@ -1,5 +1,6 @@
 """Faces with a sheet in the nip: against plane nips, in balance, and what is refused."""
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 
 import numpy as np
@@ -207,6 +208,17 @@ def test_what_cannot_be_with_a_sheet(one_speed):
     with pytest.raises(rn.ConvergenceError, match="With a sheet it must be closed all over"):
         solve_face(with_crown(web_nip(), "upper", Crown(4.0)), FACE, COARSE)
     assert isinstance(one_speed.law, SheetLaw)
+
+
+@pytest.mark.slow
+def test_an_executor_solves_the_same_table(one_speed):
+    told = []
+    with ThreadPoolExecutor(1) as executor:
+        found = solve_face(
+            web_nip(), ONE_SPEED, COARSE, executor=executor, progress=lambda *n: told.append(n)
+        )
+    np.testing.assert_array_equal(found.tension_in, one_speed.tension_in)
+    assert told[0] == (1, 27)
 
 
 @pytest.mark.slow

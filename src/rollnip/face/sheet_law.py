@@ -19,6 +19,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from concurrent.futures import Executor
 from dataclasses import dataclass, field, replace
+from functools import cache
 from itertools import product
 from math import log, log1p
 
@@ -290,9 +291,14 @@ def _fault(load: float, upper: float, lower: float, why: str) -> str:
     )
 
 
+@cache
+def _own_kernels() -> KernelCache:
+    """Return the influence functions of a worker process."""
+    return KernelCache()
+
+
 def _values_of_task(task: tuple[Nip, Model, Point]) -> Values | str:
-    nip, model, point = task
-    return values_at(nip, model, point, KernelCache())
+    return values_at(*task, _own_kernels())
 
 
 def point_of(solution: SheetSolution) -> Point:

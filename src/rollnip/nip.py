@@ -184,6 +184,12 @@ class Nip:
 
     def _check_rollers(self) -> None:
         if self.upper.is_rigid and self.lower.is_rigid:
+            if self.sheet is not None:
+                raise InvalidInputError(
+                    "`upper` and `lower` must not both be bare rigid cores, with a sheet either: "
+                    "give one of them a `core` with its own modulus, such as 206e3 MPa of steel; "
+                    "the sheet then yields nearly alone."
+                )
             raise InvalidInputError(
                 "`upper` and `lower` must not both be bare rigid cores: nothing would deform."
             )

@@ -132,22 +132,20 @@ SHEETS: Mapping[str, Sheet] = {
 }
 """Usual sheets along their machine direction, without tension: a start where nothing is measured.
 
-Vary with `dataclasses.replace`; `SHEET_SOURCES` says where the numbers come from.
+Vary with `dataclasses.replace`; `SHEET_SOURCES` says which range is usual.
 """
 
 _PAPER_SOURCE = (
-    "machine direction of a range of some +-30 % between grades; across the thickness a hundredth "
-    "of it (Niskanen, ed., Paper Physics, 2nd ed. 2008, chapters 5 and 7; Mann, Baum and Habeger, "
-    "Tappi 63 (1980) 163)"
+    "typical values, some +-30 % between grades; the modulus is that of the machine direction, "
+    "across the thickness about a hundredth of it (Mann, Baum and Habeger, Tappi 63 (1980) 163, "
+    "measured all constants of one board)"
 )
 SHEET_SOURCES: Mapping[str, str] = {
-    "office paper": f"80 g/m2, thickness as ISO 534 measures it; {_PAPER_SOURCE}",
-    "newsprint": f"45 g/m2; {_PAPER_SOURCE}",
+    "office paper": f"of 80 g/m2; {_PAPER_SOURCE}",
+    "newsprint": f"of 45 g/m2; {_PAPER_SOURCE}",
     "board": f"folding boxboard of 250 g/m2; {_PAPER_SOURCE}",
-    "PET film": "biaxially drawn, 50 um (Mark, ed., Polymer Data Handbook, 1999, and makers' data "
-    "sheets: 3.5 to 5 GPa)",
-    "PE film": "low density, 50 um (Mark, ed., Polymer Data Handbook, 1999: 0.1 to 0.3 GPa)",
-    "aluminium foil": "household foil, 12 um; the metal's own modulus (Hatch, ed., Aluminum, ASM "
-    "1984)",
+    "PET film": "typical value of biaxially drawn film, 50 um; 3.5 to 5 GPa are usual",
+    "PE film": "typical value of low-density film, 50 um; 0.1 to 0.3 GPa are usual",
+    "aluminium foil": "household foil of 12 um, typical; the metal's own modulus, 69 to 72 GPa",
 }
-"""Where the numbers of `SHEETS` come from, by name."""
+"""What the numbers of `SHEETS` are, by name: typical values and the range that is usual."""

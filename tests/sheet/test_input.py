@@ -35,6 +35,7 @@ def test_values_outside_their_range_are_refused(name, value):
         (paper(), {"friction": 0.0}, "`friction_upper` of the sheet must be given"),
         (replace(paper(), thickness=5.0), {}, "thinner|smaller than the coverings are thick"),
         ("paper", {}, "`sheet` must be Sheet or None"),
+        (paper(), {"upper": RIGID, "lower": RIGID}, "give one of them a `core`"),
     ],
 )
 def test_nips_that_cannot_hold_their_sheet_are_refused(sheet, more, said):

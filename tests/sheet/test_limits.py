@@ -78,6 +78,20 @@ def test_steel_feeds_without_error():
     assert abs(solution.sheet.feed_lower) < 4e-5
 
 
+@pytest.mark.parametrize(("thickness", "allowed"), [(0.1, 0.015), (0.02, 5e-3)])
+def test_a_sheet_between_steel_rollers_yields_as_springs_do(thickness, allowed):
+    # Winkler: p = (a^2 - x^2) kappa/(2 c), F = (2/3) kappa a^3/c. What differs is the end of the
+    # springs' model over about a thickness at each edge, and what the steel itself yields.
+    steel = rn.Roller(radius=50, core=rn.Elastic(modulus=206e3, poisson=0.3))
+    sheet = rn.Sheet(thickness=thickness, modulus=3500.0, poisson=0.3, modulus_thickness=40.0)
+    nip = nip_with(sheet, upper=steel, lower=steel, normal=rn.LineLoad(5.0), friction=0.3)
+    solution = rn.solve(nip, rn.Model(geometry="linear"))
+    half = (1.5 * 5.0 * sheet.squeeze / nip.curvature) ** (1.0 / 3.0)
+    assert solution.converged
+    assert solution.nip_width == pytest.approx(2.0 * half, rel=allowed)
+    assert solution.peak_pressure == pytest.approx(0.75 * 5.0 / half, rel=5e-3)
+
+
 def test_paper_between_steel_grows_by_its_cross_contraction():
     # It sticks where pressure has made it longer, by nu (1 + nu) p/E at the most.
     steel = rn.Roller(radius=50, core=rn.Elastic(modulus=206e3, poisson=0.3))

@@ -48,6 +48,16 @@ poisson = 0.5
 """
 
 
+PRESSED = """
+[nip]
+load = "0.2 kN"
+friction = 0
+[patch]
+grid = [12, 12]
+""" + WHEEL[WHEEL.index("[upper]") :]
+"""The same wheel without friction, on a few rectangles."""
+
+
 def test_a_case_is_the_problem_that_it_says():
     case = parse_patch_case(WHEEL)
     patch = case.patch
@@ -137,6 +147,7 @@ def test_the_picture_has_four_panels(solved, style):
     assert "Wheel" in figure.get_suptitle()
 
 
+@pytest.mark.slow
 def test_the_command_prints_json_and_draws(tmp_path):
     path, picture = tmp_path / "case.toml", tmp_path / "patch.png"
     path.write_text(WHEEL)
@@ -212,7 +223,7 @@ def test_stresses_of_a_lower_roller_stand_below(solved, tmp_path):
 
 def test_solve_takes_a_case_with_a_patch(tmp_path):
     path = tmp_path / "case.toml"
-    path.write_text(WHEEL.replace("[16, 16]", "[12, 12]"))
+    path.write_text(PRESSED)
     done = CliRunner().invoke(app, ["solve", str(path), "--json"])
     assert done.exit_code == 1  # one grid
     part = json.loads(done.stdout)["patch"]
@@ -227,13 +238,11 @@ def test_solve_takes_a_case_with_a_patch(tmp_path):
 
 def test_stresses_and_ends_have_commands(tmp_path):
     path = tmp_path / "case.toml"
-    path.write_text(WHEEL.replace("[16, 16]", "[12, 12]"))
+    path.write_text(PRESSED)
     done = CliRunner().invoke(app, ["patch", "stress", str(path), "--depth", "4 mm", "--json"])
     (row,) = json.loads(done.stdout)["depths"]
     assert row["z"] == 4.0
     assert 0.0 < row["bond_shear"] <= row["max_shear"] <= row["von_mises"]
-    refused = CliRunner().invoke(app, ["patch", "stress", str(path), "--depth", "9 mm"])
-    assert refused.exit_code == 2
     refused = CliRunner().invoke(app, ["patch", "ends", str(path)])
     assert "`--approach` must be given" in refused.stderr
 
@@ -251,7 +260,7 @@ def test_the_end_of_a_face_is_printed(tmp_path):
 
 
 def test_sweeps_have_the_figures_of_patches():
-    tree = tomllib.loads(WHEEL.replace("[16, 16]", "[12, 12]"))
+    tree = tomllib.loads(PRESSED)
     study = {
         "case": tree,
         "results": ["patch.peak_pressure", "patch.error.load"],

@@ -39,6 +39,7 @@ def test_thin_sheets_on_a_hard_base_read_too_hard():
     assert sheets[2] == pytest.approx(block, abs=0.6)
 
 
+@pytest.mark.slow
 def test_it_is_of_the_size_of_gents_formula():
     """Gent's formula takes the cone for a punch: within a few points in the middle of the scale."""
     middle = rn.Elastic.from_shore_a(60.0)

@@ -91,57 +91,6 @@ def curvatures(length: float, width: float, load: float, modulus: float) -> tupl
     return scale, scale * other
 
 
-def kalker(ratio: float, n: int) -> tuple[float, float, float, float]:
-    """C11, C22, C23 and C32 for nu = 0.25 on one grid: F = C G ab creepage, with ab = 0.01 mm2."""
-    material = rn.Elastic.from_shear_modulus(1000.0, 0.25)
-    length = 0.1 * ratio**0.5
-    curved = curvatures(length, 0.01 / length, 1.0, 1000.0 / 0.75)
-    small = 1e-5  # the surfaces stick but at the very edge
-    found = []
-    for along, across, spin in ((small, 0.0, 0.0), (0.0, small, 0.0), (0.0, 0.0, 10.0 * small)):
-        patch = half_spaces(
-            *curved,
-            material,
-            normal=rn.Force(1.0),
-            friction=1.0,
-            along=rn.Creepage(along),
-            across=rn.Creepage(across),
-            spin=spin,
-        )
-        found.append(rn.solve_patch(patch, grid=(n, n)))
-    one, two, three = found
-    unit = 1000.0 * 0.01 * small
-    return (
-        one.traction_x / unit,
-        two.traction_y / unit,
-        three.traction_y / unit,
-        -two.spin_moment / (0.1 * unit),
-    )
-
-
-KALKER = [  # a/b, C11, C22, C23: Kalker 1967, table for nu = 0.25
-    (0.5, 3.62, 3.01, 0.929),
-    (1.0, 4.12, 3.67, 1.47),
-    (2.0, 5.10, 4.90, 2.62),
-]
-
-
-def test_kalkers_linear_coefficients():
-    _, c11, c22, c23 = KALKER[1]
-    got = kalker(1.0, 32)
-    # First order in a 30th.
-    np.testing.assert_allclose(got, [c11, c22, c23, c23], rtol=0.04)
-
-
-@pytest.mark.slow
-@pytest.mark.parametrize(("ratio", "c11", "c22", "c23"), KALKER)
-def test_kalkers_linear_coefficients_of_ellipses(ratio, c11, c22, c23):
-    coarse, fine = (np.array(kalker(ratio, n)) for n in (64, 128))
-    limit = 2.0 * fine - coarse  # the error is of first order
-    # The table has three digits; what the second order leaves in a 60th is 0.5 %.
-    np.testing.assert_allclose(limit, [c11, c22, c23, c23], rtol=8e-3)
-
-
 TRACTCURV = [
     (0.8e-3, 0.4742),
     *(
@@ -243,6 +192,7 @@ def test_thin_incompressible_layer():
     assert got.peak_pressure == pytest.approx(peak, rel=0.05)
 
 
+@pytest.mark.slow
 def test_forces_given_are_met_and_give_back_the_creepages():
     given = wheel(along=rn.Creepage(0.004), across=rn.Creepage(-0.003), spin=1e-4)
     solved = rn.solve_patch(given, grid=(20, 20))

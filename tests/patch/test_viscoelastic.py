@@ -6,7 +6,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from scipy.integrate import quad_vec
 
 import rollnip as rn
 from rollnip.patch import Grid
@@ -111,7 +110,7 @@ def test_a_free_axle_is_pulled_with_what_is_lost():
 
 
 def test_conditions_of_contact_hold():
-    got = rn.solve_patch(wheel(), grid=(32, 32))
+    got = rn.solve_patch(wheel(), grid=(20, 20))
     contact = got.pressure > 0.0
     assert np.max(np.abs(got.gap[contact])) < 1e-3 * got.approach
     assert np.min(got.gap) > -1e-3 * got.approach
@@ -123,13 +122,14 @@ def test_alike_rollers_share_load_and_loss():
     roller = rn.Roller(radius=100.0, layers=[rn.Layer(8.0, RUBBER)])
     two = wheel(upper=roller, lower=roller, normal=rn.Approach(1.0), friction=0.5)
     one = wheel(upper=roller, normal=rn.Approach(0.5), across_upper=rn.Across(radius=400.0))
-    pair, half = (rn.solve_patch(patch, grid=(24, 24)) for patch in (two, one))
-    assert pair.load == pytest.approx(half.load, rel=1e-3)
-    assert pair.rolling_resistance == pytest.approx(2.0 * half.rolling_resistance, rel=2e-3)
+    pair, half = (rn.solve_patch(patch, grid=(16, 16)) for patch in (two, one))
+    assert pair.load == pytest.approx(half.load, rel=2e-3)
+    assert pair.rolling_resistance == pytest.approx(2.0 * half.rolling_resistance, rel=4e-3)
     assert pair.torque_upper == pytest.approx(pair.torque_lower, rel=1e-6)
     assert np.max(np.abs(pair.level.shear)) < 1e-9 * pair.peak_pressure
 
 
+@pytest.mark.slow
 def test_unlike_rollers_share_the_moment_of_the_pressure():
     hard = rn.Roller(radius=80.0, layers=[rn.Layer(5.0, rn.Elastic(modulus=4.0, poisson=0.45))])
     got = rn.solve_patch(wheel(lower=hard, friction=0.4, along=rn.Creepage(0.01)), grid=(20, 20))
@@ -142,26 +142,25 @@ def test_unlike_rollers_share_the_moment_of_the_pressure():
 def test_delayed_half_space_is_the_integral_over_the_creep():
     """u(x) = J_g K(x) + int J'(t) K(x + V t) dt with the creep of a standard linear solid."""
     speed, grid = 300.0, Grid.over((-1.0, 1.0), (-1.0, 1.0), 40, 6)
-    creep_time = TIME * GLASSY / RELAXED
-    (kernel,) = delayed_kernels(
-        rn.Roller(radius=50.0, core=RUBBER), Scales.of(grid, 0.0), speed, 1.0
-    )
-    got = kernel.values(grid)
-    long = Grid.over((-1.0, 399.0), (-1.0, 1.0), 8000, 6)
-    unit = both_sides(half_space_coefficients(HalfSpace.of(1.0, 0.5), long))
-    x = (np.arange(16001) - 8000) * grid.hx
-
-    def late(t: float) -> np.ndarray:
-        places = x[8000 - 40 : 8000 + 41] + speed * t
-        seen = np.stack([[np.interp(places, x, row) for row in part[:2]] for part in unit])
-        return seen * np.exp(-t / creep_time)
-
-    rate = (1.0 / RELAXED - 1.0 / GLASSY) / creep_time
-    late_part = quad_vec(late, 0.0, 1.3, epsrel=1e-7, limit=4000, points=np.arange(40) / 6000.0)[0]
-    want = unit[:, :2, 8000 - 40 : 8000 + 41] / GLASSY + rate * late_part
-    # The fit of delays is good to 3e-5 of the relaxed compliance.
+    length = speed * TIME * GLASSY / RELAXED
+    body = rn.Roller(radius=50.0, core=RUBBER)
+    (kernel,) = delayed_kernels(body, Scales.of(grid, 0.0), speed, 1.0)
+    got = kernel.values(grid)[:, 1]
+    reach = 15.0 * length
+    long = Grid(0.0, 0.0, grid.hx, grid.hy, int(reach / grid.hx) + 42, 6)
+    unit = both_sides(half_space_coefficients(HalfSpace.of(1.0, 0.5), long))[:, 1]
+    x = (np.arange(2 * long.nx + 1) - long.nx) * grid.hx
+    points, weights = np.polynomial.legendre.leggauss(3)
+    edges = np.arange(0.0, reach, 0.5 * grid.hx)
+    s = (edges[:, None] + 0.25 * grid.hx * (1.0 + points)).ravel()
+    mean = np.tile(0.25 * grid.hx * weights, edges.size) * np.exp(-s / length) / length
+    here = np.arange(-40, 41) * grid.hx
     for i in (0, 2, 3):
-        np.testing.assert_allclose(got[i, :2], want[i], atol=1e-4 * np.max(want[3]))
+        late = np.array([np.interp(at + s, x, unit[i]) @ mean for at in here])
+        now = unit[i, long.nx - 40 : long.nx + 41]
+        want = now / GLASSY + (1.0 / RELAXED - 1.0 / GLASSY) * late
+        # The fit of delays is good to 3e-5 of the relaxed compliance.
+        np.testing.assert_allclose(got[i], want, atol=1e-4 * np.max(want))
 
 
 def test_delays_meet_the_compliance_of_layers():
@@ -181,6 +180,7 @@ def test_delays_meet_the_compliance_of_layers():
     np.testing.assert_allclose(got, limit, rtol=1e-4)
 
 
+@pytest.mark.slow
 def test_plies_are_the_layer():
     plies = rn.Roller(radius=50.0, layers=[rn.Layer(3.0, FIRM), rn.Layer(5.0, FIRM)])
     one, two = (
@@ -195,6 +195,7 @@ def test_a_speed_is_needed():
         wheel(speed=None)
 
 
+@pytest.mark.slow
 def test_claims_hold_against_a_finer_grid():
     patch = wheel(friction=0.6, along=rn.Force(10.0))
     coarse, fine = (rn.solve_patch(patch, grid=(n, n)) for n in (33, 64))
@@ -202,6 +203,7 @@ def test_claims_hold_against_a_finer_grid():
         assert abs(coarse.figures[name] - fine.figures[name]) <= error + fine.error[name], name
 
 
+@pytest.mark.slow
 def test_stresses_at_depth_carry_the_force():
     """A wide window: every depth carries load, shear and their moments."""
     thin = rn.Roller(radius=50.0, layers=[rn.Layer(1.5, FIRM)])

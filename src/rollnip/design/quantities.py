@@ -16,7 +16,7 @@ from rollnip.sweeps import SCALARS
 QUANTITIES: Mapping[str, str] = {
     name: "" if unit == "1" else unit
     for name, unit in SCALARS.items()
-    if not name.startswith(("error.", "solver."))
+    if not name.startswith(("error.", "solver.", "patch.error."))
 }
 """The results that can be asked for, with their base units; empty for a ratio."""
 

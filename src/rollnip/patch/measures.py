@@ -6,6 +6,7 @@ import numpy as np
 
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.level import Level
+from rollnip.patch.rolling import SHIFT
 
 FIGURES = (
     "load",
@@ -31,6 +32,7 @@ def figures_of(level: Level) -> dict[str, float]:
     x, y = np.meshgrid(grid.x, grid.y)
     creepages = (0.0, 0.0, 0.0) if level.rolling is None else level.rolling.creepages
     element = grid.element
+    arm = x - SHIFT * grid.hx  # seen from a contact a quarter ahead, as `RollingProblem.places`
     return {
         "load": float(np.sum(pressure)) * element,
         "approach": level.normal.approach,
@@ -40,7 +42,7 @@ def figures_of(level: Level) -> dict[str, float]:
         "peak_pressure": float(np.max(pressure)),
         "traction_x": float(np.sum(shear[0])) * element,
         "traction_y": float(np.sum(shear[1])) * element,
-        "spin_moment": float(np.sum(x * shear[1] - y * shear[0])) * element,
+        "spin_moment": float(np.sum(arm * shear[1] - y * shear[0])) * element,
         "creepage": creepages[0],
         "lateral_creepage": creepages[1],
         "load_centre": float(np.sum(x * pressure) / max(float(np.sum(pressure)), 1e-300)),

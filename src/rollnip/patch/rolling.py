@@ -30,6 +30,8 @@ from rollnip.patch.linear import Cone, LinearSystem
 
 Mask = NDArray[np.bool_]
 
+SHIFT = 0.25
+"""How far ahead the exact contact lies that a row of rectangles answers as, in rectangles."""
 _MOST_STEPS = 40
 _FARTHEST = 2.0
 """Most that a step changes a creepage, in creeps at which the whole contact would slip: where
@@ -87,10 +89,11 @@ class RollingProblem:
         The difference upstream stands half a rectangle ahead of the traction. Where a traction
         rises from zero at one end and without bound at the other, such a row answers as the exact
         one whose contact lies a quarter ahead (James 1972, Comput. Methods Appl. Mech. Eng. 1,
-        59-79): seen from there the difference stands a quarter ahead of the middle.
+        59-79): seen from there the difference stands a quarter ahead of the middle of the
+        rectangle, and the traction a quarter behind it.
         """
         grid = self.products.grid
-        x, y = np.meshgrid(grid.x + 0.25 * grid.hx, grid.y)
+        x, y = np.meshgrid(grid.x + SHIFT * grid.hx, grid.y)
         return x, y
 
     def rigid(self, creepages: Array) -> Array:

@@ -70,6 +70,10 @@ class Friction(Protocol):
         """Inverse of kappa."""
 
     @property
+    def excesses(self) -> tuple[float, ...]:
+        """Excess creeps that `smoothed` knows, over kappa."""
+
+    @property
     def free(self) -> list[int]:
         """Numbers of the unknown creepages."""
 
@@ -79,8 +83,8 @@ class Friction(Protocol):
     def relieved(self, shear: Array) -> Array:
         """Return -du/dx under shear tractions."""
 
-    def smoothed(self, values: Array) -> Array:
-        """Return roughly the shear that relieves values."""
+    def smoothed(self, values: Array, level: int) -> Array:
+        """Return roughly the shear that relieves values, with an excess creep."""
 
 
 class LinearSystem:
@@ -95,7 +99,7 @@ class LinearSystem:
         self.problem, self.cone, self.products = problem, cone, 0
         self.kappa = 1.0 / problem.stiffness
         self.element = problem.products.grid.element
-        self.weight = np.where(cone.slip, self.kappa / (self.kappa + cone.excess), 1.0)
+        self.weights = shares_of(cone.excess / self.kappa, problem.excesses)
         self.columns = [cone.kept(problem.rigid(np.eye(3)[i])) for i in problem.free]
         self.shape, self.size = cone.creep.shape, cone.creep.size
         count = float(np.sum(cone.stick | cone.slip))
@@ -154,12 +158,35 @@ class LinearSystem:
         return np.concatenate([values.ravel(), turned])
 
     def _smoothed(self, values: Array) -> Array:
-        """Return the preconditioner's answer: of waves where surfaces stick, of ``excess`` else."""
-        root = np.sqrt(self.weight)
-        waves = root * self.cone.kept(self.problem.smoothed(root * values))
-        return np.asarray(waves + (1.0 - self.weight) * values / (self.kappa + self.cone.excess))
+        """Return the preconditioner's answer.
+
+        Waves where surfaces stick, waves with about their excess where they slip, the excess alone
+        where it is large.
+        """
+        kept = self.cone.kept
+        out = self.weights[-1] * values / (self.kappa + self.cone.excess)
+        for level, weight in enumerate(self.weights[:-1]):
+            if np.any(weight):
+                root = np.sqrt(weight)
+                out = out + root * kept(self.problem.smoothed(root * values, level))
+        return np.asarray(out)
 
     def _sums(self, values: Array) -> Array:
         """Return the forces of tractions, one for each unknown creepage [N]."""
         sums = self.element * np.sum(values, axis=(1, 2))
         return np.asarray(sums[self.problem.free])
+
+
+def shares_of(values: Array, levels: tuple[float, ...]) -> list[Array]:
+    """Return shares of each level in values, (ny, nx) each; the last one of values beyond.
+
+    The shares of two neighbouring levels make up a value between them, by its logarithm (from the
+    first level, 0, to the second by the value itself); beyond the last level by another factor of
+    the last two levels.
+    """
+    last = levels[-1] * levels[-1] / levels[-2]
+    ends = np.array([*levels, last])
+    places = np.interp(values, ends[:2], (0.0, 1.0))
+    logs = np.log(np.maximum(values, ends[1]))
+    places = places + np.interp(logs, np.log(ends[1:]), np.arange(ends.size - 1.0))
+    return [np.maximum(1.0 - np.abs(places - i), 0.0) for i in range(ends.size)]

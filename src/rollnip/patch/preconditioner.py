@@ -2,9 +2,11 @@
 
 -du/dx multiplies a wave by (1 - e^(i kx hx))/hx times the 2x2 compliance. The preconditioner of
 rolling divides by the size of the first, kept from zero by the length of the contact, and by that
-of the second. What is left of the product is a number on the half circle from -i through 1 to i:
-GMRES takes the same number of steps on every grid, but for what the edge of the contact adds. The
-loss of viscoelastic bodies turns it towards 1. That of pressure divides by the size of C_zz.
+of the second; where surfaces slip, the creep over the traction bound is added to that size first
+(`rollnip.patch.rolling`). What is left of the product is a number on the half circle from -i
+through 1 to i: GMRES takes the same number of steps on every grid, but for what the edge of the
+contact adds. The loss of viscoelastic bodies turns it towards 1. That of pressure divides by the
+size of C_zz.
 """
 
 from __future__ import annotations
@@ -29,7 +31,8 @@ class Symbols:
 
     Attributes
     ----------
-    rolling : (3, py, px//2 + 1) inverse of the compliance to shear over the wave vector.
+    rolling : (3, py, px//2 + 1) size of -du/dx per shear over the wave vector: xx, xy and yy
+        [1/MPa].
     normal : (py, px//2 + 1) inverse of the size of C_zz [MPa/mm].
     """
 
@@ -66,9 +69,9 @@ def symbols(rollers: tuple[Roller, Roller], grid: Grid, contact: Mask, speed: fl
         s += across.reshape(k.shape)
         t += rest.reshape(k.shape)
         z += inwards.reshape(k.shape)
-    xx, xy, yy = s + t * (kx / k) ** 2, t * kx * ky / k**2, s + t * (ky / k) ** 2
-    size = (xx * yy - xy * xy) * np.hypot(2.0 * np.sin(0.5 * kx * grid.hx) / grid.hx, 1.0 / length)
-    return Symbols(np.stack([yy / size, -xy / size, xx / size]), 1.0 / z)
+    matrix = np.stack([s + t * (kx / k) ** 2, t * kx * ky / k**2, s + t * (ky / k) ** 2])
+    slope = np.hypot(2.0 * np.sin(0.5 * kx * grid.hx) / grid.hx, 1.0 / length)
+    return Symbols(matrix * slope, 1.0 / z)
 
 
 def _sizes(roller: Roller, k: Array, kx: Array, speed: float) -> tuple[Array, Array, Array]:

@@ -30,13 +30,16 @@ from rollnip.patch.linear import Cone, LinearSystem
 
 Mask = NDArray[np.bool_]
 
+EXCESSES = (0.0, 0.03, 0.2, 1.2)
+"""Creeps over the traction bound, over kappa, with which the preconditioner inverts waves. Larger
+ones count alone."""
 SHIFT = 0.25
 """How far ahead the exact contact lies that a row of rectangles answers as, in rectangles."""
 _MOST_STEPS = 40
 _FARTHEST = 2.0
 """Most that a step changes a creepage, in creeps at which the whole contact would slip: where
 little sticks, the force hardly says how fast the rest slips."""
-_LINEAR = 0.03
+_LINEAR = 0.2
 """Share of the residual that a linear system may leave at first; later the square of Newton's."""
 _LEAST_LINEAR = 1e-6
 _LEAST_SHARE = 1e-3
@@ -54,7 +57,8 @@ class RollingProblem:
     pressure : (ny, nx) [MPa]; it shears unlike surfaces against each other.
     creepages : along, across [1] and spin [1/mm]: given, or where to start.
     forces : along and across [N], each None where the creepage is given.
-    symbols : (3, py, px) preconditioner: inverse of the compliance to shear over the wave vector.
+    symbols : (3, py, px) for the preconditioner: size of -du/dx per shear over the wave vector, xx,
+        xy and yy [1/MPa].
     stiffness : 1/kappa [MPa], shear per creep of the softest wave.
     """
 
@@ -111,16 +115,38 @@ class RollingProblem:
             [products.back(xx * along + xy * across), products.back(xy * along + yy * across)]
         )
 
-    def smoothed(self, values: Array) -> Array:
-        """Return roughly the shear that relieves -du/dx = ``values``, (2, ny, nx)."""
+    @cached_property
+    def inverses(self) -> list[Array]:
+        """Inverses of the symbols with each of `EXCESSES` added, (3, py, px) each [MPa]."""
+        xx, xy, yy = self.symbols
+        out = []
+        for share in EXCESSES:
+            first, second = xx + share / self.stiffness, yy + share / self.stiffness
+            size = first * second - xy * xy
+            out.append(np.stack([second / size, -xy / size, first / size]))
+        return out
+
+    def smoothed(self, values: Array, level: int) -> Array:
+        """Return roughly the shear that relieves -du/dx + excess shear = ``values``, (2, ny, nx).
+
+        Parameters
+        ----------
+        values : (2, ny, nx).
+        level : number of the excess among `EXCESSES`.
+        """
         (py, half), (ny, nx) = self.symbols.shape[1:], self.bound.shape
         px = 2 * (half - 1)
-        first, both, second = self.symbols
+        first, both, second = self.inverses[level]
         along, across = (rfft2(part, (py, px), workers=1) for part in values)
         out = np.empty_like(values)
         out[0] = irfft2(first * along + both * across, (py, px), workers=1)[:ny, :nx]
         out[1] = irfft2(both * along + second * across, (py, px), workers=1)[:ny, :nx]
         return out
+
+    @property
+    def excesses(self) -> tuple[float, ...]:
+        """Excess creeps that `smoothed` knows, over kappa."""
+        return EXCESSES
 
     @property
     def free(self) -> list[int]:

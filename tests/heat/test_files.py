@@ -235,6 +235,7 @@ def test_a_branch_on_the_command_line(case_file):
         (("--follow", "speed=9 m/s:2 m/s"), "`--follow` must begin above 0 and below its end"),
         (("--follow", "speed=20 N"), "--follow: must be a speed"),
         (("--duration", "2 mm"), "--duration: must be a time"),
+        (("--duration", "-2 h"), "`--duration` must be positive, got -2 h."),
     ],
 )
 def test_wrong_options_say_what_is_wrong(case_file, arguments, sentence):

@@ -16,7 +16,7 @@ from rollnip.cli.feed import feed
 from rollnip.cli.fit import fit
 from rollnip.cli.heat import heat
 from rollnip.cli.lda import lda
-from rollnip.cli.options import Force
+from rollnip.cli.options import Force, Geometry, Json, Out, Quiet, Tolerance
 from rollnip.cli.paper import paper
 from rollnip.cli.patch import Wanted, answer, patch, require_linear
 from rollnip.cli.rubber import rubber
@@ -74,10 +74,8 @@ def root(
 @app.command()
 def solve(
     case: Annotated[str, typer.Argument(help="Case file, TOML or JSON; - is the standard input.")],
-    json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
-    out: Annotated[
-        Path | None, typer.Option(help="Write the result: name.json or name.nc (netCDF).")
-    ] = None,
+    json: Json = False,
+    out: Out = None,
     fields: Annotated[
         Path | None,
         typer.Option(help="Write stresses inside the layers: name.nc, or name.vtr for ParaView."),
@@ -85,16 +83,9 @@ def solve(
     plot: Annotated[
         Path | None, typer.Option(help="Draw an overview on one page: name.png, .svg or .pdf.")
     ] = None,
-    geometry: Annotated[
-        str | None,
-        typer.Option(
-            help="Geometry: linear, corrected, curved, finite or full; overrides the file."
-        ),
-    ] = None,
-    tolerance: Annotated[
-        str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides the file.")
-    ] = None,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary.")] = False,
+    geometry: Geometry = None,
+    tolerance: Tolerance = None,
+    quiet: Quiet = False,
     force: Force = False,
 ) -> None:
     """Solve one nip, or one patch where the case has a table [patch], and print a summary.

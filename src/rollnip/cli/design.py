@@ -16,14 +16,13 @@ from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures, named
 from rollnip.cli.kept import evaluating
-from rollnip.cli.options import WORKERS, Force
+from rollnip.cli.options import WORKERS, Force, Geometry
 
 if TYPE_CHECKING:
     from rollnip.design import Found
     from rollnip.sweeps import Study, Table
 
 _CASE = typer.Argument(help="Case file, TOML or JSON; - is the standard input.")
-_GEOMETRY = typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file.")
 _STUDY = typer.Argument(help="Study file, TOML or JSON; - is the standard input.")
 _JSON = typer.Option("--json", help="Print the answer as JSON.")
 _DATABASE = typer.Option(
@@ -48,7 +47,7 @@ def find(
         int,
         typer.Option(help="Cases from limit to limit that are solved first; more show more bends."),
     ] = 5,
-    geometry: Annotated[str | None, _GEOMETRY] = None,
+    geometry: Geometry = None,
     json: Annotated[bool, _JSON] = False,
     out: Annotated[Path | None, _CASE_OUT] = None,
     database: Annotated[Path | None, _DATABASE] = None,
@@ -92,7 +91,7 @@ def find(
 
 def optimise(
     study: Annotated[str, _STUDY],
-    geometry: Annotated[str | None, _GEOMETRY] = None,
+    geometry: Geometry = None,
     json: Annotated[bool, _JSON] = False,
     out: Annotated[Path | None, _CASE_OUT] = None,
     workers: Annotated[int | None, WORKERS] = None,
@@ -147,7 +146,7 @@ def optimise(
 
 def tolerance(
     study: Annotated[str, _STUDY],
-    geometry: Annotated[str | None, _GEOMETRY] = None,
+    geometry: Geometry = None,
     json: Annotated[bool, _JSON] = False,
     plot: Annotated[
         Path | None, typer.Option(help="Draw the answer: name.png, .svg or .pdf.")

@@ -10,6 +10,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip.cli.console import clear_failures, named, overridden, write
+from rollnip.cli.options import Json, Tolerance
 
 if TYPE_CHECKING:
     from rollnip.feed import FeedChange
@@ -19,13 +20,11 @@ _HEAD = ("1 % more of", "over the upper", "over the lower", "in a turn", "error"
 
 def feed(
     case: Annotated[str, typer.Argument(help="Case file with [sheet]; - is the standard input.")],
-    json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
+    json: Json = False,
     geometry: Annotated[
         str | None, typer.Option(help="Geometry: linear, curved or finite; overrides the file.")
     ] = None,
-    tolerance: Annotated[
-        str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides the file.")
-    ] = None,
+    tolerance: Tolerance = None,
 ) -> None:
     """Print how the feed of a sheet changes with load, hardness, diameters, thicknesses, tensions.
 

@@ -30,7 +30,9 @@ def fit(
     ] = None,
     geometry: Annotated[
         str | None,
-        typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file."),
+        typer.Option(
+            help="Geometry: linear, corrected, curved, finite or full; overrides the file."
+        ),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print the fit as JSON.")] = False,
     workers: Annotated[int, typer.Option(help="Number of processes that solve nips.", min=1)] = 1,

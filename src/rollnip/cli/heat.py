@@ -10,7 +10,7 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures, named, overridden, read_option, write
-from rollnip.cli.options import Force
+from rollnip.cli.options import Force, Geometry, Json, Out, Quiet, Tolerance
 
 if TYPE_CHECKING:
     from rollnip._units import Dimension
@@ -24,10 +24,8 @@ _LOW = 0.1  # of the case's own value: where a branch begins
 
 def heat(
     case: Annotated[str, typer.Argument(help="Case file with [heat]; - is the standard input.")],
-    json: Annotated[bool, typer.Option("--json", help="Print the result as JSON.")] = False,
-    out: Annotated[
-        Path | None, typer.Option(help="Write the result: name.json or name.nc (netCDF).")
-    ] = None,
+    json: Json = False,
+    out: Out = None,
     plot: Annotated[
         Path | None, typer.Option(help="Draw temperatures: name.png, .svg or .pdf.")
     ] = None,
@@ -44,14 +42,9 @@ def heat(
             '"load=5 N/mm:60 N/mm".'
         ),
     ] = None,
-    geometry: Annotated[
-        str | None,
-        typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file."),
-    ] = None,
-    tolerance: Annotated[
-        str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides the file.")
-    ] = None,
-    quiet: Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary.")] = False,
+    geometry: Geometry = None,
+    tolerance: Tolerance = None,
+    quiet: Quiet = False,
     force: Force = False,
 ) -> None:
     """Solve a nip and the temperatures of its rollers together.
@@ -65,6 +58,8 @@ def heat(
         model = overridden(problem.model, geometry, tolerance)
         wanted = None if follow is None else _range(follow, problem)
         seconds = read_option("--duration", duration, "time")
+        if seconds is not None and seconds <= 0.0:
+            raise InvalidInputError(f"`--duration` must be positive, got {duration}.")
         _check_targets(out, plot)
         from rollnip.influence import KernelCache
 

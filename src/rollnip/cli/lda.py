@@ -11,7 +11,7 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures, named, overridden, write
-from rollnip.cli.options import Force
+from rollnip.cli.options import Force, Geometry
 
 if TYPE_CHECKING:
     from rollnip._units import Dimension
@@ -35,7 +35,6 @@ _HALF_WIDTH = typer.Option(help='1/e2 half-width of the volume along x, such as 
 _RATE = typer.Option(help='Sample rate of the detector, such as "250 kHz".')
 _SHIFT = typer.Option(help='Frequency shift of one beam, such as "40 kHz".')
 _ROLLER = typer.Option(help="Roller whose surface is measured: upper or lower.")
-_GEOMETRY = typer.Option(help="Geometry: linear, corrected, curved or finite; overrides the file.")
 _CONFIDENCE = typer.Option(help='Confidence of bands and intervals, such as "95 %".')
 
 
@@ -60,7 +59,7 @@ def simulate(
     sample_rate: Annotated[str, _RATE] = "250 kHz",
     shift: Annotated[str, _SHIFT] = "0 Hz",
     roller: Annotated[str, _ROLLER] = "upper",
-    geometry: Annotated[str | None, _GEOMETRY] = None,
+    geometry: Geometry = None,
     json: Annotated[bool, typer.Option("--json", help="Print the bursts as JSON.")] = False,
     force: Force = False,
 ) -> None:
@@ -152,7 +151,7 @@ def compare(
     half_width: Annotated[str | None, _HALF_WIDTH] = None,
     shift: Annotated[str | None, _SHIFT] = None,
     sample_rate: Annotated[str | None, _RATE] = None,
-    geometry: Annotated[str | None, _GEOMETRY] = None,
+    geometry: Geometry = None,
     force: Force = False,
 ) -> None:
     """Align measured velocities with the computed ones in x and V, and compare them.

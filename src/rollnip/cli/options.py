@@ -14,6 +14,17 @@ Force = Annotated[
     ),
 ]
 
+Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
+Out = Annotated[Path | None, typer.Option(help="Write the result: name.json or name.nc (netCDF).")]
+Geometry = Annotated[
+    str | None,
+    typer.Option(help="Geometry: linear, corrected, curved, finite or full; overrides the file."),
+]
+Tolerance = Annotated[
+    str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides the file.")
+]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary.")]
+
 InstrumentFile = Annotated[Path, typer.Argument(help="Text file or workbook of an instrument.")]
 Temperature = Annotated[
     str | None, typer.Option(help="Temperature of all data, where there is no such column.")

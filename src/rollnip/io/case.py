@@ -2,25 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
-from pydantic import ValidationError
-
-from rollnip._errors import CaseFileError
 from rollnip._results.case import problem_hash
 from rollnip.cooling import HeatBalance
 from rollnip.io.build import Builder
 from rollnip.io.document import parse_document, read_document
-from rollnip.io.messages import form_error, wrong_controls
-from rollnip.io.tables import CaseTable
+from rollnip.io.messages import checked_form, refuse, wrong_controls
+from rollnip.io.tables import TABLES, CaseTable
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.shafts import Face
-
-_MOST_ERRORS = 20
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -82,7 +77,7 @@ def built_case(tree: dict[str, Any], source: str, folder: Path | None) -> Case:
     nip, model, face = builder.nip(), builder.model(), builder.face()
     heat = builder.heat()
     if nip is None or model is None or builder.errors:
-        _refuse(source, builder.errors)
+        refuse(source, builder.errors)
     return Case(nip=nip, model=model, source=source, face=face, heat=heat)
 
 
@@ -108,19 +103,5 @@ def _checked(tree: dict[str, Any], source: str) -> CaseTable:
         line = (
             "patch: is a table of cases in three dimensions; use `rollnip solve` or `rollnip patch`"
         )
-        _refuse(source, [f"{line}, in Python `rn.read_patch_case`."])
-    lines = wrong_controls(tree)
-    try:
-        table = CaseTable.model_validate(tree)
-    except ValidationError as error:
-        _refuse(source, [form_error(details) for details in error.errors()] + lines)
-    if lines:
-        _refuse(source, lines)
-    return table
-
-
-def _refuse(source: str, lines: Sequence[str]) -> NoReturn:
-    shown = [f"{source}: {line}" for line in lines[:_MOST_ERRORS]]
-    if len(lines) > _MOST_ERRORS:
-        shown.append(f"{source}: and {len(lines) - _MOST_ERRORS} more errors.")
-    raise CaseFileError("\n".join(shown)) from None
+        refuse(source, [f"{line}, in Python `rn.read_patch_case`."])
+    return checked_form(tree, source, CaseTable, TABLES, wrong_controls(tree))

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from typing import Any, TypeVar
+from typing import Any, NoReturn, TypeVar
 
 from pydantic import ValidationError
 from pydantic_core import ErrorDetails
@@ -16,6 +16,7 @@ from rollnip.io.tables import TABLES, CaseTable
 
 _CONTROLS = (("load", "approach"), ("traction", "creepage", "torque_lower"))
 _NAMED = re.compile(r"`(\w+)([^`]*)` (.*)", re.DOTALL)
+_MOST_ERRORS = 20
 T = TypeVar("T", bound=FileTable)
 _WORDS = {
     "list_type": "a list",
@@ -26,18 +27,22 @@ _WORDS = {
 }
 
 
+def more_than_one(choices: Iterable[tuple[str, ...]], nip: Container[str]) -> list[str]:
+    """Lines about choices of which [nip] holds more than one key; ``nip``: the keys given."""
+    given = [(names, [name for name in names if name in nip]) for names in choices]
+    return [
+        f"nip: must hold only one of {', '.join(names)}, got {' and '.join(keys)}."
+        for names, keys in given
+        if len(keys) > 1
+    ]
+
+
 def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
     """Lines about the keys of which [nip] takes exactly one."""
     nip = tree.get("nip")
     if not isinstance(nip, dict):
         return []
-    lines = []
-    for names in _CONTROLS:
-        given = [name for name in names if name in nip]
-        if len(given) > 1:
-            lines.append(
-                f"nip: must hold only one of {', '.join(names)}, got {' and '.join(given)}."
-            )
+    lines = more_than_one(_CONTROLS, nip)
     face = tree.get("face")
     named = [one for one in ("end_loads", "arms") if isinstance(face, dict) and one in face]
     ends = bool(named)
@@ -51,18 +56,33 @@ def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
 
 
 def checked_form(
-    tree: Mapping[str, Any], source: str, root: type[T], tables: Mapping[str, type[FileTable]]
+    tree: Mapping[str, Any],
+    source: str,
+    root: type[T],
+    tables: Mapping[str, type[FileTable]],
+    also: Sequence[str] = (),
 ) -> T:
     """The tree of a file as its table, where its form is right.
 
-    ``root`` is the table of the whole file, ``tables`` those below it by key. Raises
-    CaseFileError, one line for each error, with the name of the file and the path of the key.
+    ``root`` is the table of the whole file, ``tables`` those below it by key, ``also`` what else
+    is wrong. Raises CaseFileError as `refuse`.
     """
     try:
-        return root.model_validate(dict(tree))
+        table = root.model_validate(dict(tree))
     except ValidationError as error:
-        lines = (form_error(details, tables, root) for details in error.errors())
-        raise CaseFileError("\n".join(f"{source}: {line}" for line in lines)) from None
+        lines = [form_error(details, tables, root) for details in error.errors()]
+        refuse(source, [*lines, *also])
+    if also:
+        refuse(source, also)
+    return table
+
+
+def refuse(source: str, lines: Sequence[str]) -> NoReturn:
+    """Raise CaseFileError, a line for each of the first errors, with the name of the file."""
+    shown = [f"{source}: {line}" for line in lines[:_MOST_ERRORS]]
+    if len(lines) > _MOST_ERRORS:
+        shown.append(f"{source}: and {len(lines) - _MOST_ERRORS} more errors.")
+    raise CaseFileError("\n".join(shown)) from None
 
 
 def form_error(

@@ -8,11 +8,11 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
+from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.io.build import Builder
 from rollnip.io.case import Case, built_case
 from rollnip.io.document import parse_document, read_document
-from rollnip.io.messages import checked_form, placed
+from rollnip.io.messages import checked_form, more_than_one, placed, refuse
 from rollnip.io.profile import read_profile
 from rollnip.io.tables import CaseTable, NipTable, RollerTable
 from rollnip.io.tables_patch import PATCH_TABLES, PatchCaseTable, PatchNipTable, PatchRollerTable
@@ -113,7 +113,7 @@ def patch_hash(case: PatchCase) -> str:
 
 def _built(tree: dict[str, Any], source: str, folder: Path | None) -> PatchCase:
     if "patch" not in tree:
-        raise CaseFileError(f"{source}: patch: is missing; add a table [patch], it may be empty.")
+        refuse(source, ["patch: is missing; add a table [patch], it may be empty."])
     table = checked_form(tree, source, PatchCaseTable, PATCH_TABLES)
     errors = _wrong_choices(table.nip)
     builder = Builder(_plane(table), folder)
@@ -133,20 +133,17 @@ def _built(tree: dict[str, Any], source: str, folder: Path | None) -> PatchCase:
         except InvalidInputError as error:
             errors.append(placed("nip", str(error), _PLACES))
     if patch is None:
-        raise CaseFileError("\n".join(f"{source}: {line}" for line in errors))
+        refuse(source, errors)
     numbers = None if grid is None else (grid[0], grid[1])
     return PatchCase(patch=patch, tolerance=table.solver.tolerance, grid=numbers, source=source)
 
 
 def _wrong_choices(nip: PatchNipTable) -> list[str]:
     """Lines about keys of which [nip] takes one."""
-    lines = []
-    for names in _CHOICES:
-        given = [name for name in names if getattr(nip, name) is not None]
-        if len(given) > 1:
-            lines.append(f"nip: must hold only one of {', '.join(names)}, got both.")
-        if names[0] == "load" and not given:
-            lines.append("nip: must hold load or approach, got neither.")
+    given = {name for names in _CHOICES for name in names if getattr(nip, name) is not None}
+    lines = more_than_one(_CHOICES, given)
+    if not given.intersection(_CHOICES[0]):
+        lines.append("nip: must hold load or approach, got neither.")
     return lines
 
 

@@ -93,9 +93,8 @@ def drive(case: dict[str, Any]) -> float:
 def cases() -> tuple[dict[str, Any], ...]:
     """Return every finite-element result of tests/data."""
     files = sorted((root() / "tests" / "data").glob("finite_strain_*.json"))
-    return tuple(
-        case for file in files for case in json.loads(file.read_text(encoding="utf-8"))["results"]
-    )
+    held = [json.loads(file.read_text(encoding="utf-8")) for file in files]
+    return tuple(case for one in held for case in one.get("results", []))
 
 
 @cache

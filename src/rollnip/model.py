@@ -35,7 +35,8 @@ class Model:
         nip width to 0.002 and the creepage to 0.01, which counts as met by a tolerance of 0.001 or
         more; a finer one it cannot meet, and the solution says so. "full" gives approach and load
         to 0.0003, the peak pressure to 0.003, the nip width to 0.001 and the creepage to 0.005,
-        which counts likewise.
+        which counts likewise; where a surface is stretched far beside a slipping edge less well, by
+        what the solution's status says.
 
     Raises
     ------

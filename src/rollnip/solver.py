@@ -28,6 +28,7 @@ from rollnip.rolling import (
     impossible,
     pair_kernels,
     refine,
+    refine_all_orders,
     verdict,
     with_second_order,
 )
@@ -125,7 +126,7 @@ def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solutio
         )
     kernels, final = _refined(nip, model, cache)
     causes = []
-    while model.geometry in FINITE and (cause := _without_solution(model, kernels, final)):
+    while model.geometry in FINITE and (cause := _without_solution(model, final)):
         causes.append(f'No solution of geometry "{model.geometry}" was found: {cause}.')
         model = replace(model, geometry=_SIMPLER[model.geometry])
         kernels, final = _refined(nip, model, cache)
@@ -157,7 +158,7 @@ def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solutio
     )
 
 
-def _without_solution(model: Model, kernels: PairKernels, final: Round) -> str:
+def _without_solution(model: Model, final: Round) -> str:
     """Return why the iteration for finite strain has no solution; "" if it has one.
 
     A solution that misses the tolerance counts as one: the model never depends on an error
@@ -170,8 +171,6 @@ def _without_solution(model: Model, kernels: PairKernels, final: Round) -> str:
             f"its {_BEYOND[model.geometry]} did not come to rest (they last changed by "
             f"{final.geometry_change:.2g} of the first-order ones)"
         )
-    if not kernels.is_balanced:
-        return "its tractions have no equilibrium, or none that was found"
     return "" if final.stands_still else "contact, stick and slip did not settle"
 
 
@@ -180,6 +179,8 @@ def _refined(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, R
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
+    if model.geometry == "full":
+        return refine_all_orders(nip, model, kernels, half_width)
     return kernels, refine(nip, model, kernels, half_width)
 
 

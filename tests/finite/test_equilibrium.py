@@ -152,7 +152,8 @@ def test_steps_follow_the_derivative(poisson, energy):
     near = State(1.03 * target, body.at_rest().pressure)
     errors = []
     for _ in range(3):
-        near = body.equilibrium(tractions, near, still=np.inf)
+        fresh = State(near.displacement, near.pressure)  # without a derivative
+        near = body.equilibrium(tractions, fresh, still=np.inf)
         errors.append(np.abs(near.displacement - target).max() / np.abs(target).max())
     assert errors[0] < 2e-2
     assert errors[1] < 30.0 * errors[0] ** 2 + 2e-6  # volumes of incompressible ones: 1e-6 a step
@@ -169,7 +170,7 @@ def test_an_incompressible_covering_keeps_its_volume():
 
     state = body.equilibrium(tractions, body.at_rest(), still=1e-10)
     f_xx, f_xy, f_yx, f_yy = body.deformation(state.displacement)
-    volume = body.strip.gradients[2]
+    volume = body.strip.shapes[1]
     means = ((f_xx * f_yy - f_xy * f_yx) * volume).sum(axis=1) / volume.sum(axis=1)
     assert np.abs(f_xy).max() > 0.2
     np.testing.assert_allclose(means, 1.0, atol=1e-8)

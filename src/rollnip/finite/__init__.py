@@ -3,6 +3,7 @@
 from rollnip.finite._spline import Spline
 from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions
 from rollnip.finite.response import (
+    CUT,
     DeformedSurface,
     FiniteResponse,
     deformed_surface,
@@ -13,6 +14,7 @@ from rollnip.finite.stress import PARTS, element_fields, present_place
 from rollnip.finite.strip import Depths, Strip
 
 __all__ = [
+    "CUT",
     "PARTS",
     "Body",
     "DeformedSurface",

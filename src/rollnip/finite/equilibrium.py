@@ -17,8 +17,9 @@ and shear at the *present* place x(s); its derivative by the displacements is ke
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from math import inf
 
 import numpy as np
 from scipy.linalg import lapack
@@ -33,10 +34,12 @@ Tractions = Callable[[Array], tuple[Array, Array, Array, Array]]
 # the result: every step reduces what is left of J - 1 by about this factor.
 _YIELD = 1e-6
 _SOFT = NeoHookean()
-_STILL = 1e-3  # last step over the displacement; the one after it would be of its square
-_MOST_STEPS = 20
+_STILL = 1e-5  # what a result may still be off, over the displacement
+_MOST_STEPS = 40
 _LEAST_VOLUME = 0.1  # J that a step may reach
 _SHORTEST = 1e-2  # part of a step that is worth while
+_CONTRACTION = 0.1  # of steps, up to which a derivative is kept
+_CURVED = 3.0  # contraction expected of a derivative that is a step old, over the step
 
 
 class NoEquilibriumError(ArithmeticError):
@@ -44,21 +47,61 @@ class NoEquilibriumError(ArithmeticError):
 
 
 @dataclass(frozen=True)
-class State:
-    """Displacements (unknowns,) [mm] and the pressures of incompressible elements (elements, 3)."""
+class Tangent:
+    """Factors of the derivative of the forces by the displacements at some state.
 
-    displacement: Array
-    pressure: Array
+    Attributes
+    ----------
+    band : diagonals on either side.
+    factors, pivots : as LAPACK's dgbtrf leaves them.
+    means : (elements, 3, 18) derivatives of the volumes, weighted with the basis `LINEAR`.
+    rate : (elements, 3, 18) derivatives of the pressures.
+    """
+
+    band: int
+    factors: Array
+    pivots: Indices
+    means: Array
+    rate: Array
+
+    def solved(self, loads: Array) -> Array:
+        """Return the displacements that balance some loads, (unknowns,)."""
+        out, info = lapack.dgbtrs(self.factors, self.band, self.band, loads, self.pivots)
+        if info != 0 or not np.all(np.isfinite(out)):
+            raise NoEquilibriumError
+        return np.asarray(out)
 
 
 @dataclass(frozen=True)
-class _Forces:
-    """Internal forces, their derivative in banded storage, and what the pressures do in a step."""
+class State:
+    """A state of a mesh.
 
-    force: Array
-    stiffness: Array
-    pressure_step: Array
-    pressure_rate: Array
+    Attributes
+    ----------
+    displacement : (unknowns,) [mm].
+    pressure : (elements, 3) of incompressible elements, in the basis `LINEAR` [MPa].
+    tangent : derivative near here, if it is known.
+    """
+
+    displacement: Array
+    pressure: Array
+    tangent: Tangent | None = field(default=None, repr=False, compare=False)
+
+
+@dataclass(frozen=True)
+class _Fields:
+    """What forces and their derivative are made of, at the points of Gauss.
+
+    F (4, elements, 9); c with G w_J, and 2 G w_I, (elements, 9); step and rate of the pressures;
+    G times the derivatives of w, None where those of second order are zero.
+    """
+
+    deformation: Array
+    c: Array
+    straight: Array
+    step: Array
+    rate: Array
+    second: Slopes | None
 
 
 @dataclass(frozen=True)
@@ -114,12 +157,12 @@ class Body:
 
     def deformation(self, displacement: Array) -> Array:
         """Return F_xx, F_xy, F_yx and F_yy at the points of Gauss, (4, elements, 9)."""
-        by_x, by_y, _ = self.strip.gradients
         local = np.append(displacement, 0.0)[self.strip.unknowns].reshape(-1, 9, 2)
-        out = np.stack([*(by_x @ local).transpose(2, 0, 1), *(by_y @ local).transpose(2, 0, 1)])
-        out = out[[0, 2, 1, 3]]
+        by = self.strip.shapes[0] @ local
+        out = np.empty((4, by.shape[0], 9))
+        out[0], out[1], out[2], out[3] = by[:, :9, 0], by[:, 9:, 0], by[:, :9, 1], by[:, 9:, 1]
         out[[0, 3]] += 1.0
-        return np.asarray(out)
+        return out
 
     def _law(self, volume: Array) -> tuple[Array, Array]:
         """Return c and dc/dJ of compressible elements; what incompressible ones get is not used."""
@@ -130,10 +173,10 @@ class Body:
         turned = self._rest * shear / volume
         return law[0] - turned, law[1] + turned / volume
 
-    def _volume_terms(self, ratio: Array, weighted: Array, pressure: Array) -> tuple[Array, ...]:
+    def _volume_terms(self, ratio: Array, pressure: Array) -> tuple[Array, ...]:
         """Return c at the points, step and rate of the pressure; ``ratio`` is J at the points."""
         shear, _, rigid = self._constants
-        inverse = self.strip.inverse_mass
+        weighted, inverse = self.strip.products
         mean = (inverse @ (weighted @ ratio[..., None]))[..., 0]
         step = rigid * (shear / _YIELD) * (mean - (1.0, 0.0, 0.0))
         rate = (rigid * shear / _YIELD)[..., None] * inverse
@@ -149,51 +192,97 @@ class Body:
             rate = np.where(rigid[..., None] > 0.0, rate, soft)
         return c, step, rate
 
-    def _forces(self, state: State) -> _Forces:
-        strip = self.strip
-        by_x, by_y, volume = strip.gradients
-        x_t, y_t = by_x.transpose(0, 2, 1), by_y.transpose(0, 2, 1)
-        f_xx, f_xy, f_yx, f_yy = self.deformation(state.displacement)
-        swell = np.empty((*f_xx.shape, 9, 2))  # dJ/du
-        swell[..., 0] = f_yy[..., None] * by_x - f_yx[..., None] * by_y
-        swell[..., 1] = f_xx[..., None] * by_y - f_xy[..., None] * by_x
-        swell = swell.reshape(*f_xx.shape, 18)
-        weighted = (volume[..., None] * LINEAR).transpose(0, 2, 1)
-        ratio = f_xx * f_yy - f_xy * f_yx
+    @cached_property
+    def _is_soft(self) -> bool:
+        """Return whether all layers are neo-Hookean."""
+        return all(isinstance(energy, NeoHookean) for energy, _ in self._energies)
+
+    def _fields(self, state: State) -> _Fields:
+        f_xx, f_xy, f_yx, f_yy = deformation = self.deformation(state.displacement)
+        ratio, shear = f_xx * f_yy - f_xy * f_yx, self._constants[0]
+        c, step, rate = self._volume_terms(ratio, state.pressure)
+        if self._is_soft:
+            return _Fields(deformation, c, np.broadcast_to(shear, c.shape), step, rate, None)
         slopes = self._slopes(ratio, (f_xx - f_yy) ** 2 + (f_xy + f_yx) ** 2)
-        c, step, rate = self._volume_terms(ratio, weighted, state.pressure)
-        means = weighted @ swell
-        rate = rate @ means
-        shear = self._constants[0] * volume
-        c, shear, slopes = (
-            c * volume + shear * slopes.j,
-            2.0 * shear * slopes.i,
-            Slopes(*(shear * one for one in slopes)),
-        )
-        force = np.empty((f_xx.shape[0], 9, 2))
-        for i, (by, bx) in enumerate(((f_xy, f_xx), (f_yy, f_yx))):
-            force[..., i] = (x_t @ (shear * bx)[..., None] + y_t @ (shear * by)[..., None])[..., 0]
-        force = force.reshape(-1, 18) + (c[:, None] @ swell)[:, 0] + (step[:, None] @ means)[:, 0]
-        stiff = np.zeros((f_xx.shape[0], 9, 2, 9, 2))
-        stiff[:, :, 0, :, 0] = x_t @ (by_x * shear[..., None]) + y_t @ (by_y * shear[..., None])
-        stiff[:, :, 1, :, 1] = stiff[:, :, 0, :, 0]
-        turn = x_t @ (by_y * c[..., None])
-        stiff[:, :, 0, :, 1] = turn - turn.transpose(0, 2, 1)
-        stiff[:, :, 1, :, 0] = -stiff[:, :, 0, :, 1]
-        stiff = stiff.reshape(-1, 18, 18) + means.transpose(0, 2, 1) @ rate
-        if any(np.any(one) for one in slopes[2:]):  # dI = 2 F : dF, dJ = cof F : dF
-            along = np.empty((*f_xx.shape, 9, 2))
-            along[..., 0] = f_xx[..., None] * by_x + f_xy[..., None] * by_y
-            along[..., 1] = f_yx[..., None] * by_x + f_yy[..., None] * by_y
-            along = 2.0 * along.reshape(*f_xx.shape, 18)
-            by_i = slopes.ii[..., None] * along + slopes.ij[..., None] * swell
-            by_j = slopes.ij[..., None] * along + slopes.jj[..., None] * swell
-            stiff += along.transpose(0, 2, 1) @ by_i + swell.transpose(0, 2, 1) @ by_j
-        kept, slots = strip.slots
-        length = (3 * strip.band + 1) * strip.size
-        moves = strip.unknowns.ravel() >= 0
-        total = _summed(strip.unknowns.ravel()[moves], force.ravel()[moves], strip.size)
-        return _Forces(total, _summed(slots, stiff.ravel()[kept], length), step, rate)
+        second = Slopes(*(shear * one for one in slopes))
+        return _Fields(deformation, c + second.j, 2.0 * second.i, step, rate, second)
+
+    def _means(self, fields: _Fields) -> Array:
+        """Return the derivatives of the volumes, weighted with the basis `LINEAR`."""
+        f_xx, f_xy, f_yx, f_yy = fields.deformation[:, :, None, :]
+        weighted, shapes = self.strip.products[0], self.strip.shapes[0]
+        by = np.empty((weighted.shape[0], 6, 18))
+        by[:, :3, :9], by[:, :3, 9:] = weighted * f_yy, -weighted * f_yx
+        by[:, 3:, :9], by[:, 3:, 9:] = -weighted * f_xy, weighted * f_xx
+        made = (by @ shapes).reshape(-1, 2, 3, 9)
+        return np.ascontiguousarray(made.transpose(0, 2, 3, 1)).reshape(-1, 3, 18)
+
+    def _force(self, fields: _Fields, means: Array) -> Array:
+        """Return the forces of the elements on the nodes, (unknowns,)."""
+        f_xx, f_xy, f_yx, f_yy = fields.deformation
+        shapes, volume = self.strip.shapes
+        shear, c = fields.straight * volume, fields.c * volume
+        stress = np.empty((f_xx.shape[0], 18, 2))
+        stress[:, :9, 0], stress[:, 9:, 0] = shear * f_xx + c * f_yy, shear * f_xy - c * f_yx
+        stress[:, :9, 1], stress[:, 9:, 1] = shear * f_yx - c * f_xy, shear * f_yy + c * f_xx
+        force = (shapes.transpose(0, 2, 1) @ stress).reshape(-1, 18)
+        force += (fields.step[:, None] @ means)[:, 0]
+        # The core, at unknown -1, takes what is left over.
+        return _summed(self.strip.unknowns.ravel() + 1, force.ravel(), self.strip.size + 1)[1:]
+
+    @cached_property
+    def _soft(self) -> Array:
+        """Stiffness G grad.grad of neo-Hookean elements, the same at any strain."""
+        return self._isotropic(self._constants[0])
+
+    def _isotropic(self, straight: Array) -> Array:
+        shapes, volume = self.strip.shapes
+        weight = np.tile(straight * volume, (1, 2))[..., None]
+        return np.asarray(shapes.transpose(0, 2, 1) @ (shapes * weight))
+
+    def _stiffness(self, fields: _Fields, means: Array, rate: Array) -> Array:
+        """Return the derivative of the forces by the displacements, in banded storage, flat."""
+        shapes, volume = self.strip.shapes
+        straight = self._soft if self._is_soft else self._isotropic(fields.straight)
+        turn = shapes[:, :9].transpose(0, 2, 1) @ (shapes[:, 9:] * (fields.c * volume)[..., None])
+        turn = turn - turn.transpose(0, 2, 1)
+        stiff = (means.transpose(0, 2, 1) @ rate).reshape(-1, 9, 2, 9, 2)
+        stiff[:, :, 0, :, 0] += straight
+        stiff[:, :, 1, :, 1] += straight
+        stiff[:, :, 0, :, 1] += turn
+        stiff[:, :, 1, :, 0] -= turn
+        if fields.second is not None:
+            stiff += self._stiffening(fields.deformation, fields.second).reshape(stiff.shape)
+        stored = self.strip.stored
+        return _summed(self.strip.slots, stiff.ravel(), stored + 1)[:stored]
+
+    def _stiffening(self, deformation: Array, second: Slopes) -> Array:
+        """Return what second derivatives of w add: dI = 2 F : dF, dJ = cof F : dF."""
+        f_xx, f_xy, f_yx, f_yy = deformation[..., None]
+        shapes, volume = self.strip.shapes
+        by_x, by_y = shapes[:, :9], shapes[:, 9:]
+        along, swell = np.empty((2, *volume.shape, 9, 2))
+        along[..., 0], along[..., 1] = f_xx * by_x + f_xy * by_y, f_yx * by_x + f_yy * by_y
+        swell[..., 0], swell[..., 1] = f_yy * by_x - f_yx * by_y, f_xx * by_y - f_xy * by_x
+        along = 2.0 * along.reshape(*volume.shape, 18)
+        swell = swell.reshape(*volume.shape, 18)
+        ii, ij, jj = ((one * volume)[..., None] for one in (second.ii, second.ij, second.jj))
+        by_i, by_j = ii * along + ij * swell, ij * along + jj * swell
+        return np.asarray(along.transpose(0, 2, 1) @ by_i + swell.transpose(0, 2, 1) @ by_j)
+
+    def _tangent(self, fields: _Fields, loads: tuple[Indices, Array] | None) -> Tangent:
+        """Factorise the derivative at some fields; ``loads`` are the entries of the tractions."""
+        means = self._means(fields)
+        rate = fields.rate @ means
+        stiffness = self._stiffness(fields, means, rate)
+        if loads is not None:
+            np.subtract.at(stiffness, *loads)
+        band = self.strip.band
+        matrix = stiffness.reshape(self.strip.size, 3 * band + 1).T
+        factors, pivots, info = lapack.dgbtrf(matrix, band, band, overwrite_ab=1)
+        if info != 0:
+            raise NoEquilibriumError
+        return Tangent(band, factors, pivots, means, rate)
 
     def _loads(self, displacement: Array, tractions: Tractions) -> tuple[Array, Indices, Array]:
         """Return the forces of the tractions, and the entries of their derivative."""
@@ -217,13 +306,10 @@ class Body:
         column = np.broadcast_to(surface.unknowns[:, None, None], entries.shape)
         return loads, self.strip.place(row, column).ravel(), entries.ravel()
 
-    def _solved(self, stiffness: Array, loads: Array) -> Array:
-        band = self.strip.band
-        matrix = stiffness.reshape(self.strip.size, 3 * band + 1).T
-        _, _, out, info = lapack.dgbsv(band, band, matrix, loads, overwrite_ab=1)
-        if info != 0 or not np.all(np.isfinite(out)):
-            raise NoEquilibriumError
-        return np.asarray(out)
+    @cached_property
+    def at_first(self) -> Tangent:
+        """The derivative of the undeformed state."""
+        return self._tangent(self._fields(self.at_rest()), None)
 
     def linear(self, tractions: Tractions) -> Array:
         """Return the displacements (unknowns,) of linear theory, the tractions per undeformed arc.
@@ -233,32 +319,42 @@ class Body:
         surface, curvature = self.strip.surface, self.strip.depths.roller.curvature
         p, q, _, _ = (surface.weights * values for values in tractions(surface.arcs))
         cos, sin = np.cos(curvature * surface.arcs), np.sin(curvature * surface.arcs)
-        forces = self._forces(self.at_rest())
         x, y = surface.unknowns[..., 0].ravel(), surface.unknowns[..., 1].ravel()
-        loads = _summed(x, _on(surface.values, q * cos - p * sin), forces.force)
-        loads += _summed(y, _on(surface.values, p * cos + q * sin), forces.force)
-        return self._solved(forces.stiffness, loads)
+        loads = _summed(x, _on(surface.values, q * cos - p * sin), self.strip.size)
+        loads += _summed(y, _on(surface.values, p * cos + q * sin), self.strip.size)
+        return self.at_first.solved(loads)
 
     def equilibrium(self, tractions: Tractions, start: State, still: float = _STILL) -> State:
-        """Solve by Newton's method, until a step is ``still`` times the displacement or less.
+        """Solve by Newton's method, until ``still`` times the displacement or less is left.
 
-        Raises `NoEquilibriumError` where that is not reached.
+        A derivative is kept as long as steps shrink tenfold with it. Raises `NoEquilibriumError`
+        where steps do not come to rest.
         """
-        state = start
+        state, tangent, before = start, start.tangent, inf
         for _ in range(_MOST_STEPS):
-            forces = self._forces(state)
+            fields = self._fields(state)
             loads, places, entries = self._loads(state.displacement, tractions)
-            stiffness = forces.stiffness - _summed(places, entries, forces.stiffness)
-            step = self._solved(stiffness, loads - forces.force)
+            is_new = tangent is None
+            if tangent is None:
+                tangent = self._tangent(fields, (places, entries))
+            step = tangent.solved(loads - self._force(fields, tangent.means))
             part = self._part(state.displacement, step)
             local = np.append(part * step, 0.0)[self.strip.unknowns]
-            change = part * forces.pressure_step + (forces.pressure_rate @ local[..., None])[..., 0]
+            change = part * fields.step + (tangent.rate @ local[..., None])[..., 0]
             state = State(
-                state.displacement + part * step, state.pressure + self._constants[2] * change
+                state.displacement + part * step,
+                state.pressure + self._constants[2] * change,
+                tangent,
             )
-            size = float(np.abs(state.displacement).max())
-            if part == 1.0 and float(np.abs(step).max()) <= still * size:
+            size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
+            is_first = before == inf
+            shrinks = _CURVED * size if is_first else size / before
+            left = size if is_first and not is_new else size * min(shrinks, 1.0)
+            if part == 1.0 and left <= still:
                 return state
+            before = size
+            if part < 1.0 or not shrinks <= _CONTRACTION:
+                tangent, before = None, inf
         raise NoEquilibriumError
 
     def _part(self, displacement: Array, step: Array) -> float:

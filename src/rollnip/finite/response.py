@@ -8,25 +8,32 @@ tractions. Their errors are alike and cancel, so that few elements do.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from math import inf, pi
 
 import numpy as np
 
+from rollnip.finite._smooth import smoothed
 from rollnip.finite._spline import Spline
 from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
+Field = Callable[[Array], Array]
+CUT = 150.0
+"""Wave number over the half-width from which displacements are left out at small strains."""
 _COLUMNS = 32  # elements under the tractions
-_GROWTH = 1.6  # of elements beside them
-_LONGEST = 0.6  # element, over the thickness that counts
+_GROWTH = 2.0  # of elements beside them
+_LONGEST = 0.8  # element, over the thickness that counts
 _REACH = 4.0  # of the mesh beyond the tractions, likewise
 _MOST_REACH = 2.0  # times more at most, where a stiff layer bends on a soft one
 _LEAST_THICKNESS = 0.5  # that counts, over the half-width
 _NEAR = 4.0  # half-widths beyond which the surface is of no interest
 _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
-_ALIGNED = 5e-4  # distance of columns from their places, over the half-width
+_ALIGNED = 2e-3  # distance of columns from their places, over the width of the contact
+_STAYS = 0.02  # by which places may move and keep their mesh, likewise
+_LEAST_SHARE = 0.1  # of a step between tractions
 _MOST_MESHES = 6
 
 
@@ -82,11 +89,28 @@ def nodal(nodes: Array, pressure: Array, shear: Array) -> Tractions:
     return at
 
 
+def between(last: Tractions, new: Tractions, share: float) -> Tractions:
+    """Return tractions that are a share of the way from others to new ones."""
+
+    def at(x: Array) -> tuple[Array, Array, Array, Array]:
+        pairs = zip(last(x), new(x), strict=True)
+        p, q, p_slope, q_slope = ((1.0 - share) * one + share * other for one, other in pairs)
+        return p, q, p_slope, q_slope
+
+    return at
+
+
 class FiniteResponse:
     """Displacement beyond the linear one of a covering under tractions, evaluated time and again.
 
-    Each equilibrium starts from the one before. Where none is found, the displacement of the last
-    one is returned and ``is_found`` is False.
+    Each equilibrium starts from the one before. Where none is found, that under tractions between
+    the last and the new ones is looked for.
+
+    Attributes
+    ----------
+    is_found : whether there was an equilibrium; else the last displacement is returned.
+    share : of the step from the last tractions to the new ones for which there was one.
+    rough : the displacement before it was smoothed.
 
     Parameters
     ----------
@@ -94,10 +118,13 @@ class FiniteResponse:
         with elastic layers on a rigid core.
     half_width :
         of the contact, roughly [mm]: it sets the elements over the depth.
+    cut :
+        wave number, over the half-width of the tractions, of which half is left.
     """
 
-    def __init__(self, roller: Roller, half_width: float) -> None:
+    def __init__(self, roller: Roller, half_width: float, cut: float = CUT) -> None:
         self._depths = Depths.of(roller, half_width)
+        self._cut = cut
         thick = max(roller.coating_thickness, _LEAST_THICKNESS * half_width)
         young = [layer.material.relaxed_modulus for layer in roller.layers]
         stiffer = min(float(np.cbrt(max(young) / min(young))), _MOST_REACH)
@@ -107,44 +134,55 @@ class FiniteResponse:
         if roller.curvature > 0.0:
             self._reach = min(self._reach, pi * roller.radius - 1.5 * half_width)
             self._near = min(self._near, _FRONT * roller.radius)
-        self._last: tuple[Body, State] | None = None
-        self._made: tuple[Spline, Spline] | None = None
+        self._meshes: _Meshes | None = None
+        self._made: tuple[Spline, ...] | None = None
+        self.rough: tuple[Spline, ...] = ()
         self.is_found = True
+        self.share = 1.0
 
     @property
     def x(self) -> Array:
         """Places between which the functions hold; beyond these they are constant anyway."""
         return np.array([-inf, inf])
 
-    def displacement(self, nodes: Array, pressure: Array, shear: Array) -> tuple[Spline, ...]:
+    def displacement(
+        self, nodes: Array, pressure: Array, shear: Array, along: Field | None = None
+    ) -> tuple[Spline, ...]:
         """Return u_x and u_z beyond the linear ones as functions of the present place x.
 
         Parameters
         ----------
         nodes : (N+1,) increasing places [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
+        along : about the u_x to be found, from which the first mesh is placed.
         """
         if not np.any(pressure > 0.0):
-            return _nothing(nodes)
+            self.rough = _nothing(nodes)
+            return self.rough
         places, loaded = self._places(nodes, pressure)
         tractions = nodal(nodes, pressure, shear)
-        flat = Body(Strip(self._depths, places))
         try:
-            linear = flat.linear(tractions)
-            body, state = self._equilibrium(places, loaded, tractions, linear)
+            self.share = 1.0
+            meshes = self._solved(places, loaded, tractions, along) or self._partly(tractions)
         except NoEquilibriumError:
             self.is_found = False
-            return self._made or _nothing(nodes)
-        self.is_found = True
-        # Without what the mesh has computed: solutions are kept, and that is a megabyte.
-        self._last = Body(Strip(self._depths, body.strip.ends)), state
-        surface, (u_x, u_z) = deformed_surface(body, state), linear_surface(flat, linear)
+            self._meshes = None
+            self.rough = self._made = self._made or _nothing(nodes)
+            return self._made
+        self.is_found, self._meshes = True, meshes
+        surface = deformed_surface(meshes.body, meshes.state)
+        u_x, u_z = linear_surface(meshes.flat, meshes.linear)
+        places = meshes.flat.strip.ends
         near = np.abs(surface.arcs) < self._near
         x = surface.x[near]
-        self._made = (
+        self.rough = (
             Spline.through(x, surface.u_x[near] - Spline.through(places, u_x)(x)),
             Spline.through(x, surface.u_z[near] - Spline.through(places, u_z)(x)),
         )
+        start, stop = places[loaded][[0, -1]]
+        half = 0.5 * float(stop - start)
+        middle, ends = 0.5 * float(start + stop), min(_NEAR * half, self._near)
+        self._made = smoothed(self.rough, middle, ends, self._cut / half)
         return self._made
 
     def _places(self, nodes: Array, pressure: Array) -> tuple[Array, slice]:
@@ -166,36 +204,98 @@ class FiniteResponse:
             step = min(_GROWTH * step, self._longest)
         return np.array(ends[1:]) * (self._reach / ends[-1])
 
-    def _equilibrium(
-        self, places: Array, loaded: slice, tractions: Tractions, linear: Array
-    ) -> tuple[Body, State]:
-        """Return the equilibrium on a mesh whose loaded columns are at their places, deformed."""
-        body = Body(Strip(self._depths, places))
-        state = State(linear, body.at_rest().pressure)
-        if self._last is not None:
-            body, state = self._moved(*self._last, places, loaded)
+    def _solved(
+        self, places: Array, loaded: slice, tractions: Tractions, along: Field | None
+    ) -> _Meshes | None:
+        """Return both solutions, on the meshes of the last tractions if these were about here.
+
+        None where there is no equilibrium but there was one under the last tractions.
+        """
+        try:
+            return self._solved_now(places, loaded, tractions, along)
+        except NoEquilibriumError:
+            if self._meshes is None:
+                raise
+            return None
+
+    def _partly(self, tractions: Tractions) -> _Meshes:
+        """Return both solutions with only a share of the step from the last tractions to these."""
+        last = self._meshes
+        assert last is not None
+        while self.share > _LEAST_SHARE:
+            self.share *= 0.5
+            mixed = between(last.tractions, tractions, self.share)
+            start = State(last.state.displacement, last.state.pressure)
+            try:
+                state = last.body.equilibrium(mixed, start)
+            except NoEquilibriumError:
+                continue
+            linear = last.flat.linear(mixed)
+            return replace(last, linear=linear, state=state, tractions=mixed)
+        raise NoEquilibriumError
+
+    def _solved_now(
+        self, places: Array, loaded: slice, tractions: Tractions, along: Field | None
+    ) -> _Meshes:
+        """Return both solutions under these tractions."""
+        last = self._meshes
+        if last is not None and last.is_near(places[loaded]):
+            linear = last.flat.linear(tractions)
+            state = last.body.equilibrium(tractions, last.state)
+            return replace(last, linear=linear, state=state, tractions=tractions)
+        flat = Body(Strip(self._depths, places))
+        linear = flat.linear(tractions)
+        if last is not None:
+            body, state = self._moved(last.body, last.state, places, loaded)
+        else:
+            state = State(linear, flat.at_rest().pressure)
+            body = flat
+            if along is not None:
+                guess = linear_surface(flat, linear)[0] + along(places)
+                body = self._on(places, loaded, places[loaded] - guess[loaded])
         for _ in range(_MOST_MESHES):
             state = body.equilibrium(tractions, state)
             off = deformed_surface(body, state).x[loaded] - places[loaded]
             if float(np.abs(off).max()) <= _ALIGNED * float(np.ptp(places[loaded])):
                 break
             body, state = self._moved(body, state, places, loaded)
-        return body, state
+        return _Meshes(flat, linear, body, state, loaded, tractions)
 
     def _moved(self, body: Body, state: State, places: Array, loaded: slice) -> tuple[Body, State]:
         """Return a mesh whose loaded columns come to lie at their places, with a state."""
         surface = deformed_surface(body, state)
         front = np.abs(surface.arcs) < _FRONT / max(body.strip.depths.roller.curvature, 1e-300)
         under = np.interp(places[loaded], surface.x[front], surface.arcs[front])
-        arcs = places.copy()
-        arcs[: loaded.start] += under[0] - places[loaded.start]
-        arcs[loaded.stop :] += under[-1] - places[loaded.stop - 1]
-        arcs[loaded] = under
-        new = Body(Strip(self._depths, arcs))
+        new = self._on(places, loaded, under)
         pressure = state.pressure
         if pressure.shape[0] != new.strip.layer.size:
             pressure = new.at_rest().pressure
         return new, State(body.strip.moved_to(new.strip, state.displacement), pressure)
+
+    def _on(self, places: Array, loaded: slice, under: Array) -> Body:
+        """Return a mesh whose loaded columns are at some arcs."""
+        arcs = places.copy()
+        arcs[: loaded.start] += under[0] - places[loaded.start]
+        arcs[loaded.stop :] += under[-1] - places[loaded.stop - 1]
+        arcs[loaded] = under
+        return Body(Strip(self._depths, arcs))
+
+
+@dataclass(frozen=True)
+class _Meshes:
+    """Solutions under the last tractions: linear, and in equilibrium at finite strain."""
+
+    flat: Body
+    linear: Array
+    body: Body
+    state: State
+    loaded: slice
+    tractions: Tractions
+
+    def is_near(self, places: Array) -> bool:
+        """Return whether the loaded columns are about at some places."""
+        here = self.flat.strip.ends[self.loaded]
+        return float(np.abs(here - places).max()) <= _STAYS * float(np.ptp(places))
 
 
 def _nothing(nodes: Array) -> tuple[Spline, Spline]:

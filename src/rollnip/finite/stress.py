@@ -170,13 +170,14 @@ def _volume_law(
     c = pressure @ basis - law.rest * law.shear
     if law.rigid.all():
         return c, np.zeros(c.shape)
-    by_x, by_y, volume = strip.gradients
-    x, y = by_x @ local, by_y @ local
+    shapes, volume = strip.shapes
+    by = shapes @ local
+    x, y = by[:, :9], by[:, 9:]
     ratio = (1.0 + x[..., 0]) * (1.0 + y[..., 1]) - x[..., 1] * y[..., 0]
 
     def projected(values: Array) -> Array:
         sums = (volume * values) @ LINEAR
-        return np.asarray((strip.inverse_mass @ sums[..., None])[..., 0])
+        return np.asarray((strip.products[1] @ sums[..., None])[..., 0])
 
     mean = projected(ratio) @ LINEAR.T
     slope, stored = np.empty(mean.shape), np.empty(mean.shape)

@@ -117,8 +117,11 @@ class Strip:
         return half[0].ravel(), half[1].ravel(), middle[0].ravel(), middle[1].ravel()
 
     @cached_property
-    def gradients(self) -> tuple[Array, Array, Array]:
-        """Derivatives of the shape functions by x and y, (elements, 9, 9), and volumes."""
+    def shapes(self) -> tuple[Array, Array]:
+        """Derivatives of the shape functions, (elements, 18, 9), and volumes, (elements, 9).
+
+        Those by x at the nine points of Gauss come first, then those by y.
+        """
         half_s, half_z, s, z = (values[:, None] for values in self._grid)
         curvature = self.depths.roller.curvature
         shrink = 1.0 - curvature * (z + half_z * _DOWN)
@@ -126,14 +129,16 @@ class Strip:
         cos, sin = np.cos(angle)[..., None], np.sin(angle)[..., None]
         by_arc = _BY_ARC / (half_s * shrink)[..., None]
         by_depth = _BY_DEPTH / half_z[..., None]
-        volume = _AREA * half_s * half_z * shrink
-        return by_arc * cos - by_depth * sin, by_arc * sin + by_depth * cos, volume
+        out = np.empty((half_s.size, 18, 9))
+        out[:, :9] = by_arc * cos - by_depth * sin
+        out[:, 9:] = by_arc * sin + by_depth * cos
+        return out, _AREA * half_s * half_z * shrink
 
     @cached_property
-    def inverse_mass(self) -> Array:
-        """Inverse of the products of the basis `LINEAR` in every element, (elements, 3, 3)."""
-        volume = self.gradients[2]
-        return np.asarray(np.linalg.inv((LINEAR.T * volume[:, None, :]) @ LINEAR))
+    def products(self) -> tuple[Array, Array]:
+        """Basis `LINEAR` times the volumes, (elements, 3, 9), and the inverse of its products."""
+        weighted = LINEAR.T * self.shapes[1][:, None, :]
+        return weighted, np.asarray(np.linalg.inv(weighted @ LINEAR))
 
     @cached_property
     def unknowns(self) -> Indices:
@@ -146,12 +151,18 @@ class Strip:
         return pair.reshape(-1, 18)
 
     @cached_property
-    def slots(self) -> tuple[NDArray[np.bool_], Indices]:
-        """Entries of the element matrices that are kept, and their places in banded storage."""
+    def slots(self) -> Indices:
+        """Places of the entries of the element matrices in banded storage; beyond it if fixed."""
         unknowns = self.unknowns
-        row, column = np.broadcast_arrays(unknowns[:, :, None], unknowns[:, None, :])
-        kept = ((row >= 0) & (column >= 0)).ravel()
-        return kept, self.place(row.ravel()[kept], column.ravel()[kept])
+        row, column = unknowns[:, :, None], unknowns[:, None, :]
+        places = self.place(row, column)
+        places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = self.stored
+        return places.ravel()
+
+    @property
+    def stored(self) -> int:
+        """Number of entries of a matrix in banded storage."""
+        return (3 * self.band + 1) * self.size
 
     def place(self, row: Indices, column: Indices) -> Indices:
         """Return places in banded storage, columns one after the other, of matrix entries."""

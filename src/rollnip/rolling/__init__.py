@@ -1,7 +1,7 @@
 """The rolling contact of two rollers: assembly, rounds of refinement, the check afterwards."""
 
 from rollnip.rolling.assemble import stretch_excess, surface_depths
-from rollnip.rolling.beyond import with_second_order
+from rollnip.rolling.beyond import refine_all_orders, with_second_order
 from rollnip.rolling.check import (
     Fields,
     fields_at,
@@ -11,6 +11,7 @@ from rollnip.rolling.check import (
     surface_strain_in_nip,
 )
 from rollnip.rolling.claims import claims, further_claims, verdict
+from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.further import further_figures, further_sizes
 from rollnip.rolling.impossible import MOST_PRESSED_IN, impossible
 from rollnip.rolling.powers import Powers, powers, rates_of
@@ -27,7 +28,6 @@ from rollnip.rolling.round import (
 )
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
-    Displacements,
     PairKernels,
     hoop_curvature,
     pair_kernels,
@@ -63,6 +63,7 @@ __all__ = [
     "powers",
     "rates_of",
     "refine",
+    "refine_all_orders",
     "slip_velocity",
     "stretch_excess",
     "surface_depths",

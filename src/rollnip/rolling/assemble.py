@@ -19,8 +19,9 @@ from rollnip.geometry import (
 from rollnip.interior import SurfaceTractions, loss_per_distance
 from rollnip.model import FINITE, RINGS, Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.largest import largest
-from rollnip.rolling.surfaces import Displacements, Mesh, hoop_curvature
+from rollnip.rolling.surfaces import Mesh, hoop_curvature
 
 Array = NDArray[np.float64]
 

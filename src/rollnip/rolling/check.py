@@ -11,11 +11,11 @@ from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import RINGS, Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import creep, stretch_excess, surface_depths
+from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Round, creepage_scale
 from rollnip.rolling.surfaces import (
     Array,
-    Displacements,
     PairKernels,
     hoop_curvature,
     pair_displacements,
@@ -206,12 +206,12 @@ def surface_strain(
         return strain
     hoop = hoop_curvature(roller, geometry)
     u_x, u_z = _of_surface(displacement_matrix(surface.together, x, final.nodes), p, q)
-    response = kernels.second_upper if upper else kernels.second_lower
-    if response is None:
+    if (kernels.second_upper if upper else kernels.second_lower) is None:
         return strain - hoop * u_z + 0.5 * (slope + hoop * u_x) ** 2
-    along, inward = response.displacement(final.nodes, p, q)
-    present = np.hypot(1.0, hoop * x + slope + inward(x, 1))
-    return np.asarray(present / (1.0 - strain - along(x, 1)) - 1.0)
+    beyond = kernels.second_fields(final.nodes, final.pressure, final.shear).slopes_at(x).four
+    along, inward = beyond[:2] if upper else beyond[2:]
+    present = np.hypot(1.0, hoop * x + slope + inward)
+    return np.asarray(present / (1.0 - strain - along) - 1.0)
 
 
 def _of_surface(per_traction: Array, pressure: Array, shear: Array) -> tuple[Array, Array]:

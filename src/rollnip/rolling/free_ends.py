@@ -95,7 +95,7 @@ def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
         if placed is None:
             return Attempt(None, known, too_few)
         stand, latest = placed, placed.before
-        count = _as_cosines(latest)
+        count = as_cosines(latest)
         history.append(sized(nip, model, latest, count, stand.layout.breaks))
         latest = with_errors(nip, latest, history, CUBIC)
         ratio, roughness = excess(nip, latest, model.tolerance), _roughness(nip, model, latest)
@@ -126,7 +126,7 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
     return int(count * growth) + 1
 
 
-def _as_cosines(latest: Round) -> int:
+def as_cosines(latest: Round) -> int:
     """Count the elements of a solution, each zone's as if its nodes lay at cosine places."""
     fine = latest.mesh.fine
     shares = map(more_elements, fine.crowding)

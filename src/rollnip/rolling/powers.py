@@ -24,7 +24,8 @@ from rollnip.contact import ContactState, ContactZone, State
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import arc_ratio, creep, loss_inside, mean_shear, pulls
-from rollnip.rolling.surfaces import Array, Displacements, Mesh
+from rollnip.rolling.displacements import Displacements
+from rollnip.rolling.surfaces import Array, Mesh
 
 
 @dataclass(frozen=True, slots=True)

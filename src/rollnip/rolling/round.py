@@ -78,6 +78,8 @@ class Round:
     residual : largest relative violation of the contact conditions, evaluated afresh; inf where
         it was not evaluated.
     further_error : estimated discretisation error of the further figures; None where unknown.
+    cut : largest relative violation of the contact conditions by what "full" leaves out, because it
+        is too short for the contact.
     """
 
     mesh: Mesh
@@ -92,6 +94,7 @@ class Round:
     geometry_change: float
     residual: float = inf
     further_error: Further | None = None
+    cut: float = 0.0
 
     @property
     def nodes(self) -> Array:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -26,93 +25,9 @@ from rollnip.influence import (
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
+from rollnip.rolling.displacements import Displacements, Field, SecondFields
 
 Array = NDArray[np.float64]
-Field = Callable[[Array], Array]
-
-
-@dataclass(frozen=True, slots=True)
-class Displacements:
-    """Displacements of both surfaces, each in its own frame, at n points.
-
-    Attributes
-    ----------
-    four : (4, n) u_x and u_z of the upper, u_x and u_z of the lower surface [mm].
-    """
-
-    four: Array
-
-    @property
-    def x_upper(self) -> Array:
-        """u_x of the upper surface, (n,) [mm]."""
-        return np.asarray(self.four[0])
-
-    @property
-    def z_upper(self) -> Array:
-        """u_z of the upper surface, (n,) [mm]."""
-        return np.asarray(self.four[1])
-
-    @property
-    def x_lower(self) -> Array:
-        """u_x of the lower surface, (n,) [mm]."""
-        return np.asarray(self.four[2])
-
-    @property
-    def z_lower(self) -> Array:
-        """u_z of the lower surface, (n,) [mm]."""
-        return np.asarray(self.four[3])
-
-    @property
-    def rows(self) -> tuple[Array, Array]:
-        """u_x and u_z, each with a row for the upper and one for the lower surface, (2, n) [mm]."""
-        return self.four[::2], self.four[1::2]
-
-    def __add__(self, other: Displacements) -> Displacements:
-        return Displacements(self.four + other.four)
-
-    def but_last(self) -> Displacements:
-        """Return the displacements at all points but the last."""
-        return Displacements(self.four[:, :-1])
-
-    @classmethod
-    def under(cls, made: Array) -> Displacements:
-        """Return the displacements under a solution's tractions: (q, p) above and (-q, p) below.
-
-        ``made``, (6, n, 2): the displacements by p and by q, for each function of
-        `pair_displacements`.
-        """
-        xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = made
-        four = np.empty((4, made.shape[1]))
-        np.add(xz_u[:, 0], xx_u[:, 1], out=four[0])
-        np.subtract(zz_u[:, 0], xz_u[:, 1], out=four[1])
-        np.subtract(xz_l[:, 0], xx_l[:, 1], out=four[2])
-        np.add(zz_l[:, 0], xz_l[:, 1], out=four[3])
-        return cls(four)
-
-
-@dataclass(frozen=True, slots=True)
-class SecondFields:
-    """Second-order displacements of both surfaces under given tractions, as functions of x.
-
-    Attributes
-    ----------
-    functions : u_x and u_z of the upper, u_x and u_z of the lower surface; None: zero.
-    ends : the places between which they hold [mm]; beyond they keep their last value.
-    """
-
-    functions: tuple[Field | None, ...]
-    ends: tuple[tuple[float, float], ...]
-
-    def at(self, x: Array) -> Displacements:
-        """Return the displacements at some places."""
-        four = np.zeros((4, x.size))
-        for row, f, ends in zip(four, self.functions, self.ends, strict=True):
-            if f is not None:
-                row[:] = f(np.clip(x, *ends))
-        return Displacements(four)
-
-
-NO_SECOND_ORDER = SecondFields((None,) * 4, ((0.0, 0.0),) * 4)
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,8 +38,9 @@ class PairKernels:
     ----------
     upper, lower : linear.
     second_upper, second_lower : beyond the linear order; None also where the model leaves it out.
-    held : second-order displacements to use whatever the tractions; None: always those of the
-        tractions at hand.
+    beyond : displacements of the third order and above, whatever the tractions; None: zero.
+    held : all displacements beyond the linear ones to use whatever the tractions; None: always
+        those of the tractions at hand.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
     together : xx, zz and xz of the upper, then of the lower surface, as channels of one kernel;
         without those of a rigid one.
@@ -138,6 +54,7 @@ class PairKernels:
     pressed: Ellipses
     second_upper: SecondResponse | FiniteResponse | None = None
     second_lower: SecondResponse | FiniteResponse | None = None
+    beyond: SecondFields | None = None
     held: SecondFields | None = None
     hoops: tuple[float, float] = (0.0, 0.0)
 
@@ -151,14 +68,8 @@ class PairKernels:
         """Return whether neither surface has a second-order displacement."""
         return self.second_upper is None and self.second_lower is None
 
-    @property
-    def is_balanced(self) -> bool:
-        """Return whether the last tractions had an equilibrium at finite strain, where asked."""
-        responses = self.second_upper, self.second_lower
-        return all(one.is_found for one in responses if isinstance(one, FiniteResponse))
-
     def second_fields(self, nodes: Array, pressure: Array, shear: Array) -> SecondFields:
-        """Second-order displacements under tractions at nodes[1:-1], as functions."""
+        """Displacements beyond the linear ones under tractions at nodes[1:-1], as functions."""
         functions: list[Field | None] = []
         ends: list[tuple[float, float]] = []
         sides = (self.upper, self.second_upper, 1.0), (self.lower, self.second_lower, -1.0)
@@ -173,7 +84,8 @@ class PairKernels:
             else:
                 functions += response.displacement(*own)
             ends += [(float(response.x[0]), float(response.x[-1]))] * 2
-        return SecondFields(tuple(functions), tuple(ends))
+        others = () if self.beyond is None else ((1.0, self.beyond),)
+        return SecondFields(tuple(functions), tuple(ends), others)
 
 
 def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None) -> PairKernels:

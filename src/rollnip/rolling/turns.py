@@ -11,9 +11,10 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, has_no_second_order, second_order
 from rollnip.rolling.check import fields_between, residual
+from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
-from rollnip.rolling.surfaces import NO_SECOND_ORDER, Mesh, PairKernels
+from rollnip.rolling.surfaces import Mesh, PairKernels
 
 MOST_TURNS = 40
 # Change of the second-order terms in a turn, over the tolerance. A turn reduces their remaining

@@ -25,8 +25,9 @@ from rollnip.contact import (
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
+from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
-from rollnip.rolling.surfaces import NO_SECOND_ORDER, pair_displacements
+from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import (

@@ -28,7 +28,8 @@ from scipy.linalg import lapack
 from rollnip.contact import ContactState, State, States, Subdivision
 from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import Displacements, PairKernels
-from rollnip.rolling.surfaces import Mesh, SecondFields, mesh_on
+from rollnip.rolling.displacements import SecondFields
+from rollnip.rolling.surfaces import Mesh, mesh_on
 from rollnip.sheet.matrices import influence, integrals, stable
 from rollnip.sheets import Sheet
 

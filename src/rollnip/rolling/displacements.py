@@ -1,0 +1,117 @@
+"""Displacements of both surfaces, at points and as functions of the place."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+class Field(Protocol):
+    """A function of the place x."""
+
+    def __call__(self, x: Array, order: int = 0) -> Array:
+        """Value at ``x``, or with ``order`` 1 the derivative."""
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class Displacements:
+    """Displacements of both surfaces, each in its own frame, at n points.
+
+    Attributes
+    ----------
+    four : (4, n) u_x and u_z of the upper, u_x and u_z of the lower surface [mm].
+    """
+
+    four: Array
+
+    @property
+    def x_upper(self) -> Array:
+        """u_x of the upper surface, (n,) [mm]."""
+        return np.asarray(self.four[0])
+
+    @property
+    def z_upper(self) -> Array:
+        """u_z of the upper surface, (n,) [mm]."""
+        return np.asarray(self.four[1])
+
+    @property
+    def x_lower(self) -> Array:
+        """u_x of the lower surface, (n,) [mm]."""
+        return np.asarray(self.four[2])
+
+    @property
+    def z_lower(self) -> Array:
+        """u_z of the lower surface, (n,) [mm]."""
+        return np.asarray(self.four[3])
+
+    @property
+    def rows(self) -> tuple[Array, Array]:
+        """u_x and u_z, each with a row for the upper and one for the lower surface, (2, n) [mm]."""
+        return self.four[::2], self.four[1::2]
+
+    def __add__(self, other: Displacements) -> Displacements:
+        return Displacements(self.four + other.four)
+
+    def but_last(self) -> Displacements:
+        """Return the displacements at all points but the last."""
+        return Displacements(self.four[:, :-1])
+
+    @classmethod
+    def under(cls, made: Array) -> Displacements:
+        """Return the displacements under a solution's tractions: (q, p) above and (-q, p) below.
+
+        ``made``, (6, n, 2): the displacements by p and by q, for each function of
+        `pair_displacements`.
+        """
+        xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = made
+        four = np.empty((4, made.shape[1]))
+        np.add(xz_u[:, 0], xx_u[:, 1], out=four[0])
+        np.subtract(zz_u[:, 0], xz_u[:, 1], out=four[1])
+        np.subtract(xz_l[:, 0], xx_l[:, 1], out=four[2])
+        np.add(zz_l[:, 0], xz_l[:, 1], out=four[3])
+        return cls(four)
+
+
+@dataclass(frozen=True, slots=True)
+class SecondFields:
+    """Second-order displacements of both surfaces under given tractions, as functions of x.
+
+    Attributes
+    ----------
+    functions : u_x and u_z of the upper, u_x and u_z of the lower surface; None: zero.
+    ends : the places between which they hold [mm]; beyond they keep their last value.
+    others : further fields, each with the factor by which it is added.
+    """
+
+    functions: tuple[Field | None, ...]
+    ends: tuple[tuple[float, float], ...]
+    others: tuple[tuple[float, SecondFields], ...] = ()
+
+    def at(self, x: Array) -> Displacements:
+        """Return the displacements at some places."""
+        four = np.zeros((4, x.size))
+        for row, f, ends in zip(four, self.functions, self.ends, strict=True):
+            if f is not None:
+                row[:] = f(np.clip(x, *ends))
+        for factor, other in self.others:
+            four += factor * other.at(x).four
+        return Displacements(four)
+
+    def slopes_at(self, x: Array) -> Displacements:
+        """Return the derivatives by x of the displacements at some places."""
+        four = np.zeros((4, x.size))
+        for row, f, ends in zip(four, self.functions, self.ends, strict=True):
+            if f is not None:
+                row[:] = f(np.clip(x, *ends), 1) * ((x > ends[0]) & (x < ends[1]))
+        for factor, other in self.others:
+            four += factor * other.slopes_at(x).four
+        return Displacements(four)
+
+
+NO_SECOND_ORDER = SecondFields((None,) * 4, ((0.0, 0.0),) * 4)

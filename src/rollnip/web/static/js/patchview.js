@@ -207,9 +207,14 @@ function figuresTable(result, coarse, friction, units) {
           el("th", { scope: "row", text: label }),
           el("td", { text: cell(value, dimension) }),
           el("td", { text: error === null ? say("patch.no-error") : `± ${units.error(error, dimension)}` }),
-          first ? el("td", { text: cell(first[key]?.value, dimension) }) : null,
+          first ? el("td", { text: cell(cleaned(first[key]?.value, value, error), dimension) }) : null,
         ),
       ),
     ),
   );
+}
+
+/** The value on a coarse grid; zero where the fine one is, and nothing but its error is left. */
+function cleaned(first, value, error) {
+  return value === 0 && error !== null && Math.abs(first) <= error ? 0 : first;
 }

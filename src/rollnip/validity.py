@@ -267,8 +267,17 @@ def _materials(name: str, roller: Roller, nip: Nip, final: Round) -> list[str]:
 
 
 def _energies(name: str, roller: Roller, model: Model) -> list[str]:
-    if model.geometry == "full":
-        return []
+    return [] if model.geometry == "full" else energies_left_out(name, roller)
+
+
+def energies_left_out(name: str, roller: Roller) -> list[str]:
+    """Return a sentence for each strain energy of a roller that a linear model does not see.
+
+    Parameters
+    ----------
+    name : "upper" or "lower".
+    roller : the roller.
+    """
     return [
         f"Material {number} (from the surface) of the {name} roller has a strain energy "
         f'({type(material.energy).__name__}), which counts only in geometry "full"; here its '

@@ -259,6 +259,14 @@ def test_the_end_of_a_face_is_printed(tmp_path):
     assert "Length that the end adds to the load" in shown
 
 
+def test_a_strain_energy_is_said_to_be_left_out():
+    material = rn.Elastic(modulus=5.0, poisson=0.5, energy=rn.Gent(limit=30.0))
+    patch = parse_patch_case(PRESSED).patch
+    stiff = rn.Roller(radius=50.0, layers=[rn.Layer(8.0, material)])
+    solved = rn.solve_patch(replace(patch, upper=stiff), grid=(8, 8))
+    assert any("has a strain energy (Gent)" in line for line in solved.warnings)
+
+
 def test_sweeps_have_the_figures_of_patches():
     tree = tomllib.loads(PRESSED)
     study = {

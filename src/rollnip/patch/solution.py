@@ -17,6 +17,7 @@ from rollnip.patch.measures import figures_of, slope_of
 from rollnip.patch.tables import PairTables
 from rollnip.patches import Patch
 from rollnip.rollers import Roller
+from rollnip.validity import energies_left_out
 
 IntArray = NDArray[np.int8]
 
@@ -328,6 +329,7 @@ def _reservations(solution: PatchSolution) -> Iterator[str]:
         ("upper", patch.upper, patch.across_upper),
         ("lower", patch.lower, patch.across_lower),
     ):
+        yield from energies_left_out(name, roller)
         reach = across.half_face - across.end_radius
         if roller.layers and half > reach - roller.coating_thickness:
             yield (

@@ -143,3 +143,19 @@ def test_stresses_inside_come_from_the_shear_of_that_side(pulled):
     assert upper == pytest.approx(-above, abs=2e-3 * pulled.peak_pressure)
     assert lower == pytest.approx(below, abs=2e-3 * pulled.peak_pressure)
     assert abs(above - below) > 0.02 * pulled.peak_pressure
+
+
+def test_the_picture_reads_the_tension_on_the_right(pulled):
+    from matplotlib.figure import Figure
+
+    from rollnip.plots import plot_sheet
+
+    ax = Figure().subplots()
+    plot_sheet(pulled, ax)
+    (right,) = ax.child_axes
+    ax.figure.draw_without_rendering()
+    low, high = ax.get_ylim()
+    assert right.get_ylim() == pytest.approx((low * pulled.nip_width, high * pulled.nip_width))
+    line = next(one for one in ax.lines if one.get_label().startswith("tension"))
+    ends = line.get_ydata()[[0, -1]] * pulled.nip_width
+    assert ends == pytest.approx([0.05, 0.2])  # outlet, inlet

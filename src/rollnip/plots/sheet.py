@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -40,8 +42,8 @@ def plot_sheet(solution: Solution, ax: Axes | None = None, *, style: Style | Non
     Returns
     -------
     Axes
-        with x [mm] from the trailing to the leading edge, shear [MPa], and tension over the nip
-        width [MPa], so that all have one axis.
+        with x [mm] from the trailing to the leading edge and shear [MPa]; the tension [N/mm] is
+        read on the right, where a shear over the whole nip stands for the tension it makes.
 
     Raises
     ------
@@ -58,7 +60,7 @@ def plot_sheet(solution: Solution, ax: Axes | None = None, *, style: Style | Non
     rows: tuple[tuple[Any, str, str, str], ...] = (
         (solution.profiles.shear, look.palette.shear, "--", "shear of the upper roller"),
         (sheet.profiles.shear_lower, look.palette.shear, ":", "shear on the underside"),
-        (sheet.profiles.tension / width, look.palette.pressure, "-", "tension over nip width"),
+        (sheet.profiles.tension / width, look.palette.pressure, "-", "tension (right)"),
     )
     curves: list[Artist] = []
     for values, color, dashes, name in rows:
@@ -69,7 +71,10 @@ def plot_sheet(solution: Solution, ax: Axes | None = None, *, style: Style | Non
         min(0.0, *(float(np.min(row[0])) for row in rows)),
         max(0.0, *(float(np.max(row[0])) for row in rows)),
     )
-    label(ax, look, "x [mm]", "stress [MPa]")
+    label(ax, look, "x [mm]", "shear [MPa]")
+    right = ax.secondary_yaxis("right", functions=(partial(mul, width), partial(mul, 1.0 / width)))
+    right.set_ylabel("tension [N/mm]", fontsize=look.size, color=look.palette.pressure)
+    right.tick_params(colors=look.palette.pressure, labelsize=look.small)
     title(ax, look, solution, "Shears and tension of the sheet")
     mark_direction(ax, look, solution)
     legend(ax, look, curves + zones)

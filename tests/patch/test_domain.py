@@ -49,8 +49,8 @@ def test_more_room_around_the_patch_changes_nothing(upper, room):
     """
     patch = wheel(upper=upper)
     tables = PairTables.of(patch)
-    grid = rn.solve_patch(patch, grid=(16, 16)).grid
-    wide = replace(grid, x0=grid.x0 - 16 * grid.hx, y0=grid.y0 - 16 * grid.hy, nx=48, ny=48)
+    grid = rn.solve_patch(patch, grid=(10, 10)).grid
+    wide = replace(grid, x0=grid.x0 - 10 * grid.hx, y0=grid.y0 - 10 * grid.hy, nx=30, ny=30)
     one, other = (figures_of(solve_level(patch, g, 1e-6, None, tables)) for g in (grid, wide))
     assert isinstance(wide, Grid)
     for name in ("approach", "peak_pressure", "area", "traction_x", "load_centre"):

@@ -221,3 +221,22 @@ def test_elements_go_to_zones_as_the_roots_of_their_lengths(count):
     elements = elements_of_zones(np.array([0.0, 1.0, 5.0, 5.01]), count)
     assert np.all(elements >= 6)
     assert elements[1] == max(6, round(count * 2.0 / 3.1))
+
+
+def test_ends_on_their_way_never_cross():
+    """An end asked for beyond its zone, or nowhere, moves part of the way."""
+    layout = Layout(np.array([0.0, 1.0, 3.0]), np.array([PLUS, STICK], dtype=np.int8))
+    for asked in ([0.0, -5.0, 3.0], [0.0, 9.0, 3.0], [0.0, np.inf, 3.0], [4.0, 2.0, -1.0]):
+        moved = layout.towards(Layout(np.array(asked), layout.states))
+        assert moved.is_proper
+        assert np.all(np.diff(moved.breaks) <= 2.0 * np.diff(layout.breaks) + 1e-12)
+        wanted = np.sign(np.array(asked) - layout.breaks)
+        assert np.all(np.sign(moved.breaks - layout.breaks) == wanted)
+
+
+def test_a_zone_of_slip_is_put_at_the_nearer_edge_that_sticks():
+    layout = Layout(np.array([0.0, 1.0, 3.0]), np.array([PLUS, STICK], dtype=np.int8))
+    found = layout.slipping_up_to(2.9, MINUS)
+    assert found.breaks.tolist() == [0.0, 1.0, 2.9, 3.0]
+    assert found.states.tolist() == [PLUS, STICK, MINUS]
+    assert layout.slipping_up_to(0.1, MINUS) is None

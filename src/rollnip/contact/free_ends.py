@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from math import isfinite, nan, sqrt
+from math import inf, isfinite, sqrt
 
 import numpy as np
 
@@ -34,6 +34,8 @@ from rollnip.contact.problem import (
 # change relative to a square root from there, for each first element that the zone is too wide.
 # Measured on a parabola pressed on a half-plane (tests).
 _RESPONSE = (-0.6831, -0.1132, -0.0597)
+
+_LONGEST_MOVE = 0.4  # of an end into a zone, over its length, where ends are asked to cross
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,6 +112,33 @@ class Layout:
         moves[1:-1] *= 0.1
         return float(np.max(moves)) / other.width
 
+    def towards(self, asked: Layout) -> Layout:
+        """Return this layout with its breaks moved towards those asked for, without crossing.
+
+        No zone becomes more than twice as long, and no break goes further than `_LONGEST_MOVE` of
+        the zone that it moves into.
+        """
+        lengths = np.diff(self.breaks)
+        back = np.concatenate([[self.width], lengths])
+        ahead = np.concatenate([lengths, [self.width]])
+        moves = asked.breaks - self.breaks
+        furthest_back = np.minimum(_LONGEST_MOVE * back, ahead)
+        furthest_ahead = np.minimum(_LONGEST_MOVE * ahead, back)
+        bounded = np.clip(moves, -furthest_back, furthest_ahead)
+        return Layout(self.breaks + bounded, self.states)
+
+    def slipping_up_to(self, place: float, slip: State) -> Layout | None:
+        """Return the layout with a zone of slip from a place [mm] to the nearer edge.
+
+        Return None where the contact does not stick there.
+        """
+        leads = place > self.breaks.mean()
+        if self.states[-1 if leads else 0] != STICK:
+            return None
+        breaks = np.insert(self.breaks, self.breaks.size - 1 if leads else 1, place)
+        states = np.insert(self.states, self.states.size if leads else 0, np.int8(slip))
+        return Layout(breaks, states)
+
     @property
     def zones(self) -> tuple[ContactZone, ...]:
         """Return the zones, from trailing to leading edge."""
@@ -168,7 +197,7 @@ def _outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
     """Return how far outwards a zone's end should move, from values at three distances inwards.
 
     The values are fitted by s, s^3 and a third pattern, where s is the square root of the
-    distance: the pattern that a misplaced end leaves, or s^5 at a smooth end. Return nan where
+    distance: the pattern that a misplaced end leaves, or s^5 at a smooth end. Return -inf where
     the values do not rise inwards as they should.
     """
     first = (1.0, 1.0, 1.0)
@@ -178,9 +207,9 @@ def _outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
     root = _determinant(right, distance, third)
     if smooth:
         bend = _determinant(first, right, third)
-        return root / (1.5 * bend) if bend * whole > 0.0 else nan
+        return root / (1.5 * bend) if bend * whole > 0.0 else -inf
     misplaced = _determinant(first, distance, right)
-    return -misplaced / root * distance[0] if root * whole > 0.0 else nan
+    return -misplaced / root * distance[0] if root * whole > 0.0 else -inf
 
 
 def _determinant(a: _Three, b: _Three, c: _Three) -> float:

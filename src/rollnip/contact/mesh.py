@@ -15,6 +15,9 @@ Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
 FEWEST_ELEMENTS_OF_A_ZONE = 6
+# Share of all elements that a zone has at least: errors show between sizes only where each zone is
+# refined.
+_LEAST_SHARE_OF_A_ZONE = 0.08
 # Share taken off the creep from the last node to an edge per shear at that node: the square root of
 # the shear at the edge leaves it there although the shear is right. Half-plane (tests).
 CREEP_TO_EDGE = 0.02655
@@ -132,14 +135,16 @@ def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) ->
     return out
 
 
-def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
-    """Return the largest error of the cubics of `subdivided` through values at element ends.
+def cubic_error(values: Array, nodes: Array, elements: tuple[int, ...]) -> float:
+    """Return the integral of the errors of the cubics of `subdivided` through values at nodes.
 
-    Between the inner two of four points it is 3/128 of the fourth difference, from five points.
+    Between the inner two of four points an error is 3/128 of the fourth difference, from five
+    points. An error on a short element beside an edge matters as little as that element is long.
 
     Parameters
     ----------
     values : (sum of elements + 1,) at the nodes from the first break to the last.
+    nodes : their places [mm].
     elements : in each zone.
     """
     fourth = np.abs(
@@ -147,7 +152,7 @@ def cubic_error(values: Array, elements: tuple[int, ...]) -> float:
     )
     for end in accumulate(elements[:-1]):
         fourth[end - 3 : end] = 0.0  # across a break nothing is smooth
-    return float(3.0 / 128.0 * fourth.max(initial=0.0))
+    return float(3.0 / 128.0 * fourth @ (0.5 * (nodes[3:-1] - nodes[1:-3])))
 
 
 @lru_cache(maxsize=64)
@@ -223,10 +228,11 @@ def elements_of_zones(
     """
     shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
     total = sum(shares)
+    fewest = max(FEWEST_ELEMENTS_OF_A_ZONE, round(_LEAST_SHARE_OF_A_ZONE * count))
     more = [1.0] * len(shares) if crowding is None else [more_elements(crowd) for crowd in crowding]
     return np.array(
         [
-            max(round(count * share / total), FEWEST_ELEMENTS_OF_A_ZONE) * longer
+            max(round(count * share / total), fewest) * longer
             for share, longer in zip(shares, more, strict=True)
         ]
     ).astype(int)

@@ -2,19 +2,26 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+from math import ceil, log2
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.influence import surface_compliance
 from rollnip.interior.medium import Medium
 from rollnip.interior.tractions import SurfaceTractions
-from rollnip.interior.waves import Phases, Waves
+from rollnip.interior.waves import Block, Phases, Waves
 from rollnip.rollers import Roller
+
+Array = NDArray[np.float64]
 
 _SHORTEST = 1e3
 """Largest wave number times half the contact. Of k Im C |t|^2 with t ~ k^-3/2, as at a root's edge,
 what is left out is 1e-3 where a memory is shorter than that, and 1e-9 where it is as long as the
 contact."""
+_SIZES_PER_OCTAVE = 4
+"""Half-widths whose wave numbers are kept."""
 _FADED = 16.0
 """Largest depth times wave number that counts: the work there goes as its e^-2 k z, 1e-14."""
 
@@ -52,28 +59,39 @@ def loss_per_distance(
     """
     if not roller.is_viscoelastic:
         return 0.0
-    half_width = tractions.half_width
-    waves = Waves.resolving(2.0 * half_width, Medium(roller, speed, geometry, side="above").slowest)
-    compliance = surface_compliance(roller, speed, geometry)
+    size = _shared_size(tractions)
     phases = Phases(tractions.places)
     total = 0.0
-    for block in waves.blocks(_SHORTEST / half_width):
-        k = block.k
-        t_x, t_z = tractions.transform(k, phases.sums(block, tractions.kinks))
-        xx, zz, xz = compliance(k)
+    for block, xx, zz, xz in _loss_parts(roller, speed, geometry, size):
+        t_x, t_z = tractions.transform(block.k, phases.sums(block, tractions.kinks))
         turning = t_x.real * t_z.imag - t_x.imag * t_z.real  # Im(conj(t_x) t_z)
-        lost = xx.imag * _square(t_x) + zz.imag * _square(t_z) + 2.0 * xz.real * turning
-        total += float((block.weights * k) @ lost)
+        total += float(xx @ _square(t_x) + zz @ _square(t_z) + xz @ turning)
     return total
+
+
+_Parts = tuple[tuple[Block, Array, Array, Array], ...]
+
+
+@lru_cache(maxsize=8)
+def _loss_parts(roller: Roller, speed: float | None, geometry: str, half_width: float) -> _Parts:
+    """Return, block by block, what |t_x|^2, |t_z|^2 and Im(conj(t_x) t_z) count at each wave."""
+    waves = Waves.resolving(2.0 * half_width, Medium(roller, speed, geometry, side="above").slowest)
+    compliance = surface_compliance(roller, speed, geometry)
+    parts = []
+    for block in waves.blocks(_SHORTEST / half_width):
+        weight = block.weights * block.k
+        xx, zz, xz = compliance(block.k)
+        parts.append((block, weight * xx.imag, weight * zz.imag, weight * (2.0 * xz.real)))
+    return tuple(parts)
 
 
 def loss_below(
     roller: Roller,
     tractions: SurfaceTractions,
-    z: NDArray[np.float64],
+    z: Array,
     geometry: str,
     speed: float | None,
-) -> NDArray[np.float64]:
+) -> Array:
     """Return the heat that steady rolling makes below some depths, per distance and axial length.
 
     What lies below the depth z receives the work of the stresses on its upper face; as on the
@@ -99,7 +117,7 @@ def loss_below(
     below = np.zeros(z.size)
     if not roller.is_viscoelastic:
         return below
-    half_width = tractions.half_width
+    half_width = _shared_size(tractions)
     medium = Medium(roller, speed, geometry, side="above")
     slowest = max(medium.slowest, float(z.max(initial=0.0)))
     waves = Waves.resolving(2.0 * half_width, slowest)
@@ -116,5 +134,14 @@ def loss_below(
     return np.asarray(below * (1.0 - medium.curvature * z))
 
 
-def _square(values: np.ndarray) -> np.ndarray:
+def _shared_size(tractions: SurfaceTractions) -> float:
+    """Return a half-width just above that of the tractions, the same for all meshes of a nip.
+
+    Meshes of one nip differ little in width, so they share their wave numbers.
+    """
+    octaves = ceil(_SIZES_PER_OCTAVE * log2(tractions.half_width)) / _SIZES_PER_OCTAVE
+    return float(2.0**octaves)
+
+
+def _square(values: NDArray[np.complex128]) -> Array:
     return np.asarray(values.real**2 + values.imag**2)

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from math import inf
 
 import numpy as np
@@ -43,30 +45,46 @@ LINEAR = Elements(_LEAST_ERROR_LINEAR, are_cubic=False)
 CUBIC = Elements(_LEAST_ERROR_CUBIC, are_cubic=True)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Size:
-    """Results on one size of mesh: elements, figures, edges and transitions, further figures."""
+    """Results on one size of mesh.
+
+    Attributes
+    ----------
+    count : number of elements.
+    figures : of the nip.
+    breaks : edges and transitions [mm].
+    make_further : evaluates the further figures, which takes long where layers have a memory.
+    """
 
     count: int
     figures: Figures
     breaks: Array
-    further: Further
+    make_further: Callable[[], Further]
+
+    @cached_property
+    def further(self) -> Further:
+        """Further figures."""
+        return self.make_further()
 
 
 def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> Size:
     """Return the results of a round on a mesh of ``count`` elements."""
-    further = further_figures(nip, model.geometry, latest.mesh, latest.state, latest.zones)
-    return Size(count, latest.figures, breaks, further)
+    found = latest.mesh, latest.state, latest.zones
+    return Size(
+        count, latest.figures, breaks, partial(further_figures, nip, model.geometry, *found)
+    )
 
 
 def with_errors(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Round:
-    """Return the round with the estimated errors of all its figures."""
+    """Return the round with the estimated errors of the figures that the tolerance is for."""
+    return replace(latest, error=estimated_error(nip, latest, history, kind))
+
+
+def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
+    """Return the round with the estimated errors of the further figures."""
     sizes = [(size.count, size.further) for size in history]
-    return replace(
-        latest,
-        error=estimated_error(nip, latest, history, kind),
-        further_error=further_errors(nip, latest, sizes),
-    )
+    return replace(latest, further_error=further_errors(nip, latest, sizes))
 
 
 def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Figures:

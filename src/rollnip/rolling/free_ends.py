@@ -12,10 +12,17 @@ from math import ceil, inf, log, sqrt
 
 import numpy as np
 
-from rollnip.contact import Layout, cubic_error, more_elements
+from rollnip.contact import Layout, State, cubic_error, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.estimates import CUBIC, Size, sized, with_errors, zone_excess
+from rollnip.rolling.estimates import (
+    CUBIC,
+    Size,
+    sized,
+    with_errors,
+    with_further_errors,
+    zone_excess,
+)
 from rollnip.rolling.largest import largest
 from rollnip.rolling.placing import Placing, SearchState
 from rollnip.rolling.round import Round, excess
@@ -29,12 +36,11 @@ _ELEMENTS_PER_ZONE = 4  # elements more for each zone
 # boundary layers as long as speed times relaxation time, and meshes all too coarse for these agree
 # on other edges.
 _FEWEST_SIZES = 2
-_MOST_ELEMENTS = 200  # at a tolerance of 1e-3; what needs more has no smooth tractions
+_MOST_ELEMENTS = 300  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _FIRST_GROWTH = 1.6  # of the number of elements from size to size
 _LEAST_GROWTH, _MOST_GROWTH = 1.2, 3.5
-# Error of the cubics over the largest traction, by the root of the tolerance.
-_MOST_ROUGHNESS = 0.06
-_ROUGHNESS_ORDER = 1.5  # its least order in 1/elements where cubics are of use
+# Of the tolerance: mean error of the cubics, over the largest traction.
+_MOST_ROUGHNESS = 0.1
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
 
 
@@ -47,12 +53,10 @@ class Attempt:
     found : a round that was verified; None where there is none of this kind: pieces of contact
         that do not touch, zones that come and go, tractions that are not smooth in their zones.
     knew_zones : whether there was a solution that agrees with its zones.
-    too_few : elements that were not enough.
     """
 
     found: Round | None
     knew_zones: bool = False
-    too_few: int = 0
 
 
 def with_free_ends(
@@ -85,7 +89,7 @@ def with_free_ends(
 
 
 def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
-    nip, model, too_few = placing.nip, placing.model, 0
+    nip, model = placing.nip, placing.model
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
     fewest = _FEWEST_SIZES + nip.is_viscoelastic
@@ -93,25 +97,41 @@ def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
         known = bool(history)
         placed = placing.placed(stand, count, known=known)
         if placed is None:
-            return Attempt(None, known, too_few)
+            return Attempt(None, known)
         stand, latest = placed, placed.before
         count = as_cosines(latest)
+        if history and history[-1].breaks.size != stand.layout.breaks.size:
+            history.clear()  # figures of other zones tell nothing of the errors with these
         history.append(sized(nip, model, latest, count, stand.layout.breaks))
         latest = with_errors(nip, latest, history, CUBIC)
         ratio, roughness = excess(nip, latest, model.tolerance), _roughness(nip, model, latest)
         stand_still = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
-        too_few = count
-        if roughness * (count / most) ** _ROUGHNESS_ORDER > 1.0:
-            break
         if largest(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:
             final = converge(nip, model, latest, placing.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
-                return Attempt(final)
+                return Attempt(with_further_errors(nip, final, history))
             ratio = final.residual / model.tolerance
-            stand = SearchState(stand.layout, latest)
-        count = _next_count(count, ratio, model.tolerance)
-    return Attempt(None, True, too_few)
+            slipping = _slipping_at_edge(nip, final, stand.layout)
+            if slipping is not None:
+                ratio = 1.0
+            stand = SearchState(slipping or stand.layout, latest)
+        count = _next_count(count, largest(ratio, roughness), model.tolerance)
+    return Attempt(None, True)
+
+
+def _slipping_at_edge(nip: Nip, final: Round, layout: Layout) -> Layout | None:
+    """Return the layout with slip at an edge, where the shear between nodes exceeds its bound most.
+
+    Return None where that place does not lie in an element that sticks up to an edge.
+    """
+    over = np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0)
+    worst = int(np.argmax(over))
+    place, slip = final.x[worst], State.SLIP_PLUS if final.shear[worst] > 0.0 else State.SLIP_MINUS
+    x = final.mesh.inner
+    if not over[worst] > 0.0 or x[1] < place < x[-2]:
+        return None
+    return layout.slipping_up_to(x[1] if place <= x[1] else x[-2], slip)
 
 
 def _next_count(count: int, ratio: float, tolerance: float) -> int:
@@ -138,12 +158,14 @@ def _roughness(nip: Nip, model: Model, latest: Round) -> float:
 
     Where cubics do not follow the tractions, sizes of mesh may agree and all be wrong.
     """
-    elements = latest.mesh.fine.elements
+    elements, x = latest.mesh.fine.elements, latest.mesh.inner
     pressure, shear = latest.state.pressure, latest.state.shear
+    # Where nodes crowd, the layers that they crowd for count more than their share of the width.
+    width = float(x[-1] - x[0]) * sqrt(min(latest.mesh.fine.crowding))
     peak = float(np.max(pressure))
     little = model.tolerance * nip.friction * peak  # shear that hardly matters
     most = max(float(np.max(np.abs(shear))), little)
-    errors = [cubic_error(pressure, elements) / peak]
+    errors = [cubic_error(pressure, x, elements) / (peak * width)]
     if most > 0.0:
-        errors.append(cubic_error(shear, elements) / most)
-    return largest(*errors) / (_MOST_ROUGHNESS * sqrt(model.tolerance))
+        errors.append(cubic_error(shear, x, elements) / (most * width))
+    return largest(*errors) / (_MOST_ROUGHNESS * model.tolerance)

@@ -43,6 +43,7 @@ from rollnip.rolling.turns import MOST_TURNS, NEARLY_STILL, change_of, held_from
 
 _STICK_AND_SLIP = HeldContact()
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
+_MOST_IMPROPER = 3  # meshes in a row that ask for ends beyond each other
 _MOST_ZONE_CHANGES = 2  # changes of the zones, on meshes of one size
 # Meshes more: to place the new ends after a change, and for the second order of "finite", which is
 # held while a mesh is solved on.
@@ -159,7 +160,7 @@ class Placing:
         elements: Indices | None = None
         crowding: tuple[float, ...] = ()
         earlier: tuple[Layout, Layout] | None = None
-        meshes = changes = 0
+        meshes = changes = improper = 0
         most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
         while meshes < most_meshes + _MORE_MESHES * changes:
             meshes += 1
@@ -191,8 +192,16 @@ class Placing:
                 there = _hastened(layout, asked, earlier)
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
                 earlier = (layout, asked) if latest.stands_still else None
+                improper = 0
+                continue
+            improper += not asked.is_proper
+            if wanted is None and improper < _MOST_IMPROPER:
+                there = layout.towards(asked)
+                stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
+                earlier, off, most_meshes = None, inf, most_meshes + 1
                 continue
             changes += 1
+            improper = 0
             other = self._other(latest, wanted, _proper(asked, layout), self.model.geometry)
             if other is None or changes > _MOST_ZONE_CHANGES:
                 return None
@@ -332,8 +341,8 @@ def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -
 
 
 def _proper(asked: Layout, layout: Layout) -> Layout:
-    """Return the ends that a solution calls for, or the present ones if those are no layout."""
-    return asked if asked.is_proper else layout
+    """Return the ends that a solution calls for, or some on the way if those are no layout."""
+    return asked if asked.is_proper else layout.towards(asked)
 
 
 def _standing_at(asked: Layout, latest: Round, stand: SearchState, off: float) -> SearchState:

@@ -19,7 +19,14 @@ from rollnip.contact import (
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
-from rollnip.rolling.estimates import LINEAR, Size, sized, with_errors, zone_excess
+from rollnip.rolling.estimates import (
+    LINEAR,
+    Size,
+    sized,
+    with_errors,
+    with_further_errors,
+    zone_excess,
+)
 from rollnip.rolling.free_ends import with_free_ends
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.round import Round, excess, has_grip
@@ -35,7 +42,6 @@ from rollnip.rolling.turns import (
 
 _ACTIVE_SET = Safeguarded()
 _FIRST_COUNT = 16
-_LINEAR_FOR_CUBIC = 2  # elements that do what a cubic one does, at least
 _FEWEST_SIZES = 3  # of meshes before an error is believed
 _COARSE_ELEMENTS = 96  # elements up to which an unsettled mesh may still place edges
 _ENOUGH_FOR_ZONES = 130  # elements; with fewer, transitions move and have no square root
@@ -81,8 +87,7 @@ def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> R
             return attempt.found
     if _is_hopeless(located):
         return _finished(nip, model, kernels, located)
-    too_few = _LINEAR_FOR_CUBIC * attempt.too_few
-    return _refined(nip, model, kernels, located, too_few)
+    return _refined(nip, model, kernels, located)
 
 
 def _located(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
@@ -107,9 +112,8 @@ def _refined(
     model: Model,
     kernels: PairKernels,
     located: Round,
-    too_few: int,
 ) -> Round:
-    """Refine with linear elements, more than ``too_few`` of them.
+    """Refine with linear elements.
 
     Their error is of second order in 1/elements, so two meshes give an estimate of it:
     |difference|/(ratio^2 - 1).
@@ -140,7 +144,8 @@ def _refined(
         if not placed and tries < (1 if history else 2) * _MOST_TRIES:
             continue
         history = _with_size(history, sized(nip, model, latest, count, found))
-        latest = _with_layer(nip, with_errors(nip, latest, history, LINEAR))
+        latest = with_further_errors(nip, with_errors(nip, latest, history, LINEAR), history)
+        latest = _with_layer(nip, latest)
         best = latest if latest.stands_still or best is None else best
         off = _apart(history)
         if off < _ZONES_AGREE_WITHIN and offered < _MOST_TRIES:
@@ -149,7 +154,7 @@ def _refined(
             offered += 1
             if taken := _handed_over(nip, model, kernels, latest, off):
                 return taken
-        ratio = _ratio(nip, latest, history, model.tolerance, too_few)
+        ratio = _ratio(nip, latest, history, model.tolerance)
         if (ratio <= 1.0 and len(history) >= _FEWEST_SIZES) or count >= _MOST_ELEMENTS:
             best = latest = with_residual(
                 nip, model, kernels, converge(nip, model, latest, _ACTIVE_SET)
@@ -205,14 +210,14 @@ def _apart(history: list[Size]) -> float:
     return float(np.max(moved)) / history[-1].figures.nip_width
 
 
-def _ratio(nip: Nip, latest: Round, history: list[Size], tolerance: float, too_few: int) -> float:
-    """Return the largest estimated error over the allowed; above 1 up to ``too_few`` elements."""
+def _ratio(nip: Nip, latest: Round, history: list[Size], tolerance: float) -> float:
+    """Return the largest estimated error over the allowed."""
     count, ratio = history[-1].count, excess(nip, latest, tolerance)
     if len(history) > 1 and count < _ENOUGH_FOR_ZONES:
         ratio = max(ratio, zone_excess(history, tolerance))
         if history[-1].breaks.size != history[-2].breaks.size:
             ratio = max(ratio, 1.01)  # zones that have just appeared: no two sizes tell their error
-    return max(ratio, 1.01) if count <= too_few else ratio
+    return ratio
 
 
 def _finished(nip: Nip, model: Model, kernels: PairKernels, last: Round) -> Round:

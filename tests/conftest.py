@@ -145,3 +145,23 @@ def solution() -> HandMade:
         ),
         warnings=("A reservation.",),
     )
+
+
+@pytest.fixture(scope="session")
+def faint_words():
+    """Return the function that lists the words of a figure with a contrast below 3 to 1."""
+    from matplotlib.colors import to_rgb
+    from matplotlib.text import Text
+
+    def found(figure):
+        def brightness(colour):
+            rgb = np.array(to_rgb(colour))
+            linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+            return float(linear @ [0.2126, 0.7152, 0.0722]) + 0.05
+
+        ground = brightness(figure.get_facecolor())
+        words = [one for one in figure.findobj(Text) if one.get_visible() and one.get_text()]
+        ratios = {one.get_text(): brightness(one.get_color()) / ground for one in words}
+        return [text for text, ratio in ratios.items() if max(ratio, 1.0 / ratio) < 3.0]
+
+    return found

@@ -345,8 +345,9 @@ def test_a_belt_has_no_radius_in_the_file():
 
 
 @pytest.mark.parametrize("style", ["light", "dark"])
-def test_a_picture_shows_both_rollers(style, solved):
+def test_a_picture_shows_both_rollers(style, solved, faint_words):
     figure = plot_heat(solved[1], style=style)
+    assert faint_words(figure) == []
     labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
     assert labels[0].startswith("upper roller: hot spot")
     assert labels[1].startswith("lower roller")

@@ -139,9 +139,10 @@ def test_the_summary_says_figures_with_units_and_errors(solved):
     assert any("friction loss" in line and "W" in line for line in lines)
 
 
-@pytest.mark.parametrize("style", ["light", pytest.param("dark", marks=pytest.mark.slow)])
-def test_the_picture_has_four_panels(solved, style):
+@pytest.mark.parametrize("style", ["light", "dark"])
+def test_the_picture_has_four_panels(solved, style, faint_words):
     figure = plot_patch(solved, style=style)
+    assert faint_words(figure) == []
     titles = [ax.get_title(loc="left") for ax in figure.axes]
     assert {"pressure", "stick, slip, and shear on the upper roller"} <= set(titles)
     assert "Wheel" in figure.get_suptitle()

@@ -167,8 +167,10 @@ def test_stability():
     assert "One kind of test alone (planar)" in " ".join(fit.warnings)
 
 
-def test_the_picture_shows_measurements_and_curves():
-    figure = plot_rubber(fit_rubber(simulated("yeoh", ("tension", "shear")), "yeoh"))
+@pytest.mark.parametrize("style", ["light", "dark"])
+def test_the_picture_shows_measurements_and_curves(style, faint_words):
+    figure = plot_rubber(fit_rubber(simulated("yeoh", ("tension", "shear")), "yeoh"), style)
+    assert faint_words(figure) == []
     stress, deviation = figure.axes
     assert [text.get_text() for text in stress.get_legend().get_texts()] == ["tension", "shear"]
     assert len(stress.lines) == 4

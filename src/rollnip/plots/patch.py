@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
+from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
@@ -13,7 +16,6 @@ from rollnip.plots.style import Palette, Style, palette_of
 
 _SIZE = (10.0, 7.0)  # inches
 _ARROWS = 17
-_LEVELS = 11
 
 
 def plot_patch(solution: PatchSolution, *, style: Style = "light") -> Figure:
@@ -46,13 +48,17 @@ def plot_patch(solution: PatchSolution, *, style: Style = "light") -> Figure:
     )
     along.set_xlabel("x, rolling to the right [mm]")
     across.set_xlabel("y, along the axis [mm]")
-    along.set_title(f"along x at y = {solution.y[row]:.3g} mm", loc="left", size=10)
-    across.set_title(f"along y at x = {solution.x[column]:.3g} mm", loc="left", size=10)
+    along.set_title(
+        f"along x at y = {solution.y[row]:.3g} mm", loc="left", size=10, color=palette.ink
+    )
+    across.set_title(
+        f"along y at x = {solution.x[column]:.3g} mm", loc="left", size=10, color=palette.ink
+    )
     for ax in figure.axes:
         ax.tick_params(colors=palette.ink)
         for spine in ax.spines.values():
             spine.set_color(palette.ink)
-        for text in (ax.title, ax.xaxis.label, ax.yaxis.label, *ax.texts):
+        for text in (ax.xaxis.label, ax.yaxis.label, *ax.texts):
             text.set_color(palette.ink)
     title = solution.patch.title or "Patch"
     state = "" if solution.converged else " (NOT CONVERGED)"
@@ -87,7 +93,7 @@ def _pressure(figure: Figure, ax: Axes, solution: PatchSolution, palette: Palett
     )
     bar = figure.colorbar(filled, ax=ax)
     bar.set_label("pressure [MPa]", color=palette.ink)
-    ax.set_title("pressure", loc="left", size=10)
+    ax.set_title("pressure", loc="left", size=10, color=palette.ink)
     _frame(ax, solution, palette)
 
 
@@ -124,19 +130,14 @@ def _zones(ax: Axes, solution: PatchSolution, palette: Palette) -> None:
         solution.x, solution.y, solution.pressure > 0.0, levels=[0.5], colors=palette.ink,
         linewidths=0.8,
     )  # fmt: skip
-    ax.legend(
-        handles=[
-            Swatch(facecolor=palette.stick, edgecolor=palette.muted, label="stick"),
-            Swatch(facecolor=palette.slip, edgecolor=palette.muted, label="slip"),
-        ],
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.16),
-        ncols=2,
-        frameon=False,
-        fontsize=8,
-        labelcolor=palette.ink,
+    swatches = (
+        Swatch(facecolor=palette.stick, edgecolor=palette.muted, label="stick"),
+        Swatch(facecolor=palette.slip, edgecolor=palette.muted, label="slip"),
     )
-    ax.set_title("stick, slip, and shear on the upper roller", loc="left", size=10)
+    _legend_below(ax, palette, -0.16, swatches)
+    ax.set_title(
+        "stick, slip, and shear on the upper roller", loc="left", size=10, color=palette.ink
+    )
     _frame(ax, solution, palette)
 
 
@@ -154,7 +155,22 @@ def _line(
     ax.plot(places, pressure, color=palette.pressure, linewidth=1.8, label="pressure")
     if solution.patch.friction > 0.0:
         ax.plot(places, shear, color=palette.shear, linewidth=1.8, label=name)
-        for side in (bound, -bound):
-            ax.plot(places, side, color=palette.muted, linewidth=0.8, linestyle=":")
-    ax.set_ylabel("[MPa]")
-    ax.legend(fontsize=8, labelcolor=palette.ink, facecolor=palette.ground)
+        for side, label in ((bound, "traction bound"), (-bound, None)):
+            ax.plot(places, side, color=palette.muted, linewidth=0.8, linestyle=":", label=label)
+    ax.set_ylabel("stress [MPa]")
+    _legend_below(ax, palette, -0.24)
+
+
+def _legend_below(
+    ax: Axes, palette: Palette, distance: float, handles: Sequence[Artist] | None = None
+) -> None:
+    """Put the legend below the axes, where it hides no curve; ``distance`` in their heights."""
+    ax.legend(
+        handles=ax.get_legend_handles_labels()[0] if handles is None else handles,
+        loc="upper center",
+        bbox_to_anchor=(0.5, distance),
+        ncols=3,
+        frameon=False,
+        fontsize=8,
+        labelcolor=palette.ink,
+    )

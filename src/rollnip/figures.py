@@ -38,7 +38,9 @@ Dimension = Literal[
 ]
 Section = Literal["nip", "drive", "losses", "sheet"]
 
-ROUNDING = 1e-10
+# Newton's method leaves the ends of zones some 1e-9 of the width from where they belong, and not
+# equally far on both sides; a loss of 1e-8 of load times speed is meant.
+ROUNDING = 5e-9
 """Share of its size below which a figure is a rounding error.
 
 In free rolling, where torques, traction and friction losses are exactly 0, what is computed is at

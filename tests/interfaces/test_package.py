@@ -11,9 +11,10 @@ import rollnip as rn
 HEAVY = ("pydantic", "typer", "rich", "matplotlib", "xarray", "pandas", "h5py")
 
 
-def loaded_after(code: str) -> set[str]:
-    """Top-level modules in a fresh process after ``code``."""
-    script = f"{code}\nimport sys\nprint(*{{name.split('.')[0] for name in sys.modules}})"
+def loaded_after(code: str, parts: int = 1) -> set[str]:
+    """Modules in a fresh process after ``code``, by the first ``parts`` of their names."""
+    names = f"{{'.'.join(name.split('.')[:{parts}]) for name in sys.modules}}"
+    script = f"{code}\nimport sys\nprint(*{names})"
     done = subprocess.run(
         [sys.executable, "-c", script], capture_output=True, check=True, text=True
     )
@@ -26,6 +27,11 @@ def test_import_loads_only_numpy_and_scipy():
     )
     assert {"numpy", "scipy"} <= loaded
     assert loaded.isdisjoint(HEAVY)
+
+
+def test_the_solver_loads_no_part_of_scipy_that_a_plain_nip_does_not_need():
+    loaded = loaded_after("import rollnip as rn; rn.solve", parts=2)
+    assert loaded.isdisjoint(f"scipy.{one}" for one in ("interpolate", "optimize", "stats"))
 
 
 def test_reading_a_case_loads_no_pictures():

@@ -20,12 +20,15 @@ from __future__ import annotations
 
 from functools import lru_cache
 from math import pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 
 from rollnip.sheets import Sheet
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 Array = NDArray[np.float64]
 
@@ -82,6 +85,9 @@ def _spread(away: Array, near: NDArray[np.bool_]) -> Array:
 
 @lru_cache(maxsize=1)
 def _table() -> CubicSpline:
+    # loads more than 200 modules, which a nip without a sheet does not need
+    from scipy.interpolate import CubicSpline
+
     number = np.arange(1, _ROOTS + 1)
     about = pi * (2.0 * number - 0.5)
     root = np.log(2.0 * about) + 1j * about

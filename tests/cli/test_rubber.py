@@ -53,3 +53,12 @@ def test_wrong_input_is_said():
         assert found.exit_code == 2
         assert found.stdout == ""
         assert said in found.stderr, found.stderr
+
+
+def test_the_file_is_named_once(tmp_path):
+    file = tmp_path / "rest.csv"
+    file.write_text("stretch,stress [MPa]\n" + "1,0.1\n" * 6, "utf-8")
+    found = run(file, "--test", "tension")
+    assert found.exit_code == 2
+    assert found.stderr.count(str(file)) == 1
+    assert "with a strain" in found.stderr

@@ -333,3 +333,12 @@ def test_examples_solve(path):
     solution = rn.solve_patch(read_patch_case(path).patch, tolerance=0.01)
     assert solution.converged, solution.status
     assert not solution.warnings
+
+
+@pytest.mark.parametrize("command", [("solve",), ("patch", "solve"), ("patch", "stress")])
+def test_a_tolerance_of_zero_is_refused(tmp_path, command):
+    case = tmp_path / "wheel.toml"
+    case.write_text(PRESSED, "utf-8")
+    found = CliRunner().invoke(app, [*command, str(case), "--tolerance", "0"])
+    assert found.exit_code == 2
+    assert "`tolerance` must be positive and finite, got 0.0." in found.stderr

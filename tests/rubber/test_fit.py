@@ -225,3 +225,30 @@ def test_what_cannot_be_fitted_is_said(changes, said):
     with pytest.raises(rn.InvalidInputError) as error:
         fit_rubber(data, **changes)
     assert said in str(error.value)
+
+
+@pytest.mark.parametrize("law", ["neo-hookean", "yeoh", "gent", "ogden"])
+@pytest.mark.parametrize(
+    ("stretch", "stress", "said"),
+    [
+        (np.ones(6), np.linspace(0.1, 0.6, 6), "few: must hold a measurement of tension with a st"),
+        (np.linspace(1.1, 2.0, 6), np.zeros(6), "a measurement of tension with a stress; all of"),
+        (np.linspace(1.1, 2.0, 6), -np.linspace(0.1, 0.6, 6), "must go the way of the strains"),
+    ],
+    ids=["no strain", "no stress", "turned"],
+)
+def test_tests_without_strain_or_stress_are_said(law, stretch, stress, said):
+    with pytest.raises(rn.InvalidInputError) as error:
+        fit_rubber(RubberData("few", ("tension",) * 6, stretch, stress), law)
+    assert said in str(error.value)
+
+
+def test_a_modulus_known_to_its_own_size_only_is_said_to_be_open():
+    """The interval of G is wider than twice G, though narrower than 2 MPa."""
+    data = RubberData(
+        "rough", ("tension",) * 3, np.array([1.1, 1.2, 1.3]), np.array([0.3, 0.1, 0.05])
+    )
+    fit = fit_rubber(data, "neo-hookean")
+    (shear,) = fit.constants
+    assert 2.0 * shear.value < shear.high - shear.low < 2.0
+    assert any("leave G open" in line for line in fit.warnings)

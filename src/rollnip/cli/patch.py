@@ -35,13 +35,13 @@ RollerName = Annotated[str, typer.Option(help="Roller, upper or lower.")]
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Wanted:
-    """What a command is to print and to write of a patch.
+    """The options of a command: what to print and to write of a solution.
 
     Attributes
     ----------
     json, fields : whether JSON is printed, and whether with the fields over the grid.
     quiet : print no summary.
-    plot, out, stresses : files of the picture, the result, the stresses below; None: none.
+    plot, out, stresses : files of the picture, the result, the stresses inside; None: none.
     tolerance : as the option says it; None: that of the case.
     """
 
@@ -139,9 +139,14 @@ def _check_targets(wanted: Wanted) -> None:
 def _solved(problem: PatchCase, tolerance: str | None) -> PatchSolution:
     from rollnip.patch import PATCH_TOLERANCE, solve_patch
 
-    wanted = read_option("--tolerance", tolerance, "ratio") or problem.tolerance
+    given = read_option("--tolerance", tolerance, "ratio")
+    wanted = problem.tolerance if given is None else given
     with named(problem.source):
-        return solve_patch(problem.patch, tolerance=wanted or PATCH_TOLERANCE, grid=problem.grid)
+        return solve_patch(
+            problem.patch,
+            tolerance=PATCH_TOLERANCE if wanted is None else wanted,
+            grid=problem.grid,
+        )
 
 
 def _write_stresses(solution: PatchSolution, path: Path) -> None:

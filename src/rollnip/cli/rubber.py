@@ -11,7 +11,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named, read_option
+from rollnip.cli.console import clear_failures, read_option
 from rollnip.cli.options import Force
 
 if TYPE_CHECKING:
@@ -89,8 +89,7 @@ def fit(
                 raise InvalidInputError(f"`--strain` must be positive, got {strain}.")
             data = data.up_to(largest)
         run.reserve({"--out": out, "--plot": plot})
-        with named(data.source):
-            found = fit_rubber(data, law, terms=terms, poisson=poisson)  # type: ignore[arg-type]
+        found = fit_rubber(data, law, terms=terms, poisson=poisson)  # type: ignore[arg-type]
         text = rubber_toml(found, name)
         _write(found, text, out, plot)
         if json:

@@ -109,12 +109,14 @@ def fit_rubber(
     ------
     InvalidInputError
         where the law is unknown, the number of terms or the Poisson ratio lies outside its range,
-        there are not more measurements than constants, or no stress goes the way of its strain.
+        there are not more measurements than constants, a test has no strain or no stress, or the
+        stresses do not go the way of the strains.
     """
     if law not in LAWS:
         raise InvalidInputError(f"`law` must be one of {', '.join(LAWS)}, got {law!r}.")
     if not 1 <= terms <= _MOST_TERMS:
         raise InvalidInputError(f"`terms` must lie between 1 and {_MOST_TERMS}, got {terms!r}.")
+    _require_strain_and_stress(data)
     problem = _Problem(data)
     number = {"neo-hookean": 1, "yeoh": 3, "gent": 2, "ogden": 2 * terms}[law]
     if data.stress.size <= number:
@@ -122,14 +124,13 @@ def fit_rubber(
             f"{data.source}: must hold more than {number} measurements for as many constants, "
             f"holds {data.stress.size}."
         )
+    if not problem.neo_hookean > 0.0:
+        raise _wrong_way(data, problem.neo_hookean)
     model, starts, names = _parts(law, terms, problem)
     best = min((problem.minimised(model, start) for start in starts), key=lambda one: one[1])[0]
     shear, energy = model(best)
     if not shear > 0.0:
-        raise InvalidInputError(
-            f"{data.source}: the stresses must go the way of the strains; the fitted shear modulus "
-            f"is {shear:.3g} MPa. Check the signs of the columns."
-        )
+        raise _wrong_way(data, shear)
     material = Elastic(modulus=2.0 * (1.0 + poisson) * shear, poisson=poisson, energy=energy)
     unstable = {test: unstable_from(energy, test) for test in _WAYS}
     deviation = problem.stress(shear, energy) - data.stress
@@ -138,8 +139,31 @@ def fit_rubber(
         for test in data.tests
     }
     constants = _constants(problem, model, best, names)
-    warnings = (*_stability(law, data, unstable), *_range(data), *_open(constants))
+    warnings = (*_stability(law, data, unstable), *_range(data), *_open(constants, shear))
     return RubberFit(data, law, material, constants, deviation, rms, unstable, warnings)
+
+
+def _require_strain_and_stress(data: RubberData) -> None:
+    """Raise where all strains or all stresses of a test are zero."""
+    for test in data.tests:
+        rows, rest = data.rows(test), 0.0 if test == "shear" else 1.0
+        for name, is_found in (
+            ("strain", np.any(data.stretch[rows] != rest)),
+            ("stress", np.any(data.stress[rows] != 0.0)),
+        ):
+            if not is_found:
+                raise InvalidInputError(
+                    f"{data.source}: must hold a measurement of {test} with a {name}; all of them "
+                    "are zero. Leave these rows out."
+                )
+
+
+def _wrong_way(data: RubberData, shear: float) -> InvalidInputError:
+    """Return the error of stresses against the strains."""
+    return InvalidInputError(
+        f"{data.source}: the stresses must go the way of the strains; the fitted shear modulus "
+        f"is {shear:.3g} MPa. Check the signs of the columns."
+    )
 
 
 class _Problem:
@@ -150,8 +174,10 @@ class _Problem:
         self.largest = np.empty(data.stress.size)
         for test in data.tests:
             rows = data.rows(test)
-            self.largest[rows] = max(float(np.abs(data.stress[rows]).max()), 1e-300)
+            self.largest[rows] = float(np.abs(data.stress[rows]).max())
         self.scale = np.abs(data.stress) + _START * self.largest
+        soft = self.stress(1.0, NeoHookean()) / self.scale
+        self.neo_hookean = float(soft @ (data.stress / self.scale) / (soft @ soft))  # G [MPa]
 
     def stress(self, shear: float, energy: Energy) -> Array:
         """Return the nominal stresses of an energy, (n,) [MPa]."""
@@ -187,8 +213,7 @@ class _Problem:
 
 def _parts(law: Law, terms: int, problem: _Problem) -> tuple[_Model, list[Array], list[str]]:
     """Return the energy as a function of coordinates, starts, and the names of the constants."""
-    soft = problem.stress(1.0, NeoHookean()) / problem.scale
-    shear = float(soft @ (problem.data.stress / problem.scale) / (soft @ soft))
+    shear = problem.neo_hookean
     if law == "neo-hookean":
         return lambda at: (at[0], NeoHookean()), [np.array([shear])], ["G"]
     if law == "yeoh":
@@ -300,13 +325,16 @@ def _range(data: RubberData) -> list[str]:
     ]
 
 
-def _open(constants: tuple[Constant, ...]) -> list[str]:
-    """Return a sentence about constants that the data leave open."""
+def _open(constants: tuple[Constant, ...], shear: float) -> list[str]:
+    """Return a sentence about constants that the data leave open.
+
+    The interval of a modulus is seen over G, that of a number over this, or over 1 if it is less.
+    """
     lost = [
         one.name
         for one in constants
         if not np.isfinite(one.high - one.low)
-        or one.high - one.low > 2.0 * max(1.0, abs(one.value))
+        or one.high - one.low > 2.0 * (shear if one.unit else max(1.0, abs(one.value)))
     ]
     if not lost:
         return []

@@ -354,7 +354,7 @@ class Solution(Presented):
         return self._beyond(roller) is not None
 
     def _beyond(self, roller: str) -> FiniteFields | None:
-        """What finite strain adds to the linear fields inside a roller."""
+        """Return what finite strain adds to the linear fields inside a roller; None: nothing."""
         return self._beyond_upper if roller == "upper" else self._beyond_lower
 
     @cached_property

@@ -1,5 +1,6 @@
 """Fields at finite strain: balances, small loads, and finite elements of another program."""
 
+import io
 import json
 from dataclasses import replace
 from functools import cache
@@ -7,9 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from rich.console import Console
 
 import rollnip as rn
+from rollnip.cli.summary import print_summary
 from rollnip.interior import interior_field
+from rollnip.io import result_text
+from rollnip.plots import plot_field
 
 STORED = json.loads(
     (Path(__file__).parents[1] / "data" / "finite_strain_fe_inside.json").read_text("utf-8")
@@ -135,3 +140,29 @@ def test_other_geometries_and_bare_rollers_are_linear():
     assert not solution.interior("upper", [1.0]).is_finite
     assert solved().is_finite_inside("upper")
     assert not solved().is_finite_inside("lower")
+
+
+def printed(solution):
+    stream = io.StringIO()
+    print_summary(solution, Console(file=stream, width=96, highlight=False))
+    return " ".join(stream.getvalue().split())
+
+
+def test_fields_that_stay_linear_are_said_to_be(monkeypatch):
+    """Where no equilibrium is found inside, summary, JSON and picture say so."""
+    note = (
+        "Displacements and stresses inside the upper roller are those of linear theory: no "
+        "equilibrium at finite strain was found there."
+    )
+    with_all, left = solved(), replace(solved())
+    assert with_all.is_finite_inside("upper")
+    monkeypatch.setattr("rollnip.solution.beyond_linear", lambda *_: None)
+    assert not left.is_finite_inside("upper")
+    assert note in printed(left)
+    assert note not in printed(with_all)
+    assert "revolution, finite strain upper bond" in printed(with_all)
+    assert "revolution upper bond" in printed(left)
+    assert note in json.loads(result_text(left))["warnings"]
+    assert note not in json.loads(result_text(with_all))["warnings"]
+    labels = [plot_field(one).child_axes[-1].get_xlabel() for one in (with_all, left)]
+    assert [label.rpartition(", ")[2] for label in labels] == ["finite strain", "linear theory"]

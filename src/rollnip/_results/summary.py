@@ -64,6 +64,24 @@ def sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
         yield "Whole face", list(_totals(solution, solution.nip.face_width))
 
 
+def finite_inside(solution: Any) -> list[str]:
+    """Return the rollers inside which displacements and stresses are those of finite strain."""
+    return [name for name in ("upper", "lower") if solution.is_finite_inside(name)]
+
+
+def inside_notes(solution: Any) -> list[str]:
+    """Return a sentence for each roller of geometry "full" inside which linear theory was left."""
+    if solution.model.geometry != "full" or not solution.peak_pressure > 0.0:
+        return []
+    finite = finite_inside(solution)
+    return [
+        f"Displacements and stresses inside the {name} roller are those of linear theory: no "
+        "equilibrium at finite strain was found there."
+        for name in ("upper", "lower")
+        if name not in finite and not getattr(solution.nip, name).is_rigid
+    ]
+
+
 def verdict(solution: Any) -> tuple[str, str]:
     """Return whether the solution converged, and how it was reached, in words."""
     solver = solution.solver

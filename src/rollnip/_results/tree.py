@@ -6,6 +6,7 @@ from math import isfinite
 from typing import Any
 
 from rollnip._results.case import case_tree, problem_hash
+from rollnip._results.summary import inside_notes
 from rollnip.figures import CLAIMED, FIGURES, PROFILES
 from rollnip.interior import INTERFACE_FIGURES
 from rollnip.rolling import Zone
@@ -20,7 +21,8 @@ def result_dict(solution: Any, *, interfaces: bool = True) -> dict[str, Any]:
     Units mm, N, MPa, s; per axial length, save ``totals`` (N, N m, W), which is there where the
     nip has a face width. ``case`` is what was solved, as the tree of a case file. What is not
     finite or not defined is None. The stresses on interfaces
-    may take longer than the solution itself; without ``interfaces`` their key is not there.
+    may take longer than the solution itself; without ``interfaces`` their key is not there, nor
+    the warning where they could not be found at finite strain.
     """
     tree: dict[str, Any] = {
         "schema": SCHEMA,
@@ -60,6 +62,7 @@ def result_dict(solution: Any, *, interfaces: bool = True) -> dict[str, Any]:
             | {name: _number(getattr(interface, name)) for name in INTERFACE_FIGURES}
             for interface in solution.interfaces
         ]
+        tree["warnings"] += inside_notes(solution)
     return tree
 
 

@@ -9,7 +9,15 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from rollnip._results.summary import SIGNS, Line, sections, verdict, zone_sections
+from rollnip._results.summary import (
+    SIGNS,
+    Line,
+    finite_inside,
+    inside_notes,
+    sections,
+    verdict,
+    zone_sections,
+)
 from rollnip._units import format_quantity
 from rollnip.cli.console import terminal
 from rollnip.solution import Solution
@@ -44,14 +52,20 @@ def _parts(solution: Solution) -> Iterator[RenderableType]:
         yield Text(f"\n{heading}", style="bold")
         yield _table(lines, label=6, value=18)
     if solution.interfaces:
-        is_finite = solution.is_finite_inside("upper") or solution.is_finite_inside("lower")
-        heading = "Interfaces, each revolution" + (", finite strain" if is_finite else "")
-        yield Text(f"\n{heading}", style="bold")
+        yield Text(f"\nInterfaces, each revolution{_theory(solution)}", style="bold")
         yield _interfaces(solution)
     yield Text()
-    for warning in solution.warnings:
+    for warning in (*solution.warnings, *inside_notes(solution)):
         yield Text(f"Note: {warning}", style="yellow")
     yield Text(SIGNS, style="dim")
+
+
+def _theory(solution: Solution) -> str:
+    """Return where the stresses on interfaces are those of finite strain, for the heading."""
+    finite, linear = finite_inside(solution), inside_notes(solution)
+    if not finite:
+        return ""
+    return ", finite strain" + (f" in the {finite[0]} roller" if linear else "")
 
 
 def _table(lines: Iterable[Line], *, label: int = 26, value: int = 11) -> RenderableType:

@@ -90,7 +90,7 @@ class State:
 
 @dataclass(frozen=True)
 class _Fields:
-    """What forces and their derivative are made of, at the points of Gauss.
+    """Deformation and stress at the points of Gauss, for the forces and their derivative.
 
     F (4, elements, 9); c with G w_J, and 2 G w_I, (elements, 9); step and rate of the pressures;
     G times the derivatives of w, None where those of second order are zero.

@@ -100,16 +100,24 @@ def plot_field(
     _frame(ax, look, pieces, scale)
     _name_layers(ax, look, pieces)
     text = QUANTITIES[component].label + ("" if rollers == "both" else f", {rollers} roller")
-    soft = [name for name in names if not roller_of(solution, name).is_rigid]
-    if all(solution.is_finite_inside(name) for name in soft):
-        text += ", finite strain"
-    _colour_bar(ax, look, drawn[0], shades, text)
+    _colour_bar(ax, look, drawn[0], shades, text + _theory(solution, names))
     title(ax, look, solution, "Inside the layers", room=0.5)
     engine = figure_of(ax).get_layout_engine()
     if scale == "equal" and isinstance(engine, ConstrainedLayoutEngine):
         for _ in range(2):  # a fixed shape takes more than the one pass that drawing makes
             engine.execute(figure_of(ax))
     return ax
+
+
+def _theory(solution: Solution, names: tuple[Name, ...]) -> str:
+    """Return whether what is drawn in geometry "full" is of finite strain."""
+    if solution.model.geometry != "full":
+        return ""
+    soft = [name for name in names if not roller_of(solution, name).is_rigid]
+    linear = [name for name in soft if not solution.is_finite_inside(name)]
+    if not linear:
+        return ", finite strain"
+    return ", linear theory" + ("" if linear == soft else f" in the {linear[0]} roller")
 
 
 def _checked(

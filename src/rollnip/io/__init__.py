@@ -5,6 +5,7 @@ from rollnip.io.columns import Columns, read_columns
 from rollnip.io.fields import check_fields_target, write_fields
 from rollnip.io.heat import heat_text, write_heat
 from rollnip.io.parts import case_parts
+from rollnip.io.patch_case import PatchCase, parse_patch_case, read_patch_case
 from rollnip.io.paths import dimension_at, value_at, with_values
 from rollnip.io.profile import read_profile
 from rollnip.io.result import check_result_target, result_dict, result_text, write_result
@@ -13,6 +14,7 @@ from rollnip.io.script import base_tree, case_python, case_toml, units_of
 __all__ = [
     "Case",
     "Columns",
+    "PatchCase",
     "base_tree",
     "case_hash",
     "case_parts",
@@ -24,8 +26,10 @@ __all__ = [
     "dimension_at",
     "heat_text",
     "parse_case",
+    "parse_patch_case",
     "read_case",
     "read_columns",
+    "read_patch_case",
     "read_profile",
     "result_dict",
     "result_text",

@@ -22,7 +22,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.interpolate import CubicSpline
-from scipy.signal import lfilter
 
 from rollnip.compliance import flat_compliance, half_space_limit, shear_compliance
 from rollnip.materials import Material
@@ -123,6 +122,9 @@ class Delays:
         upstream : distances beyond the last place, (m,) [mm].
         beyond : the values there, (..., m).
         """
+        # loads some eighty modules, which only a patch with memory needs
+        from scipy.signal import lfilter
+
         out = self.at_once * values
         flow = values[..., ::-1]
         for share, length in zip(self.shares, self.lengths, strict=True):

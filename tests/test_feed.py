@@ -7,7 +7,9 @@ import pytest
 from typer.testing import CliRunner
 
 import rollnip as rn
+from rollnip._results.case import case_tree
 from rollnip.cli.app import app
+from rollnip.io import value_at
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 PAPER = rn.Sheet(thickness=0.1, modulus=500.0, poisson=0.3, tension_in=0.05, tension_out=0.02)
@@ -15,6 +17,7 @@ UPPER = rn.Roller(radius=50, layers=[rn.Layer(2.0, rn.Elastic(modulus=0.91, pois
 LOWER = rn.Roller(radius=25, layers=[rn.Layer(2.7, rn.Elastic(modulus=2.04, poisson=0.5))])
 NIP = rn.Nip(upper=UPPER, lower=LOWER, normal=rn.LineLoad(1.0), friction=0.4, sheet=PAPER)
 LINEAR = rn.Model(geometry="linear", tolerance=1e-4)
+NIP_CASE = case_tree(NIP, LINEAR)
 FORCES = ("nip.load", "sheet.tension_in", "sheet.tension_out")
 
 
@@ -30,8 +33,8 @@ def test_all_that_the_feed_depends_on_is_there(changes):
         *FORCES,
         *("sheet.thickness", "sheet.modulus"),
         *(f"{side}.radius" for side in ("upper", "lower")),
-        *(f"{side}.layers.0.thickness" for side in ("upper", "lower")),
-        *(f"{side}.layers.0.material.modulus" for side in ("upper", "lower")),
+        *(f"{side}.layers[0].thickness" for side in ("upper", "lower")),
+        *(f"{side}.layers[0].material.modulus" for side in ("upper", "lower")),
     }
 
 
@@ -62,7 +65,16 @@ def test_a_larger_roller_feeds_more_in_a_turn(changes):
     assert found.per_turn == pytest.approx(1.0 + found.upper, rel=2e-3)
 
 
+def test_each_path_is_a_key_of_the_case(changes):
+    """With the value that stands there, and a name in plain words."""
+    for path, one in changes.items():
+        assert value_at(NIP_CASE, path) == pytest.approx(one.value), path
+    assert changes["sheet.tension_in"].quantity == "tension at the inlet"
+
+
 def test_a_nip_without_a_sheet_is_refused():
+    with pytest.raises(rn.InvalidInputError, match=r"^`nip` must be a Nip, got a NoneType"):
+        rn.feed_sensitivity(None)
     nip = rn.Nip(upper=UPPER, lower=LOWER, normal=rn.LineLoad(1.0), friction=0.4)
     with pytest.raises(rn.InvalidInputError, match=r"^`sheet` must be given"):
         rn.feed_sensitivity(nip)

@@ -92,3 +92,20 @@ def test_where_there_is_no_solution_the_reason_is_given():
         'No solution of geometry "finite" was found: its second-order terms did not come to rest'
     )
     assert "strain" not in solution.warnings[0]
+
+
+def test_tractions_without_equilibrium_are_said_to_be_the_cause():
+    """Chains of this rubber are straight long before the load is carried."""
+    rubber = rn.Elastic(modulus=1.0, poisson=0.5, energy=rn.Gent(0.02))
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50.0, layers=(rn.Layer(4.0, rubber),)),
+        lower=rn.Roller(radius=50.0),
+        normal=rn.LineLoad(2.0),
+        friction=0.5,
+    )
+    solution = rn.solve(nip, rn.Model(geometry="full"))
+    assert solution.model.geometry == "finite"
+    assert solution.warnings[0] == (
+        'No solution of geometry "full" was found: its tractions have no equilibrium, or none that '
+        'was found. All figures are those of geometry "finite".'
+    )

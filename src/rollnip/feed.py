@@ -20,6 +20,12 @@ from rollnip.solver import solve
 __all__ = ["FeedChange", "feed_sensitivity"]
 
 _MOST_SHARE = 0.2
+_OF_SHEET = {
+    "thickness": "thickness of the sheet",
+    "modulus": "modulus of the sheet",
+    "tension_in": "tension at the inlet",
+    "tension_out": "tension at the outlet",
+}
 _Side = Literal["upper", "lower"]
 _SIDES: tuple[_Side, ...] = ("upper", "lower")
 
@@ -31,9 +37,10 @@ class FeedChange:
     Attributes
     ----------
     quantity : "load", "modulus of the upper covering", ...
-    path : key of the quantity in a case file; of several layers the table that holds them.
-    value : the present value [mm, N, MPa]; nan for a covering of several
-        layers.
+    path : key of the quantity in a case whose materials stand in the layers; of several layers
+        the key that holds them.
+    value : the present value of that key [mm, N, MPa], of a diameter the radius; nan for a
+        covering of several layers.
     upper, lower : d(feed)/d ln(quantity) over either roller, `feed_upper` and `feed_lower`: times
         0.01 it is the change of the feed where the quantity is 1 % larger.
     per_turn : d ln(sheet fed in a turn of the upper roller)/d ln(quantity): what a diameter feeds
@@ -77,10 +84,12 @@ def feed_sensitivity(
     Raises
     ------
     InvalidInputError
-        where the nip has no sheet, or ``share`` lies outside its range.
+        where ``nip`` is none or has no sheet, or ``share`` lies outside its range.
     ConvergenceError
         where a changed nip has no solution at all, or only one of another geometry.
     """
+    if not isinstance(nip, Nip):
+        raise InvalidInputError(f"`nip` must be a Nip, got a {type(nip).__name__}.")
     if nip.sheet is None:
         raise InvalidInputError("`sheet` must be given: without a sheet nothing is fed.")
     share = require_positive("share", share)
@@ -160,10 +169,9 @@ def _quantities(nip: Nip) -> Iterator[_Quantity]:
             normal.approach,
             lambda factor: replace(nip, normal=Approach(factor * normal.approach)),
         )
-    for name in ("thickness", "modulus", "tension_in", "tension_out"):
+    for name, words in _OF_SHEET.items():
         value = getattr(sheet, name)
         if value > 0.0:
-            words = f"{name.replace('_', ' ')} of the sheet"
             yield words, f"sheet.{name}", value, partial(_with_sheet, nip, name)
     for side in _SIDES:
         yield from _of_roller(nip, side)
@@ -185,7 +193,7 @@ def _of_roller(nip: Nip, side: _Side) -> Iterator[_Quantity]:
     single = len(layers) == 1
     yield (
         f"thickness of the {side} covering",
-        f"{side}.layers" + (".0.thickness" if single else ""),
+        f"{side}.layers" + ("[0].thickness" if single else ""),
         layers[0].thickness if single else nan,
         lambda factor: _with(
             nip,
@@ -197,7 +205,7 @@ def _of_roller(nip: Nip, side: _Side) -> Iterator[_Quantity]:
         return
     yield (
         f"modulus of the {side} covering",
-        f"{side}.layers" + (".0.material.modulus" if single else ""),
+        f"{side}.layers" + ("[0].material.modulus" if single else ""),
         layers[0].material.relaxed_modulus if single else nan,
         lambda factor: _with(
             nip,

@@ -171,6 +171,8 @@ def _without_solution(model: Model, final: Round) -> str:
             f"its {_BEYOND[model.geometry]} did not come to rest (they last changed by "
             f"{final.geometry_change:.2g} of the first-order ones)"
         )
+    if not final.is_balanced:
+        return "its tractions have no equilibrium, or none that was found"
     return "" if final.stands_still else "contact, stick and slip did not settle"
 
 

@@ -68,6 +68,11 @@ class _AllOrders:
 
         return cls(response(nip.upper), response(nip.lower))
 
+    @property
+    def is_balanced(self) -> bool:
+        """Return whether the last tractions had an equilibrium."""
+        return all(one.is_found for one in (self.upper, self.lower) if one is not None)
+
     def beyond(
         self, kernels: PairKernels, latest: Round
     ) -> tuple[SecondFields, SecondFields, bool] | None:
@@ -110,7 +115,7 @@ def refine_all_orders(
     Returns
     -------
     The influence functions with the last correction, and the solution with it. Where no equilibrium
-    is found, or no contact, it does not stand still.
+    is found, or no contact, it does not stand still; ``is_balanced`` tells which.
     """
     first = refine(nip, model, kernels, half_width)
     strain = surface_strain_in_nip(nip, model.geometry, first) if first.stands_still else 0.0
@@ -124,7 +129,7 @@ def refine_all_orders(
     latest = refine(nip, model, whole, half_width)
     made = orders.beyond(kernels, latest) if latest.stands_still else None
     if made is None:
-        return kernels, replace(latest, stands_still=False)
+        return kernels, replace(latest, stands_still=False, is_balanced=orders.is_balanced)
     return _checked(nip, model, kernels, latest, made)
 
 

@@ -80,6 +80,8 @@ class Round:
     further_error : estimated discretisation error of the further figures; None where unknown.
     cut : largest relative violation of the contact conditions by what "full" leaves out, because it
         is too short for the contact.
+    is_balanced : whether an equilibrium at finite strain was found in "full"; True where none is
+        asked for.
     """
 
     mesh: Mesh
@@ -95,6 +97,7 @@ class Round:
     residual: float = inf
     further_error: Further | None = None
     cut: float = 0.0
+    is_balanced: bool = True
 
     @property
     def nodes(self) -> Array:

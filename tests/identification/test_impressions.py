@@ -126,3 +126,18 @@ def test_what_an_impression_needs(tmp_path):
     inside = replace(outside, y=[0.0, 700.0])
     with pytest.raises(rn.InvalidInputError, match=r"must have a table \[face\]"):
         rn.identify(without, [CROWNED], inside, QUICK)
+
+
+def test_a_place_beside_the_face_is_said_with_its_line(tmp_path):
+    path = file_of(tmp_path, tree_of())
+    (tmp_path / "widths.csv").write_text("y [mm],width [mm]\n-750,14.5\n0,13.6\n900,14.6\n")
+    with pytest.raises(rn.InvalidInputError) as error:
+        read_fit(path)
+    assert str(error.value).endswith(
+        'widths.csv, line 4: "y" must lie on the face, within 800 mm of its middle, got 900.'
+    )
+    tree = tree_of()
+    tree["face"]["length"] = "long"
+    (tmp_path / "case.json").write_text(json.dumps(tree))
+    with pytest.raises(rn.InvalidInputError, match=r"case: face\.length: must be a length"):
+        read_fit(path)

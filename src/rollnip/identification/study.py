@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
+from math import inf
 from pathlib import Path
 from typing import Any
 
@@ -180,10 +181,13 @@ class _Reader:
         column = table.column or "width"
         measured = columns.numbers(column, "length")
         _require_positive(columns, column, measured)
+        y = columns.numbers("y", "length")
         at |= self._conditions(columns, {"y", column, _ERROR, *table.ignore})
+        if "face.length" not in {*at, *(one.path for one in self.table.unknowns)}:
+            self._require_on_face(columns, y)
         with self._placed(where):
             return Impressions(
-                y=columns.numbers("y", "length"),
+                y=y,
                 measured=measured,
                 standard_error=self._errors(where, table, columns, "length"),
                 at=at,
@@ -191,6 +195,19 @@ class _Reader:
                 name=table.name,
                 rows=row_names(Path(columns.source).name, columns.lines),
             )
+
+    def _require_on_face(self, columns: Columns, y: NDArray[np.float64]) -> None:
+        """Raise where a place lies outside the face of the case."""
+        with self._placed("case: face.length"):
+            half = 0.5 * parse_quantity(
+                self.case["face"].get("length", inf), "length", infinite=True
+            )
+        for line, place in zip(columns.lines, y, strict=True):
+            if not abs(place) <= half * (1.0 + 1e-9):
+                raise InvalidInputError(
+                    f'{columns.source}, line {line}: "y" must lie on the face, within {half:g} mm '
+                    f"of its middle, got {place:g}."
+                )
 
     def _strains(
         self, where: str, table: DataTable, columns: Columns, at: dict[str, Any]

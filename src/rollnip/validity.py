@@ -133,7 +133,8 @@ def _surface_strain(largest: float) -> str:
         return ""
     return (
         f"Somewhere in the nip a surface is strained by {100.0 * largest:.0f} %, beside a slipping "
-        "edge as a rule: no model here holds for such a strain; do not read the strain there."
+        "edge as a rule: this geometry does not hold for such a strain; do not read the strain "
+        "there. For elastic coverings, geometry full has all orders."
     )
 
 

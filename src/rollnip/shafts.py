@@ -36,7 +36,7 @@ __all__ = [
 Array = NDArray[np.float64]
 AnyCrown = Crown | CrownTable
 Across = Literal["free", "one-speed"]
-Ends = Literal["plane", "edge"]
+Ends = Literal["plane", "edge", "covering"]
 
 LARGEST_SKEW = 0.1
 """Largest angle between the axes [rad]; beyond, the gap is no parabola."""
@@ -215,7 +215,8 @@ class Face:
         inlet that this asks for at each place and a mean that is given.
     ends :
         "plane": the nip is plane up to both ends of the face; "edge": there the face of one roller
-        ends on the longer covering of the other, which carries more or less than in a plane nip.
+        ends on the longer covering of the other, which carries more or less than in a plane nip;
+        "covering": there every covering ends, free of stress, and rubber gives way sideways.
     end_radius :
         with which the shorter face is rounded at its ends [mm]; 0: a sharp edge.
 
@@ -251,9 +252,11 @@ class Face:
             offset = require_finite("bearing_offset", self.bearing_offset)
             object.__setattr__(self, "bearing_offset", offset)
         object.__setattr__(self, "end_radius", require_not_negative("end_radius", self.end_radius))
-        if self.ends not in ("plane", "edge"):
-            raise InvalidInputError(f'`ends` must be "plane" or "edge", got "{self.ends}".')
-        if self.ends == "plane" and self.end_radius > 0.0:
+        if self.ends not in ("plane", "edge", "covering"):
+            raise InvalidInputError(
+                f'`ends` must be "plane", "edge" or "covering", got "{self.ends}".'
+            )
+        if self.ends != "edge" and self.end_radius > 0.0:
             raise InvalidInputError('`end_radius` needs `ends` = "edge".')
         if self.sheet_across not in ("free", "one-speed"):
             raise InvalidInputError(

@@ -10,6 +10,7 @@ import rollnip as rn
 from rollnip.face import Face, NipRows, solve_face
 from rollnip.face.report import face_dict, face_parts
 from rollnip.io import parse_case
+from rollnip.patch import covering_end
 from rollnip.patches import Across, Patch
 
 SHORT = Face(length=150.0, ends="edge", end_radius=2.0)
@@ -64,6 +65,24 @@ def test_a_sharp_end_carries_more_at_the_very_edge(rows):
     assert sharp.peak_pressure[0] > sharp.peak_pressure[32]
 
 
+def test_a_covering_that_ends_carries_less(rows, short):
+    """The load of the face lacks what `covering_end` says, and is least at the very end."""
+    face = replace(SHORT, ends="covering", end_radius=0.0)
+    found = solve_face(stiff(), face, LINEAR, rows=rows)
+    plane = solve_face(stiff(), replace(face, ends="plane"), LINEAR, law=found.law)
+    one = covering_end(stiff().upper, stiff().lower, 0.8)
+    assert found.added_length == pytest.approx(2.0 * one.added_length, rel=0.01)
+    assert found.added_length < short.added_length - 5.0
+    assert found.total_load - plane.total_load == pytest.approx(
+        found.added_length * plane.load[32], rel=1e-3
+    )
+    assert np.all(np.diff(found.load[1:20]) > 0.0)
+    # Rubber of 12 mm recovers as e^(-0.74 y/12 mm) or slower: in the middle 1 % lacks still.
+    assert 3.0 * found.load[0] < found.load[32] == pytest.approx(plane.load[32], rel=0.02)
+    tree = face_parts(found)["case"]
+    assert parse_case(tree).face == face
+
+
 def test_the_figures_of_evenness_leave_the_ends_out(short):
     assert short.evenness == pytest.approx(1.0, abs=1e-12)
     assert short.load.min() < 0.9 * short.load[32]
@@ -94,10 +113,12 @@ def test_ends_are_in_the_result_and_in_its_case(short):
 
 
 def test_ends_that_cannot_be(short):
-    with pytest.raises(rn.InvalidInputError, match='`ends` must be "plane" or "edge", got "round"'):
+    with pytest.raises(rn.InvalidInputError, match='`ends` must be "plane", "edge" or "covering"'):
         Face(length=100.0, ends="round")
     with pytest.raises(rn.InvalidInputError, match='`end_radius` needs `ends` = "edge"'):
         Face(length=100.0, end_radius=1.0)
+    with pytest.raises(rn.InvalidInputError, match='`end_radius` needs `ends` = "edge"'):
+        Face(length=100.0, ends="covering", end_radius=1.0)
     with pytest.raises(rn.InvalidInputError, match="`end_radius` must be zero or positive"):
         Face(length=100.0, ends="edge", end_radius=-1.0)
     web = replace(press(), sheet=rn.Sheet.usual("newsprint"))

@@ -256,6 +256,11 @@ def test_the_end_of_a_face_is_printed(tmp_path):
     tree = json.loads(done.stdout)
     assert tree["load"][-1] == pytest.approx(1.0, abs=0.01)
     assert tree["added_length"] < 0.0  # rubber gives way sideways
+    free = ["patch", "ends", str(path), "--approach", "0.3 mm", "--covering", "--json"]
+    assert "`end_radius` must be left out" in CliRunner().invoke(app, free).stderr
+    path.write_text(WHEEL.replace('end_radius = "2 mm"', ""))
+    assert json.loads(CliRunner().invoke(app, free).stdout)["added_length"] < tree["added_length"]
+    path.write_text(WHEEL)
     shown = CliRunner().invoke(app, ["patch", "ends", str(path), "--approach", "0.3 mm"]).stdout
     assert "Length that the end adds to the load" in shown
 

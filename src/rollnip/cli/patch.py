@@ -210,6 +210,9 @@ def ends(
     approach: Annotated[
         str | None, typer.Option(help='Approach of the axles, such as "0.4 mm"; else the case\'s.')
     ] = None,
+    covering: Annotated[
+        bool, typer.Option("--covering", help="The coverings of both rollers end there.")
+    ] = False,
     json: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> None:
     """Print the nip near the end of the upper roller's face, on a lower one that goes on.
@@ -220,7 +223,7 @@ def ends(
     with clear_failures():
         from rollnip.io.patch_case import read_patch_case
         from rollnip.nip import Approach
-        from rollnip.patch import face_end
+        from rollnip.patch import covering_end, face_end
         from rollnip.patch.report import end_dict, end_lines
 
         problem = read_patch_case(case)
@@ -234,7 +237,17 @@ def ends(
             )
         radius = problem.patch.across_upper.end_radius
         with named(problem.source):
-            found = face_end(problem.patch.upper, problem.patch.lower, given, radius)
+            upper, lower = problem.patch.upper, problem.patch.lower
+            if covering and radius > 0.0:
+                raise InvalidInputError(
+                    f"`end_radius` must be left out with `--covering`, got {radius:g} mm: a "
+                    "covering ends square."
+                )
+            found = (
+                covering_end(upper, lower, given)
+                if covering
+                else face_end(upper, lower, given, radius)
+            )
         if json:
             from json import dumps
 

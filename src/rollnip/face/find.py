@@ -111,7 +111,7 @@ def solve_face(
             rows = NipRows(cache) if law is None or law.rows is None else law.rows
         maker = _Maker(problem, model, rows, progress, executor)
         law, found = maker.covered(law)
-        if face.ends == "edge":
+        if face.ends != "plane":
             problem, law, found = _with_ends(maker, law, found)
         error = {**law.error, "places": _error_of_places(problem, law, found)}
     worst = max(value for name, value in error.items() if name not in REPORTED)

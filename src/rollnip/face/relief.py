@@ -1,11 +1,12 @@
 """Ends of a face: how load and peak pressure depart there from those of the plane nip.
 
-Where one roller ends on the longer covering of the other, the cross-sections near the end are not
-plane (see `rollnip.patch.face_end`). Three-dimensional patches are solved at a few approaches,
-evenly spaced in their logarithm and kept for the next face. Between them the ratios to the plane
-nip are interpolated over the distance from the end, in units of the length that each patch covers.
-A place of the face stands for its share of the length, so that it holds the mean ratio over this
-share: then the load of the whole face has what the end adds or takes, however few places lie there.
+Where one roller ends on the longer covering of the other, or a covering itself ends, the
+cross-sections near the end are not plane (see `rollnip.patch.face_end` and
+`rollnip.patch.covering_end`). Ends are solved at a few approaches, evenly spaced in their logarithm
+and kept for the next face. Between them the ratios to the plane nip are interpolated over the
+distance from the end, in units of the length that each solution covers. A place of the face stands
+for its share of the length, so that it holds the mean ratio over this share: then the load of the
+whole face has what the end adds or takes, however few places lie there.
 """
 
 from __future__ import annotations
@@ -20,13 +21,13 @@ from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.face.beam import FaceGrid
 from rollnip.face.rows import NipRows
 from rollnip.nip import Nip
-from rollnip.patch import FaceEnd, face_end
+from rollnip.patch import FaceEnd, covering_end, face_end
 from rollnip.rollers import Roller
 from rollnip.shafts import Face
 
 Array = NDArray[np.float64]
 
-_STEP = 0.25  # of the logarithm of the approach, between patches
+_STEP = 0.25  # of the logarithm of the approach, between solutions
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,20 +88,17 @@ def relief_of(nip: Nip, face: Face, approaches: tuple[float, float], rows: NipRo
     Raises
     ------
     InvalidInputError
-        where the rollers make no patch, as with cores that are half-spaces.
+        where the ends cannot be computed, as with cores that are half-spaces.
     """
-    ends = [
-        None if approach <= 0.0 else _end(nip, face.end_radius, approach, rows)
-        for approach in approaches
-    ]
+    ends = [None if approach <= 0.0 else _end(nip, face, approach, rows) for approach in approaches]
     return Relief((ends[0], ends[1]))
 
 
-def _end(nip: Nip, radius: float, approach: float, rows: NipRows) -> End:
+def _end(nip: Nip, face: Face, approach: float, rows: NipRows) -> End:
     place = log(approach) / _STEP
     low = floor(place)
     share = place - low
-    both = [_kept(nip, radius, low + i, rows) for i in (0, 1)]
+    both = [_kept(nip, face, low + i, rows) for i in (0, 1)]
     curves = [_integrated(one) for one in both]
 
     def between(i: int) -> Array:
@@ -115,26 +113,28 @@ def _end(nip: Nip, radius: float, approach: float, rows: NipRows) -> End:
     )
 
 
-def _kept(nip: Nip, radius: float, node: int, rows: NipRows) -> FaceEnd:
+def _kept(nip: Nip, face: Face, node: int, rows: NipRows) -> FaceEnd:
     """Return the end at the approach of a node, from those kept or solved now."""
     upper, lower = (replace(one, shaft=None) for one in (nip.upper, nip.lower))
-    key = (upper, lower, radius, node)
+    key = (upper, lower, face.ends, face.end_radius, node)
     if key not in rows.ends:
-        rows.ends[key] = _solved(upper, lower, radius, float(np.exp(_STEP * node)))
+        rows.ends[key] = _solved(upper, lower, face, float(np.exp(_STEP * node)))
     return rows.ends[key]
 
 
-def _solved(upper: Roller, lower: Roller, radius: float, approach: float) -> FaceEnd:
+def _solved(upper: Roller, lower: Roller, face: Face, approach: float) -> FaceEnd:
     try:
-        return face_end(upper, lower, approach, radius)
+        if face.ends == "covering":
+            return covering_end(upper, lower, approach)
+        return face_end(upper, lower, approach, face.end_radius)
     except InvalidInputError as error:
-        raise InvalidInputError(f'`ends` cannot be "edge": {error}') from None
+        raise InvalidInputError(f'`ends` cannot be "{face.ends}": {error}') from None
     except RollnipError as error:
         raise type(error)(f"The end of the face at {approach:.4g} mm: {error}") from None
 
 
 def _integrated(end: FaceEnd) -> tuple[Array, Array, Array]:
-    """Return edges of the rectangles along y and the integrals up to them, each (k + 1,)."""
+    """Return edges of equal parts along y and the integrals up to them, each (k + 1,)."""
     step = float(end.distance[1] - end.distance[0])
     count = end.distance.size
     edges = step * np.arange(count + 1.0)

@@ -1,6 +1,7 @@
 """The contact patch in three dimensions: pressure, stick and slip of rollers bounded across."""
 
 from rollnip.patch.coefficients import Grid
+from rollnip.patch.covering_ends import covering_end
 from rollnip.patch.depth import PatchStress
 from rollnip.patch.durometer import Indentation, least_thickness, shore_a_reading
 from rollnip.patch.ends import FaceEnd, face_end
@@ -18,6 +19,7 @@ __all__ = [
     "Patch",
     "PatchSolution",
     "PatchStress",
+    "covering_end",
     "face_end",
     "least_thickness",
     "shore_a_reading",

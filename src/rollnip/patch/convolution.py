@@ -32,6 +32,16 @@ class Convolutions:
     grid: Grid
     coefficients: Coefficients
 
+    @property
+    def element(self) -> float:
+        """Area of one rectangle [mm2]."""
+        return self.grid.element
+
+    @property
+    def largest(self) -> float:
+        """Largest u_z of a rectangle under a unit pressure over one [mm/MPa]."""
+        return float(np.max(self.coefficients.zz))
+
     @cached_property
     def shape(self) -> tuple[int, int]:
         """Padded numbers of rectangles along y and x."""

@@ -3,7 +3,7 @@
 Far from the end the nip is the plane one. At a sharp end the covering that runs on beyond it helps
 to carry, so that the line load rises there. A nearly incompressible covering also gives way
 sideways, over about a third of the nip width, and carries less than in the plane nip. This is the
-end of the *contact*; a covering that itself ends there gives way further, which is not computed.
+end of the *contact*; for a covering that itself ends there see `rollnip.patch.covering_ends`.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class FaceEnd:
     line_load : far from the end [N/mm].
     added_length : length of face that the end adds to the load of the plane nip [mm]; negative
         where the end carries less.
-    error : of ``added_length``, from half as many rectangles [mm].
+    error : of ``added_length``, from half as many rectangles or places in each direction [mm].
     """
 
     distance: Array

@@ -92,7 +92,7 @@ def solve_level(
     while True:
         turns += 1
         problem = NormalProblem(products, clearance + closed, force, approach)
-        normal = _pressed(patch, problem, tolerance, pressure)
+        normal = _pressed(patch, grid, problem, tolerance, pressure)
         peak = float(np.max(normal.pressure))
         if pressure is not None and turns > 1:
             change = float(np.max(np.abs(normal.pressure - pressure))) / max(peak, 1e-300)
@@ -111,12 +111,11 @@ def solve_level(
 
 
 def _pressed(
-    patch: Patch, problem: NormalProblem, tolerance: float, start: Array | None
+    patch: Patch, grid: Grid, problem: NormalProblem, tolerance: float, start: Array | None
 ) -> NormalState:
     """Return the pressure under the clearance at hand."""
     if not patch.is_viscoelastic:
         return solve_symmetric(problem, tolerance, start)
-    grid = problem.products.grid
     near = np.isfinite(problem.clearance) if start is None else start > 0.0
     factors = symbols((patch.upper, patch.lower), grid, near, patch.speed or 0.0)
     return solve_lossy(problem, tolerance, start, factors.normal)

@@ -82,10 +82,10 @@ class _Contact:
     def __init__(self, problem: NormalProblem, contact: Mask, symbols: Array) -> None:
         self.problem, self.contact, self.symbols, self.products = problem, contact, symbols, 0
         self.free = problem.force is not None
-        element = problem.products.grid.element
+        element = problem.products.element
         self.wanted = 0.0 if problem.force is None else problem.force / element
         # The row of the force gets the size of the other rows.
-        self.unit = float(np.max(problem.products.coefficients.zz))
+        self.unit = problem.products.largest
         self.unit /= float(np.sqrt(np.sum(contact)))
 
     def closed(

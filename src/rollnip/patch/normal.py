@@ -9,16 +9,38 @@ Theory Appl. 162, 931-953).
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.patch.coefficients import Array
-from rollnip.patch.convolution import Convolutions
 
 Mask = NDArray[np.bool_]
 
 _MOST_STEPS = 2000
+
+
+class Products(Protocol):
+    """Displacements of a surface under pressures."""
+
+    def normal(self, pressure: Array) -> Array:
+        """Return displacements under a pressure, of its shape [mm]."""
+        ...
+
+    def symmetric(self) -> Products:
+        """Return the products with the symmetric part of the compliance."""
+        ...
+
+    @property
+    def element(self) -> float:
+        """Area of one rectangle [mm2]."""
+        ...
+
+    @property
+    def largest(self) -> float:
+        """Largest displacement of a rectangle under a unit pressure over one [mm/MPa]."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +55,7 @@ class NormalProblem:
     force, approach : the one that is given, the other None [N], [mm].
     """
 
-    products: Convolutions
+    products: Products
     clearance: Array
     force: float | None
     approach: float | None
@@ -105,7 +127,7 @@ def solve_symmetric(problem: NormalProblem, tolerance: float, start: Array | Non
         pressure[overlap] = -step * rest[overlap]
         fresh, previous = bool(np.any(overlap)), max(power, 1e-300)
         if problem.force is not None:
-            pressure *= problem.force / (float(np.sum(pressure)) * problem.products.grid.element)
+            pressure *= problem.force / (float(np.sum(pressure)) * problem.products.element)
         change = float(np.max(np.abs(pressure - before)) / np.max(pressure, initial=1e-300))
         gap = clearance + problem.products.normal(pressure)
     full = np.where(allowed, gap - shift, np.inf)
@@ -124,7 +146,7 @@ def _start(problem: NormalProblem, start: Array | None) -> Array:
         stiff = float(np.max(problem.products.normal(pressure)))
         pressure *= max(level - float(finite.min()), 1e-300) / stiff
     if problem.force is not None:
-        total = float(np.sum(pressure)) * problem.products.grid.element
+        total = float(np.sum(pressure)) * problem.products.element
         pressure = pressure * (problem.force / total)
     return pressure
 
@@ -150,6 +172,6 @@ def depth_of(problem: NormalProblem, contact: Mask, peak: float) -> float:
     The displacement of one rectangle under the peak pressure [MPa], or what the clearance changes
     over the contact if that is more.
     """
-    depth = float(np.max(problem.products.coefficients.zz)) * peak
+    depth = problem.products.largest * peak
     depth = max(depth, float(np.ptp(problem.clearance[contact])) if np.any(contact) else 0.0)
     return max(depth, 1e-300)

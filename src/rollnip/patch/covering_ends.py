@@ -1,0 +1,294 @@
+"""The free end of a covering: what the nip is near the place where the covering itself ends.
+
+The covering ends with a face free of stress, and both rollers, or their cores, go on or end there
+as well. A nearly incompressible covering bulges there and carries less than in the plane nip: a
+thin one lacks the load on about the nip width over pi, one half as thick as the nip is wide the
+load on half of the width. A compressible covering carries less over about its thickness.
+
+Along x, waves; along y, pressures that are linear between places: see `rollnip.patch.strip_ends`.
+The pressure is mirrored at x = 0 and repeats so far away that the covering does not feel it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import sqrt
+from typing import Literal
+
+import numpy as np
+from scipy.fft import dct, idct, next_fast_len
+
+from rollnip._blas import one_blas_thread
+from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
+from rollnip.patch.coefficients import Array
+from rollnip.patch.ends import FaceEnd
+from rollnip.patch.normal import NormalProblem, solve_symmetric
+from rollnip.patch.strip_ends import EndedCovering, hat_products, plane_compliance
+from rollnip.rollers import Roller
+
+Ending = Literal["both", "upper", "lower"]
+
+_ALONG = 40
+"""Points over half of the nip width."""
+_REST = 5.0
+"""Length beyond the nip, in thicknesses, before the pressure is mirrored."""
+_WIDEST, _WIDER = 1.75, 1.2
+"""Half of the widest nip over that of the undeformed overlap, 3^(1/2) for thin rubber; room."""
+_FACE = (4.0, 5.0)
+"""Length of the face computed, in nip widths and in thicknesses."""
+_FINEST = 12.0
+"""Elements in the smaller of thickness and width, if all were as the one at the surface."""
+_FIRST, _GROWTH, _LARGEST = 16.0, 1.35, 10.0
+"""Lengths along y: the first one in the smaller of thickness and width; the largest in both."""
+_PLACES = 512
+"""Equal parts of the face in the result."""
+_ITERATION = 1e-5
+
+
+def covering_end(upper: Roller, lower: Roller, approach: float, ending: Ending = "both") -> FaceEnd:
+    """Return the nip near the free end of a covering, without friction.
+
+    Parameters
+    ----------
+    upper, lower :
+        with elastic layers, which count as flat, on rigid cores.
+    approach :
+        of the axles, the same along the face [mm].
+    ending :
+        whose covering ends: "both" (one roller may be bare), "upper" or "lower"; then the other
+        one goes on.
+
+    Returns
+    -------
+    FaceEnd
+        of equal parts of the face: mean line load and mean of the peak pressure over each.
+
+    Raises
+    ------
+    InvalidInputError
+        where a core is a half-space, a layer is viscoelastic, no covering ends or the rollers do
+        not make a nip.
+    ConvergenceError
+        where the pressure cannot be found.
+    """
+    approach = require_positive("approach", approach)
+    _require_ends(upper, lower, approach, ending)
+    pair = _Pair(upper, lower, approach)
+    with one_blas_thread():
+        half = pair.half_width()
+        coarse = _solved(pair, ending, half, 0.5)
+        fine = _solved(pair, ending, half, 1.0)
+    return fine.result(abs(fine.added - coarse.added))
+
+
+def _require_ends(upper: Roller, lower: Roller, approach: float, ending: Ending) -> None:
+    rollers = {"both": (upper, lower), "upper": (upper,), "lower": (lower,)}
+    if ending not in rollers:
+        raise InvalidInputError(f'`ending` must be "both", "upper" or "lower", got {ending!r}.')
+    for roller in (upper, lower):
+        if roller.core is not None:
+            raise InvalidInputError(
+                "`core` must be rigid on both rollers: over a half-space the approach of a long "
+                "face grows with its length."
+            )
+        if roller.is_viscoelastic:
+            raise InvalidInputError(
+                "`layers` must be elastic near the end of a covering, got a viscoelastic one; "
+                "give the modulus at the rate of the nip."
+            )
+        if roller.profile is not None:
+            raise InvalidInputError("`profile` must be left out near the end of a covering.")
+    if not any(roller.layers for roller in rollers[ending]):
+        raise InvalidInputError(
+            f'`ending` must name a roller with `layers`, got "{ending}" of bare ones.'
+        )
+    if upper.curvature + lower.curvature <= 0.0:
+        raise InvalidInputError("`radius` must be finite for at least one roller, got two planes.")
+    thickness = upper.coating_thickness + lower.coating_thickness
+    if approach >= thickness:
+        raise InvalidInputError(
+            f"`approach` must be smaller than the coverings are thick, {thickness:g} mm in all, "
+            f"got {approach:g}."
+        )
+
+
+@dataclass(frozen=True)
+class _Products:
+    """Mean displacements under pressures, both scaled by the root of the length of their place.
+
+    Attributes
+    ----------
+    long : (n, m, m) compliance at the first wave numbers of a cosine transform, scaled [mm/MPa].
+    short : compliance at the others, as factors (rest, 1) on matrices (m, m), which add up.
+    """
+
+    long: Array
+    short: tuple[tuple[Array, Array], ...] = ()
+
+    def normal(self, pressure: Array) -> Array:
+        """Return displacements, (n, m); x along the first axis."""
+        waves = dct(pressure, axis=0, norm="ortho")
+        moved = np.zeros_like(waves)
+        count = self.long.shape[0]
+        moved[:count] = np.matmul(self.long, waves[:count, :, None])[:, :, 0]
+        for factors, matrix in self.short:
+            moved[count:] += factors * (waves[count:] @ matrix)
+        return np.asarray(idct(moved, axis=0, norm="ortho"))
+
+    @property
+    def element(self) -> float:
+        """Area that stands for one value: 1, as no force is given."""
+        return 1.0
+
+    @property
+    def largest(self) -> float:
+        """Largest displacement of a place by a unit pressure there [mm/MPa]."""
+        own = np.sum(np.diagonal(self.long, axis1=1, axis2=2), axis=0)
+        count = self.long.shape[0]
+        for factors, matrix in self.short:
+            own += np.sum(factors) * np.diagonal(matrix)
+        count += self.short[0][0].size if self.short else 0
+        return float(np.max(own) / count)
+
+    def symmetric(self) -> _Products:
+        """Return itself: elastic coverings."""
+        return self
+
+
+@dataclass(frozen=True)
+class _End:
+    """Pressure near the end of a covering.
+
+    Attributes
+    ----------
+    step : between points along x [mm].
+    y : (m,) places from the end [mm].
+    pressure : (n, m) at x > 0 [MPa].
+    plane : (n, 1) the same of the plane nip [MPa].
+    """
+
+    step: float
+    y: Array
+    pressure: Array
+    plane: Array
+
+    @property
+    def loads(self) -> Array:
+        """Line loads over that of the plane nip, (m,)."""
+        return np.asarray(np.sum(self.pressure, axis=0) / np.sum(self.plane))
+
+    @property
+    def added(self) -> float:
+        """Length that the end adds to the load [mm]."""
+        return float(np.trapezoid(self.loads - 1.0, self.y))
+
+    def result(self, error: float) -> FaceEnd:
+        edges = np.linspace(0.0, self.y[-1], _PLACES + 1)
+        peaks = np.max(self.pressure, axis=0) / np.max(self.plane)
+        return FaceEnd(
+            distance=0.5 * (edges[1:] + edges[:-1]),
+            load=_means(self.y, self.loads, edges),
+            peak_pressure=_means(self.y, peaks, edges),
+            line_load=float(2.0 * self.step * np.sum(self.plane)),
+            added_length=self.added,
+            error=error,
+        )
+
+
+def _means(y: Array, values: Array, edges: Array) -> Array:
+    """Return the means between edges of values that are linear between places y."""
+    parts = 0.5 * (values[1:] + values[:-1]) * np.diff(y)
+    whole = np.concatenate([[0.0], np.cumsum(parts)])
+    cell = np.clip(np.searchsorted(y, edges, side="right") - 1, 0, y.size - 2)
+    beyond = edges - y[cell]
+    slope = (values[cell + 1] - values[cell]) / (y[cell + 1] - y[cell])
+    at_edges = whole[cell] + beyond * (values[cell] + 0.5 * slope * beyond)
+    return np.asarray(np.diff(at_edges) / np.diff(edges))
+
+
+def _solved(pair: _Pair, ending: Ending, half: float, fine: float) -> _End:
+    """Return the pressure near the end, on ``fine`` times as many places in each direction."""
+    y = pair.places(2.0 * half, fine)
+    step = half / (_ALONG * fine)
+    x, k = pair.grid(step, half)
+    root = np.sqrt(np.sum(hat_products(y), axis=0))
+    scaled = root * root[:, None]
+    least = min(*pair.thicknesses, 2.0 * half) / (_FINEST * fine)
+    long = k <= 1.0 / least
+    slow, fast = np.zeros((np.count_nonzero(long), y.size, y.size)), []
+    for name, roller in (("upper", pair.upper), ("lower", pair.lower)):
+        if roller.layers:
+            one = EndedCovering.of(roller, y, least, ending in ("both", name), fine)
+            slow += one.compliance(k[long]) / scaled
+            at_top = one.compliance(np.array([one.top]))[0] / scaled
+            fast.append((one.beyond(k[~long])[:, None], at_top))
+    plane = pair.pressed(x, _Products(pair.plane(k)), np.ones(1), pair.first(x, half))
+    pressure = pair.pressed(x, _Products(slow, tuple(fast)), root, plane * root)
+    return _End(step, y, pressure / root, plane)
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """Two rollers at an approach [mm]."""
+
+    upper: Roller
+    lower: Roller
+    approach: float
+
+    @property
+    def curvature(self) -> float:
+        """Of both rollers together [1/mm]."""
+        return self.upper.curvature + self.lower.curvature
+
+    @property
+    def thicknesses(self) -> list[float]:
+        """Thickness of each covering there is [mm]."""
+        return [one.coating_thickness for one in (self.upper, self.lower) if one.layers]
+
+    def half_width(self) -> float:
+        """Return half of the width of the plane nip [mm], from above."""
+        half = _WIDEST * sqrt(2.0 * self.approach / self.curvature)
+        for _ in range(2):
+            x, k = self.grid(half / _ALONG, half)
+            products = _Products(self.plane(k))
+            pressure = self.pressed(x, products, np.ones(1), self.first(x, half))
+            half = float(x[np.flatnonzero(pressure[:, 0] > 0.0)[-1]] + 0.5 * (x[1] - x[0]))
+        return half
+
+    def grid(self, step: float, half: float) -> tuple[Array, Array]:
+        """Return points x > 0 and the wave numbers of their cosine transform, (n,) each."""
+        reach = _WIDER * half + _REST * max(self.thicknesses)
+        count = int(next_fast_len(int(np.ceil(reach / step)), real=True))
+        points = np.arange(count, dtype=float)
+        return np.asarray(step * (points + 0.5)), np.asarray(np.pi / (count * step) * points)
+
+    def plane(self, k: Array) -> Array:
+        """Return the compliance of the plane nip at wave numbers, (n, 1, 1)."""
+        parts = [plane_compliance(one, k) for one in (self.upper, self.lower) if one.layers]
+        return np.asarray(np.sum(parts, axis=0)[:, None, None])
+
+    def first(self, x: Array, half: float) -> Array:
+        """Return pressures to start from, (n, 1)."""
+        return np.maximum(1.0 - (x / half) ** 2, 0.0)[:, None]
+
+    def places(self, width: float, fine: float) -> Array:
+        """Return places along y, from the end on, with distances that grow to a largest one."""
+        thick = max(self.thicknesses)
+        first = min(*self.thicknesses, width) / (_FIRST * fine)
+        largest = max((width + thick) / (_LARGEST * fine), first)
+        growth = _GROWTH ** (1.0 / fine)
+        count = int(np.ceil(np.log(largest / first) / np.log(growth)))
+        growing = first * growth ** np.arange(count)
+        rest = _FACE[0] * width + _FACE[1] * thick - float(np.sum(growing))
+        even = int(np.ceil(rest / largest))
+        parts = np.concatenate([growing, np.full(even, rest / even)])
+        return np.concatenate([[0.0], np.cumsum(parts)])
+
+    def pressed(self, x: Array, products: _Products, root: Array, start: Array) -> Array:
+        """Return pressures times the roots of the lengths of their places, (n, m)."""
+        gap = (0.5 * self.curvature * x**2 - self.approach)[:, None] * root
+        scale = float(np.vdot(start, -gap) / np.vdot(start, products.normal(start)))
+        found = solve_symmetric(NormalProblem(products, gap, None, 0.0), _ITERATION, scale * start)
+        if not found.settled:
+            raise ConvergenceError("The pressure near the end of the covering was not found.")
+        return found.pressure

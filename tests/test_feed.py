@@ -94,3 +94,13 @@ def test_the_command():
     refused = CliRunner().invoke(app, ["feed", other])
     assert refused.exit_code == 2
     assert "add a table [sheet]" in refused.output
+
+
+def test_the_command_says_that_a_strain_energy_is_left_out(tmp_path):
+    text = (EXAMPLES / "sheet-feed-nip.toml").read_text("utf-8")
+    file = tmp_path / "case.toml"
+    energy = 'poisson = 0.5, energy = { model = "gent", limit = 9 } }'
+    file.write_text(text.replace("poisson = 0.5 }", energy), "utf-8")
+    found = CliRunner().invoke(app, ["feed", str(file), "--geometry", "linear"])
+    assert found.exit_code == 0
+    assert "the upper roller has a strain energy (Gent)" in found.stderr

@@ -15,6 +15,7 @@ from rollnip._results.case import case_tree
 from rollnip.cli.app import app
 from rollnip.face import with_crown
 from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
+from rollnip.face.notes import warnings_of
 from rollnip.io import case_hash, parse_case
 from rollnip.io.document import parse_document
 from rollnip.plots import plot_face
@@ -351,3 +352,26 @@ def test_two_processes_give_the_same(tmp_path):
         json.loads(run("face", "solve", path, "--json", "--workers", n).stdout) for n in ("1", "2")
     )
     assert one == two
+
+
+def test_a_strain_energy_that_a_face_leaves_out_is_said_once(tmp_path):
+    """Geometry finite has no strain energy; geometry full has."""
+    text = (EXAMPLE.parent / "press-face.toml").read_text("utf-8")
+    text = text.replace(
+        "poisson = 0.5 }", 'poisson = 0.5, energy = { model = "gent", limit = 9 } }'
+    )
+    file = tmp_path / "case.toml"
+    file.write_text(text, "utf-8")
+    for command in (["face", "solve"], ["solve"]):
+        found = CliRunner().invoke(app, [*command, str(file)])
+        assert found.exit_code == 0, found.output
+        assert " ".join(found.stdout.split()).count("has a strain energy (Gent)") == 1
+    case = parse_case(text)
+    assert (
+        "strain energy"
+        in rn.solve_face(case.nip, case.face, rn.Model(geometry="linear")).warnings[-1]
+    )
+    along = rn.solve_face(case.nip, case.face, rn.Model(geometry="linear"))
+    assert "strain energy" in along.warnings[-1]
+    full = warnings_of(along.problem, along.balance, rn.Model(geometry="full"))
+    assert full == along.warnings[:-1]

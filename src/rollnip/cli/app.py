@@ -29,6 +29,7 @@ if TYPE_CHECKING:
     from rollnip.heat import HeatSolution
     from rollnip.io import Case
     from rollnip.model import Model
+    from rollnip.solution import Solution
 
 app = typer.Typer(
     name="rollnip",
@@ -143,7 +144,7 @@ def _answer(problem: Case, model: Model, wanted: Wanted) -> bool:
         from rollnip.cli.summary import print_summary
 
         print_summary(solution)
-        _print_more(along, warm)
+        _print_more(solution, along, warm)
     return all(one.converged for one in (solution, along, warm) if one is not None)
 
 
@@ -174,16 +175,20 @@ def _parts(along: FaceSolution | None, warm: HeatSolution | None) -> dict[str, A
     return case_parts(along, warm)
 
 
-def _print_more(along: FaceSolution | None, warm: HeatSolution | None) -> None:
-    """Print what a face and a heat balance add to the summary."""
-    if along is not None:
-        from rollnip.face.report import face_lines
+def _print_more(solution: Solution, along: FaceSolution | None, warm: HeatSolution | None) -> None:
+    """Print what a face and a heat balance add to the summary of a nip."""
+    from rollnip.face.report import face_lines
+    from rollnip.heat.report import balance_lines
 
-        write("\n" + "\n".join(face_lines(along)) + "\n")
-    if warm is not None:
-        from rollnip.heat.report import balance_lines
-
-        write("\n" + "\n".join(balance_lines(warm)) + "\n")
+    said = {f"note: {one}" for one in solution.warnings} | {
+        f"Note: {one}" for one in solution.warnings
+    }
+    for part in (
+        None if along is None else face_lines(along),
+        None if warm is None else balance_lines(warm),
+    ):
+        if part is not None:
+            write("\n" + "\n".join(one for one in part if one.strip() not in said) + "\n")
 
 
 @app.command()

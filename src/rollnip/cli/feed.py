@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import asdict
 from math import isfinite
 from typing import TYPE_CHECKING, Annotated
@@ -44,9 +45,13 @@ def feed(
             )
         model = overridden(problem.model, geometry, tolerance)
         from rollnip.feed import feed_sensitivity
+        from rollnip.validity import energies_left_out
 
         with named(problem.source):
             changes = feed_sensitivity(problem.nip, model)
+        for side in ("upper", "lower"):
+            for said in energies_left_out(side, getattr(problem.nip, side)):
+                sys.stderr.write(f"rollnip: warning: {said}\n")
         write((_as_json(changes) if json else _as_text(changes)) + "\n")
     if not all(one.converged for one in changes):
         raise typer.Exit(1)

@@ -122,7 +122,7 @@ def solve_face(
         if converged
         else f"The estimated error over the face is {worst:.1e}, more than {allowed:g}."
     )
-    notes = warnings_of(problem, found)
+    notes = warnings_of(problem, found, model)
     return FaceSolution(nip, face, model, converged, status, notes, error, law, problem, found)
 
 

@@ -7,12 +7,15 @@ from numpy.typing import NDArray
 
 from rollnip.face.problem import FaceProblem
 from rollnip.face.solve import Balance
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.validity import energies_left_out
 
 Array = NDArray[np.float64]
 
 
-def warnings_of(problem: FaceProblem, found: Balance) -> tuple[str, ...]:
-    """Return reservations on a face: where it is open, and where it slides."""
+def warnings_of(problem: FaceProblem, found: Balance, model: Model) -> tuple[str, ...]:
+    """Return reservations on a face: where it is open, where it slides, what is left out."""
     notes = []
     y, carries = problem.grid.y, found.approach > 0.0
     if not carries.all():
@@ -22,7 +25,12 @@ def warnings_of(problem: FaceProblem, found: Balance) -> tuple[str, ...]:
             "Over a part of the face the surfaces slide all over the nip: one creepage for the "
             "whole face is too far from that of free rolling there."
         )
-    return tuple(notes)
+    return (*notes, *([] if model.geometry == "full" else energies_of(problem.nip)))
+
+
+def energies_of(nip: Nip) -> list[str]:
+    """Return a sentence for each strain energy of a nip that its plane nips do not see."""
+    return [*energies_left_out("upper", nip.upper), *energies_left_out("lower", nip.lower)]
 
 
 def places(y: Array, chosen: NDArray[np.bool_]) -> str:

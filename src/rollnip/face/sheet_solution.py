@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.face.notes import places
+from rollnip.face.notes import energies_of, places
 from rollnip.face.sheet_balance import SheetBalance
 from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solution import FaceSolution
@@ -105,13 +105,14 @@ class SheetFaceSolution(FaceSolution):
 
     @property
     def reservations(self) -> tuple[str, ...]:
-        """Sentences on where the sheet is pushed."""
+        """Sentences on where the sheet is pushed, and on what its plane nips leave out."""
         pushed = self.tension_in < -_SLACK * self.mean_load
         if not pushed.any():
-            return ()
+            return tuple(energies_of(self.nip))
         return (
             f"The nip pushes the sheet back at the inlet {places(self.y, pushed)}, by up to "
             f"{-self.least_tension_in:.3g} N/mm: a thin sheet goes slack or wrinkles there.",
+            *energies_of(self.nip),
         )
 
     @property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.optimize import brentq
 
 import rollnip as rn
 from rollnip.patch import covering_end, face_end
@@ -134,6 +135,33 @@ def test_far_from_the_end_the_nip_is_plane(upper, lower, approach):
     assert np.sum(end.load - 1.0) * step == pytest.approx(end.added_length, rel=1e-9)
     assert end.added_length < 0.0
     assert end.error < 0.01 * plane.nip_width
+
+
+def incompressible(square, thickness, shear):
+    """Return the compliance of a bonded incompressible layer at k^2, which may be below 0."""
+    k = np.sqrt(square.astype(complex))
+    z = np.minimum(k.real * thickness, 30.0) + 1j * k.imag * thickness
+    cosh, sinh = np.cosh(z), np.sinh(z)
+    return ((sinh * cosh - z) / (cosh**2 + z**2) / (2.0 * shear * k)).real
+
+
+def test_rubber_recovers_at_the_rate_of_the_slowest_mode():
+    """A pressure p(x) e^(-q y) that moves nothing in the nip: plane waves at k^2 - q^2."""
+    thickness, half = 6.0, 6.055
+    end = covering_end(covered((thickness, 4.0, 0.5)), BARE, 0.4)
+    step = half / 60
+    k = np.pi * np.arange(2400) / (2400 * step)
+    waves = np.cos(np.outer((np.arange(60) + 0.5) * step, k)) / np.sqrt(1200.0)
+    waves[:, 0] /= np.sqrt(2.0)
+
+    def softest(q):
+        compliance = incompressible(k**2 - q**2 + 1e-12, thickness, 4.0 / 3.0)
+        return np.linalg.eigvalsh((waves * compliance) @ waves.T)[0]
+
+    rate = brentq(softest, 0.05, 0.12, xtol=1e-4)  # 0.74/thickness: that of the bare layer
+    some = (end.distance > 25.0) & (end.distance < 55.0)
+    found = -np.polyfit(end.distance[some], np.log(1.0 - end.load[some]), 1)[0]
+    assert found == pytest.approx(rate, rel=0.03)
 
 
 @pytest.mark.slow

@@ -231,3 +231,14 @@ def test_the_example_on_the_command_line(tmp_path):
     assert result.exit_code == 0, result.output
     assert "ends feed more by" in result.stdout
     assert picture.stat().st_size > 10_000
+
+
+def test_one_speed_across_needs_a_sheet():
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50.0, layers=[rn.Layer(5.0, rn.Elastic(modulus=2.0, poisson=0.5))]),
+        lower=rn.Roller(radius=50.0),
+        normal=rn.LineLoad(2.0),
+        friction=0.0,
+    )
+    with pytest.raises(rn.InvalidInputError, match="`sheet_across` needs a sheet in the nip"):
+        rn.solve_face(nip, rn.Face(length=300.0, sheet_across="one-speed"))

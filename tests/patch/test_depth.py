@@ -97,6 +97,8 @@ def test_shear_across_at_depth_in_plies():
 def test_depths_that_cannot_be_are_refused():
     solved = rn.solve_patch(ball(), grid=(16, 16))
     with pytest.raises(rn.InvalidInputError, match="half a rectangle"):
-        solved.stress("upper", [0.0])
+        solved.stress("upper", [1e-6])
+    with pytest.raises(rn.InvalidInputError, match="`z` must be positive and finite"):
+        solved.stress("upper", [-1.0])
     with pytest.raises(rn.InvalidInputError, match="side"):
         solved.stress("left", [1.0])

@@ -51,3 +51,9 @@ def test_half_spaces_are_refused():
     steel = rn.Roller(radius=50.0, core=rn.Elastic(modulus=206e3, poisson=0.3))
     with pytest.raises(rn.InvalidInputError, match="rigid"):
         face_end(steel, BARE, 0.01)
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_negative_approach_is_refused_before_a_root_is_taken():
+    with pytest.raises(rn.InvalidInputError, match="approach"):
+        face_end(covered(6.0, 0.3), BARE, -1.0)

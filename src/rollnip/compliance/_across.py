@@ -92,7 +92,9 @@ def shear_fields(
     bottoms = np.cumsum(stack.thickness)
     total = float(bottoms[-1]) if bottoms.size else 0.0
     if z < 0.0 or (core is None and z > total * (1.0 + 1e-12)):
-        raise InvalidInputError(f"`z` must lie within the body, 0 to {total:g} mm deep, got {z!r}.")
+        raise InvalidInputError(
+            f"`z` must lie within the body, 0 to {total:g} mm deep, got {float(z):g} mm."
+        )
     below = _from_below(stack, core, wave)
     passed: Array = np.ones(wave.size)
     for i, depth in enumerate(stack.thickness.tolist()):

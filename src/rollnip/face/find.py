@@ -169,7 +169,8 @@ def _without_sheet(
 ) -> tuple[Array, float]:
     """Return line loads without sheet and friction (n,) [N/mm], and delta_0 [mm]."""
     bare = replace(problem.nip, sheet=None, friction=0.0, tangential=Traction(0.0))
-    plain = solve_face(bare, problem.face, model, rows=rows, cache=kernels)
+    face = replace(problem.face, sheet_across="free")
+    plain = solve_face(bare, face, model, rows=rows, cache=kernels)
     if not np.all(plain.load > 0.0):
         raise ConvergenceError(
             f"{plain.warnings[0]} With a sheet it must be closed all over the face; try a smaller "
@@ -181,6 +182,8 @@ def _without_sheet(
 def _require_plain(nip: Nip, face: Face) -> None:
     if nip.has_profile:
         raise InvalidInputError("`profile` and a face cannot be solved together.")
+    if nip.sheet is None and face.sheet_across != "free":
+        raise InvalidInputError("`sheet_across` needs a sheet in the nip.")
     if face.end_loads is not None and isinstance(nip.normal, Approach):
         raise InvalidInputError("`end_loads` and `approach` exclude each other.")
     if nip.face_width is not None and abs(nip.face_width / face.length - 1.0) > 1e-9:

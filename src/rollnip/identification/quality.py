@@ -54,9 +54,9 @@ def _no_freedom(degrees: float) -> list[str]:
     if degrees >= 0.5:
         return []
     return [
-        "There are as many unknowns as measurements: the fit passes through the data whatever the "
-        "model, and nothing says whether it holds. The intervals rest on the standard errors "
-        "alone; measure more."
+        "There are as many unknowns as measurements: unless a bound stops it, the fit passes "
+        "through the data whatever the model, and nothing says whether it holds. The intervals "
+        "rest on the standard errors alone; measure more."
     ]
 
 

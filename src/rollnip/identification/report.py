@@ -135,7 +135,10 @@ def _set_line(one: FittedSet) -> str:
 
 def _misfit_line(fit: Fit) -> str:
     if fit.degrees < 0.5:
-        return "No degrees of freedom: the fit passes through the data, whatever the model."
+        return (
+            "No degrees of freedom: unless a bound stops it, the fit passes through the data, "
+            "whatever the model."
+        )
     if fit.loss == "huber":
         far = sum(int((abs(one.residuals) > BEYOND).sum()) for one in fit.sets)
         return (

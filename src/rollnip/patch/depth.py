@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from scipy.fft import irfft2, next_fast_len, rfft2
 from scipy.interpolate import CubicSpline
 
-from rollnip._errors import InvalidInputError
+from rollnip._errors import InvalidInputError, require_positive
 from rollnip.compliance import flat_fields, shear_fields
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.memory import roller_stack
@@ -156,10 +156,11 @@ def stress_at_depth(
     if roller.is_rigid:
         raise InvalidInputError("`side` must be a roller that deforms, got a bare rigid one.")
     least = 0.5 * max(grid.hx, grid.hy)
-    for z in depths:
+    for z in map(float, depths):
+        require_positive("z", z)
         if not z >= least:
             raise InvalidInputError(
-                f"`z` must be at least half a rectangle of the grid, {least:.3g} mm, got {z!r}; "
+                f"`z` must be at least half a rectangle of the grid, {least:.3g} mm, got {z:g} mm; "
                 "solve on a finer grid to come closer to the surface."
             )
     window = _Window(grid, tractions)

@@ -72,7 +72,7 @@ def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 
     InvalidInputError
         where a core is a half-space, or the rollers do not make a patch.
     """
-    end_radius = require_not_negative("end_radius", end_radius)
+    end_radius, normal = require_not_negative("end_radius", end_radius), Approach(approach)
     if upper.core is not None or lower.core is not None:
         raise InvalidInputError(
             "`core` must be rigid on both rollers: over a half-space the approach of a long face "
@@ -85,7 +85,7 @@ def face_end(upper: Roller, lower: Roller, approach: float, end_radius: float = 
     patch = Patch(
         upper=upper,
         lower=lower,
-        normal=Approach(approach),
+        normal=normal,
         friction=0.0,
         across_upper=Across(face=face, end_radius=end_radius),
     )

@@ -22,9 +22,10 @@ apart, and at 1 the surface has reached the core. Coverings in use stay below a 
 MOST_CREEPAGE = 2.0
 """Creepage at which one roller stands still; beyond, it would turn backwards."""
 _CLEARLY_LESS = 0.5
-"""Of MOST_PRESSED_IN: peak pressure over the softest modulus that cannot press a layer in so far.
+"""Of MOST_PRESSED_IN: peak pressure over a layer's modulus that cannot press it in so far.
 
-A free column under the peak would be compressed by that ratio; what lies beside holds it.
+A free column under the peak would be compressed by that ratio; what lies beside holds it. Nor can
+a layer be, if the surface moves by no more than this share of its thickness would.
 """
 
 
@@ -57,14 +58,17 @@ def too_deep(side: str, number: int, pressed: Array, roller: Roller) -> str:
 
 def _pressed_in(side: str, roller: Roller, nip: Nip, geometry: Geometry, final: Round) -> Array:
     """Return the compression of each layer over its thickness, under the deepest surface point."""
-    softest = min((one.material.relaxed_modulus for one in roller.layers), default=np.inf)
-    if final.figures.peak_pressure < _CLEARLY_LESS * MOST_PRESSED_IN * softest:
+    few, peak = _CLEARLY_LESS * MOST_PRESSED_IN, final.figures.peak_pressure
+    soft = [one.thickness for one in roller.layers if peak >= few * one.material.relaxed_modulus]
+    if not soft:
         return np.zeros(0)
     u = final.mesh.displacements(final.state)
     inward, sign = (u.z_upper, 1.0) if side == "upper" else (u.z_lower, -1.0)
     deepest = int(np.argmax(np.where(final.state.pressure > 0.0, inward[:-1], -np.inf)))
     if len(roller.layers) == 1 and roller.core is None:
         return np.array([inward[deepest] / roller.layers[0].thickness])
+    if roller.core is None and inward[deepest] < few * min(soft):
+        return np.zeros(0)
     tractions = SurfaceTractions.on_inner(final.nodes, sign * final.shear, final.pressure)
     depths = np.array([0.0, *roller.interfaces])
     place = final.mesh.inner[[deepest]]

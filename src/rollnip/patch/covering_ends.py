@@ -237,7 +237,7 @@ class _Pair:
 
     @property
     def curvature(self) -> float:
-        """Of both rollers together [1/mm]."""
+        """Curvature of both rollers together [1/mm]."""
         return self.upper.curvature + self.lower.curvature
 
     @property

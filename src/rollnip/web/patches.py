@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from math import ceil
 from typing import Any
@@ -51,7 +50,7 @@ def solved_patch(tree: Mapping[str, Any], limits: Limits) -> dict[str, Any]:
     CaseFileError
         where the case is wrong or beyond the limits; says at which key.
     """
-    case = parse_patch_case(json.dumps(tree), source=SOURCE)
+    case = parse_patch_case(tree, source=SOURCE)
     _check(case, limits)
     tolerance = _TOLERANCE if case.tolerance is None else case.tolerance
     solution = solve_patch(case.patch, tolerance=tolerance, grid=case.grid)

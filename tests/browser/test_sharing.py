@@ -221,6 +221,7 @@ def test_the_menu_of_the_browser_prints_the_same_report_also_in_the_dark(designe
 def test_printing_beside_a_text_nobody_can_read_says_why_there_is_no_report(designer):
     page = designer.page
     designer.type("in-nip-load", "much")
+    designer.until("document.documentElement.dataset.standing === 'unread'")
     page.evaluate("dispatchEvent(new Event('beforeprint'))")
     text = page.text_content("#report")
     page.evaluate("dispatchEvent(new Event('afterprint'))")

@@ -71,7 +71,7 @@ def test_a_linear_law_scatters_as_error_propagation_says(coated):
         true = norm(18.0, exact).ppf(one.probability)
         assert one.low < true < one.high
         assert one.value == pytest.approx(true, abs=0.1)
-    assert scatter.linear == pytest.approx(1.0)
+    assert scatter.linear_share == pytest.approx(1.0)
     load, thickness = scatter.shares
     assert load.coefficient**2 == pytest.approx(4.0 / exact**2, rel=0.03)
     assert thickness.coefficient == pytest.approx(-0.5 / exact, rel=0.05)
@@ -171,7 +171,7 @@ def test_a_bent_law_is_said(coated):
         results=["nip_width"],
         solve=solving({"nip_width": lambda x: (x[:, 0] - 10.0) ** 2}),
     )
-    assert found.scatters[0].linear < 0.1
+    assert found.scatters[0].linear_share < 0.1
     assert "less than 90 %" in found.notes[0]
 
 

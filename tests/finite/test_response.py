@@ -50,7 +50,7 @@ def test_linear_elements_are_the_linear_theory(roller):
     )
     places = np.concatenate([places, np.linspace(2.5, 40, 30)])
     body = Body(Strip(Depths.of(roller, HALF), places))
-    u_x, u_z = linear_surface(body, body.linear(nodal(nodes, p, q)))
+    u_x, u_z = linear_surface(body, body.linear_displacements(nodal(nodes, p, q)))
     inside = np.abs(places) < HALF
     surface = surface_kernels(roller, None, "finite", covering_window((roller, BARE), None))
     xx, zz, xz = displacement_under(

@@ -64,7 +64,7 @@ class Ply(NamedTuple):
     poisson: float
 
 
-class Body(NamedTuple):
+class LayeredBody(NamedTuple):
     """The plies with the minors at the top of each (then of the core) and the waves."""
 
     plies: list[Ply]
@@ -73,8 +73,8 @@ class Body(NamedTuple):
     bottom: float
 
 
-def flat_body(stack: Stack, core: Core | None) -> Body:
-    """Body of flat layers, on a half-space if ``core`` is given."""
+def flat_body(stack: Stack, core: Core | None) -> LayeredBody:
+    """Return the body of flat layers, on a half-space if ``core`` is given."""
     k = floored(stack.k, stack.thickness, core)
     bounds = np.concatenate(([0.0], np.cumsum(stack.thickness)))
     plies = [
@@ -85,11 +85,11 @@ def flat_body(stack: Stack, core: Core | None) -> Body:
         plies.append(Ply(bounds[-1], inf, inf, inf, inf, core.twice_shear, core.poisson))
     tops = climb_flat(stack._replace(k=k), core).tops
     wave = RingWave(n=k, h=k, c=np.ones_like(k), e=np.zeros_like(k))
-    return Body(plies, tops, wave, inf if core is not None else float(bounds[-1]))
+    return LayeredBody(plies, tops, wave, inf if core is not None else float(bounds[-1]))
 
 
-def ring_body(stack: Stack, radius: float) -> Body:
-    """Body of ring layers, the thick ones cut into plies."""
+def ring_body(stack: Stack, radius: float) -> LayeredBody:
+    """Return the body of ring layers, the thick ones cut into plies."""
     stack = _cut(stack, radius)
     wave = RingWave.of(stack.k * radius)
     bounds = np.concatenate(([0.0], np.cumsum(stack.thickness)))
@@ -106,7 +106,7 @@ def ring_body(stack: Stack, radius: float) -> Body:
         )
         for i, d in enumerate(stack.thickness)
     ]
-    return Body(plies, climb_ring(stack, radius, wave), wave, float(bounds[-1]))
+    return LayeredBody(plies, climb_ring(stack, radius, wave), wave, float(bounds[-1]))
 
 
 def _cut(stack: Stack, radius: float) -> Stack:
@@ -137,7 +137,7 @@ def checked_depths(z: ArrayLike, bottom: float) -> FloatArray:
 
 
 def fields_at_depth(
-    body: Body, z: FloatArray, t_x: ComplexArray, t_z: ComplexArray, side: Side
+    body: LayeredBody, z: FloatArray, t_x: ComplexArray, t_z: ComplexArray, side: Side
 ) -> ComplexArray:
     """u_x, u_z, s_xx, s_zz, s_xz at the depths ``z`` under tractions (q, n): (5, q, nz, n)."""
     amplitudes = amplitudes_at_depth(body, z, np.stack((1j * t_x, t_z)), side)
@@ -147,7 +147,7 @@ def fields_at_depth(
     return out
 
 
-def amplitudes_at_depth(body: Body, z: FloatArray, traction: Array, side: Side) -> Array:
+def amplitudes_at_depth(body: LayeredBody, z: FloatArray, traction: Array, side: Side) -> Array:
     """U, u_z, s_xx, s_zz, S at the depths ``z``, where u_x = i U and s_xz = i S: (n, nz, 5, q).
 
     Under the tractions (i t_x, t_z) of shape (2, q, n). Real where they and all moduli are.
@@ -174,7 +174,7 @@ def amplitudes_at_depth(body: Body, z: FloatArray, traction: Array, side: Side) 
     return out
 
 
-def _owners(body: Body, z: FloatArray, side: Side) -> Array:
+def _owners(body: LayeredBody, z: FloatArray, side: Side) -> Array:
     """Index of the ply of each depth; on an interface the one on the side asked for."""
     if side not in ("above", "below"):
         raise InvalidInputError(f"`side` must be 'above' or 'below', got {side!r}.")

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from rollnip._errors import InvalidInputError
 from rollnip.compliance._depth import (
-    Body,
+    LayeredBody,
     Side,
     amplitudes_at_depth,
     checked_depths,
@@ -239,28 +239,30 @@ def _flat(
     poisson: ArrayLike,
     core_modulus: ArrayLike | None,
     core_poisson: float,
-) -> Body:
+) -> LayeredBody:
     stack = checked_stack(k, thickness, modulus, poisson)
     core = checked_core(core_modulus, core_poisson, stack.k.size)
     require_finite_answer(stack, core)
     return flat_body(stack, core)
 
 
-def _under(body: Body, z: ArrayLike, t_x: ArrayLike, t_z: ArrayLike, side: Side) -> LayerFields:
+def _under(
+    body: LayeredBody, z: ArrayLike, t_x: ArrayLike, t_z: ArrayLike, side: Side
+) -> LayerFields:
     size = body.wave.h.size
     tangential, normal = (_traction(name, t, size) for name, t in (("t_x", t_x), ("t_z", t_z)))
     fields = fields_at_depth(body, checked_depths(z, body.bottom), tangential, normal, side)
     return LayerFields(*fields[:, 0])
 
 
-def _unit(body: Body, z: ArrayLike, side: Side) -> DepthTransfer:
+def _unit(body: LayeredBody, z: ArrayLike, side: Side) -> DepthTransfer:
     unit = np.zeros((2, body.wave.h.size), dtype=complex)
     unit[0] = 1.0
     fields = fields_at_depth(body, checked_depths(z, body.bottom), unit, unit[::-1], side)
     return DepthTransfer(LayerFields(*fields[:, 0]), LayerFields(*fields[:, 1]))
 
 
-def _amplitudes(body: Body, z: ArrayLike) -> Array:
+def _amplitudes(body: LayeredBody, z: ArrayLike) -> Array:
     unit = np.zeros((2, 2, body.wave.h.size))
     unit[0, 0] = unit[1, 1] = 1.0
     return amplitudes_at_depth(body, checked_depths(z, body.bottom), unit, "above")

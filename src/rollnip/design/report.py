@@ -114,7 +114,7 @@ def _plot_influence(scatter: Scatter, ax: Any, style: Style) -> None:
         plot_shares(names, first, total, ax, result=scatter.quantity, kinds=kinds, style=style)
         return
     squares = [share.coefficient**2 for share in scatter.shares]
-    kinds = (f"regression, R² = {scatter.linear:.3f}", "")
+    kinds = (f"regression, R² = {scatter.linear_share:.3f}", "")
     plot_shares(names, squares, None, ax, result=scatter.quantity, kinds=kinds, style=style)
 
 
@@ -139,7 +139,7 @@ def _scatter_lines(scatter: Scatter) -> Iterator[str]:
     for one in scatter.quantiles:
         ends = " to ".join("?" if end is None else _number(end) for end in (one.low, one.high))
         yield f"  {100.0 * one.probability:5g} % of all below {_number(one.value)}  [{ends}]"
-    yield f"  influence (regression explains {100.0 * scatter.linear:.1f} % of the variance)"
+    yield f"  influence (regression explains {100.0 * scatter.linear_share:.1f} % of the variance)"
     for share in _by_influence(scatter.shares):
         yield f"    {share.path:34s}{share.coefficient:+.3f}{_sobol(share)}"
 

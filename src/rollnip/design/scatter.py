@@ -98,7 +98,7 @@ class Scatter:
     mean, deviation, least, most : mean, standard deviation and extremes of the samples.
     quantiles : with intervals from order statistics, good for any distribution.
     shares : influence of each parameter.
-    linear : share of the variance that the regression explains, R^2: below some 0.9 its
+    linear_share : share of the variance that the regression explains, R^2: below some 0.9 its
         coefficients do not tell the whole story.
     values : (n,) of the solved samples.
     """
@@ -111,7 +111,7 @@ class Scatter:
     most: float
     quantiles: tuple[Quantile, ...]
     shares: tuple[Share, ...]
-    linear: float
+    linear_share: float
     values: tuple[float, ...]
 
 

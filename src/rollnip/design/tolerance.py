@@ -205,7 +205,7 @@ def _scatter(question: _Question, name: str, samples: Array, values: Array, sobo
             quantile(values, probability, plan.confidence) for probability in plan.probabilities
         ),
         shares=shares,
-        linear=plane.explained,
+        linear_share=plane.explained,
         values=tuple(map(float, values)),
     )
 
@@ -291,7 +291,7 @@ def _notes(question: _Question, scatters: Sequence[Scatter], failures: Sequence[
             f"{len(failures)} of {question.sampling.count} samples were not solved and are left "
             f"out, save in the intervals of the chances; the first: {failures[0][1]}"
         )
-    bent = [one.quantity for one in scatters if one.linear < 0.9]
+    bent = [one.quantity for one in scatters if one.linear_share < 0.9]
     if bent and not question.sampling.sobol:
         notes.append(
             f"The regression explains less than 90 % of the variance of {', '.join(bent)}: ask "

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip.dma.heads import Head, bare_unit, is_unit, read_head
-from rollnip.io.cells import Cells, Sheet
+from rollnip.io.cells import Cells, CellSheet
 from rollnip.io.columns import Cell
 
 Array = NDArray[np.float64]
@@ -67,7 +67,7 @@ def find_tables(cells: Cells, suffix: str) -> tuple[list[RawTable], list[int]]:
 class _Finder:
     """Walks down a sheet; knows what was said since the last table."""
 
-    def __init__(self, sheet: Sheet, positions: tuple[tuple[str, str], ...] | None) -> None:
+    def __init__(self, sheet: CellSheet, positions: tuple[tuple[str, str], ...] | None) -> None:
         self.sheet, self.positions = sheet, positions
         self.name = sheet.name
         self.facts: dict[str, tuple[float, int]] = {}

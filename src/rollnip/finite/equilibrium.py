@@ -311,7 +311,7 @@ class Body:
         """The derivative of the undeformed state."""
         return self._tangent(self._fields(self.at_rest()), None)
 
-    def linear(self, tractions: Tractions) -> Array:
+    def linear_displacements(self, tractions: Tractions) -> Array:
         """Return the displacements (unknowns,) of linear theory, the tractions per undeformed arc.
 
         They act along the tangent and the normal of the undeformed surface.

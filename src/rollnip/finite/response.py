@@ -230,7 +230,7 @@ class FiniteResponse:
                 state = last.body.equilibrium(mixed, start)
             except NoEquilibriumError:
                 continue
-            linear = last.flat.linear(mixed)
+            linear = last.flat.linear_displacements(mixed)
             return replace(last, linear=linear, state=state, tractions=mixed)
         raise NoEquilibriumError
 
@@ -240,11 +240,11 @@ class FiniteResponse:
         """Return both solutions under these tractions."""
         last = self._meshes
         if last is not None and last.is_near(places[loaded]):
-            linear = last.flat.linear(tractions)
+            linear = last.flat.linear_displacements(tractions)
             state = last.body.equilibrium(tractions, last.state)
             return replace(last, linear=linear, state=state, tractions=tractions)
         flat = Body(Strip(self._depths, places))
-        linear = flat.linear(tractions)
+        linear = flat.linear_displacements(tractions)
         if last is not None:
             body, state = self._moved(last.body, last.state, places, loaded)
         else:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from math import exp, log
 
 from rollnip._errors import ConvergenceError
-from rollnip.heat.state import HeatProblem, State
+from rollnip.heat.state import HeatProblem, ThermalState
 from rollnip.nip import Nip
 
 HOTTEST = 400.0  # K of rise; rubber is destroyed long before
@@ -26,8 +26,8 @@ class RunawayError(ConvergenceError):
 
 
 def from_cold(
-    thermal: HeatProblem, cold: State, nip: Nip | None = None, *, above: float = 0.0
-) -> State:
+    thermal: HeatProblem, cold: ThermalState, nip: Nip | None = None, *, above: float = 0.0
+) -> ThermalState:
     """Return a state that is near the steady one with the smallest rise.
 
     Parameters

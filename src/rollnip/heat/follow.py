@@ -21,7 +21,7 @@ from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
 from rollnip.heat.amplitude import from_cold
 from rollnip.heat.anderson import settle
 from rollnip.heat.solution import bond_temperature, profile
-from rollnip.heat.state import HeatProblem, Parameter, State
+from rollnip.heat.state import HeatProblem, Parameter, ThermalState
 
 Array = NDArray[np.float64]
 
@@ -59,7 +59,7 @@ class BranchPoint:
     bond_lower: float | None
     power: float
     stable: bool
-    state: State = field(repr=False)
+    state: ThermalState = field(repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +86,7 @@ class Branch:
     status: str
     solves: int
 
-    def at(self, value: float) -> State | None:
+    def at(self, value: float) -> ThermalState | None:
         """Return the coolest state that is near a parameter, or None where none is."""
         for low, high in zip(self.points[:-1], self.points[1:], strict=True):
             if low.value <= value * (1.0 + _TOLERANCE) and high.value >= value * (1.0 - _TOLERANCE):
@@ -172,7 +172,7 @@ class _Found:
 
     value: float
     rise: float
-    state: State
+    state: ThermalState
 
 
 class _Walk:

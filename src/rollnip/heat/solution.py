@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction, Outflow
 from rollnip.heat.grid import Grid
-from rollnip.heat.state import SIDES, Side, State
+from rollnip.heat.state import SIDES, Side, ThermalState
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.solution import Solution
@@ -118,7 +118,7 @@ class HeatSolution:
     stable: bool | None
     solves: int
     sublayers: int
-    state: State = field(repr=False)
+    state: ThermalState = field(repr=False)
     conduction: Conduction = field(repr=False)
 
     @property

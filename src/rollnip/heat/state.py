@@ -28,7 +28,7 @@ SIDES: tuple[Side, Side] = ("upper", "lower")
 
 
 @dataclass(frozen=True)
-class State:
+class ThermalState:
     """A nip at given temperatures.
 
     Attributes
@@ -119,7 +119,7 @@ class HeatProblem:
             return replace(self.nip, speed=value)
         return replace(self.nip, normal=LineLoad(value))
 
-    def at(self, temperatures: Array, cut: Divided, nip: Nip | None = None) -> State:
+    def at(self, temperatures: Array, cut: Divided, nip: Nip | None = None) -> ThermalState:
         """Return the nip at some temperatures, and those that its heat leads to.
 
         Parameters
@@ -134,7 +134,7 @@ class HeatProblem:
         solution = solve(warm, self.model, cache=self.cache)
         self.solves += 1
         sources = self._sources(solution, grown)
-        return State(
+        return ThermalState(
             temperatures,
             solution,
             sources,

@@ -14,7 +14,7 @@ from rollnip.heat.amplitude import RunawayError, from_cold
 from rollnip.heat.anderson import settle
 from rollnip.heat.follow import Branch, follow
 from rollnip.heat.solution import HeatSolution
-from rollnip.heat.state import SIDES, HeatProblem, Parameter, State
+from rollnip.heat.state import SIDES, HeatProblem, Parameter, ThermalState
 from rollnip.heat.warm import Divided, follows
 from rollnip.influence import KernelCache
 from rollnip.materials import LossFactor
@@ -38,7 +38,7 @@ _LOW = 0.1  # of the speed, from which the warm branch is followed
 class _Course:
     """The progress of an iteration: its last state, its division, and what is left open [K]."""
 
-    state: State
+    state: ThermalState
     cut: Divided
     left: float
     fine: float = 0.0
@@ -128,7 +128,7 @@ def follow_heat(
     return follow(thermal, parameter, low, high, largest_rise=largest_rise)
 
 
-def _followed(thermal: HeatProblem, cold: State) -> _Course:
+def _followed(thermal: HeatProblem, cold: ThermalState) -> _Course:
     """Find the steady state that a cold start leads to; where there is none, say where it ends."""
     course, above = _Course(cold, thermal.whole(), np.inf), 0.0
     try:
@@ -161,7 +161,7 @@ def _where_it_ends(thermal: HeatProblem) -> str:
     )
 
 
-def steady_course(thermal: HeatProblem, start: State) -> _Course:
+def steady_course(thermal: HeatProblem, start: ThermalState) -> _Course:
     """Iterate the temperatures from those that a state leads to, on sub-layers fine enough."""
     course = _Course(start, thermal.whole(), np.inf)
     allowed = COARSE
@@ -221,7 +221,7 @@ def _lost(error: RollnipError) -> str:
     return f"The nip could not be solved on the way: {error}"
 
 
-def is_stable(thermal: HeatProblem, state: State, cut: Divided) -> bool:
+def is_stable(thermal: HeatProblem, state: ThermalState, cut: Divided) -> bool:
     """Return whether a small rise of all temperatures dies out: what it leads to is smaller."""
     rise = state.rise
     try:
@@ -233,7 +233,7 @@ def is_stable(thermal: HeatProblem, state: State, cut: Divided) -> bool:
 
 
 def _wrapped(
-    thermal: HeatProblem, cold: State, course: _Course, stable: bool | None
+    thermal: HeatProblem, cold: ThermalState, course: _Course, stable: bool | None
 ) -> HeatSolution:
     state, model = course.state, thermal.model
     # Sub-layers are no materials of the user's: what is said of them is said of the cold layers.

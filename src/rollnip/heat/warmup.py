@@ -22,7 +22,7 @@ from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction
 from rollnip.heat.exchange import Exchange
 from rollnip.heat.solution import HeatSolution, bond_temperature, profile
-from rollnip.heat.state import SIDES, HeatProblem, Side, State
+from rollnip.heat.state import SIDES, HeatProblem, Side, ThermalState
 from rollnip.heat.steady import solve_heat
 from rollnip.influence import KernelCache
 from rollnip.model import Model
@@ -184,7 +184,7 @@ class _Path:
         self.weights = weights / size if abs(size) > 1e-9 * weights.sum() else 0.0 * weights
         self.nodes = np.array(_NODES)
         self.near = steady.state.solution
-        self.states: list[State] = []
+        self.states: list[ThermalState] = []
         self._rows: Any = None
 
     def guess(self, share: float) -> Array:
@@ -299,7 +299,7 @@ def _over(row: Array, n: int) -> Exchange:
     return Exchange(row[n : n + 4].reshape(2, 2), row[n + 4 : n + 6], np.zeros(2), 0.0)
 
 
-def _packed(state: State) -> Array:
+def _packed(state: ThermalState) -> Array:
     """Return sources in cells, exchange matrix, offset and power of a nip in one row."""
     over, solution = state.sources.over, state.solution
     power = (solution.dissipation_viscous or 0.0) + (solution.dissipation_friction or 0.0)

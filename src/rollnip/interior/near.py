@@ -38,7 +38,7 @@ _NEAREST = 1e-12
 
 
 @dataclass(frozen=True, slots=True)
-class Powers:
+class WaveNumberPowers:
     """Tractions times powers of the wave number: k^-1 t, t, k t, k^2 t, of t_x and t_z.
 
     Each a pair of arrays of one shape: functions of k (transforms) or of x (their Phi).
@@ -49,9 +49,9 @@ class Powers:
     one: ComplexArray
     two: ComplexArray
 
-    def raised(self) -> Powers:
+    def raised(self) -> WaveNumberPowers:
         """Return the powers times ik, for the derivative along x; its ``two`` must not be used."""
-        return Powers(1j * self.zero, 1j * self.one, 1j * self.two, self.two)
+        return WaveNumberPowers(1j * self.zero, 1j * self.one, 1j * self.two, self.two)
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,7 +88,7 @@ class Depth:
         return np.exp(-k * self.logarithmic)
 
 
-def half_space_stress(t: Powers, depth: Depth) -> ComplexArray:
+def half_space_stress(t: WaveNumberPowers, depth: Depth) -> ComplexArray:
     """s_xx, s_zz, s_xz of a half-space or disc, (3, nz, n), without the decay."""
     s0, s1 = -t.zero[1], -t.one[1]
     t0, t1 = -1j * t.zero[0], -1j * t.one[0]
@@ -100,7 +100,7 @@ def half_space_stress(t: Powers, depth: Depth) -> ComplexArray:
 
 
 def half_space_displacement(
-    t: Powers, depth: Depth, compliance: complex, poisson: float
+    t: WaveNumberPowers, depth: Depth, compliance: complex, poisson: float
 ) -> ComplexArray:
     """u_x, u_z of a half-space with 1/(2G) = ``compliance``, (2, nz, n), without the decay."""
     a, b = 2.0 * (1.0 - poisson), 1.0 - 2.0 * poisson
@@ -118,13 +118,15 @@ def half_space_sinking(loads: Array, compliance: complex, poisson: float) -> Arr
     return np.asarray(sinking.real)
 
 
-def spectral_powers(transforms: ComplexArray, k: Array) -> Powers:
-    """Powers of the transforms (2, n) at the surface."""
+def spectral_powers(transforms: ComplexArray, k: Array) -> WaveNumberPowers:
+    """Return the powers of the transforms (2, n) at the surface."""
     once = transforms * k
-    return Powers(transforms / k, transforms, once, once * k)
+    return WaveNumberPowers(transforms / k, transforms, once, once * k)
 
 
-def potentials(tractions: SurfaceTractions, depth: Depth, x: Array, *, two: bool) -> Powers:
+def potentials(
+    tractions: SurfaceTractions, depth: Depth, x: Array, *, two: bool
+) -> WaveNumberPowers:
     """Phi_-1, Phi_0, Phi_1 and, where ``two``, Phi_2 of t_x and t_z at one depth, (2, x).
 
     ``x`` are places from the centre of the tractions.
@@ -146,7 +148,7 @@ def potentials(tractions: SurfaceTractions, depth: Depth, x: Array, *, two: bool
     inverse = np.zeros_like(first)
     if two:
         inverse = ((across / square) @ kinks.T - 1j * ((height / square) @ kinks.T)).T
-    return Powers(
+    return WaveNumberPowers(
         minus=(constant - second) / pi,
         zero=1j * first / pi,
         one=sums[0] / pi,

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from rollnip.interior.medium import IntArray, Medium
 from rollnip.interior.near import (
     Depth,
-    Powers,
+    WaveNumberPowers,
     half_space_displacement,
     half_space_sinking,
     half_space_stress,
@@ -102,7 +102,7 @@ def fields_in_space(medium: Medium, tractions: SurfaceTractions, z: Array, x: Ar
     parts = 11 if medium.is_viscoelastic else 5
     values = np.zeros((parts, z.size, x.size))
     loss = np.zeros(z.size)
-    half_space = HalfSpace(medium, rows.cut)
+    half_space = HalfSpacePart(medium, rows.cut)
     sources, targets = Phases(tractions.places), Phases(places)
     for block in waves.blocks(float(rows.last.max())):
         active = np.flatnonzero(rows.last > block.start)
@@ -167,7 +167,7 @@ def _product(spectrum: ComplexArray, phases: ComplexArray) -> Array:
     return np.asarray(left @ phases.view(float).T).reshape(parts, rows, -1)
 
 
-class HalfSpace:
+class HalfSpacePart:
     """The half-space part of the fields, with the modulus the top layer has at one wave number.
 
     Attributes
@@ -182,7 +182,7 @@ class HalfSpace:
         self.compliance = complex((1.0 + self.material.poisson) / self.modulus[0])
         self.curvature = medium.curvature
 
-    def fields(self, powers: Powers, depth: Depth) -> ComplexArray:
+    def fields(self, powers: WaveNumberPowers, depth: Depth) -> ComplexArray:
         """Return all quantities, (parts, nz, n), in the Fourier domain without the decay."""
         nu = self.material.poisson
         stress = half_space_stress(powers, depth)
@@ -194,7 +194,7 @@ class HalfSpace:
 
 
 def _take_out(
-    half_space: HalfSpace,
+    half_space: HalfSpacePart,
     spectrum: ComplexArray,
     rows: Rows,
     active: IntArray,
@@ -210,7 +210,9 @@ def _take_out(
     spectrum[:, inside] -= part * depth.decay(k)
 
 
-def _constants(half_space: HalfSpace, medium: Medium, rows: Rows, loads: Array, k: float) -> Array:
+def _constants(
+    half_space: HalfSpacePart, medium: Medium, rows: Rows, loads: Array, k: float
+) -> Array:
     """Factors of 1/k in the displacements as k -> 0, (2, nz, 1): the core's, less what is out."""
     core = medium.roller.materials[-1].poisson
     kept = half_space_sinking(loads, medium.low_limit(k), core)

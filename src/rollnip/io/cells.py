@@ -35,7 +35,7 @@ _SEPARATORS = {"\t": "tab", ";": "semicolon", ",": "comma", " ": "blank"}
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
+class CellSheet:
     """The cells of a text file or of one sheet.
 
     Attributes
@@ -62,7 +62,7 @@ class Cells:
     """
 
     source: str
-    sheets: tuple[Sheet, ...]
+    sheets: tuple[CellSheet, ...]
     encoding: str = ""
     separator: str = ""
 
@@ -84,7 +84,7 @@ def read_cells(path: str | Path) -> Cells:
     if len(numbered) + text.count(mark) > MOST_CELLS:
         raise InvalidInputError(f"{path}: must hold at most {MOST_CELLS:,} cells, it holds more.")
     rows = _split([line for _, line in numbered], mark)
-    sheet = Sheet("", tuple(rows), tuple(n for n, _ in numbered))
+    sheet = CellSheet("", tuple(rows), tuple(n for n, _ in numbered))
     return Cells(str(path), (sheet,), encoding, _SEPARATORS[mark])
 
 
@@ -107,7 +107,7 @@ def _bytes(file: Path) -> bytes:
         raise InvalidInputError(f"{file}: {error}") from None
 
 
-def _sheets(file: Path, data: bytes) -> Iterator[Sheet]:
+def _sheets(file: Path, data: bytes) -> Iterator[CellSheet]:
     require_extra("tables", f"{file}: reading a workbook", "save the sheet as CSV")
     from python_calamine import CalamineError, CalamineWorkbook
 
@@ -121,7 +121,7 @@ def _sheets(file: Path, data: bytes) -> Iterator[Sheet]:
                     for number, row in enumerate(rows, start=1)
                     if any(value != "" for value in row)
                 ]
-                yield Sheet(name, tuple(row for _, row in filled), tuple(n for n, _ in filled))
+                yield CellSheet(name, tuple(row for _, row in filled), tuple(n for n, _ in filled))
     except (CalamineError, OSError) as problem:
         raise InvalidInputError(f"{file}: cannot be read as a workbook: {problem}.") from None
 

@@ -87,7 +87,7 @@ class Friction(Protocol):
         """Return roughly the shear that relieves values, with an excess creep."""
 
 
-class LinearSystem:
+class NewtonSystem:
     """The linear system of one Newton step.
 
     Attributes

@@ -26,7 +26,7 @@ from scipy.fft import irfft2, rfft2
 
 from rollnip.patch.coefficients import Array
 from rollnip.patch.convolution import Convolutions
-from rollnip.patch.linear import Cone, LinearSystem
+from rollnip.patch.linear import Cone, NewtonSystem
 
 Mask = NDArray[np.bool_]
 
@@ -242,7 +242,7 @@ def solve_rolling(problem: RollingProblem, tolerance: float, start: Array | None
             break
         steps += 1
         linear = _LINEAR if before == np.inf else (residual / before) ** 2
-        system = LinearSystem(problem, cone)
+        system = NewtonSystem(problem, cone)
         change, turned = system.step(shear, short, float(np.clip(linear, _LEAST_LINEAR, _LINEAR)))
         products += system.products
         shear = problem.within(shear + change)

@@ -28,7 +28,7 @@ class Model:
         "linear": flat layers, parabolic gap. "corrected": flat layers, true distance of the
         deformed surfaces. "curved": ring layers and stretch to second order. "finite": ring
         layers of finite strain, to second order throughout. "full": finite strain of all orders,
-        for elastic layers on rigid cores (docs/geometry.md).
+        for layers on rigid cores (docs/geometry.md).
     tolerance :
         wanted relative accuracy of creepage, nip width, peak pressure, approach or load; between
         1e-6 and 0.1. "finite" gives approach and load to 0.001, the peak pressure to 0.0015, the

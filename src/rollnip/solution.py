@@ -323,20 +323,20 @@ class Solution(Presented):
         Returns
         -------
         (nz,) powers [N/s = mW/mm]; at depth 0 all that the roller loses, 0 for an elastic one.
-        Both rollers together at depth 0 are ``dissipation_viscous``.
+        Both rollers together at depth 0 are ``dissipation_viscous``. In geometry "full" that is
+        the loss of finite strain, spread over the depth as in linear theory.
         """
         if self.nip.speed is None:
             return None
         upper = roller == "upper"
         one, rate = (self.nip.upper, self._rates[0]) if upper else (self.nip.lower, self._rates[1])
+        depths = np.append(0.0, np.atleast_1d(np.asarray(z, dtype=float)))
         lost = loss_below(
-            one,
-            self._tractions_on(roller),
-            np.atleast_1d(np.asarray(z, dtype=float)),
-            self.model.geometry,
-            self.nip.speed,
+            one, self._tractions_on(roller), depths, self.model.geometry, self.nip.speed
         )
-        return self.nip.speed * rate * lost
+        further = self.final.mesh.kernels.heat_beyond[0 if upper else 1]
+        share = 1.0 + further / lost[0] if lost[0] > 0.0 else 1.0
+        return np.asarray(self.nip.speed * rate * share * lost[1:])
 
     @cached_property
     def interfaces(self) -> tuple[InterfaceStress, ...]:

@@ -118,10 +118,10 @@ def _require_kinds(nip: object, model: object, on_failure: object) -> None:
 def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solution:
     """Solve one nip; ``start``: the clock at the call, from which the solver time counts [s]."""
     left: tuple[str, ...] = ()
-    if model.geometry == "full" and (nip.is_viscoelastic or nip.has_half_space):
+    if model.geometry == "full" and nip.has_half_space:
         model = replace(model, geometry="finite")
         left = (
-            'Geometry "full" is for elastic layers on rigid cores. '
+            'Geometry "full" is for layers on rigid cores. '
             'All figures are those of geometry "finite", of second order.',
         )
     kernels, final = _refined(nip, model, cache)

@@ -224,7 +224,7 @@ def _stiff_skin(stretch: float, creepage: float) -> str:
     return (
         "A stiff top layer bends and resists stretch like a sheet: terms of third order, which "
         f'geometry "finite" leaves out, may change the creepage by about {stretch:.1g} (it is '
-        f'{creepage:.2g}). Geometry "full", for elastic layers on rigid cores, takes them in.'
+        f'{creepage:.2g}). Geometry "full", for layers on rigid cores, takes them in.'
     )
 
 

@@ -112,18 +112,40 @@ RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
 COVERED = rn.Roller(radius=50.0, layers=(rn.Layer(2.0, RUBBER),))
 
 
-def test_a_slow_memory_takes_the_second_order():
-    """Viscoelastic layers have no law of finite strain here: second order, and it is said."""
-    slow = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.01, poisson=0.5)
+def remembering(speed):
+    """A covering of relaxed modulus 0.91 and glassy modulus 2.73, pressed in by 0.28 of 2 mm."""
+    slow = rn.StandardLinearSolid(modulus=0.91, stiffening=1.82, relaxation_time=0.01, poisson=0.5)
     upper = rn.Roller(radius=50.0, layers=(rn.Layer(2.0, slow),))
-    nip = rolling(upper, BARE, normal=rn.LineLoad(0.5), friction=0.0, speed=100.0)
-    solution = rn.solve(nip, FULL)
-    assert solution.model.geometry == "finite"
-    assert solution.warnings[0] == (
-        'Geometry "full" is for elastic layers on rigid cores. '
-        'All figures are those of geometry "finite", of second order.'
-    )
-    assert solution.approach == rn.solve(nip).approach
+    return rolling(upper, BARE, normal=rn.Approach(0.28), friction=0.5, speed=speed)
+
+
+@pytest.mark.parametrize(("speed", "modulus"), [(1e-3, 0.91), (1e8, 2.73)])
+def test_slow_and_fast_memories_are_elastic(speed, modulus):
+    """With the relaxed and the glassy modulus, to what meshes of another length change."""
+    solution = rn.solve(remembering(speed), FULL)
+    stiff = rn.Elastic(modulus=modulus, poisson=0.5)
+    upper = rn.Roller(radius=50.0, layers=(rn.Layer(2.0, stiff),))
+    elastic = rn.solve(rolling(upper, BARE, normal=rn.Approach(0.28), friction=0.5), FULL)
+    assert solution.model.geometry == elastic.model.geometry == "full"
+    assert solution.converged
+    assert solution.load == pytest.approx(elastic.load, rel=1e-3)
+    assert solution.nip_width == pytest.approx(elastic.nip_width, rel=1e-3)
+    assert solution.peak_pressure == pytest.approx(elastic.peak_pressure, rel=1e-3)
+    assert solution.creepage == pytest.approx(elastic.creepage, abs=2e-4)
+    size = speed * solution.load
+    assert solution.dissipation_viscous == pytest.approx(0.0, abs=1e-4 * size)
+
+
+def test_between_glass_and_rubber_much_is_lost():
+    solution = rn.solve(remembering(300.0), FULL)
+    assert solution.model.geometry == "full"
+    assert not solution.warnings
+    assert solution.converged
+    second = rn.solve(remembering(300.0))
+    assert solution.dissipation_viscous > 0.0
+    assert solution.load == pytest.approx(second.load, rel=0.1)
+    assert solution.dissipation_viscous == pytest.approx(second.dissipation_viscous, rel=0.1)
+    assert solution.dissipation_viscous > 0.02 * 300.0 * solution.load
 
 
 def test_light_loads_are_those_of_the_second_order():
@@ -211,3 +233,10 @@ def test_power_in_is_the_heat_of_friction():
     assert solution.converged
     passed = 0.2 * 100.0
     assert solution.power_in == pytest.approx(solution.dissipation_friction, abs=2e-3 * passed)
+
+
+def test_heat_over_the_depth_is_the_whole_loss():
+    solution = rn.solve(remembering(300.0), FULL)
+    below = solution.heat_below("upper", [0.0, 1.0, 2.0])
+    assert below[0] == pytest.approx(solution.dissipation_viscous, rel=1e-9)
+    assert below[0] > below[1] > below[2]

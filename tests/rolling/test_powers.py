@@ -113,20 +113,22 @@ def test_the_order_of_finite_is_the_third():
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", ELASTIC)
+@pytest.mark.parametrize("name", NIPS)
 def test_full_balances_three_ways(name):
-    """Power of the axles by the moments of the tractions, by creep, and the heat of slip.
+    """Power of the axles by the moments of the tractions, by creep, and the heat made inside.
 
-    They agree to 0.1 % of the power passed on.
+    They agree to 0.1 % of the power passed on; without traction to 0.1 % of the heat.
     """
-    solution = solved(ELASTIC[name], "full")
+    solution = solved(NIPS[name], "full")
     of, half = solution.nip, 0.5 * solution.creepage
     upper, lower = moments(solution)
     by_moments = upper * (1.0 + half) / of.upper.radius + lower * (1.0 - half) / of.lower.radius
-    allowed = 1e-3 * of.speed * abs(solution.traction)
-    assert of.speed * by_moments == pytest.approx(solution.dissipation_friction, abs=allowed)
-    assert solution.power_in == pytest.approx(solution.dissipation_friction, abs=allowed)
-    assert solution.dissipation_viscous == 0.0
+    heat = solution.dissipation_friction + solution.dissipation_viscous
+    allowed = 1e-3 * max(of.speed * abs(solution.traction), heat)
+    assert of.speed * by_moments == pytest.approx(heat, abs=allowed)
+    assert solution.power_in == pytest.approx(heat, abs=allowed)
+    if name in ELASTIC:
+        assert solution.dissipation_viscous == 0.0
 
 
 def moments(solution):

@@ -1,7 +1,7 @@
 """Finite strain of all orders: equilibrium of a covering under given tractions."""
 
 from rollnip.finite._spline import Spline
-from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions
+from rollnip.finite.equilibrium import Body, Tractions
 from rollnip.finite.response import (
     CUT,
     DeformedSurface,
@@ -10,6 +10,7 @@ from rollnip.finite.response import (
     linear_surface,
     nodal,
 )
+from rollnip.finite.state import NoEquilibriumError, State
 from rollnip.finite.stress import PARTS, element_fields, present_place
 from rollnip.finite.strip import Depths, Strip
 

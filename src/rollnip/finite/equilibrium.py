@@ -17,14 +17,17 @@ and shear at the *present* place x(s); its derivative by the displacements is ke
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from math import inf
 
 import numpy as np
 from scipy.linalg import lapack
 
+from rollnip.finite.memory import Memory
+from rollnip.finite.state import NoEquilibriumError, State, Tangent
 from rollnip.finite.strip import LINEAR, Array, Indices, Strip, on_circle
+from rollnip.finite.viscous import Relaxing, Viscous
 from rollnip.materials import Energy, NeoHookean, Slopes
 
 Tractions = Callable[[Array], tuple[Array, Array, Array, Array]]
@@ -42,58 +45,13 @@ _CONTRACTION = 0.1  # of steps, up to which a derivative is kept
 _CURVED = 3.0  # contraction expected of a derivative that is a step old, over the step
 
 
-class NoEquilibriumError(ArithmeticError):
-    """No equilibrium was found: an element is turned inside out, or steps do not come to rest."""
-
-
-@dataclass(frozen=True)
-class Tangent:
-    """Factors of the derivative of the forces by the displacements at some state.
-
-    Attributes
-    ----------
-    band : diagonals on either side.
-    factors, pivots : as LAPACK's dgbtrf leaves them.
-    means : (elements, 3, 18) derivatives of the volumes, weighted with the basis `LINEAR`.
-    rate : (elements, 3, 18) derivatives of the pressures.
-    """
-
-    band: int
-    factors: Array
-    pivots: Indices
-    means: Array
-    rate: Array
-
-    def solved(self, loads: Array) -> Array:
-        """Return the displacements that balance some loads, (unknowns,)."""
-        out, info = lapack.dgbtrs(self.factors, self.band, self.band, loads, self.pivots)
-        if info != 0 or not np.all(np.isfinite(out)):
-            raise NoEquilibriumError
-        return np.asarray(out)
-
-
-@dataclass(frozen=True)
-class State:
-    """A state of a mesh.
-
-    Attributes
-    ----------
-    displacement : (unknowns,) [mm].
-    pressure : (elements, 3) of incompressible elements, in the basis `LINEAR` [MPa].
-    tangent : derivative near here, if it is known.
-    """
-
-    displacement: Array
-    pressure: Array
-    tangent: Tangent | None = field(default=None, repr=False, compare=False)
-
-
 @dataclass(frozen=True)
 class _Fields:
     """Deformation and stress at the points of Gauss, for the forces and their derivative.
 
     F (4, elements, 9); c with G w_J, and 2 G w_I, (elements, 9); step and rate of the pressures;
-    G times the derivatives of w, None where those of second order are zero.
+    G times the derivatives of w, None where those of second order are zero; stresses that
+    relax, None where there are none.
     """
 
     deformation: Array
@@ -102,13 +60,28 @@ class _Fields:
     step: Array
     rate: Array
     second: Slopes | None
+    viscous: Viscous | None
 
 
 @dataclass(frozen=True)
 class Body:
-    """A mesh with the strain energies of its elements."""
+    """A mesh with the strain energies of its elements.
+
+    Attributes
+    ----------
+    strip : the mesh.
+    speed : V at which viscoelastic layers pass it [mm/s]; needed for these alone.
+    """
 
     strip: Strip
+    speed: float | None = None
+
+    @cached_property
+    def memory(self) -> Memory | None:
+        """What viscoelastic layers remember; None where all layers are elastic."""
+        if self.speed is None or not self.strip.depths.roller.is_viscoelastic:
+            return None
+        return Memory(self.strip, self.speed)
 
     @cached_property
     def _constants(self) -> tuple[Array, Array, Array]:
@@ -201,11 +174,18 @@ class Body:
         f_xx, f_xy, f_yx, f_yy = deformation = self.deformation(state.displacement)
         ratio, shear = f_xx * f_yy - f_xy * f_yx, self._constants[0]
         c, step, rate = self._volume_terms(ratio, state.pressure)
-        if self._is_soft:
-            return _Fields(deformation, c, np.broadcast_to(shear, c.shape), step, rate, None)
-        slopes = self._slopes(ratio, (f_xx - f_yy) ** 2 + (f_xy + f_yx) ** 2)
-        second = Slopes(*(shear * one for one in slopes))
-        return _Fields(deformation, c + second.j, 2.0 * second.i, step, rate, second)
+        straight, second = np.broadcast_to(shear, c.shape), None
+        slopes: tuple[Array | float, ...] = (0.5, 0.0, 0.0, 0.0, 0.0)
+        if not self._is_soft:
+            slopes = self._slopes(ratio, (f_xx - f_yy) ** 2 + (f_xy + f_yx) ** 2)
+            second = Slopes(*(shear * one for one in slopes))
+            straight, c = 2.0 * second.i, c + second.j
+        viscous = None
+        if self.memory is not None:
+            constants = (*self._constants[:2], self._rest)
+            viscous = Viscous.of(self.memory, deformation, constants, self._energies, slopes)
+            c = c + viscous.swelling
+        return _Fields(deformation, c, straight, step, rate, second, viscous)
 
     def _means(self, fields: _Fields) -> Array:
         """Return the derivatives of the volumes, weighted with the basis `LINEAR`."""
@@ -227,6 +207,8 @@ class Body:
         stress[:, :9, 1], stress[:, 9:, 1] = shear * f_yx - c * f_xy, shear * f_yy + c * f_xx
         force = (shapes.transpose(0, 2, 1) @ stress).reshape(-1, 18)
         force += (fields.step[:, None] @ means)[:, 0]
+        if fields.viscous is not None:
+            force += fields.viscous.force
         # The core, at unknown -1, takes what is left over.
         return _summed(self.strip.unknowns.ravel() + 1, force.ravel(), self.strip.size + 1)[1:]
 
@@ -240,13 +222,23 @@ class Body:
         weight = np.tile(straight * volume, (1, 2))[..., None]
         return np.asarray(shapes.transpose(0, 2, 1) @ (shapes * weight))
 
-    def _stiffness(self, fields: _Fields, means: Array, rate: Array) -> Array:
-        """Return the derivative of the forces by the displacements, in banded storage, flat."""
+    def _stiffness(
+        self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
+    ) -> Array:
+        """Return the derivative of the forces by the displacements, in banded storage, flat.
+
+        Without the memory of other columns.
+        """
         shapes, volume = self.strip.shapes
         straight = self._soft if self._is_soft else self._isotropic(fields.straight)
         turn = shapes[:, :9].transpose(0, 2, 1) @ (shapes[:, 9:] * (fields.c * volume)[..., None])
         turn = turn - turn.transpose(0, 2, 1)
-        stiff = (means.transpose(0, 2, 1) @ rate).reshape(-1, 9, 2, 9, 2)
+        stiff = means.transpose(0, 2, 1) @ rate
+        if fields.viscous is not None and relaxing is not None:
+            held, bent = fields.viscous.turning
+            straight = straight + held
+            stiff += relaxing.at_once() + bent
+        stiff = stiff.reshape(-1, 9, 2, 9, 2)
         stiff[:, :, 0, :, 0] += straight
         stiff[:, :, 1, :, 1] += straight
         stiff[:, :, 0, :, 1] += turn
@@ -274,7 +266,8 @@ class Body:
         """Factorise the derivative at some fields; ``loads`` are the entries of the tractions."""
         means = self._means(fields)
         rate = fields.rate @ means
-        stiffness = self._stiffness(fields, means, rate)
+        relaxing = None if fields.viscous is None else Relaxing.of(fields.viscous)
+        stiffness = self._stiffness(fields, means, rate, relaxing)
         if loads is not None:
             np.subtract.at(stiffness, *loads)
         band = self.strip.band
@@ -282,7 +275,7 @@ class Body:
         factors, pivots, info = lapack.dgbtrf(matrix, band, band, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        return Tangent(band, factors, pivots, means, rate)
+        return Tangent(band, factors, pivots, means, rate, relaxing)
 
     def _loads(self, displacement: Array, tractions: Tractions) -> tuple[Array, Indices, Array]:
         """Return the forces of the tractions, and the entries of their derivative."""

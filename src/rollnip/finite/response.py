@@ -10,13 +10,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from math import inf, pi
+from math import inf
 
 import numpy as np
 
 from rollnip.finite._smooth import smoothed
 from rollnip.finite._spline import Spline
-from rollnip.finite.equilibrium import Body, NoEquilibriumError, State, Tractions
+from rollnip.finite.equilibrium import Body, Tractions
+from rollnip.finite.power import heat_inside, linear_heat_inside
+from rollnip.finite.state import NoEquilibriumError, State
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
@@ -27,11 +29,14 @@ _COLUMNS = 32  # elements under the tractions
 _GROWTH = 2.0  # of elements beside them
 _LONGEST = 0.8  # element, over the thickness that counts
 _REACH = 4.0  # of the mesh beyond the tractions, likewise
+_REACH_OF_MEMORY = 8.0  # the same where a layer is viscoelastic
+_TURN = 2.5  # of the radius: how far arcs reach at most
 _MOST_REACH = 2.0  # times more at most, where a stiff layer bends on a soft one
 _LEAST_THICKNESS = 0.5  # that counts, over the half-width
 _NEAR = 4.0  # half-widths beyond which the surface is of no interest
 _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
 _ALIGNED = 2e-3  # distance of columns from their places, over the width of the contact
+_SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
 _STAYS = 0.02  # by which places may move and keep their mesh, likewise
 _LEAST_SHARE = 0.1  # of a step between tractions
 _MOST_MESHES = 6
@@ -111,34 +116,41 @@ class FiniteResponse:
     is_found : whether there was an equilibrium; else the last displacement is returned.
     share : of the step from the last tractions to the new ones for which there was one.
     rough : the displacement before it was smoothed.
+    lost : heat inside per distance beyond that of linear theory [N/mm]; 0 in elastic layers.
 
     Parameters
     ----------
     roller :
-        with elastic layers on a rigid core.
+        with a rigid core.
     half_width :
         of the contact, roughly [mm]: it sets the elements over the depth.
     cut :
         wave number, over the half-width of the tractions, of which half is left.
+    speed :
+        V at which the covering passes [mm/s]; needed for viscoelastic layers alone.
     """
 
-    def __init__(self, roller: Roller, half_width: float, cut: float = CUT) -> None:
+    def __init__(
+        self, roller: Roller, half_width: float, cut: float = CUT, speed: float | None = None
+    ) -> None:
+        self._speed = self._speed_now = speed
         self._depths = Depths.of(roller, half_width)
         self._cut = cut
         thick = max(roller.coating_thickness, _LEAST_THICKNESS * half_width)
         young = [layer.material.relaxed_modulus for layer in roller.layers]
         stiffer = min(float(np.cbrt(max(young) / min(young))), _MOST_REACH)
         self._longest = _LONGEST * thick
-        self._reach = _REACH * stiffer * thick
+        self._reach = (_REACH_OF_MEMORY if roller.is_viscoelastic else _REACH) * stiffer * thick
         self._near = _NEAR * half_width
         if roller.curvature > 0.0:
-            self._reach = min(self._reach, pi * roller.radius - 1.5 * half_width)
+            self._reach = min(self._reach, _TURN * roller.radius - half_width)
             self._near = min(self._near, _FRONT * roller.radius)
         self._meshes: _Meshes | None = None
         self._made: tuple[Spline, ...] | None = None
         self.rough: tuple[Spline, ...] = ()
         self.is_found = True
         self.share = 1.0
+        self.lost = 0.0
 
     @property
     def x(self) -> Array:
@@ -146,7 +158,12 @@ class FiniteResponse:
         return np.array([-inf, inf])
 
     def displacement(
-        self, nodes: Array, pressure: Array, shear: Array, along: Field | None = None
+        self,
+        nodes: Array,
+        pressure: Array,
+        shear: Array,
+        along: Field | None = None,
+        rate: float = 1.0,
     ) -> tuple[Spline, ...]:
         """Return u_x and u_z beyond the linear ones as functions of the present place x.
 
@@ -155,9 +172,11 @@ class FiniteResponse:
         nodes : (N+1,) increasing places [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
         along : about the u_x to be found, from which the first mesh is placed.
+        rate : speed of the undeformed surface over that of linear theory.
         """
+        self._speed_now = None if self._speed is None else rate * self._speed
         if not np.any(pressure > 0.0):
-            self.rough = _nothing(nodes)
+            self.rough, self.lost = _nothing(nodes), 0.0
             return self.rough
         places, loaded = self._places(nodes, pressure)
         tractions = nodal(nodes, pressure, shear)
@@ -170,6 +189,7 @@ class FiniteResponse:
             self.rough = self._made = self._made or _nothing(nodes)
             return self._made
         self.is_found, self._meshes = True, meshes
+        self.lost = meshes.heat_beyond
         surface = deformed_surface(meshes.body, meshes.state)
         u_x, u_z = linear_surface(meshes.flat, meshes.linear)
         places = meshes.flat.strip.ends
@@ -239,17 +259,17 @@ class FiniteResponse:
     ) -> _Meshes:
         """Return both solutions under these tractions."""
         last = self._meshes
-        if last is not None and last.is_near(places[loaded]):
+        if last is not None and last.is_near(places[loaded], self._speed_now):
             linear = last.flat.linear_displacements(tractions)
             state = last.body.equilibrium(tractions, last.state)
             return replace(last, linear=linear, state=state, tractions=tractions)
-        flat = Body(Strip(self._depths, places))
+        flat = Body(Strip(self._depths, places), self._speed)
         linear = flat.linear_displacements(tractions)
         if last is not None:
             body, state = self._moved(last.body, last.state, places, loaded)
         else:
             state = State(linear, flat.at_rest().pressure)
-            body = flat
+            body = Body(flat.strip, self._speed_now)
             if along is not None:
                 guess = linear_surface(flat, linear)[0] + along(places)
                 body = self._on(places, loaded, places[loaded] - guess[loaded])
@@ -278,7 +298,7 @@ class FiniteResponse:
         arcs[: loaded.start] += under[0] - places[loaded.start]
         arcs[loaded.stop :] += under[-1] - places[loaded.stop - 1]
         arcs[loaded] = under
-        return Body(Strip(self._depths, arcs))
+        return Body(Strip(self._depths, arcs), self._speed_now)
 
 
 @dataclass(frozen=True)
@@ -292,10 +312,21 @@ class _Meshes:
     loaded: slice
     tractions: Tractions
 
-    def is_near(self, places: Array) -> bool:
-        """Return whether the loaded columns are about at some places."""
+    def is_near(self, places: Array, speed: float | None) -> bool:
+        """Return whether the loaded columns are about at some places and pass about as fast."""
+        own = self.body.speed
+        if own is not None and speed is not None and abs(speed - own) > _SAME_SPEED * own:
+            return False
         here = self.flat.strip.ends[self.loaded]
         return float(np.abs(here - places).max()) <= _STAYS * float(np.ptp(places))
+
+    @property
+    def heat_beyond(self) -> float:
+        """Heat inside per distance beyond that of linear theory [N/mm]; 0 in elastic layers."""
+        if self.body.memory is None:
+            return 0.0
+        linear = linear_heat_inside(self.flat, self.linear, self.tractions)
+        return heat_inside(self.body, self.state.displacement, self.tractions) - linear
 
 
 def _nothing(nodes: Array) -> tuple[Spline, Spline]:

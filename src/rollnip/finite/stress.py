@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.finite.equilibrium import State
+from rollnip.finite.state import State
 from rollnip.finite.strip import LINEAR, Array, Strip, below_radius, on_circle, quadratics
 from rollnip.materials import Energy, NeoHookean
 

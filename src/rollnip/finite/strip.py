@@ -117,16 +117,31 @@ class Strip:
         return half[0].ravel(), half[1].ravel(), middle[0].ravel(), middle[1].ravel()
 
     @cached_property
+    def points(self) -> tuple[Array, Array, Array]:
+        """Arcs of the points of Gauss, cosine and sine of their angles; each (elements, 9)."""
+        half, _, middle, _ = (values[:, None] for values in self._grid)
+        arcs = middle + half * _ALONG
+        angle = self.depths.roller.curvature * arcs
+        return arcs, np.cos(angle), np.sin(angle)
+
+    def by_column(self, values: Array) -> Array:
+        """Return values at points of Gauss, (elements, 9, ...), as (3 columns, rows, 3 ...).
+
+        The first axis goes along the surface, the last over the depth of an element.
+        """
+        rows = self.depths.owner.size
+        grid = values.reshape(self.columns, rows, 3, -1)
+        return grid.transpose(0, 2, 1, 3).reshape(3 * self.columns, rows, -1)
+
+    @cached_property
     def shapes(self) -> tuple[Array, Array]:
         """Derivatives of the shape functions, (elements, 18, 9), and volumes, (elements, 9).
 
         Those by x at the nine points of Gauss come first, then those by y.
         """
-        half_s, half_z, s, z = (values[:, None] for values in self._grid)
-        curvature = self.depths.roller.curvature
-        shrink = 1.0 - curvature * (z + half_z * _DOWN)
-        angle = curvature * (s + half_s * _ALONG)
-        cos, sin = np.cos(angle)[..., None], np.sin(angle)[..., None]
+        half_s, half_z, _, z = (values[:, None] for values in self._grid)
+        shrink = 1.0 - self.depths.roller.curvature * (z + half_z * _DOWN)
+        cos, sin = (values[..., None] for values in self.points[1:])
         by_arc = _BY_ARC / (half_s * shrink)[..., None]
         by_depth = _BY_DEPTH / half_z[..., None]
         out = np.empty((half_s.size, 18, 9))

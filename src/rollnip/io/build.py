@@ -243,15 +243,17 @@ class Builder:
         thermal = self._made(path, lambda: thermal_of(table))
         if len(self.errors) > before:
             return None
+        energy = self._energy(f"{path}.energy", table.energy)
+        if energy is None and table.energy is not None:
+            return None
         if isinstance(table, ElasticTable):
-            energy = self._energy(f"{path}.energy", table.energy)
             return self._made(
                 path, lambda: replace(_elastic(table), thermal=thermal, energy=energy)
             )
         shift = self._shift(path, table)
         if shift is None and table.shift is not None:
             return None
-        return self._made(path, lambda: _viscoelastic(table, shift, thermal))
+        return self._made(path, lambda: _viscoelastic(table, shift, thermal, energy))
 
     def _energy(self, path: str, table: EnergyTable | None) -> Energy | None:
         return None if table is None else self._made(path, lambda: energy_of(table))
@@ -313,12 +315,12 @@ def _vertical(table: ShiftTable) -> Vertical:
 
 
 def _viscoelastic(
-    table: ViscoelasticTable, shift: Shift | None, thermal: Thermal | None
+    table: ViscoelasticTable, shift: Shift | None, thermal: Thermal | None, energy: Energy | None
 ) -> Material:
     values = table.model_dump(
-        exclude={"model", "terms", "shift", "shore_a", "reading_time", *THERMAL_KEYS}
+        exclude={"model", "terms", "shift", "energy", "shore_a", "reading_time", *THERMAL_KEYS}
     )
-    values["thermal"] = thermal
+    values |= {"thermal": thermal, "energy": energy}
     if isinstance(table, PronyTable):
         values["terms"] = tuple((term.modulus, term.relaxation_time) for term in table.terms)
     given = [name for name in ("modulus", "shore_a") if getattr(table, name) is not None]

@@ -192,6 +192,9 @@ class ViscoelasticTable(ThermalTable):
     poisson: Ratio
     temperature: Temperature | None = None
     shift: Shift | None = None
+    energy: Energy | None = Field(
+        None, description="Strain energy, for geometry 'full'; neo-Hookean by default."
+    )
 
 
 class StandardLinearSolidTable(ViscoelasticTable):

@@ -6,6 +6,7 @@ from rollnip.materials.energy import Energy, Gent, NeoHookean, Ogden, Slopes, Vo
 from rollnip.materials.passivity import is_passive
 from rollnip.materials.relaxation import (
     creep_compliance,
+    memory_integral,
     relaxation_modulus,
     stiffness_of_hardness,
     with_shore_a,
@@ -52,6 +53,7 @@ __all__ = [
     "Yeoh",
     "creep_compliance",
     "is_passive",
+    "memory_integral",
     "relaxation_modulus",
     "shore_a_band",
     "shore_a_modulus",

@@ -115,6 +115,14 @@ def checked_time(name: str, value: float) -> float:
     return checked
 
 
+def checked_energy(energy: object) -> None:
+    """Raise InvalidInputError unless ``energy`` is None or a strain energy."""
+    if energy is not None and not isinstance(energy, Energy):
+        raise InvalidInputError(
+            f"`energy` must be NeoHookean, Yeoh, Gent or Ogden, or None, got {energy!r}."
+        )
+
+
 def checked_thermal(thermal: object) -> None:
     """Raise InvalidInputError unless ``thermal`` is None or thermal properties."""
     if thermal is not None and not isinstance(thermal, Thermal):

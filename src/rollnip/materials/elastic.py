@@ -7,8 +7,14 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from rollnip._errors import InvalidInputError, with_hints
-from rollnip.materials.base import Material, checked_modulus, checked_poisson, checked_thermal
+from rollnip._errors import with_hints
+from rollnip.materials.base import (
+    Material,
+    checked_energy,
+    checked_modulus,
+    checked_poisson,
+    checked_thermal,
+)
 from rollnip.materials.energy import Energy
 from rollnip.materials.shore import shore_a_modulus
 from rollnip.materials.thermal import Thermal
@@ -51,10 +57,7 @@ class Elastic(Material):
         object.__setattr__(self, "modulus", checked_modulus("modulus", self.modulus))
         object.__setattr__(self, "poisson", checked_poisson(self.poisson))
         checked_thermal(self.thermal)
-        if self.energy is not None and not isinstance(self.energy, Energy):
-            raise InvalidInputError(
-                f"`energy` must be NeoHookean, Yeoh, Gent or Ogden, or None, got {self.energy!r}."
-            )
+        checked_energy(self.energy)
 
     def __repr__(self) -> str:
         """Return how the material is made; the strain energy only where one was given."""

@@ -89,10 +89,15 @@ class Energy(ABC):
         the energy of linear theory.
         """
 
+    def volume_measure(self, volume: Array) -> tuple[Array, Array, Array]:
+        """Return m, m' and m'' at J, with U = lambda/2 m^2."""
+        if self.volumetric == "square":
+            return volume - 1.0, np.ones_like(volume), np.zeros_like(volume)
+        return np.log(volume), 1.0 / volume, -1.0 / volume**2
+
     def volume_energy(self, volume: Array, lame: Array) -> Array:
         """Return U at J for a compressible material with lambda."""
-        change = volume - 1.0 if self.volumetric == "square" else np.log(volume)
-        return np.asarray(0.5 * lame * change**2)
+        return np.asarray(0.5 * lame * self.volume_measure(volume)[0] ** 2)
 
     def volume_slopes(self, volume: Array, lame: Array) -> tuple[Array, Array]:
         """Return U' and U'' at J for a compressible material with lambda."""

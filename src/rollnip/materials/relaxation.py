@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+from scipy.interpolate import CubicSpline
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip._laplace import inverse_laplace
@@ -18,6 +20,8 @@ from rollnip.materials.viscoelastic import (
     Prony,
     StandardLinearSolid,
 )
+
+_PER_FOLD = 20.0  # points of an interpolated function, of e in time
 
 Solid = TypeVar("Solid", StandardLinearSolid, Prony, FractionalZener, LossFactor)
 
@@ -47,6 +51,54 @@ def relaxation_modulus(material: Material, time: ArrayLike) -> NDArray[np.float6
         where a time is not positive and finite, or the material has a constant loss factor.
     """
     return _inverse(material, time, 1)
+
+
+def memory_integral(material: Material, time: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the integral of E(t)/E(inf) - 1 from 0 to each time, [s].
+
+    It is 0 before t = 0. A constant loss factor eta is not causal: its answer to a step goes as
+    -(eta/pi) ln|t| on both sides, up to a constant, which no closed cycle sees.
+    """
+    if material.is_elastic:
+        return np.zeros(time.shape)
+    if isinstance(material, LossFactor):
+        log = np.log(np.where(time == 0.0, 1.0, np.abs(time)))
+        return np.asarray(material.loss_factor / np.pi * time * (1.0 - log))
+    later = np.maximum(time, 0.0)
+    if isinstance(material, Prony | StandardLinearSolid):
+        terms = (
+            [modulus for modulus, _ in material.terms]
+            if isinstance(material, Prony)
+            else [material.stiffening]
+        )
+        out = np.zeros(time.shape)
+        for modulus, own in zip(terms, material.relaxation_times, strict=True):
+            out -= modulus / material.modulus * own * np.expm1(-later / own)
+        return out
+    return _interpolated(lambda t: _excess_area(material, t), later)
+
+
+def _excess_area(material: Material, time: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the integral of E(t)/E(inf) - 1 from 0 to positive times by Talbot's contour."""
+    relaxed = material.relaxed_modulus
+    return inverse_laplace(lambda s: (material.modulus_at(s) / relaxed - 1.0) / s**2, time)
+
+
+def _interpolated(
+    area: Callable[[NDArray[np.float64]], NDArray[np.float64]], time: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return a smooth, increasing function of time, evaluated on a grid even in its logarithm."""
+    positive = time[time > 0.0]
+    out = np.zeros(time.shape)
+    if positive.size == 0:
+        return out
+    ends = np.log(positive.min()) - 1e-3, np.log(positive.max()) + 1e-3
+    marks = np.linspace(*ends, 8 + int(_PER_FOLD * (ends[1] - ends[0])))
+    values = area(np.exp(marks))
+    if not values.all():
+        return out
+    out[time > 0.0] = np.exp(CubicSpline(marks, np.log(values))(np.log(positive)))
+    return out
 
 
 def _inverse(material: Material, time: ArrayLike, power: int) -> NDArray[np.float64]:

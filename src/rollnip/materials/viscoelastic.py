@@ -12,12 +12,14 @@ from numpy.typing import ArrayLike, NDArray
 from rollnip._errors import InvalidInputError, require_not_negative, require_positive, with_hints
 from rollnip.materials.base import (
     Material,
+    checked_energy,
     checked_modulus,
     checked_poisson,
     checked_stiffening,
     checked_thermal,
     checked_time,
 )
+from rollnip.materials.energy import Energy
 from rollnip.materials.shift import WLF, Arrhenius, Shift, TabulatedShift, checked_temperature
 from rollnip.materials.thermal import Thermal
 
@@ -48,12 +50,16 @@ class Viscoelastic(Material):
         its time-temperature shift.
     thermal :
         its thermal properties; they count only for a `HeatBalance`.
+    energy :
+        strain energy of the relaxed material, such as `Yeoh`; None: `NeoHookean`. Its stress
+        relaxes as the modulus does. It counts only in geometry "full".
     """
 
     poisson: float
     temperature: float | None = None
     shift: Shift | None = None
     thermal: Thermal | None = field(default=None, repr=False)
+    energy: Energy | None = None
 
     @property
     def is_elastic(self) -> bool:
@@ -91,7 +97,7 @@ class StandardLinearSolid(Viscoelastic):
         k [MPa], >= 0: glassy modulus less relaxed modulus.
     relaxation_time :
         tau [s], positive.
-    poisson, temperature, shift, thermal :
+    poisson, temperature, shift, thermal, energy :
         see `Viscoelastic`.
 
     Raises
@@ -149,7 +155,7 @@ class Prony(Viscoelastic):
         relaxed modulus E_inf [MPa], from 1e-9 to 1e12.
     terms :
         pairs (E_i [MPa], tau_i [s]), at least one; E_i >= 0, tau_i positive. Kept as a tuple.
-    poisson, temperature, shift, thermal :
+    poisson, temperature, shift, thermal, energy :
         see `Viscoelastic`.
 
     Raises
@@ -212,7 +218,7 @@ class FractionalZener(Viscoelastic):
         tau [s], positive.
     order :
         m, in (0, 1].
-    poisson, temperature, shift, thermal :
+    poisson, temperature, shift, thermal, energy :
         see `Viscoelastic`.
 
     Raises
@@ -278,7 +284,7 @@ class LossFactor(Viscoelastic):
         E [MPa], from 1e-9 to 1e12: the storage modulus at every frequency.
     loss_factor :
         eta = tan delta, >= 0 and at most 10.
-    poisson, temperature, shift, thermal :
+    poisson, temperature, shift, thermal, energy :
         see `Viscoelastic`.
 
     Raises
@@ -342,6 +348,7 @@ def _fractional_maxwell(s: ArrayLike, time: float, order: float) -> NDArray[np.c
 def _check_shared(material: Viscoelastic) -> None:
     object.__setattr__(material, "poisson", checked_poisson(material.poisson))
     checked_thermal(material.thermal)
+    checked_energy(material.energy)
     if (material.temperature is None) != (material.shift is None):
         missing, given = (
             ("shift", "temperature")

@@ -262,15 +262,16 @@ def loss_inside(
 ) -> float:
     """Return the heat inside one of the rollers per distance of its surface [N/mm].
 
-    It is that of the linear fields under the tractions of the solution, at finite strain too,
-    where it leaves out a share as large as the strains.
+    It is that of the linear fields under the tractions of the solution; in geometry "full" with
+    what all orders add to it. In "finite" it leaves out a share as large as the strains.
     """
     roller, sign = (nip.upper, 1.0) if side == "upper" else (nip.lower, -1.0)
     if not roller.is_viscoelastic:
         return 0.0
     shear, pressure = sign * mesh.acting(state.shear), mesh.acting(state.pressure)
     tractions = SurfaceTractions.on_inner(mesh.fine.nodes, shear, pressure)
-    return loss_per_distance(roller, tractions, geometry, nip.speed)
+    further = mesh.kernels.heat_beyond[0 if side == "upper" else 1]
+    return loss_per_distance(roller, tractions, geometry, nip.speed) + further
 
 
 def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:

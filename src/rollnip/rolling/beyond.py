@@ -22,6 +22,7 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields
 from rollnip.rolling.free_ends import as_cosines
 from rollnip.rolling.placing import Placing, SearchState
+from rollnip.rolling.powers import rates_of
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import PairKernels
@@ -64,7 +65,7 @@ class _AllOrders:
         cut = CUT / (1.0 + strain / _STRAIN)
 
         def response(roller: Roller) -> FiniteResponse | None:
-            return None if roller.is_rigid else FiniteResponse(roller, half_width, cut)
+            return None if roller.is_rigid else FiniteResponse(roller, half_width, cut, nip.speed)
 
         return cls(response(nip.upper), response(nip.lower))
 
@@ -87,18 +88,20 @@ class _AllOrders:
         second = replace(kernels, beyond=None).second_fields(nodes, pressure, shear)
         functions: list[Field | None] = []
         rough: list[Field | None] = []
+        rates = rates_of("full", latest.state.creepage)
         sides = (self.upper, 1.0, second.functions[0]), (self.lower, -1.0, second.functions[2])
-        for response, sign, along in sides:
+        for (response, sign, along), rate in zip(sides, rates, strict=True):
             if response is None:
                 functions += [None, None]
                 rough += [None, None]
                 continue
-            functions += response.displacement(nodes, pressure, sign * shear, along)
+            functions += response.displacement(nodes, pressure, sign * shear, along, rate)
             rough += response.rough
             if not response.is_found:
                 return None
         everywhere, others = ((-inf, inf),) * 4, ((-1.0, second),)
-        smooth = SecondFields(tuple(functions), everywhere, others)
+        lost = tuple(0.0 if one is None else one.lost for one in (self.upper, self.lower))
+        smooth = SecondFields(tuple(functions), everywhere, others, (lost[0], lost[1]))
         responses = [one for one in (self.upper, self.lower) if one is not None]
         is_whole = all(one.share == 1.0 for one in responses)
         return smooth, replace(smooth, functions=tuple(rough)), is_whole

@@ -87,11 +87,14 @@ class SecondFields:
     functions : u_x and u_z of the upper, u_x and u_z of the lower surface; None: zero.
     ends : the places between which they hold [mm]; beyond they keep their last value.
     others : further fields, each with the factor by which it is added.
+    lost : heat inside the upper and the lower roller beyond that of linear theory, per distance
+        [N/mm].
     """
 
     functions: tuple[Field | None, ...]
     ends: tuple[tuple[float, float], ...]
     others: tuple[tuple[float, SecondFields], ...] = ()
+    lost: tuple[float, float] = (0.0, 0.0)
 
     def at(self, x: Array) -> Displacements:
         """Return the displacements at some places."""

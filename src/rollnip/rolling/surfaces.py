@@ -64,6 +64,11 @@ class PairKernels:
         return slice(0 if self.upper else 3, 6 if self.lower else 3)
 
     @property
+    def heat_beyond(self) -> tuple[float, float]:
+        """Heat inside the upper and the lower roller beyond the linear one [N/mm]."""
+        return (0.0, 0.0) if self.beyond is None else self.beyond.lost
+
+    @property
     def is_linear(self) -> bool:
         """Return whether neither surface has a second-order displacement."""
         return self.second_upper is None and self.second_lower is None

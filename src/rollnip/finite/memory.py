@@ -1,0 +1,102 @@
+"""What viscoelastic layers remember in steady rolling at finite strain.
+
+The elastic stress S of a layer, the second Piola-Kirchhoff stress of its strain energy with the
+relaxed modulus, relaxes as linear theory says, with g(t) = E(t)/E(inf) - 1:
+
+    S_total = S + g * dT/dt + J m'(J) [g * d(lambda m)/dt] C^-1,    U = lambda/2 m(J)^2,
+
+    T = 2 G w_I 1 + G (w_J - r/J) J C^-1,    (g * f)(t) = int g(t - t') f(t') dt',
+
+components along the undeformed arc and into the undeformed roller, which turn with the material. An
+incompressible layer has no second integral; its pressure is free. At small strain T and lambda m
+together are the linear stress: E*(s) with a constant Poisson ratio. Slow rolling is elastic with
+the relaxed modulus, fast rolling with the glassy one. The neo-Hookean T = G (1 - C^-1) is that of
+a network whose strands break and form anew without stress (Green & Tobolsky 1946, J. Chem. Phys.
+14, 80-92; Lodge 1956, Trans. Faraday Soc. 52, 120-130), which never gives back more than it took.
+
+In steady rolling a material point runs along its row of elements towards smaller arcs s with the
+speed V. Stresses are linear between the points of Gauss of a row; the integrals are exact then.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rollnip.finite.strip import Array, Indices, Strip
+from rollnip.materials import Material, memory_integral
+
+
+@dataclass(frozen=True)
+class Memory:
+    """Relaxing part of the stresses along the rows of a mesh.
+
+    Attributes
+    ----------
+    strip : the mesh, with a viscoelastic layer.
+    speed : V at which material passes undeformed arcs [mm/s].
+    """
+
+    strip: Strip
+    speed: float
+
+    @cached_property
+    def _layers(self) -> list[tuple[Indices, Array]]:
+        """Rows of elements of every viscoelastic material, and what `_weights` says of it."""
+        rows: dict[Material, list[int]] = {}
+        depths = self.strip.depths
+        for row, owner in enumerate(depths.owner):
+            material = depths.roller.layers[owner].material
+            if not material.is_elastic:
+                rows.setdefault(material, []).append(row)
+        arcs = self.strip.by_column(self.strip.points[0])[:, 0, 0]
+        given = arcs, self.strip.ends[[0, -1]], self.speed
+        return [(np.array(where), _weights(one, *given)) for one, where in rows.items()]
+
+    def relaxing(self, values: Array) -> Array:
+        """Return int g(t - t') df/dt' dt' of values at points of Gauss, (elements, 9, parts)."""
+        parts = values.shape[-1]
+        rows = self.strip.depths.owner.size
+        by_row = self.strip.by_column(values)
+        out = np.zeros(by_row.shape)
+        for where, weights in self._layers:
+            chosen = by_row[:, where].reshape(weights.shape[0], -1)
+            out[:, where] = (weights @ chosen).reshape(-1, where.size, 3 * parts)
+        back = out.reshape(-1, 3, rows, 3, parts).transpose(0, 2, 1, 3, 4)
+        return np.ascontiguousarray(back).reshape(-1, 9, parts)
+
+    @cached_property
+    def at_once(self) -> Array:
+        """Share of a stress in its own relaxing part, (elements, 9)."""
+        rows = self.strip.depths.owner.size
+        out = np.zeros((3 * self.strip.columns, rows))
+        for where, weights in self._layers:
+            out[:, where] = np.diagonal(weights)[:, None]
+        back = out.reshape(-1, 3, rows).transpose(0, 2, 1).reshape(-1, 3)
+        return np.repeat(back, 3, axis=1)
+
+    @cached_property
+    def shapes(self) -> Array:
+        """Derivatives of the shape functions by arc and by depth, (2, elements, 9, 9)."""
+        cos, sin = (one[..., None] for one in self.strip.points[1:])
+        by_x, by_y = np.split(self.strip.shapes[0], 2, axis=1)
+        return np.stack([cos * by_x + sin * by_y, cos * by_y - sin * by_x])
+
+    @cached_property
+    def is_compressible(self) -> bool:
+        """Return whether the volume of a viscoelastic layer may change."""
+        materials = [layer.material for layer in self.strip.depths.roller.layers]
+        return any(not one.is_elastic and one.poisson < 0.5 for one in materials)
+
+
+def _weights(material: Material, arcs: Array, ends: Array, speed: float) -> Array:
+    """Return what a stress at each of some arcs adds to the relaxing part at each, (n, n).
+
+    Nothing acts at and beyond both ends; material comes from larger arcs.
+    """
+    times = np.concatenate([[ends[0]], arcs, [ends[1]]])[::-1] / -speed
+    area = memory_integral(material, times[1:-1, None] - times)
+    ramps = (area[:, :-1] - area[:, 1:]) / np.diff(times)
+    return (ramps[:, :-1] - ramps[:, 1:])[::-1, ::-1]

@@ -1,0 +1,46 @@
+"""Heat inside a covering in steady rolling, from the work of the tractions on its surface.
+
+The core turns the covering with the torque M that balances the tractions, and the surface runs
+under them: per distance of the undeformed surface
+
+    w = M/R - int f . dx/ds ds,    M = int (f_y x + f_x (R - y)) ds,
+
+f the force per undeformed arc ds, x and y the present place. What is still held where the mesh
+ends is counted: it is lost later.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rollnip.finite.equilibrium import Body, Tractions
+from rollnip.finite.strip import Array, on_circle
+
+
+def heat_inside(body: Body, displacement: Array, tractions: Tractions) -> float:
+    """Return w of an equilibrium [N/mm], about 0 of elastic layers."""
+    surface, curvature = body.strip.surface, body.strip.depths.roller.curvature
+    local = displacement[surface.unknowns]
+    moved = np.moveaxis(surface.values @ local, -1, 0)
+    rate = np.moveaxis(surface.slopes @ local, -1, 0)
+    x, y = np.stack(on_circle(surface.arcs, curvature)) + moved
+    angle = curvature * surface.arcs
+    along, up = np.stack([np.cos(angle), np.sin(angle)]) + rate
+    p, q = tractions(x)[:2]
+    f_x, f_y = q * along - p * up, p * along + q * up
+    torque = f_x + curvature * (f_y * x - f_x * y)
+    return float((surface.weights * (torque - f_x * along - f_y * up)).sum())
+
+
+def linear_heat_inside(body: Body, displacement: Array, tractions: Tractions) -> float:
+    """Return w = -int (q du_x/ds + p du_z/ds) ds of linear theory [N/mm]."""
+    surface, curvature = body.strip.surface, body.strip.depths.roller.curvature
+    local = displacement[surface.unknowns]
+    u_x, u_y = np.moveaxis(surface.values @ local, -1, 0)
+    x_rate, y_rate = np.moveaxis(surface.slopes @ local, -1, 0)
+    cos, sin = np.cos(curvature * surface.arcs), np.sin(curvature * surface.arcs)
+    p, q = tractions(surface.arcs)[:2]
+    along, into = u_x * cos + u_y * sin, u_y * cos - u_x * sin
+    work = q * (x_rate * cos + y_rate * sin + curvature * into)
+    work += p * (y_rate * cos - x_rate * sin - curvature * along)
+    return -float((surface.weights * work).sum())

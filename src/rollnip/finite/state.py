@@ -1,0 +1,82 @@
+"""States of a mesh, and the factorised derivative of its forces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy.linalg import lapack
+from scipy.sparse.linalg import LinearOperator, gmres
+
+from rollnip.finite.strip import Array, Indices
+from rollnip.finite.viscous import Relaxing
+
+_LEFT = 1e-9  # of the loads by an iterative solution
+_KEPT = 60  # directions of the iterative solution before it starts anew
+_MOST_STARTS = 20
+
+
+class NoEquilibriumError(ArithmeticError):
+    """No equilibrium was found: an element is turned inside out, or steps do not come to rest."""
+
+
+@dataclass(frozen=True)
+class Tangent:
+    """Factors of the derivative of the forces by the displacements at some state.
+
+    Attributes
+    ----------
+    band : diagonals on either side.
+    factors, pivots : as LAPACK's dgbtrf leaves them.
+    means : (elements, 3, 18) derivatives of the volumes, weighted with the basis `LINEAR`.
+    rate : (elements, 3, 18) derivatives of the pressures.
+    relaxing : what the factors leave out, the memory of other columns; None: nothing.
+    """
+
+    band: int
+    factors: Array
+    pivots: Indices
+    means: Array
+    rate: Array
+    relaxing: Relaxing | None = None
+
+    def solved(self, loads: Array) -> Array:
+        """Return the displacements that balance some loads, (unknowns,)."""
+        first = self._near(loads)
+        if self.relaxing is None:
+            return first
+        relaxing, size = self.relaxing, loads.size
+
+        def applied(displacement: Array) -> Array:
+            return displacement + self._near(relaxing.elsewhere(displacement))
+
+        whole = LinearOperator((size, size), matvec=applied, dtype=np.float64)
+        out, left = gmres(
+            whole, first, x0=first, rtol=_LEFT, atol=0.0, restart=_KEPT, maxiter=_MOST_STARTS
+        )
+        if left != 0 or not np.all(np.isfinite(out)):
+            raise NoEquilibriumError
+        return np.asarray(out)
+
+    def _near(self, loads: Array) -> Array:
+        """Return the displacements without the memory of other columns."""
+        out, info = lapack.dgbtrs(self.factors, self.band, self.band, loads, self.pivots)
+        if info != 0 or not np.all(np.isfinite(out)):
+            raise NoEquilibriumError
+        return np.asarray(out)
+
+
+@dataclass(frozen=True)
+class State:
+    """A state of a mesh.
+
+    Attributes
+    ----------
+    displacement : (unknowns,) [mm].
+    pressure : (elements, 3) of incompressible elements, in the basis `LINEAR` [MPa].
+    tangent : derivative near here, if it is known.
+    """
+
+    displacement: Array
+    pressure: Array
+    tangent: Tangent | None = field(default=None, repr=False, compare=False)

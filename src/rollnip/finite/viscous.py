@@ -1,0 +1,228 @@
+"""Stresses of viscoelastic layers that relax, at some state of a mesh, and their derivative.
+
+The law is that of `rollnip.finite.memory`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from rollnip.finite.memory import Memory
+from rollnip.finite.strip import LINEAR, Array
+from rollnip.materials import Energy
+
+
+@dataclass(frozen=True)
+class Viscous:
+    """Relaxing stresses of a state of a mesh.
+
+    Attributes
+    ----------
+    memory : of the mesh.
+    deformation : F on the unit vectors along the arc and into the roller, (4, elements, 9): x by
+        arc, x by depth, y by arc, y by depth.
+    scale : G of every element, (elements, 1).
+    rest : slope of the energies at rest.
+    slopes : derivatives of w by I, J, twice I, I and J, twice J; each (elements, 9) or a number.
+    volume : lambda, and m, m' and m'' of the projected J, (4, elements, 9); None: no viscoelastic
+        layer is compressible.
+    """
+
+    memory: Memory
+    deformation: Array
+    scale: Array
+    rest: Array
+    slopes: tuple[Array | float, ...]
+    volume: Array | None
+
+    @classmethod
+    def of(
+        cls,
+        memory: Memory,
+        deformation: Array,
+        constants: tuple[Array, Array, Array],
+        energies: Sequence[tuple[Energy, Array | slice]],
+        slopes: tuple[Array | float, ...],
+    ) -> Viscous:
+        """Return the stresses at F_xx, F_xy, F_yx and F_yy, (4, elements, 9).
+
+        ``constants`` are G, lambda and the slope of the energy at rest of every element;
+        ``energies`` come with masks of their elements.
+        """
+        f_xx, f_xy, f_yx, f_yy = deformation
+        cos, sin = memory.strip.points[1:]
+        turned = np.empty(deformation.shape)
+        turned[0], turned[1] = f_xx * cos + f_xy * sin, f_xy * cos - f_xx * sin
+        turned[2], turned[3] = f_yx * cos + f_yy * sin, f_yy * cos - f_yx * sin
+        scale, lame, rest = constants
+        volume = None
+        if memory.is_compressible:
+            weighted, inverse = memory.strip.products
+            ratio = f_xx * f_yy - f_xy * f_yx
+            mean = (inverse @ (weighted @ ratio[..., None]))[..., 0] @ LINEAR.T
+            volume = np.empty((4, *mean.shape))
+            volume[0] = lame
+            for energy, where in energies:
+                volume[1:, where] = energy.volume_measure(mean[where])
+        return cls(memory, turned, scale, rest, slopes, volume)
+
+    @cached_property
+    def _ratio(self) -> Array:
+        x_s, x_z, y_s, y_z = self.deformation
+        return np.asarray(x_s * y_z - x_z * y_s)
+
+    @cached_property
+    def _stretch(self) -> tuple[Array, Array, Array]:
+        """C along the arc, into the roller, and mixed."""
+        x_s, x_z, y_s, y_z = self.deformation
+        return x_s**2 + y_s**2, x_z**2 + y_z**2, x_s * x_z + y_s * y_z
+
+    @property
+    def _turned(self) -> Array:
+        """Factor of the adjugate of C in T."""
+        return np.asarray(self.scale * (self.slopes[1] - self.rest / self._ratio) / self._ratio)
+
+    @cached_property
+    def stress(self) -> Array:
+        """Relaxing part of T_ss, T_zz, T_sz and lambda m, (elements, 9, parts)."""
+        along, across, mixed = self._stretch
+        straight, turned = 2.0 * self.scale * self.slopes[0], self._turned
+        parts = [straight + turned * across, straight + turned * along, -turned * mixed]
+        if self.volume is not None:
+            parts.append(self.volume[0] * self.volume[1])
+        return self.memory.relaxing(np.stack(parts, axis=-1))
+
+    @cached_property
+    def _swell(self) -> Array:
+        """Derivative of J by the displacements of an element, (elements, 9, 9, 2)."""
+        x_s, x_z, y_s, y_z = self.deformation[..., None]
+        by_s, by_z = self.memory.shapes
+        return np.stack([y_z * by_s - y_s * by_z, x_s * by_z - x_z * by_s], axis=-1)
+
+    def _projected_swell(self) -> Array:
+        """Derivative of the projected J, (elements, 9, 18)."""
+        weighted, inverse = self.memory.strip.products
+        swell = self._swell.reshape(*self._ratio.shape, 18)
+        return np.asarray(LINEAR @ (inverse @ (weighted @ swell)))
+
+    @cached_property
+    def by(self) -> Array:
+        """Derivatives of the strains by the displacements, (elements, 9, parts, 18)."""
+        x_s, x_z, y_s, y_z = self.deformation[..., None]
+        by_s, by_z = self.memory.shapes
+        parts = 3 if self.volume is None else 4
+        out = np.empty((*self._ratio.shape, parts, 9, 2))
+        for i, (f_s, f_z) in enumerate(((x_s, x_z), (y_s, y_z))):
+            out[:, :, 0, :, i], out[:, :, 1, :, i] = f_s * by_s, f_z * by_z
+            out[:, :, 2, :, i] = f_s * by_z + f_z * by_s
+        out = out.reshape(*self._ratio.shape, parts, 18)
+        if self.volume is not None:
+            out[:, :, 3] = self.volume[2][..., None] * self._projected_swell()
+        return out
+
+    @property
+    def rate(self) -> Array:
+        """Derivatives of T and lambda m by the displacements, (elements, 9, parts, 18)."""
+        by, ratio = self.by, self._ratio[..., None]
+        swell = self._swell.reshape(*self._ratio.shape, 18)
+        grown = 2.0 * (by[:, :, 0] + by[:, :, 1])
+        _, _, ii, ij, jj = (_last(one) for one in self.slopes)
+        scale, rest, turned = self.scale[..., None], self.rest[..., None], self._turned[..., None]
+        straight = 2.0 * scale * (ii * grown + ij * swell)
+        bent = scale * (ij * grown + (jj + rest / ratio**2) * swell) / ratio
+        bent -= turned * swell / ratio
+        along, across, mixed = (one[..., None] for one in self._stretch)
+        out = np.empty(by.shape)
+        out[:, :, 0] = straight + bent * across + 2.0 * turned * by[:, :, 1]
+        out[:, :, 1] = straight + bent * along + 2.0 * turned * by[:, :, 0]
+        out[:, :, 2] = -bent * mixed - turned * by[:, :, 2]
+        if self.volume is not None:
+            out[:, :, 3] = self.volume[0][..., None] * by[:, :, 3]
+        return out
+
+    @property
+    def swelling(self) -> Array | float:
+        """What the change of volume adds to c of P = ... + c cof F, projected, (elements, 9)."""
+        if self.volume is None:
+            return 0.0
+        weighted, inverse = self.memory.strip.products
+        held = (self.stress[..., 3] * self.volume[2])[..., None]
+        return np.asarray((inverse @ (weighted @ held))[..., 0] @ LINEAR.T)
+
+    @property
+    def force(self) -> Array:
+        """Forces of the relaxing part of T on the nodes of every element, (elements, 18)."""
+        held = self.stress[..., :3] * self.memory.strip.shapes[1][..., None]
+        x_s, x_z, y_s, y_z = self.deformation
+        by_s, by_z = self.memory.shapes.transpose(0, 1, 3, 2)
+        along, across, mixed = held[..., 0], held[..., 1], held[..., 2]
+        out = np.empty((held.shape[0], 9, 2))
+        for i, (f_s, f_z) in enumerate(((x_s, x_z), (y_s, y_z))):
+            out[..., i] = (by_s @ (f_s * along + f_z * mixed)[..., None])[..., 0]
+            out[..., i] += (by_z @ (f_z * across + f_s * mixed)[..., None])[..., 0]
+        return out.reshape(-1, 18)
+
+    @property
+    def turning(self) -> tuple[Array, Array | float]:
+        """What the stresses as they are add to the stiffness as strains change.
+
+        (elements, 9, 9) of either direction, and (elements, 18, 18).
+        """
+        by_s, by_z = self.memory.shapes
+        area = self.memory.strip.shapes[1]
+        held = (self.stress * area[..., None])[:, :, None]
+        pulled = held[..., 0] * by_s + held[..., 2] * by_z
+        pushed = held[..., 1] * by_z + held[..., 2] * by_s
+        straight = by_s.transpose(0, 2, 1) @ pulled + by_z.transpose(0, 2, 1) @ pushed
+        if self.volume is None:
+            return straight, 0.0
+        swell = self._projected_swell()
+        bent = swell * (self.stress[..., 3] * self.volume[3] * area)[..., None]
+        return straight, swell.transpose(0, 2, 1) @ bent
+
+
+def _last(value: Array | float) -> Array | float:
+    return value[..., None] if isinstance(value, np.ndarray) else value
+
+
+@dataclass(frozen=True)
+class Relaxing:
+    """Derivative of the relaxing forces by displacements of other columns.
+
+    Attributes
+    ----------
+    memory : of the mesh.
+    by, rate : as `Viscous` has them, flat: (elements, 9 parts, 18), ``by`` times the volumes.
+    """
+
+    memory: Memory
+    by: Array
+    rate: Array
+
+    @classmethod
+    def of(cls, viscous: Viscous) -> Relaxing:
+        """Return the derivative at some stresses."""
+        by = viscous.by * viscous.memory.strip.shapes[1][..., None, None]
+        count = by.shape[0]
+        return cls(viscous.memory, by.reshape(count, -1, 18), viscous.rate.reshape(count, -1, 18))
+
+    def at_once(self) -> Array:
+        """Return what each point of Gauss adds by itself, (elements, 18, 18)."""
+        parts = self.by.shape[1] // 9
+        share = np.repeat(self.memory.at_once, parts, axis=1)[..., None]
+        return np.asarray(self.by.transpose(0, 2, 1) @ (share * self.rate))
+
+    def elsewhere(self, displacement: Array) -> Array:
+        """Return the forces (unknowns,) that come from all other points."""
+        strip = self.memory.strip
+        local = np.append(displacement, 0.0)[strip.unknowns]
+        count = local.shape[0]
+        change = (self.rate @ local[..., None]).reshape(count, 9, -1)
+        held = self.memory.relaxing(change) - self.memory.at_once[..., None] * change
+        force = held.reshape(count, 1, -1) @ self.by
+        places = strip.unknowns.ravel() + 1
+        return np.asarray(np.bincount(places, force.ravel(), minlength=strip.size + 1)[1:], float)

@@ -240,3 +240,18 @@ def test_heat_over_the_depth_is_the_whole_loss():
     below = solution.heat_below("upper", [0.0, 1.0, 2.0])
     assert below[0] == pytest.approx(solution.dissipation_viscous, rel=1e-9)
     assert below[0] > below[1] > below[2]
+
+
+@pytest.mark.slow
+def test_a_skin_that_has_no_second_order():
+    """A skin of 0.025 mm, 2750 times stiffer: turns start without the second order.
+
+    The contact conditions hold; no mesh follows the spikes of pressure under its edges closely.
+    """
+    skin = rn.Layer(0.025, rn.Elastic(modulus=5500.0, poisson=0.3))
+    soft = rn.Layer(4.0, rn.Elastic(modulus=2.0, poisson=0.5))
+    upper = rn.Roller(radius=50.0, layers=(skin, soft))
+    solution = rn.solve(rolling(upper, BARE, normal=rn.LineLoad(5.0), friction=0.0), FULL)
+    assert solution.model.geometry == "full"
+    assert solution.solver.residual < 1e-3
+    assert solution.error["approach"] < 1e-3 * solution.approach

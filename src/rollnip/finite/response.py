@@ -37,7 +37,7 @@ _NEAR = 4.0  # half-widths beyond which the surface is of no interest
 _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
 _ALIGNED = 2e-3  # distance of columns from their places, over the width of the contact
 _SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
-_STAYS = 0.02  # by which places may move and keep their mesh, likewise
+_STAYS = 0.005  # by which places may move and keep their mesh, likewise
 _LEAST_SHARE = 0.1  # of a step between tractions
 _MOST_MESHES = 6
 
@@ -287,10 +287,10 @@ class FiniteResponse:
         front = np.abs(surface.arcs) < _FRONT / max(body.strip.depths.roller.curvature, 1e-300)
         under = np.interp(places[loaded], surface.x[front], surface.arcs[front])
         new = self._on(places, loaded, under)
-        pressure = state.pressure
-        if pressure.shape[0] != new.strip.layer.size:
-            pressure = new.at_rest().pressure
-        return new, State(body.strip.moved_to(new.strip, state.displacement), pressure)
+        displacement = body.strip.moved_to(new.strip, state.displacement)
+        if new.strip.layer.size != body.strip.layer.size:
+            return new, State(displacement, new.at_rest().pressure)
+        return new, State(displacement, state.pressure, state.tangent)
 
     def _on(self, places: Array, loaded: slice, under: Array) -> Body:
         """Return a mesh whose loaded columns are at some arcs."""

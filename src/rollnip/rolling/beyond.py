@@ -8,10 +8,13 @@ first-order terms, and a turn leaves a twentieth of its error.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from math import inf
 
-from rollnip.contact import Layout
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import Layout, Safeguarded
 from rollnip.finite import CUT, FiniteResponse
 from rollnip.influence import KernelCache, SecondResponse
 from rollnip.model import FINITE, Geometry, Model
@@ -26,13 +29,17 @@ from rollnip.rolling.powers import rates_of
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import change_of, with_residual
+from rollnip.rolling.turns import STILL, change_of, held_from, solve_on_mesh, with_residual
 
-_MOST_TURNS = 12  # of the correction and the contact
+Array = NDArray[np.float64]
+_DEPTH = 5  # corrections of which a mean is taken
+_COMPARED = 65  # places at which they are compared
+_MOST_TURNS = 20  # of the correction and the contact
 _ENOUGH = 0.5  # violation of the contact conditions, or change to come, over the tolerance
 _SMALL = 0.1  # change of a turn from which it may be the last one
 _LARGEST_RATIO = 0.9  # of changes
-_MOST_AFRESH = 3  # turns that are solved from the beginning
+_FAR = 0.1  # change from which a mesh of linear elements is graded anew
+_MOST_AFRESH = 6  # turns that are solved from the beginning
 _STRAIN = 0.6  # of a surface at which waves up to half the number are kept
 _OFF = 0.01  # of the width of the contact: how far a correction moves the ends of zones, about
 
@@ -112,28 +119,54 @@ def refine_all_orders(
 ) -> tuple[PairKernels, Round]:
     """Refine with the second order, then solve in turns with the correction of all orders.
 
-    Under very stiff skins, where the second order says little, turns do not come to rest. There
-    every mesh evaluates all orders, which takes ten times as long.
+    Under very stiff skins the second order says little, or has no solution. There turns go on from
+    the solution without it, and the correction is all that is beyond the linear displacements.
 
     Returns
     -------
     The influence functions with the last correction, and the solution with it. Where no equilibrium
     is found, or no contact, it does not stand still; ``is_balanced`` tells which.
     """
-    first = refine(nip, model, kernels, half_width)
-    strain = surface_strain_in_nip(nip, model.geometry, first) if first.stands_still else 0.0
-    if first.stands_still and first.figures.peak_pressure > 0.0:
+    without = replace(kernels, second_upper=None, second_lower=None)
+    for base in (kernels, without):
+        base = replace(base, beyond=NO_SECOND_ORDER)
+        latest = refine(nip, model, base, half_width)
+        is_balanced = True
+        if not latest.stands_still or not latest.figures.peak_pressure > 0.0:
+            continue
+        strain = surface_strain_in_nip(nip, model.geometry, latest)
         orders = _AllOrders.of(nip, half_width, strain)
-        found = _turns(nip, model, replace(kernels, beyond=NO_SECOND_ORDER), first, orders)
+        found = _turns(nip, model, base, latest, orders)
         if found is not None:
             return found
-    orders = _AllOrders.of(nip, half_width, strain)
-    whole = replace(kernels, second_upper=orders.upper, second_lower=orders.lower)
-    latest = refine(nip, model, whole, half_width)
-    made = orders.beyond(kernels, latest) if latest.stands_still else None
-    if made is None:
-        return kernels, replace(latest, stands_still=False, is_balanced=orders.is_balanced)
-    return _checked(nip, model, kernels, latest, made)
+        is_balanced = orders.is_balanced
+    return kernels, replace(latest, stands_still=False, is_balanced=is_balanced)
+
+
+@dataclass
+class _Past:
+    """Corrections that contacts were solved with, and those that belong to their solutions.
+
+    The next one is that mean of the latter for which the differences of both are smallest
+    (Anderson 1965, J. ACM 12, 547-560).
+    """
+
+    x: Array
+    made: list[SecondFields] = field(default_factory=list)
+    off: list[Array] = field(default_factory=list)
+
+    def next(self, held: SecondFields, made: SecondFields) -> SecondFields:
+        """Return the correction to solve with next."""
+        off = (made.at(self.x).four - held.at(self.x).four).ravel()
+        self.made, self.off = [*self.made, made][-_DEPTH:], [*self.off, off][-_DEPTH:]
+        if len(self.made) == 1:
+            return made
+        steps = np.diff(np.array(self.off), axis=0)
+        back = np.linalg.lstsq(steps.T, off, rcond=1e-3)[0]
+        shares = np.append(back, 1.0) - np.append(0.0, back)
+        others = tuple(zip(shares.tolist(), self.made, strict=True))
+        lost = shares @ np.array([one.lost for one in self.made])
+        return replace(NO_SECOND_ORDER, others=others, lost=(float(lost[0]), float(lost[1])))
 
 
 def _turns(
@@ -144,7 +177,7 @@ def _turns(
     They end when the contact conditions are met with the correction that belongs to the solution
     itself.
     """
-    change, afresh = inf, 0
+    change, afresh, past = inf, 0, _Past(_places(latest))
     for _ in range(_MOST_TURNS):
         made = orders.beyond(kernels, latest)
         if made is None:
@@ -155,30 +188,35 @@ def _turns(
             checked = with_residual(nip, model, smooth, _with(latest, smooth))
             is_near = _to_come(change, before) <= _ENOUGH * model.tolerance
             if checked.residual <= (1.0 if is_near else _ENOUGH) * model.tolerance:
-                return _checked(nip, model, kernels, latest, made)
-        found = _placed(nip, model, smooth, _with(latest, smooth))
-        if found is None and afresh < _MOST_AFRESH:
+                return smooth, _with_cut(nip, model, kernels, checked, made[1])
+        assert kernels.beyond is not None
+        mixed = replace(kernels, beyond=past.next(kernels.beyond, made[0]))
+        found = _solved_again(nip, model, mixed, _with(latest, mixed), change)
+        if found is not None and found.stands_still:
+            found = replace(found, error=latest.error, further_error=latest.further_error)
+        elif afresh < _MOST_AFRESH:
             afresh += 1
-            found = refine(nip, model, smooth, 0.5 * latest.figures.nip_width)
+            found = refine(nip, model, mixed, 0.5 * latest.figures.nip_width)
         if found is None or not found.stands_still:
             return None
-        errors = latest.error, latest.further_error
-        kernels, latest = smooth, replace(found, error=errors[0], further_error=errors[1])
+        kernels, latest = mixed, found
     return None
 
 
-def _checked(
-    nip: Nip,
-    model: Model,
-    kernels: PairKernels,
-    latest: Round,
-    made: tuple[SecondFields, SecondFields, bool],
-) -> tuple[PairKernels, Round]:
-    """Return influence functions with a solution's own correction, and that with its residual."""
-    smooth, rough = (replace(kernels, beyond=one) for one in made[:2])
-    checked = with_residual(nip, model, smooth, _with(latest, smooth))
-    cut = with_residual(nip, model, rough, _with(latest, rough)).residual
-    return smooth, replace(checked, cut=cut)
+def _places(latest: Round) -> Array:
+    """Return places at which corrections are compared, dense beside the edges."""
+    start, stop = latest.zones[0].start, latest.zones[-1].stop
+    angles = np.linspace(0.0, np.pi, _COMPARED)
+    return np.asarray(0.5 * (start + stop) - 0.5 * (stop - start) * np.cos(angles))
+
+
+def _with_cut(
+    nip: Nip, model: Model, kernels: PairKernels, checked: Round, rough: SecondFields
+) -> Round:
+    """Add to a solution the violation of the contact conditions by what was cut."""
+    kernels = replace(kernels, beyond=rough)
+    cut = with_residual(nip, model, kernels, _with(checked, kernels)).residual
+    return replace(checked, cut=cut)
 
 
 def _to_come(change: float, before: float) -> float:
@@ -201,11 +239,23 @@ def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> floa
     return change_of(own, latest.second, mesh, nip, latest.state)
 
 
-def _placed(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round | None:
-    """Solve with another correction on a mesh of the same size, where that has free ends."""
+def _solved_again(
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float
+) -> Round | None:
+    """Solve with another correction on a mesh of the same size; None where that is not possible.
+
+    Ends of zones are placed anew if they are free. Otherwise the mesh stays, if the correction
+    changed little: what meshes of linear elements differ in would keep turns going.
+    """
+    if latest.mesh.fine.values is None:
+        if change > _FAR:
+            return None
+        held = held_from(kernels, latest)
+        start = latest.state.states, latest.second, latest.steps
+        return solve_on_mesh(nip, model, latest.mesh.holding(held), start, Safeguarded(), STILL)
     layout = Layout.of(latest.zones)
-    if layout is None or latest.mesh.fine.values is None:
+    if layout is None:
         return None
-    start = SearchState(layout, latest, off=_OFF)
-    placed = Placing(nip, model, kernels).placed(start, as_cosines(latest), known=True)
+    start_search = SearchState(layout, latest, off=_OFF)
+    placed = Placing(nip, model, kernels).placed(start_search, as_cosines(latest), known=True)
     return None if placed is None else placed.before

@@ -70,8 +70,8 @@ class PairKernels:
 
     @property
     def is_linear(self) -> bool:
-        """Return whether neither surface has a second-order displacement."""
-        return self.second_upper is None and self.second_lower is None
+        """Return whether neither surface has a displacement beyond the linear one."""
+        return self.second_upper is None and self.second_lower is None and self.beyond is None
 
     def second_fields(self, nodes: Array, pressure: Array, shear: Array) -> SecondFields:
         """Displacements beyond the linear ones under tractions at nodes[1:-1], as functions."""

@@ -6,7 +6,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.linalg import lapack
-from scipy.sparse.linalg import LinearOperator, gmres
 
 from rollnip.finite.strip import Array, Indices
 from rollnip.finite.viscous import Relaxing
@@ -45,6 +44,8 @@ class Tangent:
         first = self._near(loads)
         if self.relaxing is None:
             return first
+        from scipy.sparse.linalg import LinearOperator, gmres  # nothing elastic needs it
+
         relaxing, size = self.relaxing, loads.size
 
         def applied(displacement: Array) -> Array:

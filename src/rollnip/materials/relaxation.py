@@ -8,7 +8,6 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-from scipy.interpolate import CubicSpline
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip._laplace import inverse_laplace
@@ -88,6 +87,8 @@ def _interpolated(
     area: Callable[[NDArray[np.float64]], NDArray[np.float64]], time: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return a smooth, increasing function of time, evaluated on a grid even in its logarithm."""
+    from scipy.interpolate import CubicSpline  # a plain nip does not need it
+
     positive = time[time > 0.0]
     out = np.zeros(time.shape)
     if positive.size == 0:

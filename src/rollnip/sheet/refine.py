@@ -23,7 +23,10 @@ _FIRST_COUNT = 20
 _GROWTH = 1.6
 _MOST_COUNT = 190
 _SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
-_FEWEST_WITH_SLIP = 3  # sizes of mesh before an error is believed
+_FEWEST, _FEWEST_WITH_SLIP = 2, 3  # sizes of mesh before an error is believed
+_MOST_FAILURES = 3  # sizes of mesh whose zones are clearly wrong; finer ones find none either
+_CLEARLY_WRONG = 1.0  # violation of the conditions of friction
+_ROUGHLY, _CLOSELY = 1.0, 0.1  # of the tolerance: what ends may be off on first and last sizes
 _SOFT = 0.05  # over the half-width: length over which a sheet that is easy to begin with yields
 _EASED = 8.0  # ratio of the stiffnesses of sheets that are solved one after the other
 _ROUNDING = 1e-12
@@ -142,23 +145,29 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
     if model.geometry != "linear":
         stand = search.begun(zones, _FIRST_COUNT)
         zones = stand.zones
-    while count <= _MOST_COUNT:
-        stand = search.placed(zones, round(count), stand)
+    failures = 0
+    while count <= _MOST_COUNT and failures < _MOST_FAILURES:
+        fewest = _FEWEST if zones.breaks.size == 2 else _FEWEST_WITH_SLIP
+        may_be_last = len(history) + 1 >= fewest
+        stand = search.placed(zones, round(count), stand, _CLOSELY if may_be_last else _ROUGHLY)
         zones = stand.zones
         figures = SheetFigures.of(stand, model.geometry)
         here = (count, figures, zones)
         errors = SheetFigures(_errors(nip, [*history, here]))
-        left = max(violation(stand), overlap(stand, kernels))
+        violated = violation(stand)
+        left = max(violated, overlap(stand, kernels))
         latest = Refined(stand, figures, errors, left)
         if stand.stands_still:
             history.append(here)
             best = latest
             # Where something slips, two sizes may agree by chance.
-            enough = len(history) >= (2 if zones.breaks.size == 2 else _FEWEST_WITH_SLIP)
+            fewest = _FEWEST if zones.breaks.size == 2 else _FEWEST_WITH_SLIP
+            enough = may_be_last and len(history) >= fewest
             if enough and max(left, ratio(nip, figures, errors)) <= model.tolerance:
                 return latest
-        elif best is None:
-            best = latest
+        else:
+            best = latest if best is None else best
+            failures += not violated <= _CLEARLY_WRONG
         count *= _GROWTH
     assert best is not None
     return best
@@ -218,9 +227,11 @@ def _errors(nip: Nip, history: list[tuple[float, SheetFigures, Zones]]) -> Array
 
     The last change counts by the second order, or the first where the changes do not shrink so
     fast. Two sizes may agree by chance, so earlier changes count too, by the third order, which
-    figures reach where all tractions are roots at their ends. No error is less than the least of
-    such meshes in random nips.
+    figures reach where all tractions are roots at their ends; but for the first size, which finds
+    the zones and hardly resolves short ones, where three finer ones stand. No error is less than
+    the least of such meshes in random nips.
     """
+    history = history[1:] if len(history) > _FEWEST_WITH_SLIP else history
     count, figures, _ = history[-1]
     if len(history) < 2:
         return np.full(figures.values.size, inf)

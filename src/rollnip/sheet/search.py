@@ -45,7 +45,7 @@ Array = NDArray[np.float64]
 
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
-_PLACED = 0.1  # of the tolerance: what an end may be off, over the width
+_PLACED = 1.0  # of the tolerance: what an end may be off on a first mesh, over the width
 _MOST_MESHES = 14
 _MOST_CHANGES = 5  # of zones, on meshes of one size
 _MOST_SLIPS = 30  # linear systems of one look for stick and slip
@@ -98,9 +98,14 @@ class Search:
         lagged = lagged_terms(stand.problem, self.model.geometry, stand.state)
         return replace(stand, lagged=lagged)
 
-    def placed(self, zones: Zones, count: int, before: Standing | None) -> Standing:
-        """Find the solution on a mesh of some size with nodes at the ends of its zones."""
-        placed = _PLACED * self.model.tolerance
+    def placed(
+        self, zones: Zones, count: int, before: Standing | None, closely: float = _PLACED
+    ) -> Standing:
+        """Find the solution on a mesh of some size with nodes at the ends of its zones.
+
+        ``closely``: what an end may be off, of the tolerance times the width.
+        """
+        placed = closely * self.model.tolerance
         steps, changes, off = (0 if before is None else before.steps), 0, inf
         known = 1.0 if before is None else min(before.off, 1.0)
         elements: NDArray[np.intp] | None = None

@@ -45,7 +45,7 @@ Array = NDArray[np.float64]
 
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
-_PLACED = 1.0  # of the tolerance: what an end may be off on a first mesh, over the width
+_PLACED = 0.5  # of the tolerance: what an end may be off on a first mesh, over the width
 _MOST_MESHES = 14
 _MOST_CHANGES = 5  # of zones, on meshes of one size
 _MOST_SLIPS = 30  # linear systems of one look for stick and slip

@@ -165,6 +165,20 @@ _SHEET = (
         "Positive where the rollers put power in.",
     ),
     _sheet(
+        "slip_share_upper",
+        "s_u",
+        "slip share, upper side",
+        "share",
+        "Share of the nip width over which the upper roller slips on the sheet.",
+    ),
+    _sheet(
+        "slip_share_lower",
+        "s_l",
+        "slip share, lower side",
+        "share",
+        "Share of the nip width over which the sheet slips on the lower roller.",
+    ),
+    _sheet(
         "grip_reserve",
         r"\Delta T",
         "grip reserve",

@@ -128,6 +128,9 @@ def test_the_examples():
     assert len(read_tolerance(EXAMPLES / "tolerance.toml").parameters) == 3
 
 
+_ONE_AIM = "objective: must hold one of minimise, maximise, least_change"
+
+
 @pytest.mark.parametrize(
     ("old", "new", "message"),
     [
@@ -135,11 +138,16 @@ def test_the_examples():
         ('case = "case.toml"', 'case = "none.toml"', "none.toml: there is no such file."),
         ('case = "case.toml"', "case = 3", "case: must be the name of a case file, or a table."),
         ("maximise", "maximize", 'objective.maximize: is not a known key; did you mean "maximise"'),
-        ('maximise = "nip_width"', "", "objective: must hold one of minimise and maximise"),
+        ('maximise = "nip_width"', "", _ONE_AIM + ", got none."),
         (
             'maximise = "nip_width"',
             'maximise = "nip_width"\nminimise = "load"',
-            "objective: must hold one of minimise and maximise, got both.",
+            _ONE_AIM + ", got minimise and maximise.",
+        ),
+        (
+            'maximise = "nip_width"',
+            'least_change = "nip_width"',
+            "objective: must hold least_change and against together, or neither.",
         ),
         ("nip_width", "nip_widht", 'objective.maximise: must be the name of a result, got "nip_w'),
         ('path = "nip.load"', 'path = "nip.lod"', "parameters[0].path: `nip.lod` is no path"),

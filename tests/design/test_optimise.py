@@ -10,6 +10,7 @@ from rollnip.design import (
     AtLeast,
     AtMost,
     Bounds,
+    LeastChange,
     Maximise,
     Minimise,
     Search,
@@ -42,6 +43,49 @@ def test_an_optimum_inside(coated, stand_in):
     assert evaluate.asked[-1] == (load.value, thickness.value)
     # 1 % of the objective: |load - 3| <= 0.1
     assert 2.89 <= load.as_good[0] <= load.value <= load.as_good[1] <= 3.11
+
+
+def test_the_thickness_at_which_a_result_depends_least_on_the_load(coated, stand_in):
+    # F^2 (h - 2)^2 + h: central differences are exact for a square, 0.02 F^2 (h - 2)^2 for 1 %
+    evaluate = stand_in({"peak_pressure": lambda load, h: (load * (h - 2.0)) ** 2 + h})
+    aim = LeastChange("peak_pressure", "nip.load")
+    thickness = Bounds("upper.layers[0].thickness", 2.5, 6.0)
+    search = Search(solves=30, starts=1)
+    found = optimise(coated, [thickness], aim, search=search, evaluate=evaluate)
+    (chosen,) = found.chosen
+    assert chosen.at == "low"
+    assert found.value == pytest.approx(0.02 * (chosen.value - 2.0) ** 2, rel=1e-9)
+    assert found.quantity == "change of peak_pressure for 1 % of nip.load"
+    assert len(evaluate.asked) == 3 * found.solves
+    assert evaluate.asked[-2:] == [(0.95, chosen.value), (1.05, chosen.value)]
+
+
+@pytest.mark.parametrize(
+    ("aim", "said"),
+    [
+        (lambda: LeastChange("peak_presure", "nip.load"), 'did you mean "peak_pressure"'),
+        (lambda: LeastChange("peak_pressure", "nip.load", 0.5), "`share` must be positive and at"),
+    ],
+)
+def test_a_wrong_aim_is_refused(aim, said):
+    with pytest.raises(InvalidInputError, match=said):
+        aim()
+
+
+def test_a_result_cannot_depend_least_on_a_zero(coated, stand_in):
+    coated["nip"]["traction"] = 0.0
+    aim = LeastChange("peak_pressure", "nip.traction")
+    with pytest.raises(InvalidInputError, match=r"nip\.traction is 0\.$"):
+        optimise(coated, [THICKNESS], aim, evaluate=stand_in({}))
+
+
+def test_a_case_whose_neighbour_has_no_solution_is_refused(coated, stand_in):
+    evaluate = stand_in(
+        {"peak_pressure": bowl}, refused=lambda load, h: load > 1.0 or (load < 1.0 and h > 3.0)
+    )
+    aim = LeastChange("peak_pressure", "nip.load")
+    with pytest.raises(InvalidInputError, match=r"with nip\.load = .*: Too much\."):
+        optimise(coated, [THICKNESS], aim, search=Search(solves=20), evaluate=evaluate)
 
 
 def test_an_optimum_on_a_limit(coated, stand_in):

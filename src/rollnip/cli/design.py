@@ -118,7 +118,9 @@ def optimise(
         with (
             named(study),
             evaluating(database, tree, paths, workers) as crew,
-            progress(question.search.budget(len(paths)) + 1, "solving") as advance,
+            progress(
+                question.objective.solves * (question.search.budget(len(paths)) + 1), "solving"
+            ) as advance,
         ):
 
             def counted(case: Mapping[str, Any]) -> Mapping[str, Any]:

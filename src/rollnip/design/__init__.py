@@ -1,6 +1,6 @@
 """Design: wanted results, best values, tolerances, Pareto fronts."""
 
-from rollnip.design.aims import AtLeast, AtMost, LimitKept, Maximise, Minimise
+from rollnip.design.aims import AtLeast, AtMost, LeastChange, LimitKept, Maximise, Minimise
 from rollnip.design.distributions import (
     Correlation,
     LogNormal,
@@ -28,6 +28,7 @@ __all__ = [
     "Chosen",
     "Correlation",
     "Found",
+    "LeastChange",
     "LimitKept",
     "LogNormal",
     "Maximise",

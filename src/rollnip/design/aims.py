@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Literal
 
-from rollnip._errors import InvalidInputError
+from rollnip._errors import InvalidInputError, require_finite
 from rollnip._units import format_quantity
 from rollnip.design.quantities import QUANTITIES, read_result, require_quantity
 
 _DIGITS = 5
+_LARGEST_STEP = 0.2  # relative, of the number that a result is to be independent of
 _ACTIVE = 1e-3  # relative distance from a limit below which the limit is active
 
 
@@ -23,6 +24,16 @@ class Minimise:
     def __post_init__(self) -> None:
         require_quantity(self.quantity, "minimise")
 
+    @property
+    def key(self) -> str:
+        """Key of the objective in the results of a case."""
+        return self.quantity
+
+    @property
+    def solves(self) -> int:
+        """Number of solves of a case."""
+        return 1
+
 
 @dataclass(frozen=True, slots=True)
 class Maximise:
@@ -32,6 +43,56 @@ class Maximise:
 
     def __post_init__(self) -> None:
         require_quantity(self.quantity, "maximise")
+
+    @property
+    def key(self) -> str:
+        """Key of the objective in the results of a case."""
+        return self.quantity
+
+    @property
+    def solves(self) -> int:
+        """Number of solves of a case."""
+        return 1
+
+
+@dataclass(frozen=True, slots=True)
+class LeastChange:
+    """The result that is to depend as little as can be on one number of the case.
+
+    The objective is the size of the change of the result where that number grows by 1 %, by a
+    central difference: each case is solved with three values of the number.
+
+    Parameters
+    ----------
+    quantity : the result.
+    against : path of the number in the case; not zero there.
+    share : relative step of the difference, positive and at most 0.2.
+    """
+
+    quantity: str
+    against: str
+    share: float = 0.05
+
+    def __post_init__(self) -> None:
+        require_quantity(self.quantity, "least_change")
+        if not 0.0 < require_finite("share", self.share) <= _LARGEST_STEP:
+            raise InvalidInputError(
+                f"`share` must be positive and at most {_LARGEST_STEP}, got {self.share!r}."
+            )
+
+    @property
+    def key(self) -> str:
+        """Key of the objective in the results of a case."""
+        return f"change of {self.quantity} for 1 % of {self.against}"
+
+    @property
+    def solves(self) -> int:
+        """Number of solves of a case."""
+        return 3
+
+    def change(self, less: float, more: float) -> float:
+        """Return the objective from the results at both ends of the step."""
+        return 0.01 * abs(more - less) / (2.0 * self.share)
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,7 +129,7 @@ class AtMost:
         object.__setattr__(self, "limit", read_result("at_most", self.limit, self.quantity))
 
 
-Objective = Minimise | Maximise
+Objective = Minimise | Maximise | LeastChange
 Limit = AtLeast | AtMost
 
 

@@ -11,7 +11,15 @@ from pathlib import Path
 from typing import Any, Literal, TypeVar
 
 from rollnip._errors import CaseFileError, InvalidInputError
-from rollnip.design.aims import AtLeast, AtMost, Limit, Maximise, Minimise, Objective
+from rollnip.design.aims import (
+    AtLeast,
+    AtMost,
+    LeastChange,
+    Limit,
+    Maximise,
+    Minimise,
+    Objective,
+)
 from rollnip.design.distributions import (
     Correlation,
     Distribution,
@@ -182,12 +190,16 @@ def _fitted(
 
 def _objective(table: ObjectiveTable, source: str) -> Objective:
     with _at(source, "objective"):
-        if (table.minimise is None) == (table.maximise is None):
-            got = "neither" if table.minimise is None else "both"
-            raise InvalidInputError(f"must hold one of minimise and maximise, got {got}.")
-        if table.minimise is not None:
-            return Minimise(table.minimise)
-        return Maximise(str(table.maximise))
+        aims = {name: getattr(table, name) for name in ("minimise", "maximise", "least_change")}
+        given = [name for name, value in aims.items() if value is not None]
+        if len(given) != 1:
+            got = " and ".join(given) if given else "none"
+            raise InvalidInputError(f"must hold one of {', '.join(aims)}, got {got}.")
+        if (table.least_change is None) != (table.against is None):
+            raise InvalidInputError("must hold least_change and against together, or neither.")
+        if table.least_change is not None:
+            return LeastChange(table.least_change, str(table.against))
+        return Maximise(table.maximise) if table.maximise else Minimise(str(table.minimise))
 
 
 def _bounds(case: Mapping[str, Any], table: BoundsTable) -> Bounds:

@@ -159,7 +159,8 @@ def optimise(
     ----------
     case : tree of a case file; stays as it was.
     parameters : paths with their bounds, 1 to 20; a few are found well.
-    objective : ``Minimise("peak_pressure")`` or ``Maximise("nip_width")``.
+    objective : ``Minimise("peak_pressure")``, ``Maximise("nip_width")``, or
+        ``LeastChange("sheet.feed_upper", "nip.load")``.
     limits : ``AtLeast("nip_width", "8 mm")``, ``AtMost("peak_pressure", "0.5 MPa")``.
     search : how; ``Search()`` by default.
     evaluate : solves one case; for tests, and for programs that keep count.
@@ -192,7 +193,7 @@ def _answer(problem: Problem, found: Searched, row: Mapping[str, Any]) -> Optimu
             standing(limit, row, result_error(row, limit.quantity)) for limit in problem.limits
         )
     is_feasible = not problem.fault(row) and all(limit.is_kept for limit in limits)
-    cost = sign * (row[objective.quantity] or 0.0)
+    cost = sign * (row.get(objective.key) or 0.0)
     chosen = _chosen(problem, values, trials, cost)
     ends = tuple(_end(problem, one, sign, cost) for one in found.ends)
     failures = tuple((problem.by_path(one), one.fault) for one in trials if one.fault)
@@ -201,11 +202,11 @@ def _answer(problem: Problem, found: Searched, row: Mapping[str, Any]) -> Optimu
         is_finished=found.is_finished,
         searches=ends,
         chosen=chosen,
-        quantity=objective.quantity,
+        quantity=objective.key,
         unit=QUANTITIES[objective.quantity],
         sense="maximise" if isinstance(objective, Maximise) else "minimise",
-        value=row[objective.quantity],
-        error=result_error(row, objective.quantity),
+        value=row.get(objective.key),
+        error=result_error(row, objective.key),
         limits=limits,
         solves=len(trials) + 1,
         failures=failures,
@@ -312,8 +313,8 @@ def _sentences(
         return [
             f"The best case found could not be solved once more, at {problem.said(values)}: {fault}"
         ]
-    quantity = problem.objective.quantity
-    value = format_quantity(row[quantity], QUANTITIES[quantity], digits=_SHOWN)
+    quantity, unit = problem.objective.key, QUANTITIES[problem.objective.quantity]
+    value = format_quantity(row[quantity], unit, digits=_SHOWN)
     broken = [one for one in limits if not one.is_kept]
     if broken:
         missed = "; ".join(

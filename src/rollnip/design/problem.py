@@ -10,9 +10,16 @@ import numpy as np
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import base_unit, format_quantity
-from rollnip.design.aims import Limit, Maximise, Objective, excess_over, require_consistent
+from rollnip.design.aims import (
+    LeastChange,
+    Limit,
+    Maximise,
+    Objective,
+    excess_over,
+    require_consistent,
+)
 from rollnip.design.find import Evaluate
-from rollnip.design.quantities import parameter_dimension, read_parameter
+from rollnip.design.quantities import parameter_dimension, read_parameter, result_error
 from rollnip.design.search import Array, Trial
 from rollnip.io import value_at, with_values
 
@@ -48,6 +55,8 @@ class Problem:
         require_consistent(limits)
         self.case, self.objective, self.limits = case, objective, limits
         self.evaluate = evaluate
+        if isinstance(objective, LeastChange):
+            _number_at(case, objective.against)
         self.paths = tuple(one.path for one in parameters)
         twice = next((path for path in self.paths if self.paths.count(path) > 1), None)
         if twice is not None:
@@ -80,14 +89,43 @@ class Problem:
         return dict(zip(self.paths, map(float, inside), strict=True))
 
     def solve(self, values: Mapping[str, float]) -> Mapping[str, Any]:
-        """Solve one case."""
-        return self.evaluate(with_values(self.case, values))
+        """Solve one case, with what the objective adds to its results."""
+        tree = with_values(self.case, values)
+        row = self.evaluate(tree)
+        if isinstance(self.objective, LeastChange) and row["converged"]:
+            return self._with_change(self.objective, tree, row)
+        return row
+
+    def _with_change(
+        self, objective: LeastChange, tree: Mapping[str, Any], row: Mapping[str, Any]
+    ) -> Mapping[str, Any]:
+        """Return a row with the change of a result; one not converged where that is unknown."""
+        path, share = objective.against, objective.share
+        number = _number_at(tree, path)
+        steps = [(1.0 - share) * number, (1.0 + share) * number]
+        ends = [self.evaluate(with_values(tree, {path: one})) for one in steps]
+        for value, end in zip(steps, ends, strict=True):
+            fault = str(end["message"])
+            if end["converged"] and end.get("geometry") != row.get("geometry"):
+                fault = f'only geometry "{end["geometry"]}" has a solution there.'
+            elif end["converged"]:
+                continue
+            return {**row, "converged": False, "message": f"with {path} = {value:.6g}: {fault}"}
+        both = [end[objective.quantity] for end in ends]
+        if None in both:
+            return {**row, objective.key: None}
+        errors = [result_error(end, objective.quantity) or 0.0 for end in ends]
+        return {
+            **row,
+            objective.key: objective.change(*both),
+            f"error.{objective.key}": objective.change(-errors[0], errors[1]),
+        }
 
     def fault(self, row: Mapping[str, Any]) -> str:
         """Return why a row cannot be used; empty where it can."""
         if not row["converged"]:
             return str(row["message"])
-        names = [self.objective.quantity, *(limit.quantity for limit in self.limits)]
+        names = [self.objective.key, *(limit.quantity for limit in self.limits)]
         missing = next((name for name in names if row[name] is None), None)
         return f"`{missing}` is not defined there." if missing else ""
 
@@ -101,7 +139,7 @@ class Problem:
             return Trial(place, float("inf"), beyond, values, fault)
         sign = -1.0 if isinstance(self.objective, Maximise) else 1.0
         excess = tuple(excess_over(limit, row[limit.quantity]) for limit in self.limits)
-        return Trial(place, sign * row[self.objective.quantity], excess, values)
+        return Trial(place, sign * row[self.objective.key], excess, values)
 
     def by_path(self, trial: Trial) -> dict[str, float]:
         """The values of a trial by path."""
@@ -123,6 +161,15 @@ class Problem:
             f"{path} = {format_quantity(values[path], unit, digits=_SHOWN)}"
             for path, unit in zip(self.paths, self.units, strict=True)
         )
+
+
+def _number_at(case: Mapping[str, Any], path: str) -> float:
+    """Return the number of a case at a path that is varied by shares of it."""
+    dimension = parameter_dimension(case, path)
+    number = read_parameter("against", value_at(case, path), dimension)
+    if number == 0.0:
+        raise InvalidInputError(f"`against` must name a number that is not 0, {path} is 0.")
+    return number
 
 
 def interval(case: Mapping[str, Any], bounds: Bounds) -> tuple[float, float]:

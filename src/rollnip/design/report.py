@@ -29,6 +29,11 @@ _SHOWN_OF_FACE = (
     "face.even_share",
     "face.largest_scrub",
 )
+_SHOWN_OF_SHEET = (
+    *("sheet.feed_upper", "sheet.feed_lower", "sheet.traction_upper"),
+    *("sheet.tension_max", "sheet.tension_min", "sheet.grip_reserve"),
+    *("sheet.slip_share_upper", "sheet.slip_share_lower"),
+)
 
 
 def optimum_report(found: Optimum, title: str = "") -> str:
@@ -57,6 +62,9 @@ def result_lines(row: Mapping[str, Any]) -> list[str]:
     for name in _SHOWN_OF_FACE:
         if row.get(name) is not None:
             lines.append(f"  {name:25s}{_shown(float(row[name]), QUANTITIES[name])}")
+    for key in _SHOWN_OF_SHEET:
+        if row.get(key) is not None:
+            lines.append(f"  {key:25s}{_with_error(row, key)}")
     warnings = str(row.get("warnings") or "")
     return [*lines, f"Note: {warnings}"] if warnings else lines
 
@@ -174,7 +182,8 @@ def _limit(limit: LimitKept) -> str:
 
 def _with_error(row: Mapping[str, Any], name: str) -> str:
     value, error = float(row[name]), result_error(row, name) or 0.0
-    if abs(value) <= FIGURES[name].noise(row):
+    figure = FIGURES.get(name)
+    if abs(value) <= (_ROUNDING * error if figure is None else figure.noise(row)):
         value = 0.0
     doubt = f" ± {format_quantity(error, digits=2)}" if error > _ROUNDING * abs(value) else ""
     return f"{_shown(value, QUANTITIES[name])}{doubt}"

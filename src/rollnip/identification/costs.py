@@ -256,6 +256,39 @@ class Torques(Scalars):
         return f"torque_{self.roller}"
 
 
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Feeds(Scalars):
+    """Feeds of a sheet over one roller, mostly at loads or tensions.
+
+    A feed is the length of sheet, free of tension, over the length that rolled off the roller,
+    less 1: ``at={"sheet.tension_in": [...]}``.
+
+    Parameters
+    ----------
+    roller :
+        "upper" or "lower".
+    at, measured, standard_error, weight, name :
+        see `Measurements`.
+    """
+
+    quantity, unit, result = "feed", "", "feed"
+    roller: Roller = "upper"
+
+    def __post_init__(self) -> None:
+        check_roller(self.roller)
+        super().__post_init__()
+
+    @property
+    def _result(self) -> str:
+        return f"{self.result}_{self.roller}"
+
+    def predict(self, solutions: Sequence[Solution]) -> Array:
+        """Return the feed of each solution; nan where there is no sheet."""
+        sheets = [solution.sheet for solution in solutions]
+        found = [None if one is None else getattr(one, self._result) for one in sheets]
+        return np.array([np.nan if one is None else one for one in found], dtype=float)
+
+
 def check_roller(roller: str) -> None:
     """Raise InvalidInputError unless it is "upper" or "lower"."""
     if roller not in ("upper", "lower"):

@@ -51,6 +51,13 @@ class Numbers:
         self._row = row
         self.converged = bool(row["converged"])
 
+    @property
+    def sheet(self) -> Numbers:
+        """The numbers of the sheet."""
+        mine = {key: value for key, value in self._row.items() if key.startswith("sheet.")}
+        named = {key.removeprefix("sheet."): value for key, value in mine.items()}
+        return Numbers({"converged": self.converged, **named})
+
     def __getattr__(self, name: str) -> Any:
         """Return a number, None where it is not defined."""
         row: Mapping[str, Any] = self.__dict__["_row"]

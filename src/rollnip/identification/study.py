@@ -17,6 +17,7 @@ from rollnip._units import Dimension, parse_quantity
 from rollnip.identification.costs import (
     Approaches,
     Creepages,
+    Feeds,
     Loads,
     Measurements,
     NipWidths,
@@ -45,6 +46,7 @@ _SCALARS: dict[str, tuple[type[Scalars], Dimension]] = {
     "creepage": (Creepages, "ratio"),
     "torque": (Torques, "force"),
     "rolling-resistance": (RollingResistances, "ratio"),
+    "feed": (Feeds, "ratio"),
 }
 _POSITIVE = ("nip-width", "load", "peak-pressure")  # of a pressed nip, whatever the noise
 _SHORT = ("load", "approach", "traction", "creepage", "torque_lower", "friction", "speed")
@@ -153,13 +155,17 @@ class _Reader:
             return self._strains(where, table, columns, at)
         if table.kind == "impression":
             return self._impressions(where, table, columns, at)
+        if table.kind == "feed" and "sheet" not in self.case:
+            raise CaseFileError(
+                f"{self.source}: {where}: a feed needs a table [sheet] in the case."
+            )
         kind, dimension = _SCALARS[table.kind]
         column = table.column or kind.quantity
         measured = columns.numbers(column, dimension)
         if table.kind in _POSITIVE:
             _require_positive(columns, column, measured)
         at |= self._conditions(columns, {column, _ERROR, *table.ignore})
-        shared: dict[str, Any] = {"roller": table.roller} if kind is Torques else {}
+        shared: dict[str, Any] = {"roller": table.roller} if kind in (Torques, Feeds) else {}
         with self._placed(where):
             return kind(
                 at=at,

@@ -20,10 +20,14 @@ class BoundsTable(FileTable):
 
 
 class ObjectiveTable(FileTable):
-    """The objective of an optimum: a result to minimise or one to maximise."""
+    """The objective of an optimum: a result to minimise, to maximise or to keep steady."""
 
     minimise: str | None = Field(default=None, description="Name of a result: peak_pressure.")
     maximise: str | None = Field(default=None, description="Name of a result.")
+    least_change: str | None = Field(
+        default=None, description="Name of a result that is to change least with a number."
+    )
+    against: str | None = Field(default=None, description="Path of that number: nip.load.")
 
 
 class LimitTable(FileTable):

@@ -18,6 +18,7 @@ Kind = Literal[
     "creepage",
     "torque",
     "rolling-resistance",
+    "feed",
     "impression",
     "strain",
     "velocity",

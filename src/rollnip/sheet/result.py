@@ -82,6 +82,7 @@ class SheetResult:
     friction_upper, friction_lower : losses by slip on either interface [N/s]; None without speed.
     power : what the sheet takes: work against its tensions and the elastic energy that it carries
         away [N/s]; None without speed.
+    slip_share_upper, slip_share_lower : share of the nip width over which either interface slips.
     zones_lower : stick and slip on the lower interface; directions are those of the slip velocity
         of the sheet relative to the lower surface.
     bending_length : over which its bending stiffness counts on these rollers, (D d/E)^(1/4) [mm].
@@ -103,6 +104,8 @@ class SheetResult:
     friction_upper: float | None
     friction_lower: float | None
     power: float | None
+    slip_share_upper: float
+    slip_share_lower: float
     zones_lower: tuple[Zone, ...]
     bending_length: float
     grip: Grip

@@ -175,6 +175,8 @@ class SheetSolution(Solution):
             friction_upper=power(spent.friction_upper),
             friction_lower=power(spent.friction_lower),
             power=power(spent.into_sheet),
+            slip_share_upper=_slip_share(self._zones(0)),
+            slip_share_lower=_slip_share(self._zones(1)),
             zones_lower=self._zones(1),
             bending_length=bending_length(self.nip),
             grip=_grip(self.nip, self.load, self._figure("traction_upper"), self.traction),
@@ -341,6 +343,12 @@ class SheetSolution(Solution):
                 within = _inside(x, zone)
                 out[within] = -speed * np.interp(x[within], middle, rate)
         return out
+
+
+def _slip_share(zones: tuple[Zone, ...]) -> float:
+    """Return the share of the nip width that slips."""
+    slipping = sum(zone.stop - zone.start for zone in zones if zone.state == "slip")
+    return slipping / (zones[-1].stop - zones[0].start)
 
 
 def _inside(x: Array, zone: ContactZone) -> NDArray[np.bool_]:

@@ -3,25 +3,26 @@
 from __future__ import annotations
 
 import base64
+import itertools
 import json
 import os
+import re
 import shutil
-import socket
 import subprocess
 import sys
 import time
 import zlib
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
-from urllib.error import URLError
-from urllib.request import urlopen
+from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, BrowserContext, Page, Request, sync_playwright
+from playwright.sync_api import Browser, BrowserContext, Page, Request, Route, sync_playwright
+from tests.browser.slow_line import SlowLine
 
 _NAMES = ("chromium", "chromium-browser", "google-chrome")
 _RAISED = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")
-_START = 30.0  # s for the server to answer
+_HANGS = 180.0  # s after which nothing is waited for any more
 
 
 DEFAULT = {
@@ -45,13 +46,43 @@ def fragment(state: dict[str, object]) -> str:
     return "#s=" + base64.urlsafe_b64encode(packed).decode().rstrip("=")
 
 
+AT_REST = """others => {
+  const { reading, opening, state, ...said } = document.documentElement.dataset;
+  return reading === '0' && opening === '0' && state === 'rest'
+    && others.every(one => said[one] === 'rest');
+}"""
+QUIET = """() => {
+  const { dataset } = document.documentElement;
+  return dataset.state === 'rest'
+    && ['reading', 'opening', 'asking', 'drawing', 'waiting'].every(one => dataset[one] === '0');
+}"""
+COLLECT = """
+  window.said = [];
+  addEventListener('DOMContentLoaded', () => {
+    const box = document.getElementById('toast');
+    if (box) new MutationObserver(() => said.push(box.textContent)).observe(box, {childList: true});
+  });
+"""
+LINK = """hash => new Promise(done => {
+  addEventListener('hashchange', () => done(), { once: true });
+  location.hash = hash;
+})"""
+
+
 class Designer:
-    """The page, and what a user sees of it."""
+    """The page, and what a user sees of it.
+
+    Nothing here reads the page before it has said that it is there: `rest` waits for the answer
+    to what was put in last, `quiet` for all that the page does by itself.
+    """
 
     def __init__(self, page: Page, base: str) -> None:
         self.page = page
         self.base = base
-        self.resets = 0
+        self.links = 0
+        if slower := os.environ.get("ROLLNIP_SLOW_PAGE"):
+            self.session = page.context.new_cdp_session(page)
+            self.session.send("Emulation.setCPUThrottlingRate", {"rate": float(slower)})
 
     def open(self, fragment: str = "") -> Designer:
         """Load the page and wait for its first answer."""
@@ -59,46 +90,101 @@ class Designer:
         self.page.wait_for_selector("html[data-ready]")
         return self.rest()
 
-    def until(self, expression: str, *, arg: object = None, timeout: float = 20_000.0) -> None:
+    def until(self, expression: str, *, arg: object = None) -> None:
         """Wait until an expression holds; asked from outside, as the page forbids eval."""
-        end = time.monotonic() + 1e-3 * timeout
+        end = time.monotonic() + _HANGS
+        pause = 5.0
         while not self.page.evaluate(expression, arg):
             assert time.monotonic() < end, f"never came true: {expression} {arg or ''}"
-            self.page.wait_for_timeout(15)
+            self.page.wait_for_timeout(pause)
+            pause = min(1.5 * pause, 60.0)
 
     def reset(self) -> Designer:
         """The default nip by way of a link, which leaves nothing to undo."""
-        self.resets += 1
-        state = {"case": DEFAULT, "turn": self.resets}
         self.page.mouse.move(0, 0)
-        with self.page.expect_response("**/api/solve*"):
-            self.page.evaluate("hash => { location.hash = hash; }", fragment(state))
-        return self.rest()
+        self.show({"case": DEFAULT})
+        self.page.evaluate("said.length = 0")
+        return self
+
+    def show(self, state: dict[str, object], *others: str) -> Designer:
+        """Open a link to a state, never the same link twice; wait as `rest` does."""
+        self.links += 1
+        self.link(fragment(state | {"turn": self.links}))
+        return self.rest(*others)
+
+    def link(self, link: str) -> None:
+        """Put a link into the address of the page; return once the page has noticed."""
+        self.page.evaluate(LINK, link)
 
     def unfold(self, name: str) -> None:
         """Open a fold, if it is closed."""
         if not self.page.evaluate("id => document.getElementById(id).open", name):
             self.page.click(f"#{name} > summary")
 
-    def rest(self) -> Designer:
-        """Wait until the exact answer to the design at hand is shown."""
-        self.page.wait_for_selector('html[data-state="rest"]', state="attached", timeout=20_000)
+    def rest(self, *others: str) -> Designer:
+        """Wait until the exact answer to the design at hand is shown: of the nip, and of others.
+
+        Others are "face", "heat" and "patch". Texts that are being read and designs that are
+        being opened are waited for, too.
+        """
+        self.until(AT_REST, arg=others)
+        return self
+
+    def quiet(self) -> Designer:
+        """Wait until the page does nothing more by itself: all is asked, answered and drawn."""
+        self.until(QUIET)
         return self
 
     def type(self, box: str, text: str) -> None:
-        """Type into a text box and leave it, as a person does."""
+        """Type into a text box and leave it, as a person does; wait until the page has read it."""
         self.page.fill(f"#{box}", text)
-        with self.page.expect_response("**/api/quantity"):
+        with self.page.expect_request("**/api/quantity"):
             self.page.press(f"#{box}", "Enter")
+        self.until("document.documentElement.dataset.reading === '0'")
 
     def enter(self, box: str, text: str) -> Designer:
         """Type a value that changes the design; wait for the answer."""
-        with self.page.expect_request("**/api/solve*"):
-            self.type(box, text)
-        return self.rest()
+        self.sent(lambda: self.type(box, text))
+        return self
+
+    def sent(self, act: Callable[[], object], route: str = "solve") -> Any:
+        """Return what an action has the page send; wait until the answer is shown."""
+        with self.page.expect_request(_on(route)) as request:
+            act()
+        self.rest(*[route] if route != "solve" else [])
+        return request.value.post_data_json
+
+    def answered(self, act: Callable[[], object], route: str = "solve") -> Any:
+        """Return what an action has the server answer; wait until that is shown."""
+        with self.page.expect_response(_on(route)) as response:
+            act()
+        self.rest(*[route] if route != "solve" else [])
+        return response.value.json()
+
+    def choose(self, box: str, value: str) -> Any:
+        """Choose an option that changes the design; return the case that is sent."""
+        return self.sent(lambda: self.page.select_option(f"#{box}", value))
+
+    def slide(self, box: str, steps: int) -> None:
+        """Move the slider of a box step by step, too fast for it to rest between two steps."""
+        self.page.evaluate(
+            """([id, steps]) => {
+              const slider = document.getElementById(id);
+              for (let step = 0; step < steps; step += 1) {
+                slider.value = String(Number(slider.value) + 1);
+                slider.dispatchEvent(new Event('input', { bubbles: true }));
+              }
+            }""",
+            [f"{box}-slider", steps],
+        )
+
+    def click(self, selector: str) -> Designer:
+        """Press a button that changes the design; wait for the answer."""
+        self.sent(lambda: self.page.click(selector))
+        return self
 
     def tab(self, name: str) -> None:
-        """Open a tab of the charts."""
+        """Open a tab of the charts; what it asks for and draws comes later."""
         self.page.click(f"#tab-{name}")
 
     def number(self, selector: str) -> float:
@@ -111,6 +197,11 @@ class Designer:
     def nip_width(self) -> float:
         """The big figure."""
         return self.number("#big")
+
+    @property
+    def standing(self) -> str:
+        """How what is shown stands to the inputs."""
+        return self.page.evaluate("document.documentElement.dataset.standing")
 
     def figure(self, key: str) -> float:
         """One of all figures."""
@@ -127,13 +218,17 @@ class Designer:
             self.share(entry)
         return Path(download.value.path()).read_text(encoding="utf-8")
 
-    def toast(self, text: str) -> None:
-        """Wait for a message that holds the text."""
-        self.until("text => document.getElementById('toast').textContent.includes(text)", arg=text)
+    def toast(self, text: str) -> str:
+        """Wait for a message that holds the text, and return it; those before are forgotten."""
+        self.until("text => said.some(one => one.includes(text))", arg=text)
+        return self.page.evaluate(
+            "text => said.splice(0, 1 + said.findIndex(one => one.includes(text))).at(-1)", text
+        )
 
     def trace(self, chart: str, name: str) -> dict[str, list[float | None]]:
         """The points that a chart draws under a name."""
         drawn = "name => node => node.data.find(one => one.name === name)"
+        self.until("document.documentElement.dataset.drawing === '0'")
         self.until(
             "([chart, name]) => document.getElementById(chart)?.data?.some(d => d.name === name)",
             arg=[chart, name],
@@ -143,6 +238,44 @@ class Designer:
             " return { x: Array.from(one.x), y: Array.from(one.y) }; }",
             [chart, name],
         )
+
+
+class Gate:
+    """Holds the requests of a kind back until it is opened."""
+
+    def __init__(self, designer: Designer, pattern: str) -> None:
+        self.page, self.pattern = designer.page, pattern
+        self.waiting: list[Route] = []
+        self.is_open = False
+        self.page.route(pattern, self._came)
+
+    def _came(self, route: Route) -> None:
+        if self.is_open:
+            route.continue_()
+        else:
+            self.waiting.append(route)
+
+    def wait(self, count: int = 1) -> list[Route]:
+        """Wait until so many requests are held back; return all that are."""
+        end = time.monotonic() + _HANGS
+        while len(self.waiting) < count:
+            assert time.monotonic() < end, f"{len(self.waiting)} of {count} requests came"
+            self.page.wait_for_timeout(10)
+        return self.waiting
+
+    def wait_for(self, is_wanted: Callable[[Route], bool]) -> Route:
+        """Wait for a request of a kind; return the first."""
+        for count in itertools.count(1):
+            if found := next(filter(is_wanted, self.wait(count)), None):
+                return found
+        raise AssertionError
+
+    def open(self) -> None:
+        """Let all pass, now and from now on."""
+        self.is_open = True
+        for route in self.waiting:
+            route.continue_()
+        self.waiting = []
 
 
 def _chromium() -> str:
@@ -155,38 +288,36 @@ def _chromium() -> str:
     pytest.skip(message)
 
 
-def _free_port() -> int:
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        return int(free.getsockname()[1])
-
-
-def _wait_for(base: str, process: subprocess.Popen[bytes]) -> None:
-    end = time.monotonic() + _START
+def _address(process: subprocess.Popen[bytes], said: Path) -> str:
+    """Where a server that was just started says it is."""
+    end = time.monotonic() + _HANGS
     while time.monotonic() < end:
-        assert process.poll() is None, "the server has ended"
-        try:
-            with urlopen(f"{base}/api/version", timeout=1.0):
-                return
-        except (URLError, TimeoutError, ConnectionError):
-            time.sleep(0.05)
-    pytest.fail("the server does not answer")
+        assert process.poll() is None, f"the server has ended: {said.read_text()}"
+        if found := re.search(r"http://127\.0\.0\.1:\d+", said.read_text(encoding="utf-8")):
+            return found.group()
+        time.sleep(0.05)
+    pytest.fail("the server does not say where it is")
 
 
 @pytest.fixture(scope="session")
-def base() -> Iterator[str]:
+def base(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
     """Address of a server started as a user starts it."""
-    port = _free_port()
+    said = tmp_path_factory.mktemp("server") / "said"
     command = [sys.executable, "-c", "from rollnip.cli import main; main()"]
-    command += ["serve", "--no-open", "--port", str(port)]
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    address = f"http://127.0.0.1:{port}"
+    command += ["serve", "--no-open", "--port", "0"]
+    with said.open("wb") as file:
+        process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=file)
     try:
-        _wait_for(address, process)
-        yield address
+        address = _address(process, said)
+        if delay := float(os.environ.get("ROLLNIP_SLOW_LINE", "0")):
+            line = SlowLine(int(address.rpartition(":")[2]), delay / 1000.0)
+            yield f"http://127.0.0.1:{line.port}"
+            line.close()
+        else:
+            yield address
     finally:
         process.terminate()
-        process.wait(timeout=20)
+        process.wait(timeout=_HANGS)
 
 
 @pytest.fixture(scope="module")
@@ -207,7 +338,15 @@ def new_context(browser: Browser, **changes: object) -> BrowserContext:
         "color_scheme": "light",
         "permissions": ["clipboard-read", "clipboard-write"],
     }
-    return browser.new_context(**(settings | changes))
+    context = browser.new_context(**(settings | changes))
+    context.set_default_timeout(1000.0 * _HANGS)
+    context.add_init_script(COLLECT)
+    return context
+
+
+def _on(route: str) -> str:
+    """Addresses of a route of the server."""
+    return f"**/api/{route}*"
 
 
 @pytest.fixture(scope="module")
@@ -226,6 +365,7 @@ def designer(opened: tuple[Designer, Watch]) -> Iterator[Designer]:
     designer, watch = opened
     designer.reset()
     yield designer
+    designer.page.unroute_all(behavior="ignoreErrors")
     watch.check()
 
 

@@ -43,17 +43,17 @@ def test_axe_finds_nothing_and_nothing_is_too_wide_in_any_view(seen):
     page = seen.page
     page.select_option("#in-upper-layers-0-material-kind", "prony")
     page.evaluate("document.querySelectorAll('details').forEach(fold => { fold.open = true; })")
-    page.wait_for_timeout(100)
-    seen.rest()
+    seen.quiet()
     assert violations(page) == []
     assert overhang(page) <= 0
     for tab in TABS[1:]:
         seen.tab(tab)
-        page.wait_for_timeout(300)
+        seen.quiet()
         assert violations(page, "#panel") == [], tab
         assert overhang(page) <= 0, tab
     page.click("#keep")
     page.wait_for_selector("#kept-drop-0")
+    seen.quiet()
     assert violations(page, "#panel") == []
     for opener, part in (
         ("#open-share", "#open-share-menu"),
@@ -63,9 +63,8 @@ def test_axe_finds_nothing_and_nothing_is_too_wide_in_any_view(seen):
         page.click(opener)
         assert violations(page, part) == [], opener
         page.keyboard.press("Escape")
-    page.fill("#in-nip-load", "nothing")
-    page.press("#in-nip-load", "Enter")
-    page.wait_for_selector('#in-nip-load[aria-invalid="true"]')
+    seen.type("in-nip-load", "nothing")
+    assert page.get_attribute("#in-nip-load", "aria-invalid") == "true"
     assert violations(page) == []
 
 
@@ -74,14 +73,13 @@ def test_axe_finds_nothing_along_the_face(seen):
     seen.tab("face")
     assert violations(page, "#panel") == []
     page.click("#give-face")
-    seen.until("document.documentElement.dataset.face === 'rest'", timeout=60_000)
-    seen.rest()
-    page.wait_for_selector("#chart-face .main-svg")
+    seen.rest("face")
     page.evaluate("document.querySelectorAll('details').forEach(fold => { fold.open = true; })")
     page.check("#in-upper-weighs")
-    seen.rest()
+    seen.rest("face")
     page.click("#crown-go")
-    page.wait_for_selector("#crown-use", timeout=60_000)
+    page.wait_for_selector("#crown-use")
+    seen.quiet()
     assert violations(page) == []
     assert overhang(page) <= 0
 
@@ -182,12 +180,12 @@ def test_every_tab_can_be_seen_and_the_open_one_is(browser, base, width):
 
 def test_on_a_phone_the_alarm_stands_clear_of_the_header(browser, base):
     context = new_context(browser, viewport={"width": 375, "height": 740})
-    page = Designer(context.new_page(), base).open().page
-    page.fill("#in-upper-layers-0-thickness", "120 mm")
-    page.press("#in-upper-layers-0-thickness", "Enter")
+    designer = Designer(context.new_page(), base).open()
+    page = designer.page
+    designer.enter("in-upper-layers-0-thickness", "120 mm")
     page.wait_for_selector("#alarm .alarm")
     page.evaluate("scrollTo(0, 1500)")
-    page.wait_for_timeout(100)
+    designer.until("scrollY > 0")
     seen = page.evaluate(
         """() => { const box = document.querySelector('#alarm b').getBoundingClientRect();
         const top = document.elementFromPoint(box.left + 4, box.top + 4);

@@ -50,14 +50,10 @@ def test_the_traction_bound_is_friction_times_pressure(designer):
 
 
 def test_stick_and_slip_are_shaded_where_they_are(designer):
-    designer.page.select_option("#in-drive", "traction")
-    designer.enter("in-nip-traction", "1.2")
-    with designer.page.expect_response("**/api/solve*") as response:
-        designer.page.click("#undo")
-        designer.page.click("#redo")
-    designer.rest()
-    zones = response.value.json()["zones"]
-    designer.until("document.getElementById('chart-pressure').layout.shapes.length > 1")
+    designer.choose("in-drive", "traction")
+    solved = designer.answered(lambda: designer.type("in-nip-traction", "1.2"))
+    zones = solved["zones"]
+    designer.quiet()
     bands = designer.page.evaluate(
         "document.getElementById('chart-pressure').layout.shapes.map(b => [b.name, b.x0, b.x1])"
     )
@@ -90,9 +86,7 @@ def test_contours_inside_the_layers(designer, field):
     designer.tab("inside")
     designer.page.wait_for_selector("#inside-field")
     designer.page.select_option("#inside-field", field)
-    designer.until(
-        "document.getElementById('chart-inside').data?.[0]?.type === 'contour'", timeout=20_000
-    )
+    designer.quiet()
     z = designer.page.evaluate("document.getElementById('chart-inside').data[0].z")
     values = np.array(z, dtype=float)
     assert values.shape[0] >= 40
@@ -101,12 +95,10 @@ def test_contours_inside_the_layers(designer, field):
 
 def test_contours_of_losses_and_of_the_other_roller(designer):
     page = designer.page
-    page.select_option("#in-upper-layers-0-material-kind", "standard-linear-solid")
-    page.click("#add-lower")
-    page.wait_for_timeout(100)
-    designer.rest()
+    designer.choose("in-upper-layers-0-material-kind", "standard-linear-solid")
+    designer.click("#add-lower")
     designer.tab("inside")
-    page.wait_for_selector('#inside-field option[value="loss"]', state="attached", timeout=20_000)
+    page.wait_for_selector('#inside-field option[value="loss"]', state="attached")
     page.select_option("#inside-field", "loss")
     page.select_option("#inside-roller", "lower")
     designer.until(
@@ -118,9 +110,7 @@ def test_two_bare_rollers_have_no_answer_and_that_is_said(designer):
     designer.tab("inside")
     designer.page.wait_for_selector("#inside-field")
     designer.tab("pressure")
-    with designer.page.expect_response("**/api/solve*"):
-        designer.page.click("#remove-upper-0")
-    designer.rest()
+    designer.click("#remove-upper-0")
     assert "No answer" in designer.page.inner_text("#alarm")
 
 
@@ -166,9 +156,7 @@ def test_a_screen_reader_hears_the_settled_answer(designer):
 
 def test_an_answer_that_cannot_be_read_is_said_in_a_sentence(designer):
     designer.page.route("**/api/solve*", lambda route: route.fulfill(status=422, body="{}"))
-    designer.page.fill("#in-nip-load", "7")
-    designer.page.press("#in-nip-load", "Enter")
-    designer.page.wait_for_selector("html.stale")
+    designer.enter("in-nip-load", "7")
     assert "422" in designer.page.inner_text("#alarm")
     designer.page.unroute("**/api/solve*")
     designer.enter("in-nip-load", "8")
@@ -192,9 +180,7 @@ def test_the_hover_text_says_the_place_with_its_unit(designer):
 def test_totals_losses_and_lengths_per_thousand_are_in_the_units_chosen(designer):
     page = designer.page
     designer.unfold("advanced")
-    with page.expect_response("**/api/solve*"):
-        page.check("#in-has-width")
-    designer.rest()
+    designer.sent(lambda: page.check("#in-has-width"))
     whole = page.locator("#figures .figure", has_text="whole face")
     watts = [text for text in whole.all_inner_texts() if "\nW" in text or " W" in text]
     assert watts

@@ -1,7 +1,8 @@
 """What is typed and slid: late answers, undo, units, failures that stay said."""
 
 import pytest
-from tests.browser.test_inputs import TOP, choose, sent
+from tests.browser.conftest import Gate
+from tests.browser.test_inputs import TOP
 
 pytestmark = pytest.mark.slow
 
@@ -16,7 +17,7 @@ def failing(designer):
 def test_that_there_is_no_answer_stays_said_however_it_is_looked_at(designer, act):
     failing(designer)
     designer.page.click(act)
-    designer.page.wait_for_timeout(200)
+    designer.quiet()
     assert "No answer for this design" in designer.page.inner_text("#alarm")
     assert designer.page.evaluate("document.documentElement.classList.contains('stale')")
     designer.page.click("#undo")
@@ -28,7 +29,7 @@ def test_a_slider_follows_undo_and_redo(designer):
     page = designer.page
     slider = "#in-nip-load-slider"
     first = page.input_value(slider)
-    sent(designer, lambda: page.press(slider, "PageUp"))
+    designer.sent(lambda: page.press(slider, "PageUp"))
     second = page.input_value(slider)
     assert second != first
     for step, place in (("#undo", first), ("#redo", second)):
@@ -39,40 +40,35 @@ def test_a_slider_follows_undo_and_redo(designer):
 
 def test_a_text_nobody_can_read_stays_marked_when_an_answer_comes(designer):
     page = designer.page
-    held = []
-    page.route("**/api/solve*", lambda route: held.append(route))
+    gate = Gate(designer, "**/api/solve*")
     designer.type("in-nip-load", "5")
-    designer.until("document.documentElement.dataset.state === 'waiting'")
+    gate.wait()
     designer.type(f"{TOP}-thickness", "8 furlong")
-    page.wait_for_selector(f"#{TOP}-thickness[aria-invalid='true']")
-    with page.expect_response("**/api/solve*"):
-        held[0].continue_()
-    page.unroute("**/api/solve*")
+    assert page.get_attribute(f"#{TOP}-thickness", "aria-invalid") == "true"
+    gate.open()
     designer.rest()
+    assert designer.figure("load") == 5
     assert "furlong" in page.inner_text(f"#{TOP}-thickness-wrong")
     designer.type(f"{TOP}-thickness", "12 mm")
-    designer.until(f"document.getElementById('{TOP}-thickness').value === '12'")
+    assert page.input_value(f"#{TOP}-thickness") == "12"
     assert page.inner_text(f"#{TOP}-thickness-wrong") == ""
 
 
 def typed_slowly(designer, *texts, box="in-nip-load"):
     """The questions what some texts mean, held back."""
-    held = []
-    designer.page.route("**/api/quantity", lambda route: held.append(route))
+    gate = Gate(designer, "**/api/quantity")
     for count, text in enumerate(texts, 1):
         designer.page.fill(f"#{box}", text)
         designer.page.press(f"#{box}", "Enter")
-        while len(held) < count:
-            designer.page.wait_for_timeout(15)
-    return held
+        gate.wait(count)
+    return gate.waiting
 
 
 def answered(designer, questions):
-    for question in questions:
-        with designer.page.expect_response("**/api/quantity"):
-            question.continue_()
+    for left, question in reversed(list(enumerate(questions[::-1]))):
+        question.continue_()
+        designer.until("left => document.documentElement.dataset.reading === left", arg=f"{left}")
     designer.page.unroute("**/api/quantity")
-    designer.page.wait_for_timeout(300)
     designer.rest()
 
 
@@ -85,7 +81,7 @@ def test_of_two_texts_the_later_holds_whichever_is_read_first(designer):
 
 def test_a_text_that_is_read_after_its_layer_has_gone_changes_nothing(designer):
     page = designer.page
-    page.click("#add-lower")
+    designer.click("#add-lower")
     questions = typed_slowly(designer, "8", box=f"{TOP}-thickness")
     page.click("#remove-upper-0")
     answered(designer, questions)
@@ -97,9 +93,9 @@ def test_a_text_that_is_read_after_its_layer_has_gone_changes_nothing(designer):
 
 def test_a_slider_of_degrees_fahrenheit_has_no_jump_at_freezing(designer):
     page = designer.page
-    choose(designer, f"{TOP}-material-kind", "standard-linear-solid")
+    designer.choose(f"{TOP}-material-kind", "standard-linear-solid")
     designer.unfold(f"{TOP}-material-more")
-    choose(designer, f"{TOP}-material-shift", "wlf")
+    designer.choose(f"{TOP}-material-shift", "wlf")
     page.click("#us")
     slide = "at => { const s = document.getElementById(at[0]); s.value = at[1];"
     slide += " s.dispatchEvent(new Event('input')); }"
@@ -114,13 +110,13 @@ def test_a_slider_of_degrees_fahrenheit_has_no_jump_at_freezing(designer):
 
 def test_a_value_typed_in_another_unit_is_shown_in_the_own_even_where_it_is_the_same(designer):
     designer.type("in-upper-radius", "20 cm")
-    designer.until("document.getElementById('in-upper-radius').value === '200'")
+    assert designer.page.input_value("#in-upper-radius") == "200"
 
 
 def test_a_box_reads_what_it_writes_and_shows_it_whole(designer):
     page = designer.page
     page.click("#us")
-    choose(designer, f"{TOP}-material-kind", "elastic")
+    designer.choose(f"{TOP}-material-kind", "elastic")
     designer.enter(f"{TOP}-material-modulus", "30e6")
     assert page.input_value(f"#{TOP}-material-modulus") == "3e7"
     designer.enter(f"{TOP}-material-modulus", "3.0457e7")

@@ -9,9 +9,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.browser.conftest import Designer, fragment, new_context
-from tests.browser.test_inputs import sent
-from tests.browser.test_standing import Gate, overhang
+from tests.browser.conftest import Designer, Gate, fragment, new_context
+from tests.browser.test_standing import overhang
 
 import rollnip as rn
 from rollnip.face import even_crown
@@ -25,30 +24,9 @@ CASE["model"] = {"geometry": "linear"}
 UPPER = "in-upper-shaft"
 
 
-def at_rest(designer):
-    """Wait until the face of the design at hand is shown."""
-    designer.rest()
-    designer.until("document.documentElement.dataset.face === 'rest'", timeout=60_000)
-    return designer
-
-
 @pytest.fixture
 def face(designer):
-    page = designer.page
-    designer.resets += 1
-    state = {"case": CASE, "tab": "face", "turn": designer.resets}
-    with page.expect_response("**/api/solve*"):
-        page.evaluate("hash => { location.hash = hash; }", fragment(state))
-    yield at_rest(designer)
-    page.unroute_all(behavior="ignoreErrors")
-
-
-def answered(designer, act):
-    """The face that an action makes the server answer."""
-    with designer.page.expect_response("**/api/face") as response:
-        act()
-    at_rest(designer)
-    return response.value.json()
+    return designer.show({"case": CASE, "tab": "face"}, "face")
 
 
 def figure(designer, key):
@@ -89,12 +67,12 @@ def test_a_crown_changes_the_face_and_asks_for_no_new_nip(face):
     solves = []
     face.page.on("request", lambda one: solves.append(one.url) if "/solve" in one.url else None)
     before = figure(face, "evenness")
-    found = answered(face, lambda: face.type("face-in-upper-shaft-crown-height", "0.4 mm"))
+    found = face.answered(lambda: face.type("face-in-upper-shaft-crown-height", "0.4 mm"), "face")
     assert figure(face, "evenness") == pytest.approx(100 * found["evenness"], rel=2e-3)
     assert figure(face, "evenness") > before
     assert float(face.page.input_value(f"#{UPPER}-crown-height")) == 0.4  # the same value's box
     assert solves == []
-    answered(face, lambda: face.page.click("#undo"))
+    face.answered(lambda: face.page.click("#undo"), "face")
     assert figure(face, "evenness") == pytest.approx(before)
 
 
@@ -116,11 +94,11 @@ def test_the_slider_of_the_crown_moves_the_face_as_it_moves(face):
 
 
 def test_forces_at_the_ends_tilt_the_nip_and_go_back_to_a_mean_load(face):
-    answered(face, lambda: face.page.click("#in-press-ends"))
-    answered(face, lambda: face.type("face-in-face-end_loads-0", "4 kN"))
+    face.answered(lambda: face.page.click("#in-press-ends"), "face")
+    face.answered(lambda: face.type("face-in-face-end_loads-0", "4 kN"), "face")
     drawn = face.trace("chart-face", "Line load")["y"]
     assert drawn[0] < drawn[-1]
-    tree = sent(face, lambda: face.page.click("#in-press-load"))
+    tree = face.sent(lambda: face.page.click("#in-press-load"))
     assert tree["nip"]["load"] == pytest.approx(8800 / 1600)
     assert "end_loads" not in tree["face"]
 
@@ -136,7 +114,7 @@ def test_forces_at_the_ends_tilt_the_nip_and_go_back_to_a_mean_load(face):
 )
 def test_what_does_not_fit_is_said_at_its_field(face, box, text, wanted):
     face.type(f"{UPPER}-{box}", text)
-    face.until(f"document.getElementById('{UPPER}-{box}-wrong').textContent !== ''")
+    face.rest("face")
     assert wanted in face.page.inner_text(f"#{UPPER}-{box}-wrong")
 
 
@@ -144,9 +122,9 @@ def test_the_crown_that_evens_it_out_can_be_taken(face):
     case = parse_case(CASE)
     best = even_crown(case.nip, case.face, case.model)
     face.page.click("#crown-go")
-    face.page.wait_for_selector("#crown-use", timeout=60_000)
+    face.page.wait_for_selector("#crown-use")
     assert "keeps the line load within 10 %" in face.page.inner_text("#crown-said")
-    answered(face, lambda: face.page.click("#crown-use"))
+    face.answered(lambda: face.page.click("#crown-use"), "face")
     crown = float(face.page.input_value(f"#{UPPER}-crown-height"))
     assert crown == pytest.approx(best.height, rel=5e-3)
     assert figure(face, "evenness") > 97
@@ -172,21 +150,20 @@ def test_files_and_the_report_hold_the_face(face):
 def test_a_face_of_older_inputs_looks_so_and_is_not_exported(face):
     gate = Gate(face, "**/api/face")
     face.type("face-in-upper-shaft-crown-height", "0.5 mm")
-    face.until("document.querySelector('.face-pictures').classList.contains('old')")
+    assert "old" in face.page.get_attribute(".face-pictures", "class")
     face.share("csv-figures")
     face.toast("still being computed")
     gate.open()
-    at_rest(face)
-    face.until("!document.querySelector('.face-pictures').classList.contains('old')")
+    face.rest("face")
+    assert "old" not in face.page.get_attribute(".face-pictures", "class")
 
 
 def test_a_first_face_is_one_click_and_goes_with_another(fresh):
     page = fresh.page
     fresh.tab("face")
     assert not page.is_visible("#chart-face")
-    with page.expect_response("**/api/face"):
-        page.click("#give-face")
-    at_rest(fresh)
+    page.click("#give-face")
+    fresh.rest("face")
     assert figure(fresh, "mean_load") == 4
     assert page.is_visible("#face-bent svg")
     page.click("#us")
@@ -202,7 +179,7 @@ def test_the_face_fits_a_phone(browser, base, scheme):
     size = {"width": 390, "height": 844}
     context = new_context(browser, viewport=size, color_scheme=scheme, locale="de-DE")
     designer = Designer(context.new_page(), base).open(fragment({"case": CASE, "tab": "face"}))
-    at_rest(designer)
+    designer.rest("face")
     assert designer.page.is_visible("#face-print svg")
     assert overhang(designer.page) <= 0
     words = designer.page.inner_text("#panel").lower().split()

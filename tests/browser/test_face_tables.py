@@ -5,8 +5,7 @@ import re
 
 import numpy as np
 import pytest
-from tests.browser.conftest import fragment
-from tests.browser.test_face import CASE, answered, at_rest, figure
+from tests.browser.test_face import CASE, figure
 
 import rollnip as rn
 from rollnip.face import Impression, read_impressions
@@ -19,21 +18,12 @@ WIDTHS = "-700\t13.9\n-350 13.4\n0; 13,3\n350 14.0\n700 15.6"
 
 @pytest.fixture
 def face(designer):
-    page = designer.page
-    designer.resets += 1
-    state = {"case": CASE, "tab": "face", "turn": designer.resets}
-    with page.expect_response("**/api/solve*"):
-        page.evaluate("hash => { location.hash = hash; }", fragment(state))
-    yield at_rest(designer)
-    page.unroute_all(behavior="ignoreErrors")
+    return designer.show({"case": CASE, "tab": "face"}, "face")
 
 
 def sent(designer, act):
     """The case that an action makes the page send for its face."""
-    with designer.page.expect_request("**/api/face") as asked:
-        act()
-    at_rest(designer)
-    return json.loads(asked.value.post_data)
+    return designer.sent(act, "face")
 
 
 def typed(designer, box, text):
@@ -66,7 +56,7 @@ def test_a_measured_crown_is_typed_as_lines_and_is_that_of_the_solver(face):
     page.fill("#in-upper-shaft-crown-table", "-800 0\nmiddle .3\n800 0")
     page.locator("#in-upper-shaft-crown-table").blur()
     assert "Line 2 must hold" in page.inner_text("#in-upper-shaft-crown-table-wrong")
-    face.until("document.documentElement.dataset.standing === 'unread'")
+    assert face.standing == "unread"
     tree = sent(face, lambda: page.select_option("#in-upper-crown-shape", "cosine"))
     assert tree["upper"]["shaft"]["crown"] == {"height": 0.4, "shape": "cosine"}
 
@@ -95,7 +85,7 @@ def test_a_bearing_that_comes_further_tilts_the_load(face):
 def test_a_covering_over_the_face_is_typed_with_its_hardness(face):
     page = face.page
     page.select_option("#in-upper-layers-0-material-kind", "shore")
-    at_rest(face)
+    face.rest("face")
     sent(face, lambda: page.check("#in-upper-covering-varies"))
     tree = typed(face, "in-upper-shaft-covering-table", "-800 12 60\n800 11 70")
     covering = tree["upper"]["shaft"]["covering"]
@@ -131,7 +121,7 @@ def test_an_impression_is_read_with_intervals_and_taken(face):
     page.fill("#impression-scatter", "0.15")
     with page.expect_request("**/api/impression") as asked:
         page.click("#impression-go")
-    page.wait_for_selector("#impression-table", timeout=60_000)
+    page.wait_for_selector("#impression-table")
     body = json.loads(asked.value.post_data)
     (impression,) = body["impressions"]
     assert impression["width"] == [13.9, 13.4, 13.3, 14.0, 15.6]
@@ -147,7 +137,7 @@ def test_an_impression_is_read_with_intervals_and_taken(face):
     ]
     crown = reading["crown"]
     assert found == pytest.approx([crown.value, crown.low, crown.high], rel=5e-3)
-    tree = answered(face, lambda: page.click("#impression-use"))
+    tree = face.answered(lambda: page.click("#impression-use"), "face")
     tilt = np.subtract(*tree["bearing_forces"]["upper"][::-1])
     assert tilt == pytest.approx(reading["tilt"].value, rel=2e-3)
     page.fill("#impression-widths", "0 twelve")
@@ -158,7 +148,7 @@ def test_an_impression_is_read_with_intervals_and_taken(face):
 def test_feed_and_tension_of_a_sheet_along_the_face(face):
     page = face.page
     sent(face, lambda: page.check("#in-has-sheet"))
-    at_rest(face)
+    face.rest("face")
     page.select_option("#face-curve", "feed_upper")
     drawn = face.trace("chart-face", "Feed over the upper roller")
     sent(face, lambda: page.select_option("#in-sheet-across", "one-speed"))

@@ -9,10 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.browser.conftest import Designer, fragment, new_context
+from tests.browser.conftest import Designer, Gate, fragment, new_context
 from tests.browser.test_accessibility import violations
-from tests.browser.test_inputs import sent
-from tests.browser.test_standing import Gate, overhang
+from tests.browser.test_standing import overhang
 
 import rollnip as rn
 from rollnip.io import parse_case
@@ -61,33 +60,13 @@ GLASSY = {
 }
 
 
-def at_rest(designer):
-    """Wait until the heat of the design at hand is shown."""
-    designer.rest()
-    designer.until("document.documentElement.dataset.heat === 'rest'", timeout=60_000)
-    return designer
-
-
 def opened_with(designer, case):
-    designer.resets += 1
-    state = {"case": case, "tab": "heat", "turn": designer.resets}
-    with designer.page.expect_response("**/api/solve*"):
-        designer.page.evaluate("hash => { location.hash = hash; }", fragment(state))
-    return at_rest(designer)
+    return designer.show({"case": case, "tab": "heat"}, "heat")
 
 
 @pytest.fixture
 def heat(designer):
-    yield opened_with(designer, CASE)
-    designer.page.unroute_all(behavior="ignoreErrors")
-
-
-def answered(designer, act):
-    """The heat that an action makes the server answer."""
-    with designer.page.expect_response("**/api/heat") as response:
-        act()
-    at_rest(designer)
-    return response.value.json()
+    return opened_with(designer, CASE)
 
 
 def cell(designer, key, column):
@@ -121,16 +100,18 @@ def test_a_film_changes_the_heat_and_asks_for_no_new_nip(heat):
     solves = []
     heat.page.on("request", lambda one: solves.append(one.url) if "/solve" in one.url else None)
     before = cell(heat, "hot_spot", 1)
-    found = answered(heat, lambda: heat.type("in-upper-heat-film", "400"))
+    found = heat.answered(lambda: heat.type("in-upper-heat-film", "400"), "heat")
     assert cell(heat, "hot_spot", 1) == pytest.approx(found["upper"]["hot_spot"], rel=1e-3)
     assert cell(heat, "hot_spot", 1) < before
     assert solves == []
-    answered(heat, lambda: heat.page.click("#undo"))
+    heat.answered(lambda: heat.page.click("#undo"), "heat")
     assert cell(heat, "hot_spot", 1) == before
 
 
 def test_the_core_is_insulated_held_or_cooled(heat):
-    held = answered(heat, lambda: heat.page.select_option("#in-upper-heat-core-kind", "held"))
+    held = heat.answered(
+        lambda: heat.page.select_option("#in-upper-heat-core-kind", "held"), "heat"
+    )
     assert held["upper"]["to_core"] > 0.0
     assert heat.page.is_visible('[data-heat="to_core"]')
     tree = sent_heat(heat, lambda: heat.page.select_option("#in-upper-heat-core-kind", "cooled"))
@@ -141,10 +122,7 @@ def test_the_core_is_insulated_held_or_cooled(heat):
 
 def sent_heat(designer, act):
     """The case that an action sends to be warmed."""
-    with designer.page.expect_request("**/api/heat") as request:
-        act()
-    at_rest(designer)
-    return request.value.post_data_json
+    return designer.sent(act, "heat")
 
 
 def test_thermal_properties_by_name_and_by_numbers(heat):
@@ -152,6 +130,7 @@ def test_thermal_properties_by_name_and_by_numbers(heat):
     tree = sent_heat(heat, lambda: heat.page.select_option(f"#{box}-thermal", "sbr-filled"))
     assert tree["upper"]["layers"][0]["material"]["thermal"] == "sbr-filled"
     heat.page.select_option(f"#{box}-thermal", "own")
+    heat.rest("heat")
     tree = sent_heat(heat, lambda: heat.type(f"{box}-conductivity", "0.4 W/(m K)"))
     material = tree["upper"]["layers"][0]["material"]
     assert material["conductivity"] == 0.4
@@ -172,7 +151,7 @@ def test_thermal_properties_by_name_and_by_numbers(heat):
 )
 def test_what_does_not_fit_is_said(heat, box, text, wanted):
     heat.type(box, text)
-    heat.until("wanted => document.body.innerText.includes(wanted)", arg=wanted, timeout=20_000)
+    heat.until("wanted => document.body.innerText.includes(wanted)", arg=wanted)
 
 
 def test_the_warm_up_is_drawn_and_goes_with_another_design(heat):
@@ -181,20 +160,18 @@ def test_the_warm_up_is_drawn_and_goes_with_another_design(heat):
     # five time constants leave 1 % of the rise
     assert drawn["y"][-1] == pytest.approx(cell(heat, "hot_spot", 1), rel=0.01)
     assert "Half of the rise comes within" in heat.page.inner_text("#warm-up-said")
-    answered(heat, lambda: heat.type("in-upper-heat-film", "60"))
+    heat.answered(lambda: heat.type("in-upper-heat-film", "60"), "heat")
     assert not heat.page.is_visible("#chart-warm-up")
 
 
 def test_a_question_that_nobody_waits_for_is_given_up(heat):
     gate = Gate(heat, "**/api/warm-up")
     heat.page.click("#warm-up-go")
-    heat.until("document.getElementById('warm-up-said').textContent !== ''")
-    failed = []
-    heat.page.on("requestfailed", lambda one: failed.append(one.url))
-    answered(heat, lambda: heat.type("in-upper-heat-film", "70"))
-    heat.until("document.getElementById('warm-up-said').closest('.heat-more').hidden")
-    assert any(url.endswith("/api/warm-up") for url in failed)
-    assert gate.waiting
+    gate.wait()
+    is_warm_up = lambda one: one.url.endswith("/api/warm-up")  # noqa: E731
+    with heat.page.expect_event("requestfailed", is_warm_up):
+        heat.answered(lambda: heat.type("in-upper-heat-film", "70"), "heat")
+    assert not heat.page.is_visible("#warm-up-said")
 
 
 def test_the_way_to_runaway_shows_stable_states_and_others(designer):
@@ -202,7 +179,7 @@ def test_the_way_to_runaway_shows_stable_states_and_others(designer):
     opened_with(designer, GLASSY)
     designer.page.select_option("#runaway-over", "load")
     designer.page.click("#runaway-go")
-    designer.until("!document.getElementById('chart-runaway').hidden", timeout=90_000)
+    designer.until("!document.getElementById('chart-runaway').hidden")
     cold = designer.trace("chart-runaway", "Stable states")
     between = designer.trace("chart-runaway", "States that are not stable")
     turning = designer.trace("chart-runaway", "Thermal runaway")
@@ -266,7 +243,7 @@ def test_heat_of_older_inputs_looks_so_and_is_not_exported(heat):
     heat.share("csv-figures")
     heat.toast("still being computed")
     gate.open()
-    at_rest(heat)
+    heat.rest("heat")
     heat.until("!document.getElementById('heat-tables').classList.contains('old')")
 
 
@@ -274,17 +251,16 @@ def test_a_first_balance_is_one_click_and_goes_with_another(fresh):
     page = fresh.page
     fresh.tab("heat")
     assert not page.is_visible("#chart-heat")
-    with page.expect_response("**/api/heat"):
-        page.click("#give-heat")
-    at_rest(fresh)
+    page.click("#give-heat")
+    fresh.rest("heat")
     assert cell(fresh, "hot_spot", 1) >= 23
     page.click("#us")
     assert "°F" in page.inner_text('[data-heat="hot_spot"]')
     # a layer that is added gets what it needs
-    tree = sent(fresh, lambda: page.click("#add-lower"))
+    tree = fresh.sent(lambda: page.click("#add-lower"))
     assert tree["lower"]["layers"][0]["material"]["thermal"] == "natural-rubber-filled"
-    at_rest(fresh)
-    tree = sent(fresh, lambda: [page.uncheck("#in-has-heat"), page.click("#add-lower")])
+    fresh.rest("heat")
+    tree = fresh.sent(lambda: [page.uncheck("#in-has-heat"), page.click("#add-lower")])
     assert "heat" not in tree
     assert "thermal" not in tree["upper"]["layers"][0]["material"]
     assert not page.is_visible("#chart-heat")
@@ -295,7 +271,7 @@ def test_heat_fits_a_phone_and_axe_finds_nothing(browser, base, scheme):
     size = {"width": 390, "height": 844}
     context = new_context(browser, viewport=size, color_scheme=scheme, locale="de-DE")
     designer = Designer(context.new_page(), base).open(fragment({"case": CASE, "tab": "heat"}))
-    at_rest(designer)
+    designer.rest("heat")
     designer.page.wait_for_selector("#chart-heat .main-svg")
     assert overhang(designer.page) <= 0
     assert violations(designer.page, "#panel") == []

@@ -6,7 +6,7 @@ import json
 import re
 
 import pytest
-from tests.browser.test_inputs import TOP, sent
+from tests.browser.test_inputs import TOP
 
 import rollnip as rn
 from rollnip.materials import shore_a_band
@@ -18,7 +18,7 @@ MATERIAL = f"{TOP}-material"
 
 def learned(designer):
     """Wait until all that is known of the nip width is shown."""
-    designer.until("document.querySelectorAll('#known dt').length === 3", timeout=60_000)
+    designer.quiet()
     return designer.page.inner_text("#known").replace("\u202f", " ")
 
 
@@ -108,11 +108,11 @@ def test_a_force_on_the_roller_and_its_face_make_the_line_load(designer):
     page = designer.page
     page.click("#in-press-force")
     designer.rest()
-    tree = sent(designer, lambda: designer.type("in-nip-face_width", "800 mm"))
+    tree = designer.sent(lambda: designer.type("in-nip-face_width", "800 mm"))
     assert tree["nip"]["load"] == pytest.approx(5.0)  # 4 N/mm on 1000 mm, the force stays
-    tree = sent(designer, lambda: designer.type("in-press-value-force", "2 kN"))
+    tree = designer.sent(lambda: designer.type("in-press-value-force", "2 kN"))
     assert tree["nip"]["load"] == pytest.approx(2.5)
-    tree = sent(designer, lambda: designer.type("in-press-value-force", "600 lb"))
+    tree = designer.sent(lambda: designer.type("in-press-value-force", "600 lb"))
     assert tree["nip"]["load"] == pytest.approx(600 * 4.4482216152605 / 800.0)
     page.click("#undo")
     designer.rest()
@@ -124,10 +124,10 @@ def test_the_pressure_of_cylinders_makes_the_line_load(designer):
     page.click("#in-press-cylinders")
     designer.rest()
     designer.enter("in-press-value-bore", "63 mm")
-    tree = sent(designer, lambda: designer.type("in-press-value-pressure", "3 bar"))
+    tree = designer.sent(lambda: designer.type("in-press-value-pressure", "3 bar"))
     force = 2 * 0.3 * 3.141592653589793 * 63.0**2 / 4.0
     assert tree["nip"]["load"] == pytest.approx(force / 1000.0)
-    tree = sent(designer, lambda: designer.type("in-press-value-ratio", "1.5"))
+    tree = designer.sent(lambda: designer.type("in-press-value-ratio", "1.5"))
     assert tree["nip"]["load"] == pytest.approx(1.5 * force / 1000.0)
     assert page.input_value("#in-press-value-pressure") == "3"
     page.click("#in-press-load")

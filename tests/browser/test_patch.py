@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.browser.conftest import DEFAULT, Designer, Watch, fragment, new_context
+from tests.browser.conftest import DEFAULT, Designer, Gate, Watch, fragment, new_context
 from tests.browser.test_accessibility import overhang, violations
 
 import rollnip as rn
@@ -24,28 +24,16 @@ PATCH = {
 LOAD = "in-patch-nip-load"
 
 
-def at_rest(designer):
-    """Wait until the patch of the design at hand is shown as fine as wanted."""
-    designer.rest()
-    designer.until("document.documentElement.dataset.patch === 'rest'", timeout=120_000)
-    return designer
-
-
 @pytest.fixture
 def asked(designer):
     """The page with a patch, and what it asks for from now on."""
     page = designer.page
-    designer.resets += 1
-    state = {"case": DEFAULT, "patch": PATCH, "tab": "patch", "turn": designer.resets}
-    with page.expect_response("**/api/solve*"):
-        page.evaluate("hash => { location.hash = hash; }", fragment(state))
-    at_rest(designer)
+    designer.show({"case": DEFAULT, "patch": PATCH, "tab": "patch"}, "patch")
     bodies = []
     listen = lambda one: bodies.append(one.post_data_json) if one.url.endswith("/patch") else None  # noqa: E731
     page.on("request", listen)
     yield designer, bodies
     page.remove_listener("request", listen)
-    page.unroute_all(behavior="ignoreErrors")
 
 
 def cells(designer, key):
@@ -91,17 +79,21 @@ def test_a_slider_is_followed_on_a_coarse_grid_and_rest_brings_the_fine_one(aske
     page.clock.pause_at(time.time() + 10.0)  # no rest comes by itself
     page.focus(f"#{LOAD}-slider")
     before = figure(designer, "length")
-    for _turn in range(3):
-        with page.expect_response("**/api/patch"):
-            page.keyboard.press("ArrowRight")
-        designer.until("document.getElementById('patch-grid').textContent.includes('24 × 24')")
+    for turn in range(3):
+        shown = cells(designer, "load")[0]
+        page.keyboard.press("ArrowRight")
+        designer.until(
+            "shown => document.querySelector('[data-patch=load] td').innerText !== shown", arg=shown
+        )
+        assert "24 × 24" in page.inner_text("#patch-grid")
+        assert len(bodies) == turn + 1
     assert "no error is claimed" in page.inner_text("#patch-grid")
     assert cells(designer, "length")[1] == "not claimed"
     assert [body["patch"] for body in bodies] == [{"grid": [24, 24]}] * len(bodies)
     assert figure(designer, "length") > before
     page.clock.run_for(1000)
     page.clock.resume()
-    at_rest(designer)
+    designer.rest("patch")
     assert bodies[-1]["patch"] == {}
     assert "errors are estimated" in page.inner_text("#patch-grid")
     assert cells(designer, "length")[1].startswith("±")
@@ -112,24 +104,17 @@ def test_a_slider_is_followed_on_a_coarse_grid_and_rest_brings_the_fine_one(aske
 def test_what_is_asked_first_is_shown_until_the_fine_answer_is_there(asked):
     designer, bodies = asked
     page = designer.page
-    held = []
-    page.route(
-        "**/api/patch",
-        lambda route: (
-            route.continue_()
-            if "grid" in route.request.post_data_json["patch"]
-            else held.append(route)
-        ),
-    )
-    page.fill(f"#{LOAD}", "800")
-    page.press(f"#{LOAD}", "Enter")
-    designer.until("document.getElementById('patch-grid').textContent.includes('24 × 24')")
-    designer.until("document.documentElement.dataset.patch === 'waiting'")
+    gate = Gate(designer, "**/api/patch")
+    designer.type(LOAD, "800")
+    (coarse,) = gate.wait()
+    coarse.continue_()
+    gate.wait(2)  # the fine one, which is asked for after the coarse one has been taken
+    assert "24 × 24" in page.inner_text("#patch-grid")
+    assert page.evaluate("document.documentElement.dataset.patch") == "waiting"
     assert figure(designer, "load") == pytest.approx(800)
-    while not held:
-        page.wait_for_timeout(20)
-    held[0].continue_()
-    at_rest(designer)
+    gate.waiting.remove(coarse)
+    gate.open()
+    designer.rest("patch")
     assert len(bodies) == 2
 
 
@@ -137,21 +122,21 @@ def test_undo_a_link_and_removal(asked):
     designer, _bodies = asked
     page = designer.page
     page.select_option("#patch-lower-shape", "crowned")
-    at_rest(designer)
+    designer.rest("patch")
     narrow = figure(designer, "width")
     page.click("#undo")
-    at_rest(designer)
+    designer.rest("patch")
     assert figure(designer, "width") > narrow
     page.click("#redo")
-    at_rest(designer)
-    page.wait_for_timeout(500)  # the address is written once things are quiet
+    designer.rest("patch")
+    designer.quiet()  # the address is written once things are quiet
     address = page.url
     page.click("#patch-remove")
     page.wait_for_selector("#give-patch")
-    designer.until("before => location.href !== before", arg=address)
-    page.evaluate("hash => { location.hash = hash; }", address.partition("#")[2])
-    page.wait_for_selector("#patch-lower-shape")
-    at_rest(designer)
+    designer.quiet()
+    assert page.url != address
+    designer.link(address.partition("#")[2])
+    designer.rest("patch")
     assert page.input_value("#patch-lower-shape") == "crowned"
     assert figure(designer, "width") == pytest.approx(narrow)
 
@@ -159,9 +144,8 @@ def test_undo_a_link_and_removal(asked):
 def test_wrong_input_is_said_and_what_was_shown_is_grey(asked):
     designer, _bodies = asked
     page = designer.page
-    page.fill("#in-patch-upper-end_radius", "100 mm")
-    page.press("#in-patch-upper-end_radius", "Enter")
-    designer.until("document.getElementById('patch-said').textContent !== ''")
+    designer.type("in-patch-upper-end_radius", "100 mm")
+    designer.rest("patch")
     assert "at least twice as long" in page.inner_text("#patch-said")
     assert "old" in page.locator(".patch-maps").get_attribute("class")
     assert page.inner_text("#patch-grid") == ""
@@ -172,11 +156,11 @@ def test_kinds_of_pressing_and_driving_start_from_what_there_is(asked):
     page = designer.page
     approach = figure(designer, "approach")
     page.select_option("#patch-press", "approach")
-    at_rest(designer)
+    designer.rest("patch")
     assert bodies[-1]["nip"]["approach"] == pytest.approx(approach, rel=1e-3)
     assert figure(designer, "load") == pytest.approx(500, rel=5e-3)
     page.select_option("#patch-along", "creepage")
-    at_rest(designer)
+    designer.rest("patch")
     assert "traction" not in bodies[-1]["nip"]
     assert figure(designer, "traction_x") == pytest.approx(100, abs=3)
 
@@ -187,7 +171,7 @@ def test_nothing_is_asked_for_where_the_tab_is_closed(asked):
     designer.enter("in-upper-layers-0-thickness", "9 mm")
     assert bodies == []
     designer.tab("patch")
-    at_rest(designer)
+    designer.rest("patch")
     assert bodies[-1]["upper"]["layers"][0]["thickness"] == 9
 
 
@@ -203,7 +187,7 @@ def test_the_view_is_accessible_fits_and_is_in_its_language(browser, base, windo
     designer = Designer(page, base).open(fragment({"case": DEFAULT, "tab": "patch"}))
     assert violations(page, "#panel") == []
     page.click("#give-patch")
-    at_rest(designer)
+    designer.rest("patch")
     page.wait_for_selector("#chart-patch-zones .main-svg")
     assert violations(page, "#panel") == []
     assert overhang(page) <= 0

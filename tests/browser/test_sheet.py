@@ -4,7 +4,6 @@ import re
 
 import numpy as np
 import pytest
-from tests.browser.test_inputs import choose, sent
 
 import rollnip as rn
 from rollnip.io import parse_case
@@ -16,7 +15,7 @@ pytestmark = pytest.mark.slow
 @pytest.fixture
 def sheet(designer):
     """The page with a sheet in the default nip, and the case that it sends."""
-    tree = sent(designer, lambda: designer.page.check("#in-has-sheet"))
+    tree = designer.sent(lambda: designer.page.check("#in-has-sheet"))
     return designer, tree
 
 
@@ -38,7 +37,7 @@ def test_a_usual_sheet_is_taken_and_becomes_an_own_one(sheet):
     designer, tree = sheet
     assert designer.page.input_value("#in-sheet-kind") == "office paper"
     assert tree["sheet"]["thickness"] == SHEETS["office paper"].thickness
-    tree = choose(designer, "in-sheet-kind", "PET film")
+    tree = designer.choose("in-sheet-kind", "PET film")
     assert tree["sheet"]["modulus"] == SHEETS["PET film"].modulus
     assert "modulus_thickness" not in tree["sheet"]
     designer.enter("in-sheet-thickness", "2 mil")
@@ -48,18 +47,17 @@ def test_a_usual_sheet_is_taken_and_becomes_an_own_one(sheet):
 def test_tensions_change_the_feed_and_a_sheet_that_is_taken_out_is_gone(sheet):
     designer, _tree = sheet
     before = designer.figure("sheet_feed_upper")
-    tree = sent(designer, lambda: designer.type("in-sheet-tension_out", "0.2 N/mm"))
+    tree = designer.sent(lambda: designer.type("in-sheet-tension_out", "0.2 N/mm"))
     assert tree["sheet"]["tension_out"] == 0.2
     assert designer.figure("sheet_feed_upper") > before
-    tree = sent(designer, lambda: designer.page.uncheck("#in-has-sheet"))
+    tree = designer.sent(lambda: designer.page.uncheck("#in-has-sheet"))
     assert "sheet" not in tree
     assert designer.page.locator('[data-figure="sheet_feed_upper"]').count() == 0
 
 
 def test_a_sheet_that_slips_through_is_said_at_once(sheet):
     designer, _tree = sheet
-    designer.type("in-sheet-tension_out", "9 N/mm")
-    designer.until("document.getElementById('alarm').textContent !== ''")
+    designer.enter("in-sheet-tension_out", "9 N/mm")
     assert designer.page.inner_text("#alarm")
 
 
@@ -81,7 +79,7 @@ def test_the_sheet_is_drawn_and_the_caption_says_how_thick(sheet):
     )
     picture = designer.saved("drawing-svg")
     assert "times as thick" in picture
-    tree = sent(designer, lambda: page.uncheck("#in-has-sheet"))
+    tree = designer.sent(lambda: page.uncheck("#in-has-sheet"))
     designer.until("!document.querySelector('#drawings .sheet')")
     assert "sheet" not in page.inner_text("#drawings")
 

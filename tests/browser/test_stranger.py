@@ -28,10 +28,9 @@ def test_from_the_first_screen_to_her_nip_width(browser, base):
         "in-nip-load": "35 lb/in",
     }
     for box, text in typed.items():
-        page.fill(f"#{box}", text)  # no scrolling, no unit to be chosen, no question back
-        page.press(f"#{box}", "Enter")
+        designer.enter(box, text)  # no scrolling, no unit to be chosen, no question back
         steps += 2
-        designer.until("document.documentElement.dataset.standing === 'settled'")
+        assert designer.standing == "settled"
         assert page.inner_text(f"#{box}-wrong") == ""
         assert page.inner_text("#alarm") == ""
     assert steps <= STEPS

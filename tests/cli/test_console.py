@@ -94,7 +94,7 @@ def test_letters_that_the_terminal_has_not_are_written_as_others(
 def test_letters_of_a_process_whose_terminal_has_few(folder, arguments):
     environment = os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"}
     process = start(folder, *arguments, stdout=subprocess.PIPE, env=environment, encoding="ascii")
-    text, errors = process.communicate(timeout=120)
+    text, errors = process.communicate(timeout=300)
     check_letters(arguments, "ascii", process.returncode, text, errors)
 
 
@@ -117,7 +117,7 @@ def test_a_reader_that_has_gone_is_no_error(folder, arguments):
     os.close(reader)
     process = start(folder, *arguments, stdout=writer)
     os.close(writer)
-    errors = process.communicate(timeout=120)[1]
+    errors = process.communicate(timeout=300)[1]
     assert process.returncode == 141, errors
     assert "Traceback" not in errors
     assert "rollnip:" not in errors
@@ -141,7 +141,7 @@ def test_every_command_answers_to_h(path):
 
 def test_h_prints_the_help(folder):
     long, short = (
-        start(folder, "solve", option, stdout=subprocess.PIPE).communicate(timeout=60)[0]
+        start(folder, "solve", option, stdout=subprocess.PIPE).communicate(timeout=300)[0]
         for option in ("--help", "-h")
     )
     assert long == short
@@ -170,14 +170,14 @@ def test_a_shell_can_complete(folder, shell, words, found):
         capture_output=True,
         text=True,
         check=False,
-        timeout=60,
+        timeout=300,
     )
     assert found in done.stdout, done.stderr
 
 
 def test_results_of_lda_and_paper_are_json_too(folder):
     done = start(folder, "lda", "estimate", "bursts.csv", "--json", stdout=subprocess.PIPE)
-    tree = json.loads(done.communicate(timeout=60)[0])
+    tree = json.loads(done.communicate(timeout=300)[0])
     assert len(tree["x"]) == len(tree["velocity"]) == 41
     assert tree["velocity"][0] == pytest.approx(100.0)
     assert tree["strain"] is None

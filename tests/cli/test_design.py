@@ -342,10 +342,10 @@ def test_killed_at_any_moment_a_search_goes_on_from_there(study, tmp_path):
     options = ("--geometry", "curved", "--database", str(database))
     command = [sys.executable, "-c", code, "optimise", path, *options]
     log, held = tmp_path / "kept.db-wal", [0]
-    for _ in range(3):
+    for _ in range(2):
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
         size = log.stat().st_size if log.is_file() else 0
-        until = time.monotonic() + 60.0
+        until = time.monotonic() + 300.0
         while not (log.is_file() and log.stat().st_size > size + 60_000):
             assert process.poll() is None
             assert time.monotonic() < until

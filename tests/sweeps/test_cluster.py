@@ -34,7 +34,7 @@ class Cluster:
         self.file = folder / "scheduler.json"
         self.processes: list[subprocess.Popen[bytes]] = []
         self.scheduler = self.start("dask_scheduler", "--port", "0")
-        until = time.monotonic() + 60.0
+        until = time.monotonic() + 300.0
         while not self.file.is_file() and time.monotonic() < until:
             time.sleep(0.05)
         self.address = json.loads(self.file.read_text())["address"]
@@ -75,7 +75,7 @@ def two_workers(machines: Cluster) -> list[subprocess.Popen[bytes]]:
 
     workers = [machines.add_worker() for _ in range(2)]
     with Client(machines.address, set_as_default=False) as client:
-        client.wait_for_workers(2, timeout=60)
+        client.wait_for_workers(2, timeout=300)
     return workers
 
 

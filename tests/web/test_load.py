@@ -1,10 +1,11 @@
-"""Many people at once: what is accepted is answered in time, nothing fails, memory stays.
+"""Many people at once: what is accepted is answered in its turn, nothing fails, memory stays.
 
 As a script: ``python tests/web/test_load.py SECONDS CLIENTS`` prints the figures.
 """
 
 import asyncio
 import json
+import os
 import random
 import re
 import subprocess
@@ -26,6 +27,7 @@ CASE = {
     "lower": {"radius": 25, "layers": [{"thickness": 2.7, "material": RUBBER}]},
 }
 PAUSE = 0.05  # between an answer and the next move of a slider [s]
+WARM = 100  # answers after which the caches of the interpreters are full
 STALE = 0.1  # share of the moves that are given up for the next one
 
 
@@ -35,6 +37,8 @@ class Figures:
 
     statuses: list[int] = field(default_factory=list)
     seconds: list[float] = field(default_factory=list)
+    overtaken: list[int] = field(default_factory=list)
+    """How many other answers came while one was waited for."""
     given_up: int = 0
     memory: list[float] = field(default_factory=list)
 
@@ -44,21 +48,22 @@ class Figures:
         return (
             f"{counts}, {self.given_up} given up; accepted: median {1e3 * median(self.seconds):.0f}"
             f" ms, p95 {1e3 * p95:.0f} ms, longest {1e3 * max(self.seconds):.0f} ms; "
+            f"at most {max(self.overtaken)} others answered meanwhile; "
             f"memory {self.memory[0]:.0f}, {median(self.memory):.0f}, {self.memory[-1]:.0f} MB"
         )
 
 
-async def move_sliders(port, number, until, figures):
+async def move_sliders(port, number, is_over, figures):
     """One client: a slider of its own case, one request at a time, now and then given up."""
     chance = random.Random(number)
     case = deepcopy(CASE)
     connection = None
-    while time.monotonic() < until:
+    while not is_over(figures):
         case["nip"]["load"] = 1.5 + chance.random()
         case["upper"]["layers"][0]["thickness"] = 1.5 + chance.random()
         if connection is None:
             connection = await asyncio.open_connection("127.0.0.1", port)
-        began = time.monotonic()
+        began, before = time.monotonic(), len(figures.seconds)
         asked = asyncio.create_task(ask(*connection, case))
         if chance.random() < STALE:
             await asyncio.sleep(0.02)
@@ -70,6 +75,7 @@ async def move_sliders(port, number, until, figures):
         status, retry = await asked
         figures.statuses.append(status)
         if status == 200:
+            figures.overtaken.append(len(figures.seconds) - before)
             figures.seconds.append(time.monotonic() - began)
         await asyncio.sleep(retry or PAUSE)
     if connection is not None:
@@ -98,41 +104,43 @@ def memory(pid):
     return total / 1024
 
 
-async def load(port, pid, seconds, clients):
+async def load(port, pid, is_over, clients):
     figures = Figures()
-    until = time.monotonic() + seconds
     tasks = [
-        asyncio.create_task(move_sliders(port, number, until, figures)) for number in range(clients)
+        asyncio.create_task(move_sliders(port, number, is_over, figures))
+        for number in range(clients)
     ]
-    await asyncio.sleep(min(5.0, seconds / 3))  # caches of the interpreters are full by then
-    while time.monotonic() < until:
-        figures.memory.append(memory(pid))
-        await asyncio.sleep(0.5)
+    while not is_over(figures):
+        if len(figures.seconds) > WARM:
+            figures.memory.append(memory(pid))
+        await asyncio.sleep(0.2)
     await asyncio.gather(*tasks)
     return figures
 
 
-def measure(seconds, clients):
-    """Start the server, move the sliders, stop it."""
+def measure(is_over, clients):
+    """Start the server, move the sliders until it is over, stop it."""
     command = [sys.executable, "-c", START, "serve", "--no-open", "--port", "0"]
     with subprocess.Popen(command, stderr=subprocess.PIPE, text=True) as process:
         try:
             port = int(re.search(r":(\d+)/", process.stderr.readline())[1])
-            return asyncio.run(load(port, process.pid, seconds, clients))
+            return asyncio.run(load(port, process.pid, is_over, clients))
         finally:
             process.terminate()
 
 
 @pytest.mark.slow
 def test_fifty_clients_moving_sliders():
-    figures = measure(15.0, 50)
-    assert set(figures.statuses) == {200, 429}  # more than two cores can do: the rest is told so
-    assert figures.statuses.count(200) > 50
+    """Counts, not times: the test says the same on a machine that does ten other things."""
+    figures = measure(lambda so_far: len(so_far.seconds) >= 300, 50)
+    assert set(figures.statuses) == {200, 429}  # more than the workers can do: the rest is told so
     assert figures.given_up > 20
-    # Sixteen wait for at least two workers: nobody waits for more than eight solves.
-    assert quantiles(figures.seconds, n=20)[-1] < 20.0 * min(figures.seconds) + 2.0
+    # Sixteen wait and each worker has one: who is let in is not passed by more than that, and by
+    # at most one answer of each client that was already on its way to it.
+    assert max(figures.overtaken) <= 16 + (os.cpu_count() or 2) + 50
     assert figures.memory[-1] < 1.1 * median(figures.memory)
 
 
 if __name__ == "__main__":
-    sys.stdout.write(measure(float(sys.argv[1]), int(sys.argv[2])).report() + "\n")
+    END = time.monotonic() + float(sys.argv[1])
+    sys.stdout.write(measure(lambda _: time.monotonic() > END, int(sys.argv[2])).report() + "\n")

@@ -1,7 +1,12 @@
-"""The queue before the workers: order, what is dropped, what is refused, what is replaced."""
+"""The queue before the workers: order, what is dropped, what is refused, what is replaced.
+
+The event loop has a clock of its own: it goes on to the next timer where nothing else is to be
+done, so that no time passes and no machine is too slow or too fast.
+"""
 
 import asyncio
 import json
+import selectors
 from collections import deque
 from typing import ClassVar
 
@@ -54,6 +59,29 @@ def _fakes(monkeypatch):
     Fake.made, Fake.failures, Fake.asked = 0, 0, []
 
 
+class Leap(selectors.DefaultSelector):
+    """Goes on to the next timer at once where no event is there; waits only where there is none."""
+
+    now = 0.0
+
+    def select(self, timeout=None):
+        found = super().select(None if timeout is None else 0)
+        if not found and timeout:
+            self.now += timeout
+        return found
+
+
+class Loop(asyncio.SelectorEventLoop):
+    """An event loop with the clock of its selector."""
+
+    def __init__(self):
+        self.leap = Leap()
+        super().__init__(self.leap)
+
+    def time(self):
+        return self.leap.now
+
+
 def with_pool(scenario, **limits):
     """Run a coroutine with a started pool, and see that nothing is left over."""
 
@@ -68,7 +96,8 @@ def with_pool(scenario, **limits):
             await one.stop()
             assert not one._jobs
 
-    return asyncio.run(whole())
+    with asyncio.Runner(loop_factory=Loop) as runner:
+        return runner.run(whole())
 
 
 def ask(one, case, seconds=0.0, limit=1.0, **how):

@@ -38,11 +38,11 @@ def wired(most=100, **limits):
             yield listener.getsockname()[1]
         finally:
             server.should_exit = True
-            thread.join(timeout=30)
+            thread.join(timeout=300)
 
 
 def connect(port):
-    return socket.create_connection(("127.0.0.1", port), timeout=60)
+    return socket.create_connection(("127.0.0.1", port), timeout=300)
 
 
 def is_closed(client):
@@ -124,7 +124,7 @@ def test_four_hundred_half_sent_requests_do_not_lock_others_out():
                 one.close()
         finally:
             process.terminate()
-            reader.join(timeout=30)
+            reader.join(timeout=300)
     assert len(lines) < 20, lines[:5]
 
 

@@ -1,6 +1,7 @@
 // What the menus do: open, keep, save, copy, export, print. The App is what they act on.
 
 import { post, sentencesOf } from "./api.js";
+import { underway } from "./busy.js";
 import { plotly } from "./charts.js";
 import { defaultCase, nameOf } from "./design.js";
 import {
@@ -16,6 +17,7 @@ import {
 } from "./files.js";
 import { MOST_KEPT } from "./compare.js";
 import { askDialog, textDialog } from "./menus.js";
+import { Opening } from "./opening.js";
 import { paletteOf } from "./palette.js";
 import { same } from "./paths.js";
 import { saveDesign, savedDesigns } from "./saved.js";
@@ -31,29 +33,34 @@ const REFUSALS = {
 };
 
 /** Actions on `this.store`, `this.snapshot`, `this.tabs`, `this.faces`, `this.heats`, `this.printing`. */
-export class Actions {
+export class Actions extends Opening {
   /** Open a case from anywhere; the one at hand can be had back with undo. */
-  async open(tree, title = null) {
-    await this.attempt(say("open.failed"), async () => {
+  open(tree, title = null) {
+    const isNewest = this.opening();
+    const read = async () => {
       const design = await this.checked(tree);
-      this.store.design({ case: { ...design, title: design.title || title || "" } });
-    });
+      if (isNewest()) this.store.design({ case: { ...design, title: design.title || title || "" } });
+    };
+    return underway("opening", this.attempt(say("open.failed"), read));
   }
 
   startAnew() {
     this.store.design({ case: defaultCase(this.store.state.view.system) });
   }
 
-  async loadFile(file) {
-    await this.attempt(say("open.file-failed", { name: file.name }), async () => {
+  loadFile(file) {
+    const isNewest = this.opening();
+    const read = async () => {
       const text = await file.text();
       const project = projectIn(text);
       if (project) return this.openProject(project);
       const { case: tree } = await post("/api/toml", { text });
       const design = await this.checked(tree);
+      if (!isNewest()) return undefined;
       this.store.design({ case: { ...design, title: design.title || file.name.replace(/\.[^.]*$/, "") } });
       return this.say(say("open.file", { name: file.name }));
-    });
+    };
+    return underway("opening", this.attempt(say("open.file-failed", { name: file.name }), read));
   }
 
   /** All saved designs and the one at hand in one file. */

@@ -1,5 +1,6 @@
 // The server's answers; every failure becomes one ApiError with a sentence for people.
 
+import { underway } from "./busy.js";
 import { placeInWords } from "./paths.js";
 import { say } from "./texts.js";
 
@@ -32,19 +33,19 @@ const WAIT = 400; // ms before asking a busy server again
 const AGAIN = 1500; // ms before asking one that does not answer
 
 /** GET a path. */
-export async function get(path) {
-  return answer(await reach(path, { headers: { Accept: "application/json" } }));
+export function get(path) {
+  return underway("asking", reach(path, { headers: { Accept: "application/json" } }).then(answer));
 }
 
 /** POST a tree; `signal` gives it up. */
-export async function post(path, tree, signal) {
-  return answer(await posted(path, tree, signal));
+export function post(path, tree, signal) {
+  return underway("asking", posted(path, tree, signal).then(answer));
 }
 
 /** The result of a case, with the hash of the case. */
-export async function solved(tree, signal) {
-  const response = await posted(SOLVE, tree, signal);
-  return { ...(await answer(response)), hash: response.headers.get("x-rollnip-case") };
+export function solved(tree, signal) {
+  const hashed = async (response) => ({ ...(await answer(response)), hash: response.headers.get("x-rollnip-case") });
+  return underway("asking", posted(SOLVE, tree, signal).then(hashed));
 }
 
 /** The response to a tree; a busy server (429) is asked again some times. */

@@ -4,8 +4,8 @@ import { Actions } from "./actions.js";
 import { announce, clearAlarm, alarm, showAnswers, showStanding, unsoundAlarm } from "./answers.js";
 import { isAbort, onOutage, post, sentencesOf } from "./api.js";
 import { Asker } from "./asker.js";
-import { MOST_KEPT } from "./compare.js";
-import { defaultCase, designOf, nameOf } from "./design.js";
+import { later, underway } from "./busy.js";
+import { defaultCase, nameOf } from "./design.js";
 import { button, byId, toast } from "./dom.js";
 import { Drawings } from "./drawings.js";
 import { sameNip } from "./face.js";
@@ -19,9 +19,8 @@ import { measuredIn } from "./measured.js";
 import { paletteOf } from "./palette.js";
 import { same } from "./paths.js";
 import { modulusOf } from "./materials.js";
-import { patchOf } from "./patch.js";
 import { PatchRunner } from "./patchrunner.js";
-import { linkOf, stateIn } from "./permalink.js";
+import { linkOf } from "./permalink.js";
 import { Printing } from "./printing.js";
 import { inputAt } from "./quantities.js";
 import { Runner } from "./runner.js";
@@ -32,10 +31,11 @@ import { Tabs } from "./tabs.js";
 import { say } from "./texts.js";
 import { Theme } from "./theme.js";
 import { Units } from "./units.js";
-import { VIEW, viewOf } from "./view.js";
+import { VIEW } from "./view.js";
 import { viewsOf } from "./views.js";
 
-const IDLE = 300; // ms
+const IDLE = 300; // ms after which a slider rests
+const QUIET = 250; // ms after which the address follows
 
 /** The designer. */
 export class App extends Actions {
@@ -50,6 +50,9 @@ export class App extends Actions {
     this.broken = null; // why a link could not be opened, until something else is asked for
     this.isOut = false; // whether the server has stopped answering
     this.reading = 0; // texts that the server is reading
+    this.isMoving = false; // whether a slider moves
+    this.stopIdling = () => {}; // gives up the wait for a slider to rest
+    this.stopRemembering = () => {};
     const system = remembered("system") === "us" ? "us" : "metric";
     this.store = new Store({ case: defaultCase(system), kept: [], patch: null, view: { ...VIEW, system } });
     this.isPristine = true; // nothing was put in yet: round numbers in the units shown
@@ -83,60 +86,6 @@ export class App extends Actions {
     const isStart = this.isPristine && this.store.past.length === 0;
     this.store.view({ system });
     if (isStart) this.store.replace({ ...this.store.state, case: defaultCase(system) });
-  }
-
-  /** Begin with the state of an address, or with the default nip. */
-  async begin(hash) {
-    try {
-      const state = await stateIn(hash);
-      if (state !== undefined) return await this.restore(state);
-      if (!this.snapshot && (await this.resumed())) return undefined;
-    } catch (error) {
-      return this.refuseLink(sentencesOf(error).slice(0, 3).join(" "));
-    }
-    return this.changed(this.store.state, "design");
-  }
-
-  /** Go on with the last design of this browser; false where there is none. */
-  async resumed() {
-    const last = remembered("last");
-    if (!last) return false;
-    try {
-      await this.restore(JSON.parse(last));
-      return true;
-    } catch {
-      return false; // of an older version, or damaged: begin anew
-    }
-  }
-
-  /** No answer is shown that one might take for that of the link. */
-  refuseLink(why) {
-    this.broken = why;
-    this.failure = null;
-    this.complain(`${say("link.title")}: ${why}`);
-    this.changed(this.store.state, "view");
-    if (!this.snapshot) byId("big").textContent = "–";
-    document.documentElement.dataset.state = "rest";
-  }
-
-  /** A state from outside: every case goes through the server's check first. */
-  async restore(state) {
-    const { case: tree, kept: others = [] } = state ?? {};
-    if (!tree || !Array.isArray(others)) throw new Error(say("link.empty"));
-    const first = await this.checked(tree);
-    const read = await Promise.allSettled(others.slice(0, MOST_KEPT).map((one) => this.checked(one)));
-    const kept = read.filter(({ status }) => status === "fulfilled").map(({ value }) => value);
-    const lost = read.filter(({ status }) => status === "rejected");
-    this.isPristine = false;
-    const view = viewOf(state);
-    this.store.replace({ case: first, kept, patch: patchOf(state.patch, view.system), view });
-    if (lost.length === 0) return;
-    const why = sentencesOf(lost[0].reason)[0];
-    this.complain(say("link.kept", { count: lost.length, why }));
-  }
-
-  async checked(tree) {
-    return designOf((await post("/api/case", tree)).case);
   }
 
   units() {
@@ -182,11 +131,11 @@ export class App extends Actions {
   keepsAnswer(tree, why) {
     const before = this.snapshot;
     const standing = this.standing();
-    if (!before?.isPlaced || before.state !== "settled" || this.runner.exact) return false;
+    if (!before?.isPlaced || before.state !== "settled" || this.runner.isBusy) return false;
     if ((standing !== "computing" && standing !== "settled") || !sameNip(tree, before.tree)) return false;
     this.snapshot = { ...before, tree, result: { ...before.result, title: tree.title } };
-    clearTimeout(this.idle);
-    if (why === "live") this.idle = setTimeout(() => this.store.rest(), IDLE);
+    this.stopIdling();
+    if (why === "live") this.stopIdling = later(() => this.store.rest(), IDLE);
     this.tabs.open.show(this.snapshot);
     this.remember();
     if (!this.snapshot.known) this.learn(tree);
@@ -194,13 +143,14 @@ export class App extends Actions {
   }
 
   ask(tree, why) {
-    clearTimeout(this.idle);
+    this.stopIdling();
+    this.isMoving = why === "live";
     document.documentElement.dataset.state = "waiting";
-    document.documentElement.classList.toggle("moving", why === "live");
+    document.documentElement.classList.toggle("moving", this.isMoving);
     this.broken = null;
     if (why === "design" || why === "opened") this.failure = null;
     if (this.snapshot?.tree !== tree) this.learning?.abort();
-    if (why === "live") this.move(tree);
+    if (this.isMoving) this.move(tree);
     else this.runner.settle(tree, why === "rest");
   }
 
@@ -230,21 +180,25 @@ export class App extends Actions {
     alarm(say("link.title"), [this.broken, say("link.text")], go);
   }
 
-  /** A text is being read by the server (1), or no longer (-1). */
-  reads(change) {
-    this.reading += change;
+  /** No figure passes for the answer while a text is read; `work` ends when it has been taken. */
+  async reads(work) {
+    this.reading += 1;
+    this.stand();
+    await underway("reading", work);
+    this.reading -= 1;
     this.stand();
   }
 
+  /** An exact answer is under way, or there is none; a slider that moves is going to ask for one. */
   busy(yes) {
     byId("answers").setAttribute("aria-busy", String(yes));
-    if (!yes) document.documentElement.dataset.state = "rest";
+    if (!yes && !this.isMoving) document.documentElement.dataset.state = "rest";
   }
 
   /** A slider moves; when it has rested for a while, the exact answer is asked for. */
   move(tree) {
     this.runner.preview(tree);
-    this.idle = setTimeout(() => this.store.rest(), IDLE);
+    this.stopIdling = later(() => this.store.rest(), IDLE);
   }
 
   answered(tree, result, state) {
@@ -347,11 +301,13 @@ export class App extends Actions {
 
   /** Put the state into the address, once things are quiet. */
   remember() {
-    clearTimeout(this.timer);
-    this.timer = setTimeout(async () => {
-      if (this.store.past.length > 0) remember("last", JSON.stringify(this.whole));
-      history.replaceState(null, "", await this.link());
-    }, 250);
+    this.stopRemembering();
+    this.stopRemembering = later(() => underway("waiting", this.write()), QUIET);
+  }
+
+  async write() {
+    if (this.store.past.length > 0) remember("last", JSON.stringify(this.whole));
+    history.replaceState(null, "", await this.link());
   }
 
   /** The state as links and projects hold it. */

@@ -1,5 +1,6 @@
 // Plotly: loaded once from the server itself, drawn in the colours of the theme.
 
+import { underway } from "./busy.js";
 import { say } from "./texts.js";
 
 const SOURCE = "/static/plotly.min.js";
@@ -33,9 +34,13 @@ export class Chart {
   }
 
   /** Draw {data, layout, label}. */
-  async show(figure) {
+  show(figure) {
     this.figure = figure;
     this.node.setAttribute("aria-label", figure.label);
+    return underway("drawing", this.draw(figure));
+  }
+
+  async draw(figure) {
     const Plotly = await plotly();
     if (this.figure !== figure || !this.node.isConnected) return;
     await Plotly.react(this.node, figure.data, sized(figure.layout, this.node), CONFIG);

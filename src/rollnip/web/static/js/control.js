@@ -157,26 +157,28 @@ export class Control {
   }
 
   /** Read what was typed: a plain number is in the unit shown beside the box. */
-  async typed() {
+  typed() {
     const text = this.box.value.trim();
     const turn = (this.asked += 1);
-    if (text === this.text) return this.isUnread ? this.write() : undefined;
+    if (text !== this.text) this.app.reads(this.read(text, turn));
+    else if (this.isUnread) this.write();
+  }
+
+  /** Take what a text means, unless a later one was typed meanwhile or the value is another now. */
+  async read(text, turn) {
     const { dimension, factor } = this.input;
     const before = this.value;
     const isLate = () => turn !== this.asked || this.value !== before;
     this.tried = text;
-    this.app.reads(1);
     try {
       const { value } = await post("/api/quantity", this.question(text, dimension));
-      if (isLate()) return undefined;
+      if (isLate()) return;
       this.set(value / factor, null);
-      return this.write();
+      this.write();
     } catch (error) {
-      if (isLate()) return undefined;
+      if (isLate()) return;
       this.isUnread = true;
-      return this.complain(inWords(complaintOf(error), this.path, this.app.units()));
-    } finally {
-      this.app.reads(-1);
+      this.complain(inWords(complaintOf(error), this.path, this.app.units()));
     }
   }
 

@@ -108,7 +108,7 @@ export class FindView {
     this.abort = abort;
     this.said.replaceChildren(el("p", { class: "hint", text: say("find.busy") }));
     try {
-      const wanted = await this.read();
+      const wanted = await this.read(abort.signal);
       const found = await post(
         "/api/find",
         {
@@ -136,7 +136,7 @@ export class FindView {
   }
 
   /** What is wanted, in the base unit; a plain number is in the unit beside the box. */
-  async read() {
+  async read(signal) {
     const text = this.wanted.value.trim();
     const bare = /^[+\-\u2212]?[0-9.,]+(e[+-]?\d+)?$/i.test(text);
     const { dimension } = this.asked;
@@ -145,7 +145,7 @@ export class FindView {
     const isRead = units.isRead(dimension);
     if (!isRead && !bare) throw new Error(say("find.plain", { unit: name }));
     const question = isRead ? questionOf(text, dimension, units) : { text, dimension: "ratio" };
-    const { value } = await post("/api/quantity", question);
+    const { value } = await post("/api/quantity", question, signal);
     return isRead ? value : units.base(value, dimension);
   }
 

@@ -22,7 +22,7 @@ export function wireHeader(app) {
     store.design({ case: setAt(store.state.case, "title", title.value.trim()) }),
   );
   addEventListener("keydown", (event) => shortcut(app, event));
-  addEventListener("hashchange", () => app.begin(location.hash));
+  addEventListener("hashchange", ({ newURL }) => app.begin(new URL(newURL).hash));
   new IntersectionObserver(([entry]) =>
     byId("mini").classList.toggle("shown", !entry.isIntersecting),
   ).observe(byId("big"));

@@ -79,9 +79,15 @@ export class InsideView {
     const roller = sides.includes(view.roller) ? view.roller : sides[0];
     if (state === "preview") return undefined;
     const key = JSON.stringify([tree, roller]);
+    this.mark(this.answer?.key !== key);
     if (this.answer?.key !== key) await this.fetch(key, tree, roller);
     if (this.answer?.key === key) this.draw(sides, roller, result);
     return undefined;
+  }
+
+  /** Grey where what is shown is of other inputs. */
+  mark(isOld) {
+    for (const node of [this.chart.node, this.probe.node, this.bonds]) node.classList.toggle("old", isOld);
   }
 
   async fetch(key, tree, roller) {
@@ -108,6 +114,7 @@ export class InsideView {
 
   draw(sides, roller, result) {
     const { field } = this.answer;
+    this.mark(false);
     const there = FIELDS.filter(({ key }) => field[key]);
     const view = this.app.store.state.view.inside;
     const chosen = there.find(({ key }) => key === view.field) ?? there[0];

@@ -84,8 +84,8 @@ export class MeasuredView {
     const [quantity, path] = [ask("measured-figure"), ask("measured-place")];
     this.said.replaceChildren(el("p", { class: "hint", text: say("measured.busy") }));
     try {
-      const value = await this.read(ask("measured-value"));
-      const reading = Math.abs(await this.read(ask("measured-reading") || "0"));
+      const value = await this.read(ask("measured-value"), abort.signal);
+      const reading = Math.abs(await this.read(ask("measured-reading") || "0", abort.signal));
       const start = this.start(tree, path);
       const found = [];
       for (const wanted of [value, value - reading, value + reading])
@@ -99,9 +99,9 @@ export class MeasuredView {
     }
   }
 
-  async read(text) {
+  async read(text, signal) {
     const question = questionOf(text.trim(), "length", this.app.units());
-    return (await post("/api/quantity", question)).value;
+    return (await post("/api/quantity", question, signal)).value;
   }
 
   /** The case with the modulus of the covering as a number, to begin from. */

@@ -1,6 +1,6 @@
 // Inside a covering: the values at one point, and the stresses on bonds.
 
-import { post } from "./api.js";
+import { isAbort, post } from "./api.js";
 import { questionOf } from "./control.js";
 import { el } from "./dom.js";
 import { say } from "./texts.js";
@@ -34,12 +34,16 @@ export class Probe {
 
   async typed() {
     const units = this.app.units();
+    this.asking?.abort(); // the newest texts hold
+    this.asking = new AbortController();
+    const { signal } = this.asking;
     const read = async ({ input }) =>
-      (await post("/api/quantity", questionOf(input.value.trim(), "length", units))).value;
+      (await post("/api/quantity", questionOf(input.value.trim(), "length", units), signal)).value;
     try {
       const [x, z] = await Promise.all(this.boxes.map(read));
       this.at(x, z);
     } catch (error) {
+      if (isAbort(error)) return;
       this.values.replaceChildren();
       this.place.textContent = error.message;
     }

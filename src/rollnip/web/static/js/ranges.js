@@ -1,6 +1,6 @@
 // From where to where an input is varied: two boxes.
 
-import { complaintOf, post } from "./api.js";
+import { complaintOf, isAbort, post } from "./api.js";
 import { questionOf } from "./control.js";
 import { el } from "./dom.js";
 import { say } from "./texts.js";
@@ -11,6 +11,7 @@ export class RangeBoxes {
   constructor(id, app, put) {
     this.app = app;
     this.put = put;
+    this.asking = null; // AbortController of the texts being read
     this.boxes = ["from", "to"].map((end) => {
       const input = el("input", { type: "text", id: `${id}-${end}`, autocomplete: "off" });
       const label = el("label", { for: `${id}-${end}`, text: say(`range.${end}`) });
@@ -38,16 +39,19 @@ export class RangeBoxes {
     const { path, dimension, factor } = this.input;
     const units = this.app.units();
     const texts = this.boxes.map(({ input }) => input.value.trim());
+    this.asking?.abort(); // the newest texts hold
+    this.asking = new AbortController();
+    const { signal } = this.asking;
     if (texts.some((text) => text === "")) return this.put(path, undefined);
     try {
       const read = texts.map((text) =>
-        post("/api/quantity", questionOf(text, dimension, units, path.endsWith("shore_a"))),
+        post("/api/quantity", questionOf(text, dimension, units, path.endsWith("shore_a")), signal),
       );
       const ends = (await Promise.all(read)).map(({ value }) => value / factor);
       if (ends[0] === ends[1]) throw new Error(say("range.empty"));
       return this.put(path, [Math.min(...ends), Math.max(...ends)]);
     } catch (error) {
-      this.wrong.textContent = complaintOf(error);
+      if (!isAbort(error)) this.wrong.textContent = complaintOf(error);
       return undefined;
     }
   }

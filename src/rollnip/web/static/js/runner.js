@@ -41,6 +41,11 @@ export class Runner {
     if (!this.exact) this.land();
   }
 
+  /** Whether an answer is under way. */
+  get isBusy() {
+    return Boolean(this.exact || this.flight);
+  }
+
   next(tree) {
     this.count += 1;
     return { tree, number: this.count };

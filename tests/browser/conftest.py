@@ -170,8 +170,8 @@ class Designer:
         self.page.evaluate(
             """([id, steps]) => {
               const slider = document.getElementById(id);
-              for (let step = 0; step < steps; step += 1) {
-                slider.value = String(Number(slider.value) + 1);
+              for (let step = 0; step < Math.abs(steps); step += 1) {
+                slider.value = String(Number(slider.value) + Math.sign(steps));
                 slider.dispatchEvent(new Event('input', { bubbles: true }));
               }
             }""",

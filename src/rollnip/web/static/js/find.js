@@ -109,6 +109,8 @@ export class FindView {
     this.said.replaceChildren(el("p", { class: "hint", text: say("find.busy") }));
     try {
       const wanted = await this.read(abort.signal);
+      await this.within.read;
+      if (this.within.wrong.textContent) throw new Error(this.within.wrong.textContent);
       const found = await post(
         "/api/find",
         {

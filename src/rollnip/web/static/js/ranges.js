@@ -12,10 +12,11 @@ export class RangeBoxes {
     this.app = app;
     this.put = put;
     this.asking = null; // AbortController of the texts being read
+    this.read = Promise.resolve(); // until the texts in the boxes have been taken
     this.boxes = ["from", "to"].map((end) => {
       const input = el("input", { type: "text", id: `${id}-${end}`, autocomplete: "off" });
       const label = el("label", { for: `${id}-${end}`, text: say(`range.${end}`) });
-      input.addEventListener("change", () => this.typed());
+      input.addEventListener("change", () => (this.read = this.typed()));
       return { end, input, label, node: el("div", { class: "field short" }, label, input) };
     });
     this.wrong = el("p", { class: "wrong", id: `${id}-range-wrong` });

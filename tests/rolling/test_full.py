@@ -255,3 +255,20 @@ def test_a_skin_that_has_no_second_order():
     assert solution.model.geometry == "full"
     assert solution.solver.residual < 1e-3
     assert solution.error["approach"] < 1e-3 * solution.approach
+
+
+@pytest.mark.parametrize("stiffening", [0.0, 1.5])
+def test_a_covering_that_is_nearly_incompressible(stiffening):
+    """At nu .499 the pressure of an element is an unknown, as at 0.5: no equilibrium was found."""
+    found = []
+    for poisson in (0.499, 0.5):
+        rubber = rn.StandardLinearSolid(
+            modulus=1.0, stiffening=stiffening, relaxation_time=0.03, poisson=poisson
+        )
+        upper = rn.Roller(radius=25.0, layers=(rn.Layer(4.0, rubber),))
+        nip = rolling(upper, BARE, normal=rn.Approach(0.6), friction=0.0, speed=100.0)
+        solution = rn.solve(nip, FULL)
+        assert solution.model.geometry == "full"
+        found.append(solution)
+    assert found[0].load == pytest.approx(found[1].load, rel=2e-2)
+    assert found[0].nip_width == pytest.approx(found[1].nip_width, rel=5e-3)

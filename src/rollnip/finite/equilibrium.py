@@ -146,8 +146,14 @@ class Body:
         turned = self._rest * shear / volume
         return law[0] - turned, law[1] + turned / volume
 
-    def _volume_terms(self, ratio: Array, pressure: Array) -> tuple[Array, ...]:
-        """Return c at the points, step and rate of the pressure; ``ratio`` is J at the points."""
+    def _volume_terms(
+        self, ratio: Array, pressure: Array, viscous: Viscous | None
+    ) -> tuple[Array, ...]:
+        """Return c at the points, step and rate of the pressure; ``ratio`` is J at the points.
+
+        Compressible elements have a pressure of their own, too, which steps to that of their
+        volume: so that steps go as far where nu is nearly 0.5.
+        """
         shear, _, rigid = self._constants
         weighted, inverse = self.strip.products
         mean = (inverse @ (weighted @ ratio[..., None]))[..., 0]
@@ -159,9 +165,12 @@ class Body:
             if not np.all(projected > 0.0):
                 raise NoEquilibriumError
             law, slope = self._law(projected)
-            law = (inverse @ (weighted @ law[..., None]))[..., 0] @ LINEAR.T
+            if viscous is not None:
+                law, slope = law + viscous.volume_law[0], slope + viscous.volume_law[1]
+            wanted = (inverse @ (weighted @ law[..., None]))[..., 0] - pressure
+            wanted[:, :1] += self._rest * shear
             soft = inverse @ (weighted @ (slope[..., None] * LINEAR)) @ inverse
-            c = np.where(rigid > 0.0, c, law)
+            step = np.where(rigid > 0.0, step, wanted)
             rate = np.where(rigid[..., None] > 0.0, rate, soft)
         return c, step, rate
 
@@ -173,18 +182,19 @@ class Body:
     def _fields(self, state: State) -> _Fields:
         f_xx, f_xy, f_yx, f_yy = deformation = self.deformation(state.displacement)
         ratio, shear = f_xx * f_yy - f_xy * f_yx, self._constants[0]
-        c, step, rate = self._volume_terms(ratio, state.pressure)
-        straight, second = np.broadcast_to(shear, c.shape), None
+        straight, second = np.broadcast_to(shear, ratio.shape), None
         slopes: tuple[Array | float, ...] = (0.5, 0.0, 0.0, 0.0, 0.0)
         if not self._is_soft:
             slopes = self._slopes(ratio, (f_xx - f_yy) ** 2 + (f_xy + f_yx) ** 2)
             second = Slopes(*(shear * one for one in slopes))
-            straight, c = 2.0 * second.i, c + second.j
+            straight = 2.0 * second.i
         viscous = None
         if self.memory is not None:
             constants = (*self._constants[:2], self._rest)
             viscous = Viscous.of(self.memory, deformation, constants, self._energies, slopes)
-            c = c + viscous.swelling
+        c, step, rate = self._volume_terms(ratio, state.pressure, viscous)
+        if second is not None:
+            c = c + second.j
         return _Fields(deformation, c, straight, step, rate, second, viscous)
 
     def _means(self, fields: _Fields) -> Array:
@@ -235,9 +245,8 @@ class Body:
         turn = turn - turn.transpose(0, 2, 1)
         stiff = means.transpose(0, 2, 1) @ rate
         if fields.viscous is not None and relaxing is not None:
-            held, bent = fields.viscous.turning
-            straight = straight + held
-            stiff += relaxing.at_once() + bent
+            straight = straight + fields.viscous.turning
+            stiff += relaxing.at_once()
         stiff = stiff.reshape(-1, 9, 2, 9, 2)
         stiff[:, :, 0, :, 0] += straight
         stiff[:, :, 1, :, 1] += straight
@@ -334,11 +343,10 @@ class Body:
             part = self._part(state.displacement, step)
             local = np.append(part * step, 0.0)[self.strip.unknowns]
             change = part * fields.step + (tangent.rate @ local[..., None])[..., 0]
-            state = State(
-                state.displacement + part * step,
-                state.pressure + self._constants[2] * change,
-                tangent,
-            )
+            if tangent.relaxing is not None:
+                change += tangent.relaxing.pressures(local)
+            moved, pressed = state.displacement + part * step, state.pressure + change
+            state = State(moved, pressed, tangent)
             size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
             is_first = before == inf
             shrinks = _CURVED * size if is_first else size / before

@@ -74,7 +74,8 @@ class State:
     Attributes
     ----------
     displacement : (unknowns,) [mm].
-    pressure : (elements, 3) of incompressible elements, in the basis `LINEAR` [MPa].
+    pressure : (elements, 3) in the basis `LINEAR`, c + r G of P = 2 G w_I F + (G w_J + c) cof F
+        [MPa].
     tangent : derivative near here, if it is known.
     """
 

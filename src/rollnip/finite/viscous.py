@@ -144,14 +144,14 @@ class Viscous:
             out[:, :, 3] = self.volume[0][..., None] * by[:, :, 3]
         return out
 
-    @property
-    def swelling(self) -> Array | float:
-        """What the change of volume adds to c of P = ... + c cof F, projected, (elements, 9)."""
+    @cached_property
+    def volume_law(self) -> tuple[Array | float, Array | float]:
+        """What the change of volume adds to U' at the points, and to its slope by J there."""
         if self.volume is None:
-            return 0.0
-        weighted, inverse = self.memory.strip.products
-        held = (self.stress[..., 3] * self.volume[2])[..., None]
-        return np.asarray((inverse @ (weighted @ held))[..., 0] @ LINEAR.T)
+            return 0.0, 0.0
+        lame, _, slope, bend = self.volume
+        held = self.stress[..., 3]
+        return held * slope, self.memory.at_once * lame * slope**2 + held * bend
 
     @property
     def force(self) -> Array:
@@ -167,22 +167,13 @@ class Viscous:
         return out.reshape(-1, 18)
 
     @property
-    def turning(self) -> tuple[Array, Array | float]:
-        """What the stresses as they are add to the stiffness as strains change.
-
-        (elements, 9, 9) of either direction, and (elements, 18, 18).
-        """
+    def turning(self) -> Array:
+        """What T as it is adds to the stiffness of either direction, (elements, 9, 9)."""
         by_s, by_z = self.memory.shapes
-        area = self.memory.strip.shapes[1]
-        held = (self.stress * area[..., None])[:, :, None]
+        held = (self.stress * self.memory.strip.shapes[1][..., None])[:, :, None]
         pulled = held[..., 0] * by_s + held[..., 2] * by_z
         pushed = held[..., 1] * by_z + held[..., 2] * by_s
-        straight = by_s.transpose(0, 2, 1) @ pulled + by_z.transpose(0, 2, 1) @ pushed
-        if self.volume is None:
-            return straight, 0.0
-        swell = self._projected_swell()
-        bent = swell * (self.stress[..., 3] * self.volume[3] * area)[..., None]
-        return straight, swell.transpose(0, 2, 1) @ bent
+        return np.asarray(by_s.transpose(0, 2, 1) @ pulled + by_z.transpose(0, 2, 1) @ pushed)
 
 
 def _last(value: Array | float) -> Array | float:
@@ -191,38 +182,54 @@ def _last(value: Array | float) -> Array | float:
 
 @dataclass(frozen=True)
 class Relaxing:
-    """Derivative of the relaxing forces by displacements of other columns.
+    """Derivative of the relaxing forces by the displacements.
 
     Attributes
     ----------
     memory : of the mesh.
-    by, rate : as `Viscous` has them, flat: (elements, 9 parts, 18), ``by`` times the volumes.
+    by, rate : as `Viscous` has them, by the displacements of each element, (elements, 9 parts, 18);
+        ``by`` times the volumes.
+    slope : m' of the projected J, (elements, 9); None: no viscoelastic layer is compressible.
     """
 
     memory: Memory
     by: Array
     rate: Array
+    slope: Array | None
 
     @classmethod
     def of(cls, viscous: Viscous) -> Relaxing:
         """Return the derivative at some stresses."""
         by = viscous.by * viscous.memory.strip.shapes[1][..., None, None]
-        count = by.shape[0]
-        return cls(viscous.memory, by.reshape(count, -1, 18), viscous.rate.reshape(count, -1, 18))
+        flat = (by.shape[0], -1, 18)
+        slope = None if viscous.volume is None else viscous.volume[2]
+        return cls(viscous.memory, by.reshape(flat), viscous.rate.reshape(flat), slope)
 
     def at_once(self) -> Array:
-        """Return what each point of Gauss adds by itself, (elements, 18, 18)."""
-        parts = self.by.shape[1] // 9
-        share = np.repeat(self.memory.at_once, parts, axis=1)[..., None]
-        return np.asarray(self.by.transpose(0, 2, 1) @ (share * self.rate))
+        """Return what T adds at each point of Gauss by itself, (elements, 18, 18)."""
+        by, rate = (one.reshape(one.shape[0], 9, -1, 18)[:, :, :3] for one in (self.by, self.rate))
+        share = self.memory.at_once[..., None, None]
+        count = by.shape[0]
+        by, rate = by.reshape(count, 27, 18), (share * rate).reshape(count, 27, 18)
+        return np.asarray(by.transpose(0, 2, 1) @ rate)
+
+    def _elsewhere(self, local: Array) -> Array:
+        """Return the relaxing stresses that come from other points, (elements, 9, parts)."""
+        change = (self.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
+        return self.memory.relaxing(change) - self.memory.at_once[..., None] * change
 
     def elsewhere(self, displacement: Array) -> Array:
         """Return the forces (unknowns,) that come from all other points."""
         strip = self.memory.strip
         local = np.append(displacement, 0.0)[strip.unknowns]
-        count = local.shape[0]
-        change = (self.rate @ local[..., None]).reshape(count, 9, -1)
-        held = self.memory.relaxing(change) - self.memory.at_once[..., None] * change
-        force = held.reshape(count, 1, -1) @ self.by
+        force = self._elsewhere(local).reshape(local.shape[0], 1, -1) @ self.by
         places = strip.unknowns.ravel() + 1
         return np.asarray(np.bincount(places, force.ravel(), minlength=strip.size + 1)[1:], float)
+
+    def pressures(self, local: Array) -> Array | float:
+        """Return what displacements elsewhere add to the pressures, (elements, 3)."""
+        if self.slope is None:
+            return 0.0
+        weighted, inverse = self.memory.strip.products
+        held = (self._elsewhere(local)[..., 3] * self.slope)[..., None]
+        return np.asarray((inverse @ (weighted @ held))[..., 0])

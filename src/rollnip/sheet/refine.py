@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import ceil, inf, log
@@ -29,6 +30,7 @@ _CLEARLY_WRONG = 1.0  # violation of the conditions of friction
 _ROUGHLY, _CLOSELY = 0.5, 0.1  # of the tolerance: what ends may be off on first and last sizes
 _SOFT = 0.05  # over the half-width: length over which a sheet that is easy to begin with yields
 _EASED = 8.0  # ratio of the stiffnesses of sheets that are solved one after the other
+_SOFTER = tuple(4.0**-power for power in (5, 4, 3, 2, 1))  # of sheets whose zones lead to others
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
 # Least error of each figure over its scale, times the square of the number of elements; measured
@@ -142,15 +144,20 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
     for stiffer in _easier(nip, half_width):
         eased = replace(search, nip=stiffer).begun(zones, _FIRST_COUNT)
         zones = eased.zones
-    if model.geometry != "linear":
-        stand = search.begun(zones, _FIRST_COUNT)
-        zones = stand.zones
+    stand = _begun(search, zones, Zones.sticking(half_width))
+    zones = stand.zones
     failures = 0
     while count <= _MOST_COUNT and failures < _MOST_FAILURES:
         fewest = _FEWEST if zones.breaks.size == 2 else _FEWEST_WITH_SLIP
         may_be_last = len(history) + 1 >= fewest
-        stand = search.placed(zones, round(count), stand, _CLOSELY if may_be_last else _ROUGHLY)
-        zones = stand.zones
+        if history or failures or model.geometry != "linear":
+            closely = _CLOSELY if may_be_last else _ROUGHLY
+            try:
+                stand = search.placed(zones, round(count), stand, closely)
+            except np.linalg.LinAlgError:
+                failures, count = failures + 1, count * _GROWTH
+                continue
+            zones = stand.zones
         figures = SheetFigures.of(stand, model.geometry)
         here = (count, figures, zones)
         errors = SheetFigures(_errors(nip, [*history, here]))
@@ -169,8 +176,35 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
             best = latest if best is None else best
             failures += not violated <= _CLEARLY_WRONG
         count *= _GROWTH
-    assert best is not None
+    if best is None:
+        raise np.linalg.LinAlgError("no size of mesh has a solution")
     return best
+
+
+def _begun(search: Search, zones: Zones, sticking: Zones) -> Standing:
+    """Return a first solution of first order, if need be by way of softer sheets.
+
+    In a stiff sheet each shear pulls at all others, and the look for stick and slip may circle.
+    Under a soft one both interfaces are nearly on their own; the zones of each sheet then lead to
+    those of a stiffer one. These begin from ``sticking``.
+    """
+    try:
+        first: Standing | None = search.begun(zones, _FIRST_COUNT)
+    except np.linalg.LinAlgError:
+        first = None
+    if first is not None and first.stands_still:
+        return first
+    sheet = search.nip.sheet
+    assert sheet is not None
+    across = sheet.modulus if sheet.modulus_thickness is None else sheet.modulus_thickness
+    zones = sticking
+    for share in _SOFTER:
+        softer = replace(sheet, modulus=share * sheet.modulus, modulus_thickness=across)
+        eased = replace(search, nip=replace(search.nip, sheet=softer))
+        with suppress(np.linalg.LinAlgError):
+            zones = eased.begun(zones, _FIRST_COUNT).zones
+    last = search.begun(zones, _FIRST_COUNT)
+    return last if first is None or violation(last) < violation(first) else first
 
 
 def _easier(nip: Nip, half_width: float) -> list[Nip]:

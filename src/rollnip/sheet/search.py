@@ -191,8 +191,9 @@ class Search:
             change, lagged = change_of(updated, lagged, problem, state), updated
             if not change > still:
                 break
-        stands_still = bool(change <= still and np.all(np.isfinite(state.pressure)))
-        return Standing(zones, problem, state, lagged, change, inf, steps, stands_still)
+        if not (np.isfinite(change) and np.all(np.isfinite(state.pressure))):
+            raise np.linalg.LinAlgError("no finite solution")
+        return Standing(zones, problem, state, lagged, change, inf, steps, bool(change <= still))
 
     @property
     def _slack(self) -> float:

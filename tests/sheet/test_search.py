@@ -1,0 +1,34 @@
+"""The search for the zones of both interfaces, where the look for stick and slip circles."""
+
+import pytest
+from sheet_population import random_case
+
+import rollnip as rn
+
+
+def test_paper_pulled_against_a_bare_roller_is_solved():
+    # Paper, two thirds of the friction used: under so stiff a sheet the look from stick circles.
+    rubber = rn.Elastic(modulus=1.3, poisson=0.5)
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50, layers=[rn.Layer(2.0, rubber)]),
+        lower=rn.Roller(radius=25),
+        normal=rn.LineLoad(1.0),
+        friction=0.3,
+        sheet=rn.Sheet(
+            thickness=0.1, modulus=3500.0, poisson=0.3, tension_in=0.2, friction_upper=0.35
+        ),
+    )
+    solution = rn.solve(nip, rn.Model(geometry="linear"))
+    assert solution.converged
+    # The conditions themselves, at the points of the picture: no shear beyond friction, and slip
+    # against its own shear nowhere.
+    bound = solution.profiles.pressure + 2e-3 * solution.peak_pressure
+    assert (abs(solution.profiles.shear) <= 0.35 * bound).all()
+    assert (abs(solution.sheet.profiles.shear_lower) <= 0.3 * bound).all()
+    assert solution.sheet.traction_upper == pytest.approx(0.2, abs=1e-9)
+
+
+@pytest.mark.parametrize("number", [10, 17])
+def test_random_nips_that_were_left_unsettled(number):
+    case = random_case(number)
+    assert rn.solve(case.nip, rn.Model(geometry=case.geometry)).converged

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.fft import dct, idct
 from scipy.optimize import brentq
 
 import rollnip as rn
@@ -40,6 +41,24 @@ def test_far_from_the_end_the_compliance_is_the_plane_one():
     plane = waves_of(roller, k).z
     assert even[:, -1] == pytest.approx(plane, rel=1e-6)
     assert np.all(even[:, 0] > 1.1 * plane)
+
+
+def test_points_in_the_nip_alone_feel_what_all_points_of_the_way_do():
+    """A transform over twice the 8 points that carry pressure is exact; one over 8 folds over."""
+    points, inside, y = 90, 8, places(0.3, 2.0, 20.0)
+    k = np.pi / (0.5 * points) * np.arange(points)
+    roller = covered((12.0, 4.0, 0.45))
+    whole = EndedCovering.of(roller, y, 0.15, ends=True).compliance(k)
+    few = module._Products.of(inside, points, whole[:60], [(np.ones(30), whole[60])])
+    whole[60:] = whole[60]
+    pressure = np.random.default_rng(3).random((inside, y.size))
+    waves = dct(pressure, n=points, axis=0)
+    all_points = idct(np.einsum("kij,kj->ki", whole, waves), axis=0)
+    np.testing.assert_allclose(few.normal(pressure), all_points[:inside], rtol=1e-10)
+    assert few.waves.shape[0] == 2 * inside  # however thick the covering
+    one = np.zeros_like(pressure)
+    one[0, -1] = 1.0
+    assert few.largest >= few.normal(one)[0, -1] * (1.0 - 1e-12)
 
 
 def test_without_lateral_strain_the_end_changes_nothing():

@@ -11,12 +11,13 @@ The pressure is mirrored at x = 0 and repeats so far away that the covering does
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
 from typing import Literal
 
 import numpy as np
-from scipy.fft import dct, idct, next_fast_len
+from scipy.fft import dct, idct
 
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
@@ -116,39 +117,49 @@ def _require_ends(upper: Roller, lower: Roller, approach: float, ending: Ending)
 class _Products:
     """Mean displacements under pressures, both scaled by the root of the length of their place.
 
+    Pressures act at a few points x only; the covering feels them over a far longer way.
+
     Attributes
     ----------
-    long : (n, m, m) compliance at the first wave numbers of a cosine transform, scaled [mm/MPa].
-    short : compliance at the others, as factors (rest, 1) on matrices (m, m), which add up.
+    waves : (2 n, m, m) compliance at the wave numbers of a cosine transform over twice the n points
+        that may carry pressure: free of images for these [mm/MPa].
+    largest : largest displacement of a place under a unit pressure there [mm/MPa].
     """
 
-    long: Array
-    short: tuple[tuple[Array, Array], ...] = ()
+    waves: Array
+    largest: float
+
+    @classmethod
+    def of(
+        cls, count: int, points: int, long: Array, short: Sequence[tuple[Array, Array]] = ()
+    ) -> _Products:
+        """Take the part for ``count`` points out of the compliance over a longer way.
+
+        Parameters
+        ----------
+        count, points : that may carry pressure; of the longer way.
+        long : (n, m, m) compliance at its first wave numbers, scaled [mm/MPa].
+        short : compliance at the others, as factors (points - n,) on matrices (m, m), which add up.
+        """
+        turns = np.cos(np.pi / points * np.outer(np.arange(2 * count + 1), np.arange(points)))
+        turns[:, 0] = 0.5
+        kernel = np.tensordot(turns[:, : long.shape[0]], long, axes=1)
+        for factors, matrix in short:
+            kernel += (turns[:, long.shape[0] :] @ factors)[:, None, None] * matrix
+        kernel /= points
+        own = np.diagonal(kernel[0] + kernel[1])  # at the first point, by its mirror image as well
+        return cls(dct(kernel, type=1, axis=0)[:-1], float(np.max(own)))
 
     def normal(self, pressure: Array) -> Array:
         """Return displacements, (n, m); x along the first axis."""
-        waves = dct(pressure, axis=0, norm="ortho")
-        moved = np.zeros_like(waves)
-        count = self.long.shape[0]
-        moved[:count] = np.matmul(self.long, waves[:count, :, None])[:, :, 0]
-        for factors, matrix in self.short:
-            moved[count:] += factors * (waves[count:] @ matrix)
-        return np.asarray(idct(moved, axis=0, norm="ortho"))
+        waves = dct(pressure, n=self.waves.shape[0], axis=0)
+        moved = np.matmul(self.waves, waves[:, :, None])[:, :, 0]
+        return np.asarray(idct(moved, axis=0)[: pressure.shape[0]])
 
     @property
     def element(self) -> float:
         """Area that stands for one value: 1, as no force is given."""
         return 1.0
-
-    @property
-    def largest(self) -> float:
-        """Largest displacement of a place by a unit pressure there [mm/MPa]."""
-        own = np.sum(np.diagonal(self.long, axis1=1, axis2=2), axis=0)
-        count = self.long.shape[0]
-        for factors, matrix in self.short:
-            own += np.sum(factors) * np.diagonal(matrix)
-        count += self.short[0][0].size if self.short else 0
-        return float(np.max(own) / count)
 
     def symmetric(self) -> _Products:
         """Return itself: elastic coverings."""
@@ -221,9 +232,10 @@ def _solved(pair: _Pair, ending: Ending, half: float, fine: float) -> _End:
             one = EndedCovering.of(roller, y, least, ending in ("both", name), fine)
             slow += one.compliance(k[long]) / scaled
             at_top = one.compliance(np.array([one.top]))[0] / scaled
-            fast.append((one.beyond(k[~long])[:, None], at_top))
-    plane = pair.pressed(x, _Products(pair.plane(k)), np.ones(1), pair.first(x, half))
-    pressure = pair.pressed(x, _Products(slow, tuple(fast)), root, plane * root)
+            fast.append((one.beyond(k[~long]), at_top))
+    flat = _Products.of(x.size, k.size, pair.plane(k))
+    plane = pair.pressed(x, flat, np.ones(1), pair.first(x, half))
+    pressure = pair.pressed(x, _Products.of(x.size, k.size, slow, fast), root, plane * root)
     return _End(step, y, pressure / root, plane)
 
 
@@ -250,17 +262,16 @@ class _Pair:
         half = _WIDEST * sqrt(2.0 * self.approach / self.curvature)
         for _ in range(2):
             x, k = self.grid(half / _ALONG, half)
-            products = _Products(self.plane(k))
+            products = _Products.of(x.size, k.size, self.plane(k))
             pressure = self.pressed(x, products, np.ones(1), self.first(x, half))
             half = float(x[np.flatnonzero(pressure[:, 0] > 0.0)[-1]] + 0.5 * (x[1] - x[0]))
         return half
 
     def grid(self, step: float, half: float) -> tuple[Array, Array]:
-        """Return points x > 0 and the wave numbers of their cosine transform, (n,) each."""
+        """Return points x > 0 that may carry pressure, and the wave numbers of a longer way."""
         reach = _WIDER * half + _REST * max(self.thicknesses)
-        count = int(next_fast_len(int(np.ceil(reach / step)), real=True))
-        points = np.arange(count, dtype=float)
-        return np.asarray(step * (points + 0.5)), np.asarray(np.pi / (count * step) * points)
+        inside, points = (np.arange(np.ceil(way / step)) for way in (_WIDER * half, reach))
+        return step * (inside + 0.5), np.pi / (points.size * step) * points
 
     def plane(self, k: Array) -> Array:
         """Return the compliance of the plane nip at wave numbers, (n, 1, 1)."""
@@ -289,6 +300,6 @@ class _Pair:
         gap = (0.5 * self.curvature * x**2 - self.approach)[:, None] * root
         scale = float(np.vdot(start, -gap) / np.vdot(start, products.normal(start)))
         found = solve_symmetric(NormalProblem(products, gap, None, 0.0), _ITERATION, scale * start)
-        if not found.settled:
+        if not found.settled or np.any(found.pressure[-1] > 0.0):
             raise ConvergenceError("The pressure near the end of the covering was not found.")
         return found.pressure

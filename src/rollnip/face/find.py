@@ -13,7 +13,7 @@ from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.face.checks import REPORTED, checked
 from rollnip.face.covering import Axis, axes_of, covers
-from rollnip.face.lattice import Lattice, cells_of
+from rollnip.face.lattice import Lattice, cells_at, cells_of
 from rollnip.face.law import NipLaw, slip_measure
 from rollnip.face.notes import warnings_of
 from rollnip.face.problem import FaceProblem, face_problem
@@ -224,13 +224,15 @@ class _Maker:
         else:
             span = span_of(law)
         wanted = _WANTED * self.model.tolerance
+        found = None
         for _ in range(_MOST_TABLES):
-            found = balance(self.problem, law)
+            found = balance(self.problem, law, found)
             wider = _wider(law, found, span)
             if wider is not None or _misses(law, found):
                 span = wider or span
                 law = self._table(_on_path(span.lattice, found).with_cells(law.lattice), law.axes)
                 continue
+            _require_solved(law, found)
             if not law.error:
                 law = checked(law, self.rows, self.progress, self.executor)
             finer = _finer(law, span, wanted)
@@ -239,7 +241,6 @@ class _Maker:
                 for axis in law.axes
             )
             if finer is None and axes == law.axes:
-                _require_solved(law, found)
                 return law, found
             span = finer or span
             law = self._table(_on_path(span.lattice, found), axes)
@@ -288,10 +289,10 @@ class _Maker:
         return Span(low, high, (middle - _FIRST_SLIP, middle + _FIRST_SLIP))
 
 
-def _path(found: Balance) -> tuple[Array, Array]:
-    """Return ln F and s of the places that carry something."""
+def _path(found: Balance, share: float = _SMALLEST_LOAD) -> tuple[Array, Array]:
+    """Return ln F and s of the places that carry more than a share of the heaviest."""
     section = found.section
-    carries = section.load > _SMALLEST_LOAD * float(section.load.max())
+    carries = section.load > share * float(section.load.max())
     return section.log_load[carries], section.s[carries]
 
 
@@ -301,8 +302,17 @@ def _on_path(lattice: Lattice, found: Balance) -> Lattice:
 
 
 def _misses(law: NipLaw, found: Balance) -> bool:
-    """Return whether a face goes through cells that a law was not solved for."""
-    return bool(np.any(cells_of(law.loads, law.s, *_path(found)) & ~law.lattice.cells))
+    """Return whether heavy places of a face lie in cells that a law was not solved for.
+
+    What lies outside its loads and slips asks for a wider table instead, if there can be one.
+    """
+    log_load, s = _path(found, _HEAVY)
+    ends = np.log(law.loads[[0, -1]])
+    inside = (log_load >= ends[0]) & (log_load <= ends[1])
+    if law.s.size > 1:
+        inside &= (s >= law.s[0]) & (s <= law.s[-1])
+    cells = cells_at(law.loads, law.s, log_load[inside], s[inside])
+    return bool(np.any(cells & ~law.lattice.cells))
 
 
 def _require_solved(law: NipLaw, found: Balance) -> None:
@@ -327,18 +337,18 @@ def _finer(law: NipLaw, span: Span, wanted: float) -> Span | None:
 
 def _wider(law: NipLaw, found: Balance, span: Span) -> Span | None:
     """Return a wider span; None where the face lies within the table."""
-    section = found.section
-    carries = section.load > 0.0
-    loads, s = np.exp(section.log_load[carries]), section.s[carries]
-    low, high = float(loads.min()), float(loads.max())
-    least = max(low, _SMALLEST_LOAD * high)
+    log_load, s = _path(found)
+    loads = np.exp(log_load)
+    least, high = float(loads.min()), float(loads.max())
     grown = span
     beyond = (least < 0.999 * law.loads[0], high > 1.001 * law.loads[-1])
     fault = next((why for out, why in zip(beyond, law.faults, strict=True) if out and why), "")
     if fault:
         raise ConvergenceError(fault)
     if high > 1.001 * law.loads[-1]:
-        grown = replace(grown, high=min(1.3 * high, 4.0 * float(law.loads[-1])))
+        # A step by e would end far beyond, at loads that the covering may not carry.
+        halved = max(span.halved[0], 1), span.halved[1]
+        grown = replace(grown, high=min(1.1 * high, 4.0 * float(law.loads[-1])), halved=halved)
     if least < 0.999 * law.loads[0]:
         smallest = 0.2 * float(law.loads[0])
         grown = replace(grown, low=max(0.7 * least, smallest, 0.5 * _SMALLEST_LOAD * high))
@@ -367,6 +377,6 @@ def _error_of_places(problem: FaceProblem, law: NipLaw, found: Balance) -> float
     """
     coarse = face_problem(problem.nip, problem.face, _PLACES // 2 + 1, problem.stiffness)
     coarse = replace(coarse, relief=problem.relief)
-    again = plane_load(coarse, balance(coarse, law))
+    again = plane_load(coarse, balance(coarse, law, found))
     load = plane_load(problem, found)
     return float(np.max(np.abs(load[::2] - again)) / load.max())

@@ -79,10 +79,15 @@ def cells_of(loads: Array, s: Array, log_load: Array, slip: Array) -> Mask:
 
     Parts of it outside count for the cells next to them.
     """
-    more = np.linspace(0.0, log_load.size - 1.0, 8 * log_load.size)
     at = np.arange(log_load.size)
-    i = _cell(np.log(loads), np.interp(more, at, log_load))
-    j = _cell(s, np.interp(more, at, slip)) if s.size > 1 else np.zeros_like(i)
+    more = np.linspace(0.0, log_load.size - 1.0, 8 * (log_load.size - 1) + 1)
+    return cells_at(loads, s, np.interp(more, at, log_load), np.interp(more, at, slip))
+
+
+def cells_at(loads: Array, s: Array, log_load: Array, slip: Array) -> Mask:
+    """Return the cells of a lattice that places at ln F and s lie in, each (n,)."""
+    i = _cell(np.log(loads), log_load)
+    j = _cell(s, slip) if s.size > 1 else np.zeros_like(i)
     out = np.zeros((loads.size - 1, max(s.size - 1, 1)), dtype=bool)
     out[i, j] = True
     return out

@@ -242,17 +242,14 @@ class NipLaw:
         s = np.zeros_like(log_load)
         for _ in range(_STEPS):
             a, a_f, a_s = self._surface("approach", log_load, s, places)
-            wrong = log_approach - a
-            if self.s.size == 1:
-                step_load, step_s = wrong / a_f, np.zeros_like(s)
-            else:
+            wrong, before = log_approach - a, s
+            if self.s.size > 1:
                 x, x_f, x_s = self._surface("creepage", log_load, s, places)
-                off = creepage - x
-                determinant = a_f * x_s - a_s * x_f
-                step_load = (x_s * wrong - a_s * off) / determinant
-                step_s = np.clip((a_f * off - x_f * wrong) / determinant, -0.5, 0.5)
+                step = (a_f * (creepage - x) - x_f * wrong) / (a_f * x_s - a_s * x_f)
+                # Where all slides, more creepage changes nothing.
+                s = np.clip(s + np.clip(step, -0.5, 0.5), -1.0, 1.0)
+            step_load = (wrong - a_s * (s - before)) / a_f
             log_load = log_load + np.clip(step_load, -1.0, 1.0)
-            before, s = s, np.clip(s + step_s, -2.0, 2.0)
             if max(np.max(np.abs(step_load)), np.max(np.abs(s - before))) < _SETTLED:
                 break
         return log_load, s
@@ -299,7 +296,9 @@ class NipLaw:
         knots = np.log(self.loads)
         near = np.clip(log_load, knots[0], knots[-1])
         inside = np.clip(s, self.s[0], self.s[-1])
-        value, by_load, by_s = (np.zeros_like(log_load) for _ in range(3))
+        farther, slipped = log_load - near, s - inside
+        is_beyond = bool(np.any(farther) or np.any(slipped))
+        value, by_load, by_s, mixed = (np.zeros_like(log_load) for _ in range(4))
         for spline, share in zip(self._splines[name], places.weights.T, strict=True):
             if isinstance(spline, CubicSpline):
                 value = value + share * spline(near)
@@ -308,16 +307,26 @@ class NipLaw:
             value = value + share * spline.ev(near, inside)
             by_load = by_load + share * spline.ev(near, inside, dx=1)
             by_s = by_s + share * self._by_slip(spline, name, near, inside)
-        beyond = by_load * (log_load - near) + by_s * (s - inside)
-        return value + beyond, by_load, by_s
+            if is_beyond:
+                mixed = mixed + share * self._by_slip(spline, name, near, inside, dx=1)
+        value = value + by_load * farther + by_s * slipped
+        # The plane that goes on turns with its place on the rim of the table.
+        by_load = by_load + np.where(farther == 0.0, mixed * slipped, 0.0)
+        return value, by_load, by_s + np.where(slipped == 0.0, mixed * farther, 0.0)
 
-    def _by_slip(self, spline: RectBivariateSpline, name: str, log_load: Array, s: Array) -> Array:
-        """Return the derivative of a spline by s, (n,): of a kinked one the slope between nips."""
+    def _by_slip(
+        self, spline: RectBivariateSpline, name: str, log_load: Array, s: Array, dx: int = 0
+    ) -> Array:
+        """Return the derivative by s, (n,), of a spline or, with dx = 1, of its slope by ln F.
+
+        Of a kinked one it is the slope between nips.
+        """
         if name not in _KINKED:
-            return np.asarray(spline.ev(log_load, s, dy=1))
+            return np.asarray(spline.ev(log_load, s, dx=dx, dy=1))
         cell = np.clip(np.searchsorted(self.s, s) - 1, 0, self.s.size - 2)
         low, high = self.s[cell], self.s[cell + 1]
-        return np.asarray((spline.ev(log_load, high) - spline.ev(log_load, low)) / (high - low))
+        ends = (spline.ev(log_load, one, dx=dx) for one in (high, low))
+        return np.asarray((next(ends) - next(ends)) / (high - low))
 
 
 def _place(load: float, share: float, places: Places) -> tuple[Array, Array]:

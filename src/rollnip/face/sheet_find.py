@@ -256,7 +256,9 @@ def solve_face_with_sheet(
 def require_even_covering(problem: FaceProblem) -> None:
     """Raise InvalidInputError where the covering varies along the face, or its ends give way."""
     if problem.face.ends != "plane":
-        raise InvalidInputError('`ends` must be "plane" beside a sheet, got "edge".')
+        raise InvalidInputError(
+            f'`ends` must be "plane" beside a sheet, got "{problem.face.ends}".'
+        )
     coverings = problem.coverings
     if coverings.values or np.ptp(coverings.scale) > 0.0 or problem.stiffness != 1.0:
         raise InvalidInputError(

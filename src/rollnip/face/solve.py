@@ -66,8 +66,13 @@ class _System:
     scale: float
 
 
-def balance(problem: FaceProblem, law: NipLaw) -> Balance:
+def balance(problem: FaceProblem, law: NipLaw, start: Balance | None = None) -> Balance:
     """Return the face in balance.
+
+    Parameters
+    ----------
+    problem, law : the face and its cross-sections.
+    start : a balance to start from, on as many places or twice as many; None: an even load.
 
     Raises
     ------
@@ -78,7 +83,7 @@ def balance(problem: FaceProblem, law: NipLaw) -> Balance:
     middle_load = float(np.sqrt(law.loads[0] * law.loads[-1])) * float(np.mean(places.scale))
     system = _System(problem, law, places, law.approach_at(middle_load, 0.0, places.mean))
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
-        found = _newton(system, _start(system))
+        found = _newton(system, _start(system) if start is None else _start_at(system, start))
     if found is None:
         raise ConvergenceError(_why_not(problem))
     return found
@@ -151,6 +156,12 @@ def _start(system: _System) -> Array:
     elif isinstance(nip.normal, Approach):
         approach = middle = nip.normal.approach
     return np.concatenate([np.full(n, approach), [middle, problem.tilt or 0.0, creepage]])
+
+
+def _start_at(system: _System, start: Balance) -> Array:
+    """Return the unknowns of a balance, at every other place where it has twice as many."""
+    every = (start.approach.size - 1) // (system.problem.grid.y.size - 1)
+    return np.array([*start.approach[::every], start.middle, start.tilt, start.creepage])
 
 
 def _residual(system: _System, unknowns: Array) -> tuple[Array, Array, Section]:

@@ -270,8 +270,9 @@ class _Pair:
     def grid(self, step: float, half: float) -> tuple[Array, Array]:
         """Return points x > 0 that may carry pressure, and the wave numbers of a longer way."""
         reach = _WIDER * half + _REST * max(self.thicknesses)
-        inside, points = (np.arange(np.ceil(way / step)) for way in (_WIDER * half, reach))
-        return step * (inside + 0.5), np.pi / (points.size * step) * points
+        inside, points = (int(np.ceil(way / step)) for way in (_WIDER * half, reach))
+        x, k = step * (np.arange(inside) + 0.5), np.pi / (points * step) * np.arange(points)
+        return np.asarray(x), np.asarray(k)
 
     def plane(self, k: Array) -> Array:
         """Return the compliance of the plane nip at wave numbers, (n, 1, 1)."""

@@ -82,7 +82,7 @@ def test_westergaard_in_partial_contact(share):
         problem = GridProblem(
             0.5 / count, clearance, wave(0.5 / count, count), share * full * 0.5, None
         )
-        state = TIGHT.on_grid(problem, np.ones(count), 1e-6)
+        state = GridActiveSet(tolerance=1e-6).on_grid(problem, np.ones(count))
         assert state.settled
         assert np.mean(state.pressure > 0.0) == pytest.approx(
             2.0 * exact.half_width / 0.5, abs=2.0 / count
@@ -101,7 +101,7 @@ def test_westergaard_in_full_contact():
     x = np.arange(count) * 0.5 / count
     clearance = -0.002 * np.cos(2.0 * np.pi * x / 0.5)
     problem = GridProblem(0.5 / count, clearance, wave(0.5 / count, count), 1.5 * full * 0.5, None)
-    state = TIGHT.on_grid(problem, np.ones(count), 1e-6)
+    state = GridActiveSet(tolerance=1e-6).on_grid(problem, np.ones(count))
     expected = full * (1.5 + np.cos(2.0 * np.pi * x / 0.5))
     assert state.settled
     np.testing.assert_allclose(state.pressure, expected, atol=1e-4 * full)
@@ -185,7 +185,7 @@ def test_growing_takes_over():
     clearance, spacing = rough_clearance(800, 1e-3)
     problem = GridProblem(spacing, clearance, half_space(spacing, 800), 1.0, None)
     start = np.ones(800)
-    hurried = GridActiveSet(most_steps=2).on_grid(problem, start, 1e-6)
+    hurried = GridActiveSet(tolerance=1e-6, most_steps=2).on_grid(problem, start)
     assert not hurried.settled
     assert np.all(np.isfinite(hurried.pressure))
     assert hurried.steps == 4

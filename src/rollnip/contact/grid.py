@@ -15,8 +15,8 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from rollnip.contact.problem import Array, Indices, Mask
 
-_LOW = 0.05
-_HIGH = 1e-2
+# Of the largest compliance of any wave, what a wave must have at least for the preconditioner.
+_LEAST_COMPLIANCE = 0.01
 
 
 @dataclass(frozen=True)
@@ -171,9 +171,7 @@ def _inverse_symbol(symbol: Array) -> tuple[Array, float]:
     long waves, where the cut of the convolution may even make it negative.
     """
     top = int(np.argmax(symbol))
-    floor = np.full(symbol.size, _LOW * symbol[top])
-    beyond = np.arange(top + 1, symbol.size)
-    floor[top + 1 :] = _HIGH * symbol[top] * (top + 1) / beyond
+    floor = _LEAST_COMPLIANCE * symbol[top] / np.maximum(np.arange(symbol.size) / (top + 1), 1.0)
     length = 2 * (symbol.size - 1)
     return 1.0 / np.maximum(symbol, floor), np.inf if top == 0 else 0.25 * length / top
 

@@ -24,12 +24,12 @@ from scipy.linalg import LinAlgError, cho_factor, cho_solve
 from rollnip.contact.grid import Convolution, GridProblem, GridState, InverseWithHoles
 from rollnip.contact.problem import Array, Indices, Mask
 
-_COARSEST_NODES = 256  # nodes of the first grid
-_COARSE_CORRECTION = 1e-3  # correction at which a coarse grid is left
-_FIRST_CONTACT_SHARE = 0.3  # of the nodes that the first contact set of all holds
-_MOST_DENSE_NODES = 1500  # nodes in contact
-_OVERLAP_ROUNDING = 1e-9  # of the displacements: overlap that counts as none
-_INNER_REDUCTION = 0.01  # of the correction within one contact set
+# Nodes of the first grid at most; a grid that is not halved has no estimated errors.
+_COARSEST_NODES = 256
+# Nodes in contact of which a dense matrix is made: 18 MB and 1e9 products for each set.
+_MOST_DENSE_NODES = 1500
+# Overlap that counts as none where a dense system was solved, of the displacements.
+_ROUNDING = float(np.sqrt(np.finfo(float).eps))
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,14 +71,13 @@ class GridActiveSet:
             before = state
             level = problem if stride == 1 else _every(problem, stride, coarser(stride))
             start = _first(level) if before is None else _between(before.pressure, level)
-            wanted = self.tolerance if stride <= 2 else max(_COARSE_CORRECTION, self.tolerance)
-            state = self.on_grid(level, start, wanted)
+            state = self.on_grid(level, start)
         assert state is not None
         return state, before
 
-    def on_grid(self, problem: GridProblem, start: Array, wanted: float) -> GridState:
-        """Solve on one grid from a first pressure, to a wanted correction."""
-        state = _active_set(problem, start, wanted, self.most_steps)
+    def on_grid(self, problem: GridProblem, start: Array) -> GridState:
+        """Solve on one grid from a first pressure."""
+        state = _active_set(problem, start, self.tolerance, self.most_steps)
         if state.settled:
             return state
         grown = _growing(problem, self.most_steps)
@@ -95,11 +94,10 @@ def _every(problem: GridProblem, stride: int, compliance: Convolution) -> GridPr
 
 
 def _first(problem: GridProblem) -> Array:
-    """Return a first pressure for the coarsest grid: even, where the surfaces are nearest."""
-    limit = float(np.quantile(problem.clearance, _FIRST_CONTACT_SHARE))
-    if problem.approach is not None:
-        limit = max(min(problem.approach, limit), float(np.min(problem.clearance)))
-    return np.where(problem.clearance <= limit, 1.0, 0.0)
+    """Return a first pressure for the coarsest grid: even, where the approach closes the gap."""
+    if problem.approach is None:
+        return np.ones(problem.clearance.size)
+    return np.where(problem.clearance <= max(problem.approach, problem.clearance.min()), 1.0, 0.0)
 
 
 def _between(pressure: Array, problem: GridProblem) -> Array:
@@ -172,23 +170,19 @@ def _active_set(problem: GridProblem, start: Array, wanted: float, most: int) ->
             return GridState(np.zeros(contact.size), problem.approach, steps, 0.0, settled=apart)
         gap = problem.clearance + problem.compliance.of(pressure)
         descent = _Descent(problem, contact, InverseWithHoles(problem.compliance, contact).of)
-        first = np.inf
         while steps < most:
             steps += 1
             depth = _depth(problem, contact, gap)
             residual, correction = descent.correction(gap - depth)
             size = _relative(correction, pressure)
-            first = size if np.isinf(first) else first
-            if size <= max(wanted, _INNER_REDUCTION * first):
+            if size <= wanted:
                 break
             change, opened = descent.step(residual, correction)
             pressure, gap = pressure + change, gap + opened
         tension = contact & (pressure < 0.0)
         overlap = ~contact & (gap < depth)
         if not np.any(tension) and not np.any(overlap):
-            if size <= wanted:
-                return GridState(pressure, depth, steps, size, settled=True)
-            continue
+            return GridState(pressure, depth, steps, size, settled=size <= wanted)
         contact = (contact & ~tension) | overlap
         pressure = _feasible(problem, np.where(contact, pressure, 0.0))
     return GridState(_feasible(problem, pressure), depth, steps, size, settled=False)
@@ -233,9 +227,9 @@ def _growing(problem: GridProblem, most: int) -> GridState:
         pressure[inside] = wanted
         displacement = problem.compliance.of(pressure)
         gap = problem.clearance - depth + displacement
-        overlap = ~contact & (gap < -_OVERLAP_ROUNDING * np.max(np.abs(displacement)))
+        overlap = ~contact & (gap < -_ROUNDING * np.max(np.abs(displacement)))
         if not np.any(overlap):
-            return GridState(pressure, depth, steps, _OVERLAP_ROUNDING, settled=True)
+            return GridState(pressure, depth, steps, _ROUNDING, settled=True)
         deepest = (gap <= np.roll(gap, 1)) & (gap <= np.roll(gap, -1))
         contact |= overlap & deepest if np.any(overlap & deepest) else overlap
     return GridState(pressure, depth, steps, np.inf, settled=False)

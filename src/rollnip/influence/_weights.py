@@ -27,8 +27,6 @@ from scipy.special import sici, spherical_jn
 Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
-_ROUNDING = 1e-12  # what may be lost where two exact expressions meet
-
 
 def multipliers(phase: Array) -> ComplexArray:
     """m_0, m_1 and m_2 at real phases y > 0; shape (3, ...)."""
@@ -123,7 +121,7 @@ def _lowest_filon_phase(nodes: int) -> float:
 
     Its error is about y^(2m)/(2m)! for m nodes; Filon's formulas for m_1 and m_2 divide by y.
     """
-    return float((_ROUNDING * factorial(2 * nodes)) ** (0.5 / nodes))
+    return float((np.finfo(float).eps * factorial(2 * nodes)) ** (0.5 / nodes))
 
 
 @lru_cache(maxsize=8)

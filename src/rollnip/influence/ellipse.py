@@ -7,17 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.influence.kernel import Kernel
+from rollnip.influence.kernel import MOST_OCTAVES, Kernel
 
 Array = NDArray[np.float64]
 
-_HALF_WIDTHS = np.geomspace(1e-9, 1.0, 40)  # of the longest
-# The pressure of half-width 1 on some nodes, by its changes of slope there; how far the nodes are
-# from the centre and from an edge.
-_ANGLES = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 25)
-_SLOPES = np.pad(np.diff(np.cos(_ANGLES)) / np.diff(np.sin(_ANGLES)), 1)
-_KINKS = np.diff(_SLOPES)
-_DISTANCES = np.array([0.0, 1.0])[:, None] - np.sin(_ANGLES)
+_PIECES = 24  # straight ones, of an ellipse: Hertz's half-width comes out to 4e-5
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,8 +30,16 @@ class Ellipses:
 
     @classmethod
     def under(cls, kernel: Kernel, longest: float) -> Ellipses:
-        """Tabulate an influence function's displacements for half-widths up to ``longest`` [mm]."""
-        half_width = longest * _HALF_WIDTHS
-        values = kernel.double_integral(np.multiply.outer(half_width, _DISTANCES))
-        centre, edge = (values @ _KINKS).T / half_width
+        """Tabulate an influence function's displacements for half-widths up to ``longest`` [mm].
+
+        There is one in each octave down to the shortest length that any table covers.
+        """
+        octaves = np.arange(0.0, np.log2(kernel.reach / longest) - MOST_OCTAVES, -1.0)
+        half_width = longest * 2.0 ** octaves[::-1]
+        angle = np.linspace(-0.5 * np.pi, 0.5 * np.pi, _PIECES + 1)
+        x, height = np.sin(angle), np.cos(angle)
+        kinks = np.diff(np.diff(height) / np.diff(x), prepend=0.0, append=0.0)
+        from_centre_and_edge = np.array([0.0, 1.0])[:, None] - x
+        values = kernel.double_integral(np.multiply.outer(half_width, from_centre_and_edge))
+        centre, edge = (values @ kinks).T / half_width
         return cls(half_width, centre, edge)

@@ -21,7 +21,8 @@ Indices = NDArray[np.intp]
 
 _POINTS_PER_OCTAVE = 8
 _NODES = 14
-_MOST_PANELS_PER_OCTAVE = 8
+MOST_OCTAVES = 40
+"""Octaves of length, and of wave numbers below them, that a table covers at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,10 +44,10 @@ class Window:
         its inverse.
         """
         high = ceil(log2(longest))
-        low = max(floor(log2(shortest)), high - 40)
+        low = max(floor(log2(shortest)), high - MOST_OCTAVES)
         bottom = -high - 2
         if slowest > 0.0:
-            bottom = max(min(bottom, floor(-log2(slowest)) - 5), bottom - 40)
+            bottom = max(min(bottom, floor(-log2(slowest)) - 5), bottom - MOST_OCTAVES)
         return cls(points=(low, high), octaves=(bottom, -low + 2))
 
 
@@ -233,7 +234,7 @@ def tabulate(
     per_octave = 1
     limit = np.array(low_limit, dtype=complex)
     samples, roughness = _sample(compliance, window, per_octave, nodes)
-    while roughness > tolerance and per_octave < _MOST_PANELS_PER_OCTAVE:
+    while roughness > tolerance and per_octave < _POINTS_PER_OCTAVE:
         per_octave *= 2
         samples, roughness = _sample(compliance, window, per_octave, nodes)
     means = _transform(samples, limit, window, per_octave, nodes)

@@ -29,7 +29,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import isinf, pi
+from math import isinf, pi, sqrt
 
 import numpy as np
 from scipy.fft import next_fast_len
@@ -42,20 +42,12 @@ from rollnip.influence.surface import moduli
 from rollnip.rollers import Roller
 
 _SIZES_PER_OCTAVE = 4  # half-widths that have a table
-_POINTS_PER_HALF_WIDTH = 18.0  # points of the grid on which fields at depth are multiplied
-# Points for one of that on the grid of the surface, which is interpolated.
-_SURFACE_POINTS_PER_POINT = 2
-# Largest wave number, in pi per half-width; beyond, terms are not of second order.
-_LARGEST_WAVE_NUMBER = 16.5
-# Of the window beyond the contact, in thicknesses of a single elastic layer.
-_ELASTIC_WINDOW_REACH = 6.0
-_LARGEST_WINDOW_REACH = 10.0  # the largest such reach, for any layers
-_LARGEST_DEPTH = 8.0  # thickness that counts at most, in half-widths
-_DEPTH_FOLDS = 3.0  # of e in depth, from the surface to twice the half-width or the core
-_DEPTHS_PER_FOLD = 3.0  # depths, besides ...
-_FEWEST_DEPTHS = 4  # ... so many in every layer
-_TANGENT_BEYOND = 4.0  # half-widths beyond which present places are taken as those of the tangent
-_FILTER_EXPONENT = 36.0  # exponent of the filter at the largest wave number
+_LARGEST_WAVE_NUMBER = 16.5  # in pi per half-width; beyond, terms are not of second order
+_POINTS_PER_HALF_WIDTH = 18.0  # of the grid on which fields at depth are multiplied
+_SURFACE_POINTS_PER_POINT = 2  # of that grid: the surface is interpolated
+_WINDOW_REACH = 6.0  # of the window beyond the contact, in lengths over which the layers spread
+_LARGEST_SPREAD = 3.0  # such a length that counts at most, in half-widths
+_DEPTHS_PER_FOLD = 3.0  # depths for each fold of e in depth, and in every layer for one more
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,8 +71,8 @@ class SecondResponse:
     surface : (nk, 4, 2) amplitudes of u_x, u_z, du_x/dx, du_z/dx at the surface.
     impulse : (nk,) transform, at x[0], of a traction of which the second derivative is an impulse
         [mm]; for k = 0 of the impulse itself [1/mm]. What is too short for the contact is left out.
-    angle : (n,) x/R near the contact, and as at its border elsewhere.
-    excess : (n,) likewise x^3/(6 R^2), by which the arc is longer than the tangent [mm].
+    angle : (n,) x/R, at most 1 either way.
+    excess : (n,) x^3/(6 R^2), by which the arc is longer than the tangent [mm].
     is_short : whether fields spread farther in the layers than the grid is long. The grid then
         lacks the longest waves, which move the contact as a whole.
     """
@@ -229,13 +221,12 @@ def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
 def _fit(x: Array, k: Array, curvature: float, half_width: float) -> tuple[Array, Array, Array]:
     """`SecondResponse.impulse`, ``angle`` and ``excess`` for a contact."""
     # What is too short is left out, softly, whatever the grid: it is not small of second order.
-    kept = np.exp(-_FILTER_EXPONENT * (k * (half_width / (pi * _LARGEST_WAVE_NUMBER))) ** 6)
+    kept = np.finfo(float).eps ** ((k * (half_width / (pi * _LARGEST_WAVE_NUMBER))) ** 6)
     squares = -k * k
     squares[0] = 1.0
     impulse = k[1] / (2.0 * pi) * kept / squares
-    near = np.clip(x, -_TANGENT_BEYOND * half_width, _TANGENT_BEYOND * half_width)
-    angle = curvature * near
-    return impulse, angle, angle * angle * near / 6.0
+    angle = np.clip(curvature * x, -1.0, 1.0)
+    return impulse, angle, angle * angle * x / 6.0
 
 
 def second_response(roller: Roller, speed: float | None, half_width: float) -> SecondResponse:
@@ -291,7 +282,7 @@ def second_table(roller: Roller, speed: float | None, size: float) -> SecondResp
         impulse=impulse,
         angle=angle,
         excess=excess,
-        is_short=_spread(roller, size) < roller.coating_thickness,
+        is_short=_spread(roller, size) < _shear_lag(roller),
     )
 
 
@@ -302,32 +293,30 @@ def _grid(roller: Roller, size: float) -> Array:
     largest.
     """
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
-    window = 2.0 * (largest + _reach(roller) * _spread(roller, size))
+    window = 2.0 * (largest + _WINDOW_REACH * _spread(roller, size))
     step = size / _POINTS_PER_HALF_WIDTH
     turn = 2.0 * pi * roller.radius
-    count = 2 * int(next_fast_len(int(np.ceil(0.5 * min(window, turn) / step)), real=True))
-    step = min(step, turn / count) / _SURFACE_POINTS_PER_POINT
-    half = _SURFACE_POINTS_PER_POINT * count // 2
+    half = int(next_fast_len(int(np.ceil(0.5 * min(window, turn) / step)), real=True))
+    step = min(step, 0.5 * turn / half) / _SURFACE_POINTS_PER_POINT
+    half *= _SURFACE_POINTS_PER_POINT
     return np.asarray(step * np.arange(-half, half), dtype=float)
 
 
 def _spread(roller: Roller, size: float) -> float:
-    """Thickness that counts for the length of the grid [mm]."""
+    """Length that counts for the length of the grid [mm]."""
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
-    return float(min(max(roller.coating_thickness, 0.5 * largest), _LARGEST_DEPTH * largest))
+    return float(min(max(_shear_lag(roller), 0.5 * largest), _LARGEST_SPREAD * largest))
 
 
-def _reach(roller: Roller) -> float:
-    """Return how far beyond the contact the layers let fields spread, in thicknesses.
+def _shear_lag(roller: Roller) -> float:
+    """Length over which the layers spread what pulls at one of them [mm].
 
-    A stiff layer on a soft one bends over its thickness times the cube root of the contrast.
+    Layers are stretched, the sum of E h, and sheared, the sum of h/E: fields decay over the root of
+    the product, the thickness where there is one elastic layer.
     """
-    if roller.is_viscoelastic:
-        return _LARGEST_WINDOW_REACH
-    young = [layer.material.relaxed_modulus for layer in roller.layers]
-    return min(
-        _ELASTIC_WINDOW_REACH * float(np.cbrt(max(young) / min(young))), _LARGEST_WINDOW_REACH
-    )
+    stretch = sum(one.thickness * one.material.glassy_modulus for one in roller.layers)
+    shear = sum(one.thickness / one.material.relaxed_modulus for one in roller.layers)
+    return float(sqrt(stretch * shear))
 
 
 def _positive(k: Array) -> Array:
@@ -339,15 +328,13 @@ def _depths(roller: Roller, half_width: float) -> tuple[Array, Array, Array]:
     """Depths, weights and layers of the integral over depth.
 
     In every layer Gauss points of the logarithm of the depth (and a little): fields that decay
-    within any length from a hundredth of the contact up are polynomials in it.
+    within any length that the grid carries are polynomials in it.
     """
-    little = min(roller.coating_thickness, 2.0 * half_width) / np.expm1(_DEPTH_FOLDS)
+    little = min(roller.coating_thickness, half_width) / _LARGEST_WAVE_NUMBER
     marks = np.log1p(np.array([0.0, *roller.interfaces]) / little)
     z, weight, owner = [], [], []
     for i, (top, bottom) in enumerate(pairwise(marks)):
-        points, weights, _ = gauss_legendre(
-            _FEWEST_DEPTHS + int(np.ceil(_DEPTHS_PER_FOLD * (bottom - top)))
-        )
+        points, weights, _ = gauss_legendre(int(np.ceil(_DEPTHS_PER_FOLD * (bottom - top + 1.0))))
         grown = little * np.exp(0.5 * (bottom + top) + 0.5 * (bottom - top) * points)
         z.append(grown - little)
         weight.append(0.5 * (bottom - top) * weights * grown)

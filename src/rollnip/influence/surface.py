@@ -76,7 +76,7 @@ def covering_window(rollers: tuple[Roller, ...], speed: float | None) -> Window:
         [1e-6 * min(radii)] + [1e-3 * d for d in thicknesses] + [1e-5 * m for m in memories]
     )
     slowest = max([0.0, *thicknesses, *(r.coating_thickness for r in rollers), *memories])
-    return Window.covering(max(shortest, 2.0**-32 * longest), longest, slowest)
+    return Window.covering(shortest, longest, slowest)
 
 
 def surface_kernels(

@@ -126,26 +126,89 @@ SHEETS: Mapping[str, Sheet] = {
     "office paper": _paper(0.104, 6000.0, 40.0),
     "newsprint": _paper(0.068, 4000.0, 25.0),
     "board": _paper(0.40, 4500.0, 30.0),
-    "PET film": Sheet(thickness=0.05, modulus=4000.0, poisson=0.38),
+    "PET film": Sheet(thickness=0.05, modulus=4500.0, poisson=0.38),
+    "BOPP film": Sheet(thickness=0.02, modulus=2500.0, poisson=0.4),
     "PE film": Sheet(thickness=0.05, modulus=200.0, poisson=0.45),
-    "aluminium foil": Sheet(thickness=0.012, modulus=70e3, poisson=0.33),
+    "aluminium foil": Sheet(thickness=0.012, modulus=70e3, poisson=0.3),
+    "steel belt": Sheet(thickness=0.2, modulus=200e3, poisson=0.3),
 }
 """Usual sheets along their machine direction, without tension: a start where nothing is measured.
 
-Vary with `dataclasses.replace`; `SHEET_SOURCES` says which range is usual.
+Vary with `dataclasses.replace`; `SHEET_SOURCES` says where the values come from and what is usual.
 """
 
-_PAPER_SOURCE = (
-    "typical values, some +-30 % between grades; the modulus is that of the machine direction, "
-    "across the thickness about a hundredth of it (Mann, Baum and Habeger, Tappi 63 (1980) 163, "
-    "measured all constants of one board)"
+
+@dataclass(frozen=True, slots=True)
+class SheetSource:
+    """Where the values of a usual sheet come from, and the range that is usual.
+
+    Attributes
+    ----------
+    thickness, modulus : lowest and highest usual value [mm, MPa]; the modulus along the machine
+        direction.
+    modulus_thickness : the same across the thickness; None where that in the plane is taken.
+    text : the sources; "typical" marks a value without one.
+    """
+
+    thickness: tuple[float, float]
+    modulus: tuple[float, float]
+    modulus_thickness: tuple[float, float] | None
+    text: str
+
+
+_PAPER_MODULUS = (
+    "modulus 3 to 8.9 GPa from newsprint to kraft (Ashby, Materials and the Environment, 2nd "
+    "edition, 2013, paper and cardboard), within it typical of the grade along the machine; "
+    "across the thickness about a hundredth, some 40 MPa in a milk carton board (Mann, Baum and "
+    "Habeger, Tappi 63 (2), 1980, 163); Poisson's ratio typical"
 )
-SHEET_SOURCES: Mapping[str, str] = {
-    "office paper": f"of 80 g/m2; {_PAPER_SOURCE}",
-    "newsprint": f"of 45 g/m2; {_PAPER_SOURCE}",
-    "board": f"folding boxboard of 250 g/m2; {_PAPER_SOURCE}",
-    "PET film": "typical value of biaxially drawn film, 50 um; 3.5 to 5 GPa are usual",
-    "PE film": "typical value of low-density film, 50 um; 0.1 to 0.3 GPa are usual",
-    "aluminium foil": "household foil of 12 um, typical; the metal's own modulus, 69 to 72 GPa",
+SHEET_SOURCES: Mapping[str, SheetSource] = {
+    "office paper": SheetSource(
+        (0.095, 0.115), (4000.0, 8900.0), (20.0, 80.0), f"of 80 g/m2; {_PAPER_MODULUS}"
+    ),
+    "newsprint": SheetSource(
+        (0.055, 0.08), (3000.0, 5000.0), (15.0, 50.0), f"of 45 g/m2; {_PAPER_MODULUS}"
+    ),
+    "board": SheetSource(
+        (0.3, 0.6), (3000.0, 8000.0), (20.0, 60.0), f"folding boxboard, 250 g/m2; {_PAPER_MODULUS}"
+    ),
+    "PET film": SheetSource(
+        (0.001, 0.5),
+        (4000.0, 5000.0),
+        None,
+        "biaxially drawn: 4.5 GPa by ISO 527 (Mitsubishi Polyester Film, Comparative data for "
+        "plastic films); 4.8 GPa by ASTM D 882 and Poisson's ratio 0.38 below yield (DuPont Teijin "
+        "Films, Mylar physical-thermal properties, H-37232-3)",
+    ),
+    "BOPP film": SheetSource(
+        (0.004, 0.08),
+        (1700.0, 2500.0),
+        None,
+        "2.5 GPa along and 4.5 GPa across the machine by ISO 527 (Mitsubishi Polyester Film, "
+        "Comparative data for plastic films); Poisson's ratio typical of polypropylene",
+    ),
+    "PE film": SheetSource(
+        (0.01, 0.2),
+        (100.0, 300.0),
+        None,
+        "low density, typical; 0.12 GPa by ISO 527 for a soft copolymer (LyondellBasell, technical "
+        "data sheet Lucalen A2540D, 2016); of high density some 0.8 to 1 GPa",
+    ),
+    "aluminium foil": SheetSource(
+        (0.006, 0.2),
+        (69e3, 72e3),
+        None,
+        "household foil; modulus and Poisson's ratio of the metal (EN 1999-1-1, 3.2.5)",
+    ),
+    "steel belt": SheetSource(
+        (0.1, 1.2),
+        (190e3, 210e3),
+        None,
+        "of austenitic stainless steel, 200 GPa at 20 degC (EN 10088-1); thickness typical",
+    ),
 }
-"""What the numbers of `SHEETS` are, by name: typical values and the range that is usual."""
+"""Sources and usual ranges of the values of `SHEETS`, by name.
+
+Friction is no property of a sheet alone. It is measured by ISO 15359 or TAPPI T 549 for paper and
+by ISO 8295 or ASTM D 1894 for film, against the surface that the roller has.
+"""

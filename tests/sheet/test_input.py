@@ -1,5 +1,6 @@
 """Wrong sheets are refused in one sentence; doubtful ones are solved with a warning."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -102,3 +103,11 @@ def test_usual_sheets_have_sources():
     from rollnip.sheets import SHEET_SOURCES, SHEETS
 
     assert list(SHEETS) == list(SHEET_SOURCES)
+    for name, sheet in SHEETS.items():
+        source = SHEET_SOURCES[name]
+        for key in ("thickness", "modulus", "modulus_thickness"):
+            value, usual = getattr(sheet, key), getattr(source, key)
+            assert (value is None) == (usual is None), (name, key)
+            assert value is None or usual[0] <= value <= usual[1], (name, key)
+        # a standard by its number or a publication by its year
+        assert re.search(r"(EN|ISO) \d|\b(19|20)\d\d\b", source.text), name

@@ -89,6 +89,8 @@ export const LIBRARY_DE = {
   "sheet.kind.newsprint": "Zeitungspapier",
   "sheet.kind.board": "Karton",
   "sheet.kind.PET film": "PET-Folie",
+  "sheet.kind.BOPP film": "BOPP-Folie",
+  "sheet.kind.steel belt": "Stahlband",
   "sheet.kind.PE film": "PE-Folie",
   "sheet.kind.aluminium foil": "Aluminiumfolie",
   "example.heat-calender": "Kalanderwalze",

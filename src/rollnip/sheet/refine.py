@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.model import Model
-from rollnip.nip import LineLoad, Nip
+from rollnip.nip import LineLoad, Nip, Traction
 from rollnip.rolling import Figures, PairKernels
 from rollnip.rolling.round import peak_pressure, scale_of_creepage
 from rollnip.sheet.powers import SheetPowers, sheet_powers
@@ -31,6 +31,7 @@ _ROUGHLY, _CLOSELY = 0.5, 0.1  # of the tolerance: what ends may be off on first
 _SOFT = 0.05  # over the half-width: length over which a sheet that is easy to begin with yields
 _EASED = 8.0  # ratio of the stiffnesses of sheets that are solved one after the other
 _SOFTER = tuple(4.0**-power for power in (5, 4, 3, 2, 1))  # of sheets whose zones lead to others
+_LIGHTER = (0.0, 0.25, 0.5, 0.7, 0.85)  # of the pulls whose zones lead to those of the whole
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
 # Least error of each figure over its scale, times the square of the number of elements; measured
@@ -182,11 +183,11 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
 
 
 def _begun(search: Search, zones: Zones, sticking: Zones) -> Standing:
-    """Return a first solution of first order, if need be by way of softer sheets.
+    """Return a first solution of first order, if need be by way of easier nips.
 
     In a stiff sheet each shear pulls at all others, and the look for stick and slip may circle.
-    Under a soft one both interfaces are nearly on their own; the zones of each sheet then lead to
-    those of a stiffer one. These begin from ``sticking``.
+    Under a soft one both interfaces are nearly on their own, and without a pull little slips; the
+    zones of each such nip lead to those of the next. These begin from ``sticking``.
     """
     try:
         first: Standing | None = search.begun(zones, _FIRST_COUNT)
@@ -194,17 +195,45 @@ def _begun(search: Search, zones: Zones, sticking: Zones) -> Standing:
         first = None
     if first is not None and first.stands_still:
         return first
-    sheet = search.nip.sheet
+    found = [] if first is None else [first]
+    for nips in (_softer(search.nip), _lighter(search.nip)):
+        zones = sticking
+        for nip in [*nips, search.nip]:
+            with suppress(np.linalg.LinAlgError):
+                stand = replace(search, nip=nip).begun(zones, _FIRST_COUNT)
+                zones = stand.zones
+                if nip is search.nip:
+                    found.append(stand)
+        if found and found[-1].stands_still:
+            return found[-1]
+    if not found:
+        raise np.linalg.LinAlgError("no way to a first solution")
+    return min(found, key=violation)
+
+
+def _softer(nip: Nip) -> list[Nip]:
+    """Return nips with softer sheets, the softest first, across the thickness as they are."""
+    sheet = nip.sheet
     assert sheet is not None
     across = sheet.modulus if sheet.modulus_thickness is None else sheet.modulus_thickness
-    zones = sticking
-    for share in _SOFTER:
-        softer = replace(sheet, modulus=share * sheet.modulus, modulus_thickness=across)
-        eased = replace(search, nip=replace(search.nip, sheet=softer))
-        with suppress(np.linalg.LinAlgError):
-            zones = eased.begun(zones, _FIRST_COUNT).zones
-    last = search.begun(zones, _FIRST_COUNT)
-    return last if first is None or violation(last) < violation(first) else first
+    soft = [
+        replace(sheet, modulus=share * sheet.modulus, modulus_thickness=across) for share in _SOFTER
+    ]
+    return [replace(nip, sheet=one) for one in soft]
+
+
+def _lighter(nip: Nip) -> list[Nip]:
+    """Return nips with smaller tensions and a smaller traction, the smallest first."""
+    sheet, tangential = nip.sheet, nip.tangential
+    assert sheet is not None
+    out = []
+    for share in _LIGHTER:
+        pulled = {name: share * getattr(sheet, name) for name in ("tension_in", "tension_out")}
+        driven = tangential
+        if isinstance(tangential, Traction):
+            driven = Traction(share * tangential.traction)
+        out.append(replace(nip, sheet=replace(sheet, **pulled), tangential=driven))
+    return out
 
 
 def _easier(nip: Nip, half_width: float) -> list[Nip]:

@@ -1,0 +1,89 @@
+"""The pulls that a nip holds, judged by sweeps of the pull: solutions up to them, none beyond.
+
+The load is not given but the approach, so that nothing is known of friction before a nip is solved.
+"""
+
+from dataclasses import replace
+
+import pytest
+from sheet_nips import HARD, RIGID, nip_with, paper
+
+import rollnip as rn
+
+RUBBER = rn.StandardLinearSolid(modulus=0.9, stiffening=0.9, relaxation_time=0.01, poisson=0.49)
+VISCO = rn.Roller(radius=50, layers=[rn.Layer(2.0, RUBBER)])
+UNLIKE = paper(friction_upper=0.3, friction_lower=0.2)
+LINEAR = rn.Model(geometry="linear")
+
+
+def pulled(nip, pull):
+    tensions = {"tension_in": max(pull, 0.0), "tension_out": max(-pull, 0.0)}
+    return rn.solve(replace(nip, sheet=replace(nip.sheet, **tensions)), LINEAR)
+
+
+def last_held(nip, limit):
+    """The solution with the largest pull of this sign that has one, by bisection to 3 %."""
+    low, high, last = 0.4, 1.2, pulled(nip, 0.4 * limit)
+    assert last.converged
+    while high - low > 0.03:
+        middle = 0.5 * (low + high)
+        try:
+            solution = pulled(nip, middle * limit)
+        except rn.RollnipError:
+            solution = None
+        if solution is not None and solution.converged:
+            low, last = middle, solution
+        else:
+            high = middle
+    return last
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    "more",
+    [
+        {"upper": VISCO},
+        {"tangential": rn.Traction(0.2)},
+        {"tangential": rn.Creepage(0.0)},
+        {"upper": VISCO, "tangential": rn.Creepage(0.0)},
+    ],
+    ids=["viscoelastic", "driven", "geared", "geared viscoelastic"],
+)
+def test_a_sweep_of_the_pull_ends_where_no_grip_is_left(more):
+    # At a given approach the load changes with the shears: the limit is that of the last solution.
+    nip = nip_with(UNLIKE, normal=rn.Approach(0.28), speed=100.0, **more)
+    first = rn.solve(nip, LINEAR).sheet.grip
+    for limit in (first.largest, first.smallest):
+        solution = last_held(nip, limit)
+        grip, sheet = solution.sheet.grip, solution.sheet
+        assert grip.pull * limit > 0.0
+        assert 0.0 < grip.reserve < 0.05 * (grip.largest - grip.smallest)
+        # the side that goes is the one that slips nearly all over
+        sides = ("upper", "lower") if grip.first == "both" else (grip.first,)
+        assert all(getattr(sheet, f"slip_share_{side}") > 0.5 for side in sides)
+        assert max(grip.use_upper, grip.use_lower) > 0.88
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("lower", [HARD, RIGID], ids=["covered", "bare"])
+def test_against_an_idler_nearly_all_of_the_upper_friction_can_be_used(lower):
+    nip = nip_with(UNLIKE, lower=lower)
+    for sign in (1.0, -1.0):
+        solution = pulled(nip, 0.995 * sign * 0.3 * 1.78)
+        assert solution.converged
+        assert solution.sheet.grip.first == "upper"
+        assert solution.sheet.slip_share_upper > 0.8
+        assert solution.sheet.grip.reserve == pytest.approx(0.005 * 0.3 * 1.78, rel=1e-6)
+
+
+def test_the_weaker_side_of_geared_rollers_slides_before_the_sheet_is_lost():
+    nip = nip_with(UNLIKE, tangential=rn.Creepage(0.0))
+    solution = pulled(nip, 0.9 * 0.5 * 1.78)
+    sheet = solution.sheet
+    assert solution.converged
+    assert sheet.grip.largest == pytest.approx(0.5 * 1.78, rel=1e-9)
+    # 0.2 F below, all it can give; the rest above, which still sticks at its leading side
+    assert sheet.slip_share_lower == 1.0
+    assert sheet.slip_share_upper < 0.9
+    assert -sheet.traction_lower == pytest.approx(0.2 * 1.78, rel=1e-6)
+    assert sheet.traction_upper == pytest.approx(0.25 * 1.78, rel=1e-6)

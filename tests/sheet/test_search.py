@@ -28,7 +28,6 @@ def test_paper_pulled_against_a_bare_roller_is_solved():
     assert solution.sheet.traction_upper == pytest.approx(0.2, abs=1e-9)
 
 
-@pytest.mark.parametrize("number", [10, 17])
-def test_random_nips_that_were_left_unsettled(number):
-    case = random_case(number)
+def test_a_random_nip_that_was_left_unsettled():
+    case = random_case(10)
     assert rn.solve(case.nip, rn.Model(geometry=case.geometry)).converged

@@ -150,6 +150,22 @@ def test_under_given_tractions_without_the_matrix(name, request):
         np.testing.assert_allclose(part, factor * expected, rtol=0.0, atol=rounding)
 
 
+def test_tractions_of_a_few_nodes_each_on_a_long_mesh(half_space, odd):
+    """A band of 140 sets on 150 nodes, of which some lie apart, is more than one block."""
+    both, rng = Kernel.stacked((half_space, odd)), np.random.default_rng(5)
+    nodes = np.sort(rng.uniform(-1.0, 1.0, 150))
+    nodes = np.linspace(-1.0, 1.0, nodes.size) + 0.2 * (nodes - np.linspace(-1.0, 1.0, 150))
+    tractions = np.zeros((nodes.size - 2, 140))
+    for column in range(140):
+        tractions[column : column + 4, column] = rng.normal(size=4)
+    tractions[:, 7] = rng.normal(size=nodes.size - 2)
+    tractions[:, 60] = 0.0
+    found = displacement_under(both, PLACES, nodes, tractions)
+    matrix = displacement_matrix(both, PLACES, nodes)
+    np.testing.assert_allclose(found, matrix @ tractions, rtol=0.0, atol=1e-9)
+    assert np.all(found[..., 60] == 0.0)
+
+
 def test_channels_are_those_of_each_kernel_alone(half_space, odd):
     both = Kernel.stacked((half_space, odd))
     for matrix in (displacement_matrix, strain_matrix):

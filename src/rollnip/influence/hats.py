@@ -46,7 +46,15 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     values = kernel.double_integral(x[:, None] - nodes[None, :])
     if values.ndim == 2:
         return np.asarray(values @ kinks)
-    return (values.swapaxes(1, 2) @ kinks).swapaxes(0, 1)[: kernel.count]
+    # Sets that are each of a few neighbours make a band, which is multiplied block by block.
+    out, block = np.zeros((x.size, values.shape[2], kinks.shape[1])), 32
+    for start in range(0, nodes.size, block):
+        rows = slice(start, start + block)
+        sets = np.flatnonzero(np.any(kinks[rows], axis=0))
+        if sets.size:
+            columns = slice(int(sets[0]), int(sets[-1]) + 1)
+            out[:, :, columns] += values[:, rows].swapaxes(1, 2) @ kinks[rows, columns]
+    return out.swapaxes(0, 1)[: kernel.count]
 
 
 def load_weights(nodes: Array) -> Array:

@@ -179,6 +179,20 @@ _SHEET = (
         "Share of the nip width over which the sheet slips on the lower roller.",
     ),
     _sheet(
+        "nip_width_lower",
+        "w_l",
+        "nip width, lower side",
+        "length",
+        "Width of the contact of sheet and lower roller; the nip width is that of the upper one.",
+    ),
+    _sheet(
+        "peak_pressure_lower",
+        r"p_{0l}",
+        "peak pressure, lower side",
+        "pressure",
+        "Highest pressure between the sheet and the lower roller.",
+    ),
+    _sheet(
         "grip_reserve",
         r"\Delta T",
         "grip reserve",
@@ -206,6 +220,14 @@ SHEET_PROFILES: Mapping[str, Figure] = {
             "speed",
             "Velocity of the sheet relative to the lower surface, along +x.",
         ),
+        _curve(
+            "pressure_lower",
+            "p_l",
+            "pressure, lower side",
+            "pressure",
+            "Pressure between the sheet and the lower roller.",
+        ),
+        _curve("height", "y", "path of the sheet", "length", "Height of the sheet's middle."),
     )
 }
 """The distributions of a sheet over x by key."""

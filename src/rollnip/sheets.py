@@ -38,6 +38,9 @@ class Sheet:
         tension per width on the inlet side (x > 0) and on the outlet side [N/mm], not negative.
     friction_upper, friction_lower :
         Coulomb coefficient of the sheet on either roller, positive; None: that of the nip.
+    bending :
+        whether its stiffness against bending is counted; False: it bends freely; None: counted
+        where it acts over more than a fifth of the nip width, if that solution is verified.
 
     Raises
     ------
@@ -53,6 +56,7 @@ class Sheet:
     tension_out: float = 0.0
     friction_upper: float | None = None
     friction_lower: float | None = None
+    bending: bool | None = None
 
     def __post_init__(self) -> None:
         for name in ("thickness", "modulus"):
@@ -61,6 +65,10 @@ class Sheet:
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, require_positive(name, value))
+        if self.bending is not None and not isinstance(self.bending, bool):
+            raise InvalidInputError(
+                f"`bending` must be true or false, or be left out, got {self.bending!r}."
+            )
         for name in ("tension_in", "tension_out"):
             value = getattr(self, name)
             object.__setattr__(self, name, require_not_negative(name, value))

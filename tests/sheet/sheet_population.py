@@ -1,6 +1,6 @@
 """Random nips with a sheet by number: the same number is always the same nip."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import sqrt
 
 import numpy as np
@@ -19,11 +19,15 @@ class Case:
     geometry: str
 
 
-def random_case(number):
-    """Nip ``number``: foil to board, coverings of 1 to 3 layers, bare rollers, any control."""
+def random_case(number, *, bending=False):
+    """Nip ``number``: foil to board, coverings of 1 to 3 layers, bare rollers, any control.
+
+    ``bending``: whether the sheet resists bending.
+    """
     rng = np.random.default_rng([21, number])
     geometry = GEOMETRIES[int(rng.integers(3))]
-    return Case(number, _nip(rng), geometry)
+    nip = _nip(rng)
+    return Case(number, replace(nip, sheet=replace(nip.sheet, bending=bending)), geometry)
 
 
 def _power(rng, low, high):

@@ -70,7 +70,7 @@ def test_a_sheet_that_is_pushed_is_warned_of():
 
 
 def test_a_stiff_sheet_is_warned_of():
-    board = rn.Sheet.usual("board")
+    board = replace(rn.Sheet.usual("board"), bending=False)
     solution = rn.solve(nip_with(board), rn.Model(geometry="linear"))
     length = solution.sheet.bending_length
     # (D d/E)^(1/4) on the softer covering, by hand

@@ -74,6 +74,7 @@ def _sheet(solution: Any) -> dict[str, Any]:
     }
     tree["zones_lower"] = [_zone(zone) for zone in sheet.zones_lower]
     tree["bending_length"] = _number(sheet.bending_length)
+    tree["bends"] = bool(sheet.bends)
     grip = sheet.grip
     tree["grip"] = {
         "pull": _number(grip.pull),

@@ -279,6 +279,9 @@ class SheetTable(FileTable):
     tension_out: LineLoad = 0.0
     friction_upper: Ratio | None = Field(None, description="By default that of the nip.")
     friction_lower: Ratio | None = None
+    bending: bool | None = Field(
+        None, description="Whether it resists bending; by default where that shows."
+    )
 
 
 class RollerTable(FileTable):

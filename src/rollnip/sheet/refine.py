@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -20,11 +21,11 @@ from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
 
-_FIRST_COUNT = 20
-_GROWTH = 1.6
-_MOST_COUNT = 190
+FIRST_COUNT = 20
+GROWTH = 1.6
+MOST_COUNT = 190
 _SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
-_FEWEST, _FEWEST_WITH_SLIP = 2, 3  # sizes of mesh before an error is believed
+FEWEST, FEWEST_WITH_SLIP = 2, 3  # sizes of mesh before an error is believed
 _MOST_FAILURES = 3  # sizes of mesh whose zones are clearly wrong; finer ones find none either
 _CLEARLY_WRONG = 1.0  # violation of the conditions of friction
 _ROUGHLY, _CLOSELY = 0.5, 0.1  # of the tolerance: what ends may be off on first and last sizes
@@ -139,29 +140,29 @@ class Refined:
 def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Refined:
     """Solve on ever finer meshes until the estimated errors are below the tolerance."""
     search = Search(nip, model, kernels)
-    zones, stand, count = Zones.sticking(half_width), None, float(_FIRST_COUNT)
+    zones, stand, count = Zones.sticking(half_width), None, float(FIRST_COUNT)
     history: list[tuple[float, SheetFigures, Zones]] = []
     best: Refined | None = None
     for stiffer in _easier(nip, half_width):
-        eased = replace(search, nip=stiffer).begun(zones, _FIRST_COUNT)
+        eased = replace(search, nip=stiffer).begun(zones, FIRST_COUNT)
         zones = eased.zones
     stand = _begun(search, zones, Zones.sticking(half_width))
     zones = stand.zones
     failures = 0
-    while count <= _MOST_COUNT and failures < _MOST_FAILURES:
-        fewest = _FEWEST if zones.breaks.size == 2 else _FEWEST_WITH_SLIP
+    while count <= MOST_COUNT and failures < _MOST_FAILURES:
+        fewest = FEWEST if zones.breaks.size == 2 else FEWEST_WITH_SLIP
         may_be_last = len(history) + 1 >= fewest
         if history or failures or model.geometry != "linear":
             closely = _CLOSELY if may_be_last else _ROUGHLY
             try:
                 stand = search.placed(zones, round(count), stand, closely)
             except np.linalg.LinAlgError:
-                failures, count = failures + 1, count * _GROWTH
+                failures, count = failures + 1, count * GROWTH
                 continue
             zones = stand.zones
         figures = SheetFigures.of(stand, model.geometry)
         here = (count, figures, zones)
-        errors = SheetFigures(_errors(nip, [*history, here]))
+        errors = SheetFigures(errors_between(nip, [*history, here]))
         violated = violation(stand)
         left = max(violated, overlap(stand, kernels))
         latest = Refined(stand, figures, errors, left)
@@ -169,14 +170,14 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
             history.append(here)
             best = latest
             # Where something slips, two sizes may agree by chance.
-            fewest = _FEWEST if zones.breaks.size == 2 else _FEWEST_WITH_SLIP
+            fewest = FEWEST if zones.breaks.size == 2 else FEWEST_WITH_SLIP
             enough = may_be_last and len(history) >= fewest
             if enough and max(left, ratio(nip, figures, errors)) <= model.tolerance:
                 return latest
         else:
             best = latest if best is None else best
             failures += not violated <= _CLEARLY_WRONG
-        count *= _GROWTH
+        count *= GROWTH
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return best
@@ -190,7 +191,7 @@ def _begun(search: Search, zones: Zones, sticking: Zones) -> Standing:
     zones of each such nip lead to those of the next. These begin from ``sticking``.
     """
     try:
-        first: Standing | None = search.begun(zones, _FIRST_COUNT)
+        first: Standing | None = search.begun(zones, FIRST_COUNT)
     except np.linalg.LinAlgError:
         first = None
     if first is not None and first.stands_still:
@@ -200,7 +201,7 @@ def _begun(search: Search, zones: Zones, sticking: Zones) -> Standing:
         zones = sticking
         for nip in [*nips, search.nip]:
             with suppress(np.linalg.LinAlgError):
-                stand = replace(search, nip=nip).begun(zones, _FIRST_COUNT)
+                stand = replace(search, nip=nip).begun(zones, FIRST_COUNT)
                 zones = stand.zones
                 if nip is search.nip:
                     found.append(stand)
@@ -285,7 +286,7 @@ def scales(nip: Nip, figures: SheetFigures) -> Array:
     return np.asarray(out)
 
 
-def _errors(nip: Nip, history: list[tuple[float, SheetFigures, Zones]]) -> Array:
+def errors_between(nip: Nip, history: Sequence[tuple[float, SheetFigures, object]]) -> Array:
     """Return the estimated errors from the changes between meshes.
 
     The last change counts by the second order, or the first where the changes do not shrink so
@@ -294,7 +295,7 @@ def _errors(nip: Nip, history: list[tuple[float, SheetFigures, Zones]]) -> Array
     the zones and hardly resolves short ones, where three finer ones stand. No error is less than
     the least of such meshes in random nips.
     """
-    history = history[1:] if len(history) > _FEWEST_WITH_SLIP else history
+    history = history[1:] if len(history) > FEWEST_WITH_SLIP else history
     count, figures, _ = history[-1]
     if len(history) < 2:
         return np.full(figures.values.size, inf)

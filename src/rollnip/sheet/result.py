@@ -26,6 +26,10 @@ class SheetProfiles:
     strain : (n,) of the sheet's middle along the nip.
     slip_velocity_lower : (n,) of the sheet relative to the lower surface, along +x [mm/s]; nan
         outside the contact; None without speed.
+    pressure_lower : (n,) on the lower interface [MPa]; of a sheet that bends freely it is that on
+        the upper one.
+    height : (n,) of the sheet's middle: its path, over the top of the undeformed lower roller [mm];
+        of a sheet that bends freely it lies halfway between the surfaces, its thickness left out.
     """
 
     x: Array
@@ -33,6 +37,8 @@ class SheetProfiles:
     tension: Array
     strain: Array
     slip_velocity_lower: Array | None
+    pressure_lower: Array
+    height: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,6 +92,9 @@ class SheetResult:
     zones_lower : stick and slip on the lower interface; directions are those of the slip velocity
         of the sheet relative to the lower surface.
     bending_length : over which its bending stiffness counts on these rollers, (D d/E)^(1/4) [mm].
+    bends : whether its bending stiffness was counted; where not, it bends freely.
+    nip_width_lower : width of the lower interface [mm]; the nip width is that of the upper one.
+    peak_pressure_lower : highest pressure on the lower interface [MPa].
     grip : how hard it can be pulled.
     profiles : along the sheet.
     error : estimated errors by name, absolute.
@@ -108,6 +117,9 @@ class SheetResult:
     slip_share_lower: float
     zones_lower: tuple[Zone, ...]
     bending_length: float
+    bends: bool
+    nip_width_lower: float
+    peak_pressure_lower: float
     grip: Grip
     profiles: SheetProfiles = field(repr=False)
     error: Mapping[str, float] = field(repr=False)

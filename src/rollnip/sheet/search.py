@@ -78,6 +78,11 @@ class Standing:
     steps: int
     stands_still: bool
 
+    @property
+    def wanted_traction(self) -> float | None:
+        """T_l that is asked for [N/mm]; None where none is."""
+        return self.lagged.traction
+
 
 @dataclass(frozen=True)
 class Search:
@@ -246,7 +251,7 @@ def violation(stand: Standing) -> float:
         signs = SIGNS.take(states)
         slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
         wrong = np.where(slips, np.maximum(-signs[:-1] * creeps[side, :-1], 0.0), 0.0)
-        parts.append(_longest_run(wrong) / allowed)
+        parts.append(longest_run(wrong) / allowed)
     return max(parts)
 
 
@@ -276,7 +281,7 @@ def overlap(stand: Standing, kernels: PairKernels) -> float:
     return max(0.0, float(np.max(-gap)) / depth, pull)
 
 
-def _longest_run(values: Array) -> float:
+def longest_run(values: Array) -> float:
     """Return the largest sum of a run of positive values."""
     total = np.concatenate([[0.0], np.cumsum(values)])
     rest = np.maximum.accumulate(np.where(np.append(values, 0.0) > 0.0, 0.0, total))

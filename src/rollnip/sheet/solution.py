@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import inf, isinf, nan
+from math import isinf, nan
 from typing import Literal
 
 import numpy as np
@@ -13,7 +13,6 @@ from numpy.typing import NDArray
 from rollnip.contact import ContactZone, State
 from rollnip.interior import SurfaceTractions
 from rollnip.nip import Creepage, Nip, Torque, Traction
-from rollnip.rollers import Roller
 from rollnip.rolling import (
     DeformedSurfaces,
     Displacements,
@@ -28,6 +27,7 @@ from rollnip.rolling import (
     surface_strain,
 )
 from rollnip.rolling.surfaces import pair_displacements
+from rollnip.sheet.common import bending_length
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
 from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, Refined, scales
@@ -179,6 +179,9 @@ class SheetSolution(Solution):
             slip_share_lower=_slip_share(self._zones(1)),
             zones_lower=self._zones(1),
             bending_length=bending_length(self.nip),
+            bends=self._bends,
+            nip_width_lower=self._lower[0],
+            peak_pressure_lower=self._lower[1],
             grip=_grip(self.nip, self.load, self._figure("traction_upper"), self.traction),
             profiles=self._sheet_profiles(),
             error=self._sheet_errors(),
@@ -193,7 +196,19 @@ class SheetSolution(Solution):
         pressure = self._at(x, self.final.pressure)
         strain = sheet.stretch_by_tension * tension + sheet.stretch_by_pressure * pressure
         lower = self._at(x, mesh.acting(state.shear_lower))
-        return SheetProfiles(x, lower, tension, strain, self._slip(1))
+        surfaces = self.deformed_surfaces
+        height = 0.5 * (surfaces.upper + surfaces.lower)
+        return SheetProfiles(x, lower, tension, strain, self._slip(1), pressure, height)
+
+    @property
+    def _bends(self) -> bool:
+        """Whether the sheet's stiffness against bending is counted."""
+        return False
+
+    @property
+    def _lower(self) -> tuple[float, float]:
+        """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
+        return self.nip_width, self.peak_pressure
 
     def _sheet_errors(self) -> dict[str, float]:
         """Return the errors of the figures of the sheet, by their names."""
@@ -338,9 +353,9 @@ class SheetSolution(Solution):
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
         for zone in stand.zones.sides[side].zones:
-            out[_inside(x, zone)] = 0.0
+            out[inside_zone(x, zone)] = 0.0
             if zone.state != State.STICK:
-                within = _inside(x, zone)
+                within = inside_zone(x, zone)
                 out[within] = -speed * np.interp(x[within], middle, rate)
         return out
 
@@ -351,30 +366,9 @@ def _slip_share(zones: tuple[Zone, ...]) -> float:
     return slipping / (zones[-1].stop - zones[0].start)
 
 
-def _inside(x: Array, zone: ContactZone) -> NDArray[np.bool_]:
+def inside_zone(x: Array, zone: ContactZone) -> NDArray[np.bool_]:
+    """Return which places lie in a zone."""
     return np.asarray((x >= zone.start) & (x <= zone.stop))
-
-
-def bending_length(nip: Nip) -> float:
-    """Return (D d/E)^(1/4) on the softer covering, over which bending stiffness counts [mm].
-
-    D is the bending stiffness of the sheet, d and E thickness and relaxed modulus of the covering.
-    A half-space core takes the length (D/E)^(1/3).
-    """
-    assert nip.sheet is not None
-    stiffness = nip.sheet.bending_stiffness
-    lengths = [_on_covering(roller, stiffness) for roller in (nip.upper, nip.lower)]
-    return max(length for length in lengths if length < inf)
-
-
-def _on_covering(roller: Roller, stiffness: float) -> float:
-    if roller.is_rigid:
-        return inf
-    if not roller.layers:
-        assert roller.core is not None
-        return float((stiffness / roller.core.relaxed_modulus) ** (1.0 / 3.0))
-    yielding = sum(layer.thickness / layer.material.relaxed_modulus for layer in roller.layers)
-    return float((stiffness * yielding) ** 0.25)
 
 
 def _grip(nip: Nip, load: float, upper: float, lower: float) -> Grip:

@@ -11,26 +11,30 @@ from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
 from rollnip.model import Model
-from rollnip.nip import LineLoad, Nip, Torque, Traction
+from rollnip.nip import Nip
 from rollnip.rolling import (
     PairKernels,
     Round,
     SolverInfo,
     half_width_guess,
-    impossible,
     pair_kernels,
-    verdict,
     with_second_order,
 )
 from rollnip.rolling.assemble import SecondOrder
+from rollnip.sheet.common import (
+    SLACK,
+    bending_length,
+    half_width_with_sheet,
+    require_grip,
+    require_torque,
+    sheet_verdict,
+)
+from rollnip.sheet.plate.solved import COUNTED, solve_plate, stiffness_shows
 from rollnip.sheet.refine import Refined, refine_sheet
-from rollnip.sheet.solution import SheetSolution, bending_length
-from rollnip.sheet.system import frictions_of
+from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import Strains, validity_warnings
 
 _STIFF = 0.1  # bending length over the nip width, beyond which bending stiffness matters
-_CLEARLY = 1.2  # times what friction carries; a torque also turns against the pressure
-_SLACK = 1e-6  # of the load: tension below zero that is more than rounding
 
 
 def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> SheetSolution:
@@ -55,20 +59,34 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
         raise InvalidInputError(
             '`geometry` must be "linear", "curved" or "finite" with a sheet, got "corrected".'
         )
-    _require_torque(nip)
+    require_torque(nip)
     simpler: tuple[str, ...] = ()
     if model.geometry == "full":
         model = replace(model, geometry="finite")
         simpler = (
             'Geometry "full" is for nips without a sheet: all figures are those of "finite".',
         )
+    assert nip.sheet is not None
+    record, bending = (version, simpler), nip.sheet.bending
+    if bending or (bending is None and stiffness_shows(nip, model, cache)):
+        counted = solve_plate(nip, model, cache, record)
+        if counted is not None:
+            return counted
+    return _bending_freely(nip, model, cache, record, start)
+
+
+def _bending_freely(
+    nip: Nip, model: Model, cache: KernelCache, record: tuple[str, tuple[str, ...]], start: float
+) -> SheetSolution:
+    """Return the solution of a sheet without stiffness; ``record``: version and what was said."""
+    version, simpler = record
     kernels, refined, left = _refined(nip, model, cache)
     if left:
         model = replace(model, geometry="curved")
     left = simpler + left
-    _require_grip(nip, refined)
+    require_grip(nip, refined)
     final = as_round(nip, refined)
-    converged, status = _verdict(nip, model, refined, final)
+    converged, status = sheet_verdict(nip, model, refined, final)
     strains = Strains.of(nip, model, final)
     return SheetSolution(
         nip=nip,
@@ -124,20 +142,7 @@ def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, R
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    return kernels, refine_sheet(nip, model, kernels, _with_sheet(nip, half_width))
-
-
-def _with_sheet(nip: Nip, half_width: float) -> float:
-    """Return a first half-width [mm] from that of the rollers alone, of a sheet that is squeezed.
-
-    Between rigid rollers a sheet of springs would take (3 F c/(2 kappa))^(1/3), c its squeeze and
-    kappa the curvature of the gap; both widths together as if their cubes, the loads, added up.
-    """
-    assert nip.sheet is not None
-    if not isinstance(nip.normal, LineLoad):
-        return half_width
-    squeezed = 1.5 * nip.normal.load * nip.sheet.squeeze / nip.curvature
-    return float(np.cbrt(half_width**3 + squeezed))
+    return kernels, refine_sheet(nip, model, kernels, half_width_with_sheet(nip, half_width))
 
 
 def as_round(nip: Nip, refined: Refined) -> Round:
@@ -172,73 +177,22 @@ def as_round(nip: Nip, refined: Refined) -> Round:
     )
 
 
-def _require_torque(nip: Nip) -> None:
-    """Raise where a torque clearly asks for more than the friction below carries."""
-    if not (isinstance(nip.tangential, Torque) and isinstance(nip.normal, LineLoad)):
-        return
-    limit = nip.friction_on("lower") * nip.normal.load
-    wanted = abs(nip.tangential.torque_lower) * nip.lower.curvature
-    if wanted > _CLEARLY * limit:
-        raise InvalidInputError(
-            f"`torque_lower` asks the sheet for some {wanted:.4g} N/mm, but its friction on the "
-            f"lower roller carries {limit:.4g} N/mm; lower it, or raise the load or the friction."
-        )
-
-
-def _require_grip(nip: Nip, refined: Refined) -> None:
-    """Raise where an interface is asked to carry more than friction can."""
-    sheet, load = nip.sheet, refined.figures.load
-    assert sheet is not None
-    wanted = refined.stand.lagged.traction
-    if wanted is None or not load > 0.0:
-        return
-    pulls = wanted + sheet.tension_in - sheet.tension_out, wanted
-    name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
-    sides = zip(("upper", "lower"), pulls, frictions_of(nip), strict=True)
-    for side, pull, friction in sides:
-        if abs(pull) >= friction * load and (
-            refined.stand.stands_still or isinstance(nip.tangential, Traction)
-        ):
-            raise InvalidInputError(
-                f"`{name}` and the tensions ask the {side} roller for {pull:.6g} N/mm, but its "
-                f"friction on the sheet carries less than {friction * load:.6g} N/mm: the sheet "
-                "slips through; lower them, or raise the load or the friction."
-            )
-
-
-def _verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:
-    """Return whether the solution is valid, and a sentence that says so or what to do."""
-    if not refined.stand.stands_still:
-        return False, (
-            "Stick and slip on both sides of the sheet did not settle "
-            f"(conditions violated by {refined.residual:.1e}); try another tolerance, a smaller "
-            "load, or tensions further from what friction carries."
-        )
-    if reason := impossible(nip, model.geometry, final):
-        return False, reason
-    if not refined.residual <= model.tolerance:
-        return False, (
-            f"The contact conditions are violated by {refined.residual:.1e} (relative), more than "
-            f"the tolerance {model.tolerance:g}; try another tolerance or a smaller load."
-        )
-    is_met, words = verdict(nip, model, final)
-    left = f"{refined.residual:.1e}"
-    return is_met, f"Solved and verified: residual {left}, {words}" if is_met else words
-
-
 def _warnings(nip: Nip, refined: Refined) -> tuple[str, ...]:
     """Return reservations on the sheet."""
     figures, out = refined.figures, []
-    if figures.tension_min < -_SLACK * figures.load:
+    if figures.tension_min < -SLACK * figures.load:
         out.append(
             f"In the nip the tension of the sheet falls to {figures.tension_min:.3g} N/mm: it is "
             "pushed there. A thin sheet may buckle or wrinkle instead, which the model leaves out."
         )
-    length = bending_length(nip)
-    if length > _STIFF * figures.nip_width:
+    length, share = bending_length(nip), bending_length(nip) / figures.nip_width
+    if share > _STIFF:
+        assert nip.sheet is not None
+        asked = nip.sheet.bending is None and share <= COUNTED
+        hint = "; `bending = true` in the sheet counts it" if asked else ""
         out.append(
             f"The bending stiffness of the sheet counts over {length:.2g} mm, "
-            f"{100.0 * length / figures.nip_width:.0f} % of the nip width; it is left out, so "
-            "pressure and nip width are those of a sheet that bends freely."
+            f"{100.0 * share:.0f} % of the nip width; it is left out, so pressure and nip width "
+            f"are those of a sheet that bends freely{hint}."
         )
     return tuple(out)

@@ -14,6 +14,11 @@ h E_rubber/E_z far below the thickness, where they no longer apply.
 
 In space the share is 1/h times a function of x/h, whose double integral is |x|/2 plus h times the
 function `_spread` of |x|/h. It is a sum over the roots of sinh y = -y in the first quadrant.
+
+Pressures that differ on the two faces also bend the layer: half of the difference moves both faces
+the same way, by the share (4/y) (cosh y + 1)/(sinh y - y) of c. All but its first two terms,
+48/y^4 + 9.6/y^2, which are those of a plate, is local too: 81/175 for long waves, 4/y for short
+ones. Its spread is a sum over the roots of sinh y = y.
 """
 
 from __future__ import annotations
@@ -35,9 +40,12 @@ Array = NDArray[np.float64]
 _FAR = 9.0  # over the thickness: there `_spread` is 1e-17, it falls as exp(-4.2 distance)
 _PLACES = 400  # of the table, crowded at 0
 _ROOTS = 1000
+_BENT = 81.0 / 175.0  # share of the springs' compliance under pressures that differ, long waves
 
 
-def squeezed(sheet: Sheet, x: Array, nodes: Array, tractions: Array) -> Array:
+def squeezed(
+    sheet: Sheet, x: Array, nodes: Array, tractions: Array, *, bent: bool = False
+) -> Array:
     """Return by how much pressures make the sheet thinner at some places, (m, s) [mm].
 
     Parameters
@@ -46,10 +54,13 @@ def squeezed(sheet: Sheet, x: Array, nodes: Array, tractions: Array) -> Array:
     x : (m,) places [mm].
     nodes : (N + 1,) between which pressures are straight lines, 0 at both ends [mm].
     tractions : (N - 1, s) sets of pressures at nodes[1:-1] [MPa].
+    bent :
+        whether the pressures on both faces are opposite: then how far both faces move against the
+        pressure beside what a plate moves.
     """
     padded = np.zeros((nodes.size, tractions.shape[1]))
     padded[1:-1] = tractions
-    made = _straight(x, nodes, padded)
+    made = (_BENT if bent else 1.0) * _straight(x, nodes, padded)
     away = np.abs(x[:, None] - nodes[None, :])
     near = away < _FAR * sheet.thickness
     columns = near.any(axis=0)
@@ -58,7 +69,7 @@ def squeezed(sheet: Sheet, x: Array, nodes: Array, tractions: Array) -> Array:
         slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
         slopes[1:-1] = np.diff(padded, axis=0) / np.diff(nodes)[:, None]
         turns = np.diff(slopes, axis=0)[columns]
-        spread = _spread(away[:, columns] / sheet.thickness, near[:, columns])
+        spread = _spread(away[:, columns] / sheet.thickness, near[:, columns], bent)
         made += sheet.thickness * (spread @ turns)
     return np.asarray(sheet.squeeze * made)
 
@@ -73,28 +84,28 @@ def _straight(x: Array, nodes: Array, values: Array) -> Array:
     return np.asarray(weights[0] * values[at] + weights[1] * values[at + 1])
 
 
-def _spread(away: Array, near: NDArray[np.bool_]) -> Array:
+def _spread(away: Array, near: NDArray[np.bool_], bent: bool) -> Array:
     """Return the double integral of the share in space, less half of the distance, over h.
 
     ``away``: distances over h; ``near``: where they are below `_FAR`, beyond which it is 0.
     """
     out = np.zeros(away.shape)
-    out[near] = _table()(np.cbrt(away[near] / _FAR))
+    out[near] = _table(bent)(np.cbrt(away[near] / _FAR))
     return out
 
 
-@lru_cache(maxsize=1)
-def _table() -> CubicSpline:
+@lru_cache(maxsize=2)
+def _table(bent: bool) -> CubicSpline:
     # loads more than 200 modules, which a nip without a sheet does not need
     from scipy.interpolate import CubicSpline
 
-    number = np.arange(1, _ROOTS + 1)
-    about = pi * (2.0 * number - 0.5)
+    number, sign = np.arange(1, _ROOTS + 1), -1.0 if bent else 1.0  # of sinh y + sign y = 0
+    about = pi * (2.0 * number - 0.5 * sign)
     root = np.log(2.0 * about) + 1j * about
     for _ in range(20):  # Newton's method
-        root = root - (np.sinh(root) + root) / (np.cosh(root) + 1.0)
+        root = root - (np.sinh(root) + sign * root) / (np.cosh(root) + sign)
     cosh = np.cosh(root)
-    shares = -1j * 4.0 / root**3 * (cosh - 1.0) / (cosh + 1.0)
+    shares = -1j * 4.0 / root**3 * (cosh - sign) / (cosh + sign)
     place = np.linspace(0.0, 1.0, _PLACES)
     values = [2.0 * float(np.sum(shares * np.exp(1j * root * _FAR * t**3)).real) for t in place]
     return CubicSpline(place, values)

@@ -16,7 +16,7 @@ _TOGETHER = (
     5e-4  # over the width: transitions of both interfaces so near to each other share a node
 )
 _COINCIDENT = 1e-8  # over the width: breaks so near leave elements of no length
-_SLIVER = 1e-3  # over the width: zones that are left out
+SLIVER = 1e-3  # over the width: zones that are left out
 _OF_TRANSITIONS = 0.1  # of the distance of transitions, beside that of edges
 
 
@@ -112,14 +112,14 @@ class Zones:
         if not (np.isfinite(trailing) and np.isfinite(leading) and trailing < leading):
             trailing, leading = edges
         sides = [
-            Layout(_held(side.breaks, wanted, (trailing, leading)), side.states)
+            Layout(held(side.breaks, wanted, (trailing, leading)), side.states)
             for side, wanted in zip(self.sides, asked, strict=True)
         ]
         return Zones(sides[0], sides[1])
 
     def without_slivers(self) -> Zones:
         """Return the zones without those too short to matter."""
-        sides = [_without_slivers(side, _SLIVER * self.width) for side in self.sides]
+        sides = [without_slivers_in(side, SLIVER * self.width) for side in self.sides]
         return Zones(sides[0], sides[1])
 
     @classmethod
@@ -152,7 +152,7 @@ def _as_contact(state: SheetState, side: int) -> ContactState:
     )
 
 
-def _held(breaks: Array, asked: Array, edges: tuple[float, float]) -> Array:
+def held(breaks: Array, asked: Array, edges: tuple[float, float]) -> Array:
     """Return the wanted breaks, each transition held between the middles of its zones."""
     out = breaks.copy()
     middles = 0.5 * (breaks[1:] + breaks[:-1])
@@ -165,7 +165,7 @@ def _held(breaks: Array, asked: Array, edges: tuple[float, float]) -> Array:
     return np.asarray(out)
 
 
-def _without_slivers(layout: Layout, least: float) -> Layout:
+def without_slivers_in(layout: Layout, least: float) -> Layout:
     """Return a layout without zones shorter than ``least`` [mm], where their neighbours agree."""
     breaks, states = layout.breaks.tolist(), layout.states.tolist()
     number = 0

@@ -1,0 +1,142 @@
+"""Needed to solve a sheet whether it resists bending or not: first width, grip, verdict."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import Protocol
+
+import numpy as np
+
+from rollnip._errors import InvalidInputError
+from rollnip.model import Model
+from rollnip.nip import LineLoad, Nip, Torque, Traction
+from rollnip.rollers import Roller
+from rollnip.rolling import Round, impossible, verdict
+from rollnip.sheet.refine import SheetFigures
+from rollnip.sheet.system import frictions_of
+
+_CLEARLY = 1.2  # times what friction carries; a torque also turns against the pressure
+SLACK = 1e-6
+"""Of the load: tension below zero that is more than rounding."""
+
+
+class Standing(Protocol):
+    """A solution, as far as its verdict asks."""
+
+    @property
+    def stands_still(self) -> bool:
+        """Whether zones and terms stand still."""
+        ...
+
+    @property
+    def wanted_traction(self) -> float | None:
+        """T_l that is asked for [N/mm]; None where none is."""
+        ...
+
+
+class Refined(Protocol):
+    """A last solution, as far as its verdict asks."""
+
+    @property
+    def stand(self) -> Standing:
+        """The solution on the finest mesh."""
+        ...
+
+    @property
+    def figures(self) -> SheetFigures:
+        """Its figures."""
+        ...
+
+    @property
+    def residual(self) -> float:
+        """How badly it violates the conditions."""
+        ...
+
+
+def half_width_with_sheet(nip: Nip, half_width: float) -> float:
+    """Return a first half-width [mm] from that of the rollers alone, of a sheet that is squeezed.
+
+    Between rigid rollers a sheet of springs would take (3 F c/(2 kappa))^(1/3), c its squeeze and
+    kappa the curvature of the gap; both widths together as if their cubes, the loads, added up.
+    """
+    assert nip.sheet is not None
+    if not isinstance(nip.normal, LineLoad):
+        return half_width
+    squeezed = 1.5 * nip.normal.load * nip.sheet.squeeze / nip.curvature
+    return float(np.cbrt(half_width**3 + squeezed))
+
+
+def require_torque(nip: Nip) -> None:
+    """Raise where a torque clearly asks for more than the friction below carries."""
+    if not (isinstance(nip.tangential, Torque) and isinstance(nip.normal, LineLoad)):
+        return
+    limit = nip.friction_on("lower") * nip.normal.load
+    wanted = abs(nip.tangential.torque_lower) * nip.lower.curvature
+    if wanted > _CLEARLY * limit:
+        raise InvalidInputError(
+            f"`torque_lower` asks the sheet for some {wanted:.4g} N/mm, but its friction on the "
+            f"lower roller carries {limit:.4g} N/mm; lower it, or raise the load or the friction."
+        )
+
+
+def require_grip(nip: Nip, refined: Refined) -> None:
+    """Raise where an interface is asked to carry more than friction can."""
+    sheet, load = nip.sheet, refined.figures.load
+    assert sheet is not None
+    wanted = refined.stand.wanted_traction
+    if wanted is None or not load > 0.0:
+        return
+    pulls = wanted + sheet.tension_in - sheet.tension_out, wanted
+    name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
+    sides = zip(("upper", "lower"), pulls, frictions_of(nip), strict=True)
+    for side, pull, friction in sides:
+        if abs(pull) >= friction * load and (
+            refined.stand.stands_still or isinstance(nip.tangential, Traction)
+        ):
+            raise InvalidInputError(
+                f"`{name}` and the tensions ask the {side} roller for {pull:.6g} N/mm, but its "
+                f"friction on the sheet carries less than {friction * load:.6g} N/mm: the sheet "
+                "slips through; lower them, or raise the load or the friction."
+            )
+
+
+def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:
+    """Return whether the solution is valid, and a sentence that says so or what to do."""
+    if not refined.stand.stands_still:
+        return False, (
+            "Stick and slip on both sides of the sheet did not settle "
+            f"(conditions violated by {refined.residual:.1e}); try another tolerance, a smaller "
+            "load, or tensions further from what friction carries."
+        )
+    if reason := impossible(nip, model.geometry, final):
+        return False, reason
+    if not refined.residual <= model.tolerance:
+        return False, (
+            f"The contact conditions are violated by {refined.residual:.1e} (relative), more than "
+            f"the tolerance {model.tolerance:g}; try another tolerance or a smaller load."
+        )
+    is_met, words = verdict(nip, model, final)
+    left = f"{refined.residual:.1e}"
+    return is_met, f"Solved and verified: residual {left}, {words}" if is_met else words
+
+
+def bending_length(nip: Nip) -> float:
+    """Return (D d/E)^(1/4) on the softer covering, over which bending stiffness counts [mm].
+
+    D is the bending stiffness of the sheet, d and E thickness and relaxed modulus of the covering.
+    A half-space core takes the length (D/E)^(1/3).
+    """
+    assert nip.sheet is not None
+    stiffness = nip.sheet.bending_stiffness
+    lengths = [_on_covering(roller, stiffness) for roller in (nip.upper, nip.lower)]
+    return max(length for length in lengths if length < inf)
+
+
+def _on_covering(roller: Roller, stiffness: float) -> float:
+    if roller.is_rigid:
+        return inf
+    if not roller.layers:
+        assert roller.core is not None
+        return float((stiffness / roller.core.relaxed_modulus) ** (1.0 / 3.0))
+    yielding = sum(layer.thickness / layer.material.relaxed_modulus for layer in roller.layers)
+    return float((stiffness * yielding) ** 0.25)

@@ -1,0 +1,157 @@
+"""Terms of a plate's contact that depend on its solution: stretch of the rollers, torque."""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.geometry import linear_stretch
+from rollnip.model import FINITE, Geometry
+from rollnip.nip import Torque, Traction
+from rollnip.rolling import Displacements, stretch_excess, surface_depths
+from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
+from rollnip.rolling.largest import largest
+from rollnip.rolling.round import scale_of_creepage
+from rollnip.sheet.lagged import sheet_rate
+from rollnip.sheet.plate.sides import NAMES, SIGNS, curvatures, own_displacements
+from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
+
+Array = NDArray[np.float64]
+
+
+def first_lagged(problem: PlateProblem) -> LaggedPlate:
+    """Return zero terms, and the prescribed traction; zero traction for a prescribed torque."""
+    tangential = problem.nip.tangential
+    traction = tangential.traction if isinstance(tangential, Traction) else None
+    traction = 0.0 if isinstance(tangential, Torque) else traction
+    n, m = (mesh.inner.size for mesh in problem.meshes)
+    return LaggedPlate((np.zeros(n), np.zeros(m)), (np.zeros(n), np.zeros(m)), traction)
+
+
+def has_none(problem: PlateProblem, geometry: Geometry) -> bool:
+    """Return whether nothing depends on the solution."""
+    return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
+
+
+def displacements_of(problem: PlateProblem, state: PlateState, side: int) -> Displacements:
+    """Return the displacements of one roller at nodes[1:] of its interface, to all orders kept."""
+    mesh = problem.meshes[side]
+    flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
+    return mesh.with_second(flat, state.side(side))
+
+
+def lagged_terms(problem: PlateProblem, geometry: Geometry, state: PlateState) -> LaggedPlate:
+    """Return the terms of a solution."""
+    first = first_lagged(problem)
+    if has_none(problem, geometry):
+        return first
+    clearance, offsets, leans = [], [], []
+    for side in (0, 1):
+        mesh = problem.meshes[side]
+        flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
+        u = mesh.with_second(flat, state.side(side))
+        clearance.append(_clearance(problem, geometry, side, flat, u))
+        offsets.append(_offsets(problem, geometry, state, side, (flat, u)))
+        leans.append(_lean(problem, state, side, u) if geometry in FINITE else 0.0)
+    traction = first.traction
+    if isinstance(problem.nip.tangential, Torque):
+        traction = _traction_for_torque(problem, geometry, state)
+    return LaggedPlate(
+        (clearance[0], clearance[1]), (offsets[0], offsets[1]), traction, 0.5 * sum(leans)
+    )
+
+
+def change_of(
+    new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState
+) -> float:
+    """Return the largest change of the terms, relative to the first-order ones."""
+    nip = problem.nip
+    half = 0.5 * max(float(np.ptp(mesh.inner)) for mesh in problem.meshes)
+    strain = nip.curvature * half
+    approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
+    scale = scale_of_creepage(max(map(abs, state.creepages)), strain)
+    changes = []
+    for side, mesh in enumerate(problem.meshes):
+        drift = new.offsets[side] - old.offsets[side]
+        changes.append(sqrt(float(drift @ (drift / mesh.dx)) / (2.0 * half)) / scale)
+        moved = np.abs(new.clearance[side] - old.clearance[side])
+        changes.append(float(moved.max()) / approach)
+    if new.traction is not None and old.traction is not None:
+        load = float(problem.meshes[0].weights @ state.pressure[0])
+        changes.append(abs(new.traction - old.traction) / (strain * load))
+    return largest(*changes)
+
+
+def pull_of(problem: PlateProblem, geometry: Geometry, state: PlateState, side: int) -> float:
+    """Return int q lambda ds of one roller [N/mm]."""
+    nip, mesh = problem.nip, problem.meshes[side]
+    x, u = mesh.fine.nodes[1:], mesh.finer(displacements_of(problem, state, side))
+    lengths = x[1:] - x[:-1] + stretch_excess(x, nip, geometry, u)[side]
+    lengths = lengths * arc_ratio(x, nip, geometry, u)
+    return float(lengths @ mean_shear(mesh, state.side(side)))
+
+
+def lost_inside(problem: PlateProblem, geometry: Geometry, state: PlateState, side: int) -> float:
+    """Return the heat inside one roller per distance of its surface [N/mm]."""
+    return loss_inside(NAMES[side], problem.nip, geometry, problem.meshes[side], state.side(side))
+
+
+def _clearance(
+    problem: PlateProblem, geometry: Geometry, side: int, flat: Displacements, u: Displacements
+) -> Array:
+    """Return what finite strain adds to the gap of one interface [mm]."""
+    mesh = problem.meshes[side]
+    if geometry not in FINITE:
+        return np.zeros(mesh.inner.size)
+    depth = surface_depths(mesh.inner, problem.nip, geometry, u.but_last())[side]
+    moved = (flat.z_upper, flat.z_lower)[side][:-1]
+    return np.asarray(depth - 0.5 * curvatures(problem.nip)[side] * mesh.inner**2 - moved)
+
+
+def _offsets(
+    problem: PlateProblem,
+    geometry: Geometry,
+    state: PlateState,
+    side: int,
+    displacements: tuple[Displacements, Displacements],
+) -> Array:
+    """Return what stretch and products of creepage and strain add to the linear creep.
+
+    The creep is (V_u/V) stretch_u - (V_s/V) (1 + e - h y''/2) on the upper interface, and
+    (V_s/V) (1 + e + h y''/2) - (V_l/V) stretch_l on the lower one.
+    """
+    nip, mesh = problem.nip, problem.meshes[side]
+    if geometry == "linear":
+        return np.zeros(mesh.inner.size)
+    flat, u = displacements
+    x = mesh.fine.nodes[1:]
+    hoops = np.array(mesh.kernels.hoops)[:, None]
+    excess = stretch_excess(x, nip, geometry, mesh.finer(u))[side]
+    linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)[side]
+    sign, half = SIGNS[side], 0.5 * state.creepage
+    rate = sheet_rate(*state.creepages)
+    bent = 0.5 * problem.sheet.thickness * np.diff(problem.rotation_at(state, mesh.nodes[1:]))
+    strained = (rate - 1.0) * (bent - sign * problem.strain_over(state, side))
+    return np.asarray(sign * mesh.sums((1.0 + sign * half) * excess - linear) + strained)
+
+
+def _lean(problem: PlateProblem, state: PlateState, side: int, u: Displacements) -> float:
+    """Return int q slope dx of one surface [N/mm]."""
+    mesh, sign = problem.meshes[side], SIGNS[side]
+    shear = state.shear[side]
+    levers = float(mesh.weights @ (shear * mesh.inner))
+    inward = (u.z_upper, u.z_lower)[side]
+    return -sign * (curvatures(problem.nip)[side] * levers + mesh.work(shear, inward))
+
+
+def _traction_for_torque(problem: PlateProblem, geometry: Geometry, state: PlateState) -> float:
+    """Return T_l for which the lower torque R_l (w_l - int q_l lambda_l ds) is as prescribed."""
+    nip = problem.nip
+    assert isinstance(nip.tangential, Torque)
+    pull = pull_of(problem, geometry, state, 1)
+    lost = lost_inside(problem, geometry, state, 1)
+    wanted = nip.tangential.torque_lower * nip.lower.curvature
+    sheared = float(problem.meshes[1].weights @ state.shear[1])
+    return lost - wanted - (pull - sheared)

@@ -1,0 +1,161 @@
+"""Sizes of mesh for a plate, finer and finer, until the estimated errors are small enough."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import State
+from rollnip.model import Geometry, Model
+from rollnip.nip import Nip
+from rollnip.rolling import PairKernels
+from rollnip.rolling.round import peak_pressure
+from rollnip.sheet.lagged import sheet_rate
+from rollnip.sheet.plate.lagged import lost_inside, pull_of
+from rollnip.sheet.plate.search import PlateSearch, PlateStanding, overlap, violation
+from rollnip.sheet.plate.sides import SIGNS
+from rollnip.sheet.plate.zones import PlateZones
+from rollnip.sheet.powers import SheetPowers
+from rollnip.sheet.refine import (
+    FEWEST_WITH_SLIP,
+    FIRST_COUNT,
+    GROWTH,
+    MOST_COUNT,
+    SheetFigures,
+    errors_between,
+    ratio,
+)
+
+Array = NDArray[np.float64]
+
+_MOST_FAILED = 2  # sizes of mesh in a row on which zones do not come to rest
+
+
+@dataclass(frozen=True, slots=True)
+class PlateRefined:
+    """The last solution, its figures and their estimated errors.
+
+    Attributes
+    ----------
+    stand : the solution on the finest meshes.
+    figures, errors : see `SheetFigures`; nip width and pressure are those of the upper interface;
+        errors inf where unknown.
+    residual : how badly it violates the conditions.
+    """
+
+    stand: PlateStanding
+    figures: SheetFigures
+    errors: SheetFigures
+    residual: float
+
+
+def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> PlateRefined:
+    """Solve on ever finer meshes until the estimated errors are below the tolerance.
+
+    ``half_width``: about that of a sheet that bends freely [mm].
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        where no solution is found at all.
+    """
+    search, count = PlateSearch(nip, model, kernels), float(FIRST_COUNT)
+    history: list[tuple[float, SheetFigures, PlateZones]] = []
+    best: PlateRefined | None = None
+    stand, failed = search.begun(half_width, FIRST_COUNT), 0
+    while count <= MOST_COUNT:
+        stand = search.placed(stand.zones, round(count), stand)
+        figures = plate_figures(stand, model.geometry)
+        here = (count, figures, stand.zones)
+        errors = SheetFigures(errors_between(nip, [*history, here]))
+        left = max(violation(stand), overlap(stand, kernels))
+        latest = PlateRefined(stand, figures, errors, left)
+        if stand.stands_still:
+            history.append(here)
+            best = latest
+            slips = any(side.states.size > 1 for side in stand.zones.sides)
+            enough = len(history) >= (FEWEST_WITH_SLIP if slips else 2)
+            if enough and max(left, ratio(nip, figures, errors)) <= model.tolerance:
+                return latest
+            failed = 0
+        else:
+            best, failed = best or latest, failed + 1
+        if failed == _MOST_FAILED:
+            break
+        count *= GROWTH
+    assert best is not None
+    return best
+
+
+def plate_figures(stand: PlateStanding, geometry: Geometry) -> SheetFigures:
+    """Return the figures of a solution."""
+    problem, state, meshes = stand.problem, stand.state, stand.problem.meshes
+    upper = meshes[0]
+    peak, place = peak_pressure(upper.fine.nodes[1:-1], upper.between(state.pressure[0]))
+    x = np.unique(np.concatenate([mesh.inner for mesh in meshes]))
+    tension, strain = problem.tension_at(state, x), problem.strain_at(state, x)
+    pulls = [float(mesh.weights @ q) for mesh, q in zip(meshes, state.shear, strict=True)]
+    first = [
+        state.approach,
+        float(upper.weights @ state.pressure[0]) - stand.lagged.lean,
+        state.creepage,
+        stand.zones.width,
+        peak,
+        *state.creepages,
+        *pulls,
+        float(tension.max()),
+        float(tension.min()),
+    ]
+    spent = plate_powers(stand, geometry)
+    last = [place, float(strain[np.argmax(np.abs(strain))])]
+    return SheetFigures(np.array([*first, *spent.array().tolist(), *last]))
+
+
+def plate_powers(stand: PlateStanding, geometry: Geometry) -> SheetPowers:
+    """Return torques over radii and losses of a solution."""
+    problem, state = stand.problem, stand.state
+    return SheetPowers(
+        friction_upper=_slipped(stand, 0),
+        friction_lower=_slipped(stand, 1),
+        lost_upper=lost_inside(problem, geometry, state, 0),
+        lost_lower=lost_inside(problem, geometry, state, 1),
+        pull_upper=pull_of(problem, geometry, state, 0),
+        pull_lower=pull_of(problem, geometry, state, 1),
+        into_sheet=_into_sheet(stand),
+    )
+
+
+def _pushed(stand: PlateStanding, side: int) -> Array:
+    """Return int q dx over the intervals of one interface but the last, (n - 1,) [N/mm]."""
+    mesh, one = stand.problem.meshes[side], stand.problem.spreads[side]
+    tails = one.tails(mesh.inner)[0]
+    return np.asarray(-np.diff(tails, axis=0) @ stand.state.shear[side])
+
+
+def _slipped(stand: PlateStanding, side: int) -> float:
+    """Return what slip on one interface loses per rolled distance [N/mm]."""
+    problem, states = stand.problem, stand.state.states[side]
+    creep = problem.gaps_and_creeps(stand.state, stand.lagged)[side][1]
+    slips = states > State.STICK
+    both = slips[:-1] & slips[1:]
+    rate = creep[:-1] / problem.meshes[side].dx[:-1]
+    return float((_pushed(stand, side) * rate)[both].sum())
+
+
+def _into_sheet(stand: PlateStanding) -> float:
+    """Return the power of the shears on the faces of the sheet over V [N/mm].
+
+    Its faces run at V_s (1 + e -+ h y''/2); "linear" keeps the products with the strains, which
+    are of second order.
+    """
+    problem, state = stand.problem, stand.state
+    rate, taken = sheet_rate(*state.creepages), 0.0
+    for side, mesh in enumerate(problem.meshes):
+        pushed, sign = _pushed(stand, side), SIGNS[side]
+        strained = problem.strain_over(state, side)[:-1]
+        turned = np.diff(problem.rotation_at(state, mesh.inner))
+        face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]
+        taken += sign * float(pushed @ (1.0 + face))
+    return rate * taken

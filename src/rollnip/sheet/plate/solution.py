@@ -1,0 +1,268 @@
+"""The result of a nip with a sheet that resists bending."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import ContactProblem, Control, State
+from rollnip.interior import SurfaceTractions
+from rollnip.rolling import (
+    DeformedSurfaces,
+    Displacements,
+    Profiles,
+    Round,
+    fine_points,
+    peak_pressure,
+    stretch_excess,
+    surface_depths,
+    surface_strain,
+)
+from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.surfaces import pair_displacements
+from rollnip.sheet.plate.refine import PlateRefined
+from rollnip.sheet.plate.search import PlateStanding
+from rollnip.sheet.plate.sides import NAMES, SIGNS, values_at
+from rollnip.sheet.result import SheetProfiles
+from rollnip.sheet.solution import SheetSolution, inside_zone
+from rollnip.sheet.system import SheetState
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class PlateSolution(SheetSolution):
+    """A solved nip with a sheet that resists bending.
+
+    Everything that `SheetSolution` says; pressure, nip width, contact and gap are those of the
+    upper interface, those of the lower one are in ``sheet``.
+    """
+
+    @cached_property
+    def profiles(self) -> Profiles:
+        """Distributions in and outside the nip; the gap is that above the sheet."""
+        x, _ = self._points
+        speeds = self._roller_speeds
+        strains = [self._strain(x, side) for side in (0, 1)]
+        pressure = self._at(x, self.final.pressure)
+        gap = self._surfaces[0] - self._height - (self._thickness - self._thinned_faces[0])
+        return Profiles(
+            x=x,
+            pressure=pressure,
+            shear=self._at(x, self.final.shear),
+            gap=np.where(pressure > 0.0, 0.0, np.maximum(gap, 0.0)),
+            slip_velocity=self._slip(0),
+            strain_upper=strains[0],
+            strain_lower=strains[1],
+            speed_upper=None if speeds is None else speeds[0] * (1.0 + strains[0]),
+            speed_lower=None if speeds is None else speeds[1] * (1.0 + strains[1]),
+        )
+
+    @cached_property
+    def deformed_surfaces(self) -> DeformedSurfaces:
+        """Heights of both surfaces; between them lies the sheet, whose thickness is left out."""
+        x, _ = self._points
+        upper, lower = self._surfaces
+        return DeformedSurfaces(x, upper - self._thickness, lower + self._thickness)
+
+    @property
+    def _bends(self) -> bool:
+        return True
+
+    @property
+    def _lower(self) -> tuple[float, float]:
+        """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
+        stand = self._standing
+        mesh = stand.problem.meshes[1]
+        peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(stand.state.pressure[1]))[0]
+        return stand.zones.lower.width, peak
+
+    def _sheet_profiles(self) -> SheetProfiles:
+        x, _ = self._points
+        stand = self._standing
+        lower = self._lower_round
+        return SheetProfiles(
+            x,
+            self._on_lower(x, lower.shear),
+            self._tension(x),
+            stand.problem.strain_at(stand.state, x),
+            self._slip(1),
+            self._on_lower(x, lower.pressure),
+            self._height,
+        )
+
+    @property
+    def _state(self) -> SheetState:
+        return cast(SheetState, self.final.state)
+
+    @property
+    def _standing(self) -> PlateStanding:
+        refined: Any = self.refined
+        return cast(PlateRefined, refined).stand
+
+    @property
+    def _thickness(self) -> float:
+        """Half of the thickness of the sheet without load [mm]."""
+        assert self.nip.sheet is not None
+        return 0.5 * self.nip.sheet.thickness
+
+    @cached_property
+    def _lower_round(self) -> Round:
+        return round_of(self._standing, self.final, 1)
+
+    def _tractions_on(self, roller: str) -> SurfaceTractions:
+        one = self._of_side(NAMES.index("upper" if roller == "upper" else "lower"))
+        sign = 1.0 if roller == "upper" else -1.0
+        return SurfaceTractions.on_inner(one.nodes, sign * one.shear, one.pressure)
+
+    def _of_side(self, side: int) -> Round:
+        return self.final if side == 0 else self._lower_round
+
+    def _on_lower(self, x: Array, traction: Array) -> Array:
+        return np.interp(x, self._lower_round.x, traction, left=0.0, right=0.0)
+
+    def _strain(self, x: Array, side: int) -> Array:
+        geometry = self.model.geometry
+        one = self._of_side(side)
+        return surface_strain(x, self.nip, geometry, self.kernels, one, side=NAMES[side])
+
+    def _tension(self, x: Array) -> Array:
+        stand = self._standing
+        return stand.problem.tension_at(stand.state, x)
+
+    @cached_property
+    def _height(self) -> Array:
+        """Height of the sheet's middle over the top of the lower roller, at ``_points`` [mm]."""
+        stand = self._standing
+        return stand.problem.height_at(stand.state, self._points[0]) + self._thickness
+
+    @cached_property
+    def _thinned_faces(self) -> Array:
+        stand = self._standing
+        return stand.problem.thinned_at(stand.state, self._points[0])
+
+    @cached_property
+    def _surfaces(self) -> tuple[Array, Array]:
+        """Heights of both rollers' surfaces over the top of the lower one, at ``_points`` [mm]."""
+        x, u = self._points
+        upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
+        return upper - self.final.state.approach + 2.0 * self._thickness, -lower
+
+    @cached_property
+    def _points(self) -> tuple[Array, Displacements]:
+        stand, four = self._standing, []
+        x = np.unique(np.concatenate([fine_points(self.final), fine_points(self._lower_round)]))
+        for side in (0, 1):
+            one, mesh = self._of_side(side), stand.problem.meshes[side]
+            acting = np.stack([one.pressure, one.shear * SIGNS[side]], axis=1)
+            made = pair_displacements(self.kernels, x, one.nodes, acting)
+            xx, zz, xz = made[3 * side : 3 * side + 3]
+            rows = np.stack([xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]])
+            if not mesh.kernels.is_linear:
+                rows += mesh.second(stand.state.side(side), x).four[2 * side : 2 * side + 2]
+            four.append(rows)
+        return x, Displacements(np.concatenate(four))
+
+    def _slip(self, side: int) -> Array | None:
+        speed = self.nip.speed
+        if speed is None:
+            return None
+        x, u = self._points
+        stand = self._standing
+        dx, problem, state = np.diff(x), stand.problem, stand.state
+        stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
+        strain = problem.strain_at(state, x)
+        face = 0.5 * (strain[1:] + strain[:-1])
+        face -= SIGNS[side] * self._thickness * np.diff(problem.rotation_at(state, x)) / dx
+        rate = state.creepages[side] + SIGNS[side] * (stretch - face)
+        out = np.full(x.size, np.nan)
+        middle = 0.5 * (x[1:] + x[:-1])
+        for zone in stand.zones.sides[side].zones:
+            within = inside_zone(x, zone)
+            out[within] = 0.0
+            if zone.state != State.STICK:
+                out[within] = -speed * np.interp(x[within], middle, rate)
+        return out
+
+
+def plate_round(refined: PlateRefined) -> Round:
+    """Return a solution as the round of a bare nip, with the tractions of the upper interface."""
+    stand = refined.stand
+    state, problem = stand.state, stand.problem
+    upper, lower = problem.meshes
+    shear_lower = values_at(lower, upper.inner) @ state.shear[1]
+    one = state.side(0)
+    both = SheetState(
+        states=one.states,
+        pressure=one.pressure,
+        shear=one.shear,
+        approach=one.approach,
+        creepage=state.creepages[0],
+        steps=stand.steps,
+        settled=True,
+        states_lower=state.states[1],
+        shear_lower=shear_lower,
+        creepage_lower=state.creepages[1],
+    )
+    n = upper.inner.size
+    return Round(
+        mesh=upper,
+        problem=_as_problem(stand, 0),
+        state=both,
+        second=SecondOrder(
+            stand.lagged.clearance[0], np.zeros(n), stand.lagged.offsets[0], stand.lagged.traction
+        ),
+        zones=stand.zones.upper.zones,
+        figures=refined.figures.watched,
+        error=refined.errors.watched,
+        steps=stand.steps,
+        stands_still=stand.stands_still,
+        geometry_change=stand.change,
+        residual=refined.residual,
+    )
+
+
+def round_of(stand: PlateStanding, final: Round, side: int) -> Round:
+    """Return the round of one interface, with the figures of the solution."""
+    mesh = stand.problem.meshes[side]
+    figures = final.figures
+    pressure = stand.state.pressure[side]
+    peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(pressure))[0]
+    layout = stand.zones.sides[side]
+    return replace(
+        final,
+        mesh=mesh,
+        problem=_as_problem(stand, side),
+        state=stand.state.side(side, creepage=stand.state.creepage),
+        second=SecondOrder(
+            stand.lagged.clearance[side],
+            np.zeros(mesh.inner.size),
+            stand.lagged.offsets[side],
+            stand.lagged.traction,
+        ),
+        zones=layout.zones,
+        figures=replace(figures, nip_width=layout.width, peak_pressure=peak),
+    )
+
+
+def _as_problem(stand: PlateStanding, side: int) -> ContactProblem:
+    """Return what a bare nip on the mesh of one interface would be."""
+    problem, mesh = stand.problem, stand.problem.meshes[side]
+    curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]
+    control = Control(
+        load=None, approach=stand.state.approach, traction=None, creepage=stand.state.creepage
+    )
+    return ContactProblem(
+        x=mesh.inner,
+        weights=mesh.weights,
+        clearance=0.5 * curvature * mesh.inner**2 + stand.lagged.clearance[side],
+        influence=mesh.influence,
+        creep_length=mesh.dx,
+        creep_offset=np.zeros(mesh.inner.size),
+        friction=problem.frictions[side],
+        control=control,
+    )

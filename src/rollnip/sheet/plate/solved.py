@@ -1,0 +1,171 @@
+"""The flow of one solution with a sheet that resists bending."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+
+from rollnip._errors import ConvergenceError
+from rollnip.influence import KernelCache
+from rollnip.model import FINITE, Model
+from rollnip.nip import Nip
+from rollnip.rolling import (
+    PairKernels,
+    Round,
+    SolverInfo,
+    half_width_guess,
+    impossible,
+    pair_kernels,
+    with_second_order,
+)
+from rollnip.sheet.common import (
+    SLACK,
+    bending_length,
+    half_width_with_sheet,
+    require_grip,
+    sheet_verdict,
+)
+from rollnip.sheet.plate.refine import PlateRefined, refine_plate
+from rollnip.sheet.plate.solution import PlateSolution, plate_round, round_of
+from rollnip.validity import Strains, validity_warnings
+
+COUNTED = 0.2
+"""Bending length over the nip width from which stiffness is counted where nothing is said."""
+
+
+def solve_plate(
+    nip: Nip, model: Model, cache: KernelCache, record: tuple[str, tuple[str, ...]]
+) -> PlateSolution | None:
+    """Solve the steady rolling of two rollers with a sheet that resists bending.
+
+    Parameters
+    ----------
+    nip : with a sheet.
+    model : geometry "linear", "curved" or one of finite strain.
+    cache : influence functions of solves before.
+    record : version of rollnip, and what there is to say of the model.
+
+    Returns
+    -------
+    None where the sheet leaves it open whether stiffness is counted, and no solution with it is
+    verified.
+
+    Raises
+    ------
+    InvalidInputError
+        where friction cannot carry what is asked for.
+    ConvergenceError
+        where stiffness is asked for and no solution was found at all.
+    """
+    start, (version, said) = perf_counter(), record
+    assert nip.sheet is not None
+    asked = nip.sheet.bending is True
+    kernels, half_width = _prepared(nip, model, cache)
+    refined = _attempt(nip, model, kernels, half_width)
+    if not _rests(refined) and model.geometry in FINITE:
+        curved = replace(model, geometry="curved")
+        again = _attempt(nip, curved, *_prepared(nip, curved, cache))
+        if _rests(again):
+            kernels, refined, model = _prepared(nip, curved, cache)[0], again, curved
+            said += (
+                "No solution at finite strain was found with this sheet: its zones or its "
+                'second-order terms did not come to rest. All figures are those of "curved".',
+            )
+    if refined is None:
+        if asked:
+            raise ConvergenceError(
+                "No solution with this sheet's stiffness was found; try a larger load, other "
+                "tensions, or `bending = false`."
+            )
+        return None
+    if not asked and not refined.stand.stands_still:
+        return None
+    require_grip(nip, refined)
+    found = _solution(nip, model, kernels, refined, (said, perf_counter() - start, version))
+    return found if asked or found.converged else None
+
+
+def stiffness_shows(nip: Nip, model: Model, cache: KernelCache) -> bool:
+    """Return whether a sheet's stiffness acts over more than a share `COUNTED` of the nip."""
+    half_width = half_width_guess(nip, pair_kernels(nip, model.geometry, cache))
+    return bending_length(nip) > 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
+
+
+def _rests(refined: PlateRefined | None) -> bool:
+    return refined is not None and refined.stand.stands_still
+
+
+def _prepared(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, float]:
+    """Return influence functions, and half the width of the nip of a sheet that bends freely."""
+    kernels = pair_kernels(nip, model.geometry, cache)
+    half_width = half_width_guess(nip, kernels)
+    kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
+    return kernels, half_width_with_sheet(nip, half_width)
+
+
+def _attempt(
+    nip: Nip, model: Model, kernels: PairKernels, half_width: float
+) -> PlateRefined | None:
+    try:
+        return refine_plate(nip, model, kernels, half_width)
+    except np.linalg.LinAlgError:
+        return None
+
+
+def _solution(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    refined: PlateRefined,
+    record: tuple[tuple[str, ...], float, str],
+) -> PlateSolution:
+    said, seconds, version = record
+    final, stand = plate_round(refined), refined.stand
+    both = final, round_of(stand, final, 1)
+    converged, status = sheet_verdict(nip, model, refined, final)
+    if converged and (reason := impossible(nip, model.geometry, both[1])):
+        converged, status = False, reason
+    strains = _strains(nip, model, both)
+    warned = said + _pushed(refined) + validity_warnings(nip, model, final, strains)
+    plain: Any = refined
+    return PlateSolution(
+        nip=nip,
+        model=model,
+        converged=converged,
+        status=status,
+        warnings=warned,
+        solver=SolverInfo(
+            elements=int(max(mesh.nodes.size for mesh in stand.problem.meshes) - 1),
+            iterations=stand.steps,
+            residual=refined.residual,
+            geometry_change=stand.change,
+            seconds=seconds,
+            version=version,
+        ),
+        final=final,
+        kernels=kernels,
+        max_surface_strain=strains.surface,
+        refined=plain,
+    )
+
+
+def _strains(nip: Nip, model: Model, rounds: tuple[Round, Round]) -> Strains:
+    """Return the larger strains of both interfaces."""
+    one, two = (Strains.of(nip, model, final) for final in rounds)
+    return Strains(
+        max(one.surface, two.surface), max(one.second, two.second), max(one.skin, two.skin)
+    )
+
+
+def _pushed(refined: PlateRefined) -> tuple[str, ...]:
+    """Return a sentence where the sheet is pushed."""
+    figures = refined.figures
+    if not figures.tension_min < -SLACK * figures.load:
+        return ()
+    return (
+        f"In the nip the tension of the sheet falls to {figures.tension_min:.3g} N/mm: it is "
+        "pushed there. A thin sheet may buckle or wrinkle instead, which the model leaves out.",
+    )

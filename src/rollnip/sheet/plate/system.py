@@ -1,0 +1,309 @@
+"""Two interfaces, two pressures: the linear system that given states of both interfaces make.
+
+Unknowns on either interface are its pressure and shear, on a mesh of its own between its own edges;
+then the approach, both creepages, and the height y_0 and the rotation theta of the sheet. With y
+the height of the sheet's middle (`rollnip.sheet.plate.bending`), s_u and s_l what its faces give
+way towards the middle, N its tension and e its strain,
+
+    gap, upper   = x^2/(2 R_u) - delta + u_z,u - y + s_u + b N/2                = 0 in contact
+    gap, lower   = x^2/(2 R_l)         + u_z,l + y + s_l + b N/2                = 0 in contact
+    creep, upper = xi_u dx + int (stretch_u - 1 - e + h y''/2) dx               = 0 in stick
+    creep, lower = xi_l dx + int (e + h y''/2 - stretch_l + 1) dx               = 0 in stick
+
+e = a N + b (p_u + p_l)/2; the faces of a bent sheet are stretched by -+ h y''/2. All forces on the
+sheet add up to nothing across it, and the moment of the nip on it is what its tension rights.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import CREEP_TO_EDGE, ContactState, States
+from rollnip.nip import Nip
+from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.plate.bending import Plate
+from rollnip.sheet.plate.sides import (
+    SIGNS,
+    Spread,
+    curvatures,
+    stretch_by,
+    values_at,
+)
+from rollnip.sheet.system import frictions_of
+from rollnip.sheets import Sheet
+
+Array = NDArray[np.float64]
+Pair = tuple[Array, Array]
+"""Values of the upper and of the lower interface."""
+_STEEP = 4.0  # how fast the integral of the tension changes its kind
+
+
+@dataclass(frozen=True, slots=True)
+class PlateState:
+    """A solution: tractions of both interfaces on their own meshes, and what else is unknown.
+
+    Attributes
+    ----------
+    states, pressure, shear : of both interfaces, each (n,) [MPa].
+    approach : delta [mm].
+    creepages : (V_u - V_s)/V and (V_s - V_l)/V.
+    height, rotation : y_0 [mm] and theta of the sheet.
+    """
+
+    states: tuple[States, States]
+    pressure: Pair
+    shear: Pair
+    approach: float
+    creepages: tuple[float, float]
+    height: float
+    rotation: float
+
+    @property
+    def creepage(self) -> float:
+        """Return (V_u - V_l)/V."""
+        return sum(self.creepages)
+
+    def side(self, number: int, *, creepage: float | None = None) -> ContactState:
+        """Return one interface as if it were all of the contact."""
+        return ContactState(
+            states=self.states[number],
+            pressure=self.pressure[number],
+            shear=self.shear[number],
+            approach=self.approach,
+            creepage=self.creepages[number] if creepage is None else creepage,
+            steps=1,
+            settled=True,
+        )
+
+
+@dataclass(frozen=True, slots=True)
+class LaggedPlate:
+    """Terms that depend on the solution itself, taken from the last solution.
+
+    Attributes
+    ----------
+    clearance : added to the gaps of either interface, each (n,) [mm].
+    offsets : added to the creeps, each (n,) [mm].
+    traction : T_l that gives the wanted torque [N/mm]; None where none is wanted.
+    lean : line load that the shears take from the pressure [N/mm].
+    """
+
+    clearance: Pair
+    offsets: Pair
+    traction: float | None
+    lean: float = 0.0
+
+
+@dataclass(frozen=True)
+class PlateProblem:
+    """The discrete problem on two meshes: everything that does not depend on the states.
+
+    Attributes
+    ----------
+    nip, sheet, plate : the problem.
+    meshes, spreads : of the upper and the lower interface.
+    frictions : coefficients of both.
+    own : creep of each interval by the shear of its own node, without the tension and the bending
+        that this shear makes; negative, each (n,) [mm/MPa].
+    matrix : (r, r) of gap and creep of the upper, then of the lower interface per p_u, q_u, p_l and
+        q_l [mm/MPa].
+    """
+
+    nip: Nip
+    sheet: Sheet
+    plate: Plate
+    meshes: tuple[Mesh, Mesh]
+    spreads: tuple[Spread, Spread]
+    frictions: tuple[float, float]
+    own: Pair
+    matrix: Array
+
+    @classmethod
+    def on(cls, nip: Nip, meshes: tuple[Mesh, Mesh]) -> PlateProblem:
+        """Assemble the problem of a nip with a plate on meshes of both interfaces."""
+        sheet = nip.sheet
+        assert sheet is not None
+        plate = Plate.of(sheet)
+        spreads = Spread.on(meshes[0], sheet, plate), Spread.on(meshes[1], sheet, plate)
+        blocks, owns = [], []
+        for at, mesh in enumerate(meshes):
+            first = _by_roller(mesh, at)
+            n = mesh.inner.size
+            own = np.diagonal(first)[n:] - sheet.shear_by_thickness / 3.0
+            owns.append(own)
+            rows = [_by_sheet(meshes, spreads, (at, by), own) for by in (0, 1)]
+            rows[at] += first
+            rows[at][2 * n - 2, 2 * n - 2] *= 1.0 - CREEP_TO_EDGE
+            blocks.append(rows)
+        matrix = np.block(blocks)
+        return cls(
+            nip, sheet, plate, meshes, spreads, frictions_of(nip), (owns[0], owns[1]), matrix
+        )
+
+    @property
+    def starts(self) -> tuple[int, int, int, int, int]:
+        """Return where p_u, q_u, p_l and q_l begin among the tractions, and where they end."""
+        n, m = (mesh.inner.size for mesh in self.meshes)
+        return 0, n, 2 * n, 2 * n + m, 2 * (n + m)
+
+    def right(self, lagged: LaggedPlate) -> Array:
+        """Return gaps and creeps without unknowns, in the order of the rows of ``matrix``."""
+        sheet, pulled = self.sheet, self.sheet.tension_in
+        out = []
+        for side, (mesh, curvature) in enumerate(
+            zip(self.meshes, curvatures(self.nip), strict=True)
+        ):
+            gap = 0.5 * curvature * mesh.inner**2 + lagged.clearance[side]
+            out.append(gap + 0.5 * sheet.stretch_by_pressure * pulled)
+            stretch = SIGNS[side] * sheet.stretch_by_tension * pulled * mesh.dx
+            out.append(lagged.offsets[side] - stretch)
+        return np.concatenate(out)
+
+    def gaps_and_creeps(
+        self, state: PlateState, lagged: LaggedPlate
+    ) -> tuple[tuple[Array, Array], tuple[Array, Array]]:
+        """Return the gap at the nodes and the creep of the intervals, of either interface [mm]."""
+        tractions = np.concatenate(
+            [state.pressure[0], state.shear[0], state.pressure[1], state.shear[1]]
+        )
+        made = np.split(self.matrix @ tractions + self.right(lagged), self.starts[1:-1])
+        for side, mesh in enumerate(self.meshes):
+            moved = state.height + state.rotation * mesh.inner
+            made[2 * side] -= SIGNS[side] * moved
+            made[2 * side + 1] += state.creepages[side] * mesh.dx
+        made[0] -= state.approach
+        return (made[0], made[1]), (made[2], made[3])
+
+    def tension_at(self, state: PlateState, x: Array) -> Array:
+        """Return the tension of the sheet at some places, (m,) [N/mm]."""
+        upper, lower = (one.tails(x)[0] for one in self.spreads)
+        return np.asarray(self.sheet.tension_in - upper @ state.shear[0] + lower @ state.shear[1])
+
+    def height_at(self, state: PlateState, x: Array) -> Array:
+        """Return the height of the sheet's middle at some places, (m,) [mm]."""
+        out = state.height + state.rotation * x
+        half = 0.5 * self.sheet.thickness
+        for side, one in enumerate(self.spreads):
+            out -= SIGNS[side] * (one.height(x) @ state.pressure[side])
+            out -= half * (one.slope(x) @ state.shear[side])
+        return np.asarray(out)
+
+    def rotation_at(self, state: PlateState, x: Array) -> Array:
+        """Return the rotation of the sheet's sections at some places, (m,)."""
+        out = np.full(x.size, state.rotation)
+        half = 0.5 * self.sheet.thickness
+        for side, one in enumerate(self.spreads):
+            out -= SIGNS[side] * (one.slope(x) @ state.pressure[side])
+            out -= half * (one.bend(x) @ state.shear[side])
+        return out
+
+    def thinned_at(self, state: PlateState, x: Array) -> Array:
+        """Return how far both faces give way towards the middle at some places, (2, m) [mm]."""
+        out = np.zeros((2, x.size))
+        out += 0.5 * self.sheet.stretch_by_pressure * self.tension_at(state, x)
+        for side, one in enumerate(self.spreads):
+            near, far = one.squeeze(x)
+            out[side] += near @ state.pressure[side]
+            out[1 - side] += far @ state.pressure[side]
+        return out
+
+    def strain_at(self, state: PlateState, x: Array) -> Array:
+        """Return the strain of the sheet's middle at some places, (m,)."""
+        pressed = sum(
+            values_at(mesh, x) @ p for mesh, p in zip(self.meshes, state.pressure, strict=True)
+        )
+        strain = self.sheet.stretch_by_tension * self.tension_at(state, x)
+        return np.asarray(strain + 0.5 * self.sheet.stretch_by_pressure * pressed)
+
+    def strain_over(self, state: PlateState, side: int) -> Array:
+        """Return int e dx of the sheet's middle over the intervals of one interface, (n,) [mm]."""
+        mesh, sheet = self.meshes[side], self.sheet
+        tension = sheet.tension_in * mesh.dx
+        pressed = np.zeros(mesh.dx.size)
+        for number, one in enumerate(self.spreads):
+            first, second = one.tails(mesh.nodes[1:])
+            tension += SIGNS[number] * (np.diff(second, axis=0) @ state.shear[number])
+            pressed -= np.diff(first, axis=0) @ state.pressure[number]
+        strain = sheet.stretch_by_tension * tension
+        return np.asarray(strain + 0.5 * sheet.stretch_by_pressure * pressed)
+
+
+def _by_roller(mesh: Mesh, side: int) -> Array:
+    """Return gap and creep of one interface by its own roller, (2 n, 2 n) [mm/MPa]."""
+    n, sign = mesh.inner.size, SIGNS[side]
+    xx, zz, xz = mesh.per_traction[3 * side : 3 * side + 3]
+    out = np.zeros((2 * n, 2 * n))
+    out[:n, :n] = zz[:-1]
+    out[:n, n:] = -sign * xz[:-1]
+    out[n:, :n] = sign * stretch_by(mesh, side, xz, zz)
+    out[n:, n:] = stretch_by(mesh, side, xx, -xz)
+    return out
+
+
+def _by_sheet(
+    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], sides: tuple[int, int], own: Array
+) -> Array:
+    """Return gap and creep of one interface by what tractions on one of them do to the sheet.
+
+    ``sides``: the interface that they are of, and the one that the tractions act on.
+    """
+    (at, by), mesh, one = sides, meshes[sides[0]], spreads[sides[1]]
+    n, m, x = mesh.inner.size, one.acting.shape[1], mesh.nodes[1:]
+    sheet, half = one.sheet, 0.5 * one.sheet.thickness
+    here, there = SIGNS[at], SIGNS[by]
+    first, second = one.tails(x)
+    slope = one.slope(x)
+    by_pressure = sheet.stretch_by_pressure
+    out = np.zeros((2, n, 2, m))
+    near, far = one.squeeze(mesh.inner)
+    # y goes with -p_u and +p_l, the gap above with -y and below with +y
+    out[0, :, 0] = here * there * one.height(mesh.inner) + (near if at == by else far)
+    out[0, :, 1] = here * half * slope[:-1] - 0.5 * there * by_pressure * first[:-1]
+    pressed = -np.diff(first, axis=0)
+    out[1, :, 0] = -there * half * np.diff(slope, axis=0) - 0.5 * here * by_pressure * pressed
+    share = _lumped_share(one, mesh, own)
+    exact = _stretched(one, here * there, np.diff(second, axis=0), np.diff(one.bend(x), axis=0))
+    out[1, :, 1] = (1.0 - share) * exact
+    if share.any():
+        out[1, :, 1] += share * _point_stretched(meshes, spreads, sides)
+    through = (1.0 / 3.0 if at == by else 1.0 / 6.0) * sheet.shear_by_thickness
+    if at == by:
+        out[1, :, 1] += through * (np.eye(n, k=1) - np.eye(n))
+    else:
+        out[1, :, 1] += through * np.diff(values_at(meshes[by], x), axis=0)
+    return out.reshape(2 * n, 2 * m)
+
+
+def _stretched(one: Spread, sign: float, tails: Array, bends: Array) -> Array:
+    """Return the creep by the strain of a face under shears: tension, and bending by couples."""
+    sheet = one.sheet
+    stretched = -sign * sheet.stretch_by_tension * tails
+    return np.asarray(stretched - 0.25 * sheet.thickness**2 * bends)
+
+
+def _lumped_share(one: Spread, mesh: Mesh, own: Array) -> Array:
+    """Return the share of each interval that takes shears as forces at their nodes, (n, 1).
+
+    Where an interval stretches more by the tension and the bending that its own node makes than by
+    that node's shear on the roller, exact integrals let neighbouring shears alternate and grow.
+    """
+    strain = 4.0 * one.sheet.stretch_by_tension
+    ratio = strain * mesh.dx**2 / (6.0 * np.abs(own))
+    share = 1.0 / (1.0 + np.clip(ratio, 1e-9, 1e6) ** -_STEEP)
+    return np.asarray(np.where(share > 1e-12, share, 0.0)[:, None])
+
+
+def _point_stretched(
+    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], sides: tuple[int, int]
+) -> Array:
+    """Return what `_stretched` says of forces at the nodes instead of tractions."""
+    at, by = sides
+    x, places = meshes[at].nodes[1:], meshes[by].inner
+    weights, one = meshes[by].weights, spreads[by]
+    ahead = np.maximum(places - x[:, None], 0.0)
+    bends = one.plate.bend(x[:, None] - places)
+    found = _stretched(one, SIGNS[at] * SIGNS[by], np.diff(ahead, axis=0), np.diff(bends, axis=0))
+    return np.asarray(weights * found)

@@ -1,0 +1,126 @@
+"""Zones of stick and slip on both interfaces of a plate, each between edges of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import Layout, States
+from rollnip.sheet.plate.system import PlateProblem, PlateState
+from rollnip.sheet.zones import SLIVER, held, without_slivers_in
+
+Array = NDArray[np.float64]
+
+_OF_TRANSITIONS = 0.1  # of the distance of transitions, beside that of edges
+_LONGEST_MOVE = 0.04  # of an edge, over the width
+
+
+@dataclass(frozen=True, slots=True)
+class PlateZones:
+    """The zones of the upper and of the lower interface.
+
+    Attributes
+    ----------
+    upper, lower : zones of either interface.
+    """
+
+    upper: Layout
+    lower: Layout
+
+    @classmethod
+    def sticking(cls, upper: tuple[float, float], lower: tuple[float, float]) -> PlateZones:
+        """Return one zone of stick on each interface, between given edges [mm]."""
+        stick = Layout.sticking(1.0).states
+        return cls(Layout(np.array(upper), stick), Layout(np.array(lower), stick))
+
+    @property
+    def sides(self) -> tuple[Layout, Layout]:
+        """Return the zones of the upper and of the lower interface."""
+        return self.upper, self.lower
+
+    @property
+    def width(self) -> float:
+        """Return the width of the upper interface [mm]."""
+        return self.upper.width
+
+    @property
+    def is_proper(self) -> bool:
+        """Return whether all breaks are finite and every zone has a length."""
+        return self.upper.is_proper and self.lower.is_proper
+
+    @property
+    def breaks(self) -> Array:
+        """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
+        return np.concatenate([side.breaks for side in self.sides])
+
+    def with_breaks(self, breaks: Array) -> PlateZones:
+        """Return the same zones between other breaks, in the order of ``breaks``."""
+        n = self.upper.breaks.size
+        upper, lower = Layout(breaks[:n], self.upper.states), Layout(breaks[n:], self.lower.states)
+        return PlateZones(upper, lower)
+
+    def is_like(self, other: PlateZones) -> bool:
+        """Return whether the other zones have the same states in the same order."""
+        pairs = zip(self.sides, other.sides, strict=True)
+        return all(np.array_equal(one.states, two.states) for one, two in pairs)
+
+    def distance(self, other: PlateZones) -> float:
+        """Return how far apart the breaks of like zones are, over their widths.
+
+        Transitions count a tenth, for figures depend on them to second order.
+        """
+        parts = []
+        for one, two in zip(self.sides, other.sides, strict=True):
+            move = np.abs(one.breaks - two.breaks)
+            move[1:-1] *= _OF_TRANSITIONS
+            parts.append(float(move.max()) / two.width)
+        return max(parts)
+
+    def states_on(self, x: tuple[Array, Array]) -> tuple[States, States]:
+        """Return the states of the nodes on both interfaces."""
+        return self.upper.states_on(x[0]), self.lower.states_on(x[1])
+
+    def moved(self, problem: PlateProblem, state: PlateState) -> PlateZones:
+        """Return the zones with their breaks moved to where a solution with them puts them.
+
+        A transition moves at most half way to its neighbours, an edge by a 25th of the width; it
+        stays where the solution does not say where it belongs.
+        """
+        sides = []
+        for number, side in enumerate(self.sides):
+            x, friction = problem.meshes[number].inner, problem.frictions[number]
+            asked = side.moved(x, state.side(number), friction).breaks
+            trailing, leading = side.edges
+            most = _LONGEST_MOVE * side.width
+            first, last = float(asked[0]), float(asked[-1])
+            # an edge without pressure that rises from it lies in tension: it goes where that ends
+            pressed = x[state.pressure[number] > 0.0]
+            if pressed.size:
+                first = first if np.isfinite(first) else float(pressed[0])
+                last = last if np.isfinite(last) else float(pressed[-1])
+            first = first if np.isfinite(first) else trailing
+            last = last if np.isfinite(last) else leading
+            edges = (
+                float(np.clip(first, trailing - most, trailing + most)),
+                float(np.clip(last, leading - most, leading + most)),
+            )
+            sides.append(Layout(held(side.breaks, asked, edges), side.states))
+        return PlateZones(sides[0], sides[1])
+
+    def without_slivers(self) -> PlateZones:
+        """Return the zones without those too short to matter."""
+        upper, lower = (without_slivers_in(side, SLIVER * side.width) for side in self.sides)
+        return PlateZones(upper, lower)
+
+    def found(self, problem: PlateProblem, state: PlateState) -> PlateZones | None:
+        """Return the zones of nodal states between the edges of these; None if unclear."""
+        sides = [
+            Layout.found(mesh.inner, state.side(number), friction, side.edges)
+            for number, (mesh, friction, side) in enumerate(
+                zip(problem.meshes, problem.frictions, self.sides, strict=True)
+            )
+        ]
+        upper, lower = sides
+        return None if upper is None or lower is None else PlateZones(upper, lower)

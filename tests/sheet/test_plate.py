@@ -1,0 +1,182 @@
+"""A sheet that resists bending: limits, equilibrium, energy, and an independent calculation."""
+
+import importlib.util
+import json
+import sys
+from dataclasses import replace
+from math import inf
+from pathlib import Path
+
+import numpy as np
+import pytest
+from sheet_nips import HARD, RIGID, SOFT, nip_with, paper
+
+import rollnip as rn
+
+HERE = Path(__file__).parents[1]
+STORED = json.loads((HERE / "data" / "plate_direct.json").read_text(encoding="utf-8"))
+LINEAR = rn.Model(geometry="linear")
+BOARD = replace(rn.Sheet.usual("board"), bending=True)
+
+
+def _judge():
+    spec = importlib.util.spec_from_file_location("judge_of_plates", HERE / "judges" / "plate.py")
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["judge_of_plates"] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+JUDGE = _judge()
+
+
+def _roller(radius, covering):
+    if covering is None:
+        return rn.Roller(radius=radius)
+    rubber = rn.Elastic(modulus=covering.modulus, poisson=covering.poisson)
+    return rn.Roller(radius=radius, layers=[rn.Layer(covering.thickness, rubber)])
+
+
+@pytest.mark.parametrize("name", STORED)
+def test_agrees_with_a_beam_of_finite_elements(name):
+    case, wanted = JUDGE.CASES[name], STORED[name]
+    sheet = rn.Sheet(
+        thickness=case.thickness,
+        modulus=case.modulus,
+        poisson=case.poisson,
+        modulus_thickness=case.across,
+        tension_in=case.tensions[0],
+        tension_out=case.tensions[1],
+        friction_upper=case.friction[0],
+        friction_lower=case.friction[1],
+        bending=True,
+    )
+    nip = rn.Nip(
+        upper=_roller(case.radii[0], case.coverings[0]),
+        lower=_roller(case.radii[1], case.coverings[1]),
+        normal=rn.LineLoad(case.load),
+        friction=0.5,
+        tangential=rn.Traction(case.traction),
+        sheet=sheet,
+    )
+    solution = rn.solve(nip, LINEAR)
+    assert solution.converged
+    found = solution.sheet
+    # What is left of the direct figures is of the order of one element in four at the edges.
+    slope = 0.5 * wanted["nip_width"] * nip.curvature
+    assert solution.approach == pytest.approx(wanted["approach"], rel=1.5e-3)
+    assert solution.peak_pressure == pytest.approx(wanted["peak_pressure"], rel=2e-3)
+    assert found.peak_pressure_lower == pytest.approx(wanted["peak_pressure_lower"], rel=2e-3)
+    # widths are counts of elements, wrong by one on the finer and by two on the coarser mesh
+    elements = 3.0 * 2.0 * JUDGE.RANGES[name] / JUDGE.COUNTS[name][1]
+    assert solution.nip_width == pytest.approx(wanted["nip_width"], abs=elements)
+    assert found.nip_width_lower == pytest.approx(wanted["nip_width_lower"], abs=elements)
+    for side in ("upper", "lower"):
+        creepage = getattr(found, f"creepage_{side}")
+        assert creepage == pytest.approx(wanted[f"creepage_{side}"], abs=2e-3 * slope), side
+    assert found.tension_max == pytest.approx(wanted["tension_max"], abs=3e-3 * case.load)
+
+
+def test_a_thin_sheet_is_one_that_bends_freely():
+    # The same stretch, and a stiffness that goes as the square of the thickness
+    thin = rn.Sheet(thickness=0.002, modulus=175e3, poisson=0.3, modulus_thickness=3500.0)
+    free, bent = (
+        rn.solve(nip_with(replace(thin, bending=bending)), LINEAR) for bending in (False, True)
+    )
+    assert (free.sheet.bends, bent.sheet.bends) == (False, True)
+    assert bent.converged
+    assert bent.approach == pytest.approx(free.approach, rel=2e-4)
+    assert bent.nip_width == pytest.approx(free.nip_width, rel=1e-3)
+    assert bent.sheet.nip_width_lower == pytest.approx(free.nip_width, rel=1e-3)
+    slope = 0.5 * free.nip_width * free.nip.curvature
+    for side in ("creepage_upper", "creepage_lower"):
+        assert getattr(bent.sheet, side) == pytest.approx(
+            getattr(free.sheet, side), abs=1e-3 * slope
+        )
+
+
+def test_a_rigid_plate_parts_two_rollers_on_planes():
+    plate = rn.Sheet(thickness=1.0, modulus=1e9, poisson=0.3, bending=True)
+    solution = rn.solve(nip_with(plate), LINEAR)
+    plane = rn.Roller(radius=inf)
+    alone = [
+        rn.solve(rn.Nip(upper=one, lower=plane, normal=rn.LineLoad(1.78), friction=0.5), LINEAR)
+        for one in (SOFT, HARD)
+    ]
+    assert solution.converged
+    assert solution.approach == pytest.approx(sum(one.approach for one in alone), rel=1e-3)
+    assert solution.nip_width == pytest.approx(alone[0].nip_width, rel=1e-3)
+    assert solution.sheet.nip_width_lower == pytest.approx(alone[1].nip_width, rel=1e-3)
+    assert solution.sheet.creepage_upper == pytest.approx(alone[0].creepage, rel=5e-3)
+    assert solution.sheet.creepage_lower == pytest.approx(-alone[1].creepage, rel=5e-3)
+
+
+def test_between_equal_rollers_a_plate_stays_straight():
+    nip = nip_with(BOARD, upper=SOFT, lower=SOFT)
+    bent, free = (
+        rn.solve(replace(nip, sheet=replace(BOARD, bending=bending)), LINEAR)
+        for bending in (True, False)
+    )
+    assert bent.approach == pytest.approx(free.approach, rel=5e-4)
+    assert bent.sheet.creepage_upper == pytest.approx(free.sheet.creepage_upper, rel=3e-3)
+    height = bent.sheet.profiles.height
+    assert np.ptp(height) < 1e-6 * bent.approach
+    assert bent.sheet.nip_width_lower == pytest.approx(bent.nip_width, rel=1e-9)
+
+
+@pytest.fixture(scope="module")
+def on_bare_roller():
+    nip = nip_with(replace(BOARD, tension_in=0.1), lower=RIGID, friction=0.4, speed=100.0)
+    return rn.solve(nip, rn.Model(geometry="curved"))
+
+
+def test_the_sheet_leaves_a_bare_roller_first(on_bare_roller):
+    sheet = on_bare_roller.sheet
+    assert on_bare_roller.converged
+    assert sheet.nip_width_lower < 0.5 * on_bare_roller.nip_width
+    lower = sheet.zones_lower
+    assert lower[-1].stop - lower[0].start == pytest.approx(sheet.nip_width_lower, rel=1e-9)
+
+
+def test_forces_and_moments_on_the_sheet_balance(on_bare_roller):
+    # Far from the nip the sheet is straight: nothing is left over but what its tension rights.
+    profiles, sheet = on_bare_roller.profiles, on_bare_roller.sheet.profiles
+    x = profiles.x
+    difference = sheet.pressure_lower - profiles.pressure
+    assert np.trapezoid(difference, x) == pytest.approx(0.0, abs=2e-3 * 1.78)
+    beyond = sheet.height[[0, -1]] - on_bare_roller.sheet.profiles.height.max()
+    assert (beyond < 0.0).all()  # it leaves the bare roller downwards, which it wraps
+    trailing, leading = on_bare_roller.contact[0]
+    gap = profiles.gap[(x < trailing - 0.1) | (x > leading + 0.1)]
+    assert (gap > 0.0).all()
+
+
+def test_power_balances(on_bare_roller):
+    solution = on_bare_roller
+    spent = solution.dissipation_friction + solution.dissipation_viscous + solution.sheet.power
+    assert solution.power_in == pytest.approx(spent, rel=2e-4)
+
+
+def test_stiffness_counts_where_it_shows():
+    stiff = rn.solve(nip_with(replace(BOARD, bending=None)), LINEAR)
+    assert stiff.sheet.bends
+    thin = rn.solve(nip_with(rn.Sheet.usual("aluminium foil")), LINEAR)
+    assert not thin.sheet.bends
+    # what bends freely has one pressure, and a path halfway between the surfaces
+    profiles, surfaces = thin.sheet.profiles, thin.deformed_surfaces
+    assert np.array_equal(profiles.pressure_lower, thin.profiles.pressure)
+    assert np.array_equal(profiles.height, 0.5 * (surfaces.upper + surfaces.lower))
+    assert thin.sheet.nip_width_lower == thin.nip_width
+
+
+def test_a_warning_says_how_stiffness_is_counted():
+    thick = rn.Sheet(thickness=0.12, modulus=6000.0, poisson=0.3, modulus_thickness=40.0)
+    left = rn.solve(nip_with(thick), LINEAR)
+    assert any("`bending = true` in the sheet counts it" in line for line in left.warnings)
+    counted = rn.solve(nip_with(replace(thick, bending=True)), LINEAR)
+    assert not any("bending stiffness" in line for line in counted.warnings)
+
+
+def test_bending_is_true_or_false():
+    with pytest.raises(rn.InvalidInputError, match="`bending` must be true or false"):
+        paper(bending=1)

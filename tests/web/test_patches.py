@@ -10,7 +10,7 @@ import rollnip as rn
 from rollnip._errors import CaseFileError
 from rollnip.io.patch_case import parse_patch_case
 from rollnip.web import Limits
-from rollnip.web.patches import is_coarse, solved_patch
+from rollnip.web.patches import is_coarse, rounded, solved_patch
 
 RUBBER = {"model": "elastic", "modulus": "3.6 MPa", "poisson": 0.5}
 CASE = {
@@ -53,6 +53,21 @@ def test_fields_of_a_fine_grid_are_thinned_to_its_own_places(patch_case):
     assert len(fields["x"]) == 100
     np.testing.assert_allclose(fields["x"], expected.x[1::2], atol=6e-4)
     np.testing.assert_allclose(fields["pressure"], expected.pressure[:, 1::2], atol=1e-4)
+
+
+def test_gap_and_slip_come_too(patch_case):
+    patch_case["nip"] |= {"friction": 0.4, "creepage": 0.1}
+    case = parse_patch_case(json.dumps(patch_case))
+    expected = rn.solve_patch(case.patch, tolerance=0.01, grid=case.grid)
+    fields = solved_patch(patch_case, Limits())["fields"]
+    np.testing.assert_allclose(fields["gap"], expected.gap, atol=1e-4)
+    slip = np.hypot(expected.slip_x, expected.slip_y)
+    assert slip.max() > 0.05
+    np.testing.assert_allclose(fields["slip"], slip, atol=1e-5)
+
+
+def test_where_a_face_has_ended_no_number_stands():
+    assert rounded(np.array([[0.25, np.inf], [np.inf, 1.0]])) == [[0.25, None], [None, 1.0]]
 
 
 @pytest.mark.parametrize(

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 COARSE = 32
 """Most rectangles along a side of a grid that counts as coarse: answered in the time of a solve."""
 _SHOWN = 128  # places along a side of the fields that are sent
-_FIELDS = ("pressure", "shear_x", "shear_y", "state")
+_FIELDS = ("pressure", "shear_x", "shear_y", "slip", "gap", "state")
 _DIGITS = 5
 _TOLERANCE = 0.01  # where the case has none
 
@@ -40,8 +40,9 @@ def is_coarse(case: Mapping[str, Any]) -> bool:
 def solved_patch(tree: Mapping[str, Any], limits: Limits) -> dict[str, Any]:
     """Return the result of a case with a patch, and its fields.
 
-    The tree is that of `rollnip.patch.report.patch_dict`; of the fields, pressure and shear [MPa]
-    and state (0 apart, 1 stick, 2 slip) at every ``every[0]``-th rectangle along x and every
+    The tree is that of `rollnip.patch.report.patch_dict`; of the fields, pressure and shear [MPa],
+    slip (its size over the rolling speed), gap [mm], None where a face has ended, and state (0
+    apart, 1 stick, 2 slip) at every ``every[0]``-th rectangle along x and every
     ``every[1]``-th along y, rows of y over columns of x. ``grids`` are the numbers of rectangles of
     all grids, coarsest first.
 
@@ -76,22 +77,25 @@ def _too_many(name: str, roller: Roller, limits: Limits) -> list[str]:
 
 def _fields(solution: PatchSolution) -> dict[str, Any]:
     grid, whole = solution.grid, fields_of(solution)
+    whole["slip"] = np.hypot(whole["slip_x"], whole["slip_y"])
     every = [ceil(count / _SHOWN) for count in (grid.nx, grid.ny)]
     columns, rows = (slice(step // 2, None, step) for step in every)
     tree: dict[str, Any] = {
         "every": every,
-        "x": _rounded(grid.x[columns]),
-        "y": _rounded(grid.y[rows]),
+        "x": rounded(grid.x[columns]),
+        "y": rounded(grid.y[rows]),
     }
     for name in _FIELDS:
         values = whole[name][rows, columns]
-        tree[name] = values.astype(int).tolist() if name == "state" else _rounded(values)
+        tree[name] = values.astype(int).tolist() if name == "state" else rounded(values)
     return tree
 
 
-def _rounded(values: Array) -> Any:
-    """Return nested lists of numbers to five digits of the largest."""
-    largest = float(np.max(np.abs(values), initial=0.0))
-    if largest == 0.0:
-        return values.tolist()
-    return np.round(values, int(_DIGITS - np.floor(np.log10(largest)) - 1)).tolist()
+def rounded(values: Array) -> Any:
+    """Return nested lists of numbers to five digits of the largest, None for an infinite one."""
+    is_finite = np.isfinite(values)
+    largest = float(np.max(np.abs(values), initial=0.0, where=is_finite))
+    digits = 0 if largest == 0.0 else int(_DIGITS - np.floor(np.log10(largest)) - 1)
+    rows = np.round(values, digits).astype(object)
+    rows[~is_finite] = None
+    return rows.tolist()

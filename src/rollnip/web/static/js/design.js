@@ -164,7 +164,8 @@ export function materialAs(model, old) {
     },
     "loss-factor": { model: "loss-factor", modulus, loss_factor: 0.1, poisson },
   };
-  return warmedAs(made[model], old);
+  const curved = old.energy ? { ...made[model], energy: old.energy } : made[model];
+  return warmedAs(curved, old);
 }
 
 function term(modulus, time) {

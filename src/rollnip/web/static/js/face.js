@@ -127,6 +127,6 @@ export function facePaths(tree) {
   const names = ["bearing_distance", "bearing_middle", "bore", "journal_diameter", "modulus", "density", "crown.height"];
   const shafts = SIDES.flatMap((side) => names.map((name) => `${side}.shaft.${name}`));
   const weighs = SIDES.some((side) => tree[side].shaft?.density !== undefined);
-  const all = ["face.length", "face.skew", "face.bearing_offset", ...(weighs ? ["face.nip_angle"] : []), ...ends, ...arms, ...shafts];
+  const all = ["face.length", "face.skew", "face.bearing_offset", "face.end_radius", ...(weighs ? ["face.nip_angle"] : []), ...ends, ...arms, ...shafts];
   return all.filter((path) => typeof getAt(tree, path) === "number");
 }

@@ -6,6 +6,7 @@ import { coveringInputs, crownAs, crownTable, journalTable, stepsFor } from "./f
 import { getAt, setAt } from "./paths.js";
 import { say } from "./texts.js";
 
+const ENDS = ["plane", "edge", "covering"];
 const SHAPES = ["parabolic", "cosine", "circular", "table"];
 
 /** The group of inputs; `panel` is the Inputs it stands in. */
@@ -20,6 +21,7 @@ export function faceGroup(tree, panel) {
     ? [
         panel.control("face.length"),
         panel.control("face.skew"),
+        ...endInputs(tree, panel),
         ...offsetInputs(tree, panel),
         tree.sheet ? acrossChoice(tree, panel) : null,
         ...SIDES.map((side) => shaftCard(side, tree, panel)),
@@ -40,6 +42,22 @@ function offsetInputs(tree, panel) {
   const has = tree.face.bearing_offset !== undefined;
   const act = (yes) => panel.change(panel.withAt("face.bearing_offset", yes ? 0 : undefined));
   return [checkbox("in-has-offset", say("face.has-offset"), has, act), has ? panel.control("face.bearing_offset") : null];
+}
+
+/** What the nip does at the ends of the face. */
+function endInputs(tree, panel) {
+  const kind = tree.face.ends ?? ENDS[0];
+  const act = (wanted) => {
+    const { case: now } = panel.app.store.state;
+    const { ends: _ends, end_radius: radius = 0, ...face } = now.face;
+    const own = { plane: {}, edge: { ends: "edge", end_radius: radius }, covering: { ends: "covering" } };
+    panel.change({ ...now, face: { ...face, ...own[wanted] } });
+  };
+  const options = ENDS.map((name) => [name, say(`face.ends-${name}`)]);
+  return [
+    select({ id: "in-face-ends", label: say("face.ends"), options, value: kind, act }),
+    kind === "edge" ? panel.control("face.end_radius") : null,
+  ];
 }
 
 /** How a sheet runs across its width. */

@@ -323,6 +323,7 @@ export function faceRows(face, units) {
     row("evenness", 100 * face.evenness, "ratio", 3),
     row("even_share", 100 * face.even_share, "ratio", 3),
     row("largest_scrub", cleanedScrub(face), "line load", 3),
+    ...(Number.isFinite(face.added_length) ? [row("added_length", face.added_length, "length", 3)] : []),
     ...SHEET_ROWS.filter(([key]) => Number.isFinite(face[key])).map(([key, dimension, digits]) => row(key, face[key], dimension, digits)),
     row("error", 100 * worst, "ratio", 2),
   ];

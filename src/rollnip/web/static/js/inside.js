@@ -36,12 +36,11 @@ export class InsideView {
         label: say("chart.save", { format }),
       }),
     );
-    const hint =
-      say("inside.hint");
+    this.strain = el("span", { id: "inside-strain" });
     const foot = el(
       "div",
       { class: "chart-foot" },
-      el("p", { class: "hint", text: hint }),
+      el("p", { class: "hint" }, say("inside.hint"), " ", this.strain),
       el("div", { class: "row" }, ...exports),
     );
     this.probe = new Probe(app, FIELDS);
@@ -119,6 +118,7 @@ export class InsideView {
     const view = this.app.store.state.view.inside;
     const chosen = there.find(({ key }) => key === view.field) ?? there[0];
     this.say("");
+    this.strain.textContent = say(field.finite_strain ? "inside.finite" : "inside.linear");
     this.shown = { field, chosen, roller, result };
     this.choose(sides, roller, there, chosen);
     this.probe.show(field);

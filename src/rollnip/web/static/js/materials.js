@@ -2,6 +2,7 @@
 
 import { kindOf, materialAs } from "./design.js";
 import { el, select } from "./dom.js";
+import { energyEditor } from "./energy.js";
 import { warmedAs } from "./heat.js";
 import { rangeText } from "./known.js";
 import { getAt, idOf, setAt } from "./paths.js";
@@ -181,6 +182,7 @@ function more(path, material, panel) {
     ...(isViscous ? shiftNumbers(path, material, panel) : []),
     material.shift?.points ? rowsEditor(`${path}.shift.points`, POINTS, panel) : null,
     material.reading_time === undefined ? null : panel.control(`${path}.reading_time`),
+    ...energyEditor(path, panel),
   ];
 }
 

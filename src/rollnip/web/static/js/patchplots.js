@@ -75,6 +75,32 @@ export function pressureMap({ patch, fields }, units, palette) {
   return { data: [map], layout: mapLayout(units, palette), label };
 }
 
+/** The gap between the surfaces beside the patch; none where a face does not reach. */
+export function gapMap({ fields }, units, palette) {
+  return fieldMap("gap", "length", fields.gap, { fields, units, palette });
+}
+
+/** How fast the surfaces slip over each other, as a share of the rolling speed. */
+export function slipMap({ fields }, units, palette) {
+  return fieldMap("slipping", "share", fields.slip, { fields, units, palette });
+}
+
+function fieldMap(name, dimension, rows, { fields, units, palette }) {
+  const unit = units.name(dimension);
+  const length = units.name("length");
+  const map = {
+    type: "heatmap",
+    ...places(fields, units),
+    z: rows.map((row) => units.list(row, dimension)),
+    zmin: 0,
+    zsmooth: false,
+    colorscale: palette.sequential,
+    colorbar: { title: { text: titled(say(`patch.${name}`), unit), side: "right" }, thickness: 12, outlinewidth: 0 },
+    hovertemplate: `x %{x:.4~g}, y %{y:.4~g} ${length}: %{z:.4~g} ${unit}<extra></extra>`,
+  };
+  return { data: [map], layout: mapLayout(units, palette), label: say(`patch.map-${name}`) };
+}
+
 /** Where the surfaces stick and where they slip, and the shear on the upper roller. */
 export function zonesMap(result, units, palette) {
   const { fields } = result;
@@ -140,7 +166,7 @@ function places({ x, y }, units) {
 function mapLayout(units, palette) {
   const length = units.name("length");
   return layoutOf(palette, titled(say("axis.along"), length) + say("axis.ends"), titled(say("patch.axis-across"), length), {
-    xaxis: { constrain: "domain", zeroline: false },
+    xaxis: { constrain: "domain", zeroline: false, tickangle: 0, nticks: 5 },
     yaxis: { scaleanchor: "x", scaleratio: 1, constrain: "domain", zeroline: false },
     hovermode: "closest",
   });
@@ -156,6 +182,8 @@ export function patchColumns({ fields }, units) {
     `${say("patch.shear-along")} [${pressure}]`,
     `${say("patch.shear-across")} [${pressure}]`,
     say("patch.state"),
+    say("patch.slip-column"),
+    `${say("patch.gap")} [${length}]`,
   ];
   const shown = (value, dimension) => units.shown(value, dimension);
   const rows = fields.y.flatMap((y, i) =>
@@ -164,6 +192,8 @@ export function patchColumns({ fields }, units) {
       shown(y, "length"),
       ...["pressure", "shear_x", "shear_y"].map((name) => shown(fields[name][i][j], "pressure")),
       fields.state[i][j],
+      fields.slip[i][j],
+      fields.gap[i][j] === null ? "" : shown(fields.gap[i][j], "length"),
     ]),
   );
   return [head, ...rows];

@@ -7,12 +7,13 @@ import { button, el } from "./dom.js";
 import { download, fileName } from "./files.js";
 import { patchCase, patchDrive, patchPress, patchStart, shapeAcross, SIDES } from "./patch.js";
 import { patchInputs } from "./patchinputs.js";
-import { patchColumns, patchRows, pressureMap, zonesMap } from "./patchplots.js";
+import { gapMap, patchColumns, patchRows, pressureMap, slipMap, zonesMap } from "./patchplots.js";
 import { inWords } from "./said.js";
 import { say } from "./texts.js";
 import { number } from "./units.js";
 
-const MAPS = { pressure: pressureMap, zones: zonesMap };
+const MAPS = { pressure: pressureMap, zones: zonesMap, slipping: slipMap, gap: gapMap };
+const OF_FRICTION = ["zones", "slipping"];
 
 /** The view "Patch". */
 export class PatchView {
@@ -150,12 +151,12 @@ export class PatchView {
     const { result, coarse, isFine, tree } = this.shown;
     const palette = this.app.palette();
     const { friction } = tree.nip;
-    this.maps.querySelector("#patch-zones").hidden = friction === 0;
+    for (const name of OF_FRICTION) this.maps.querySelector(`#patch-${name}`).hidden = friction === 0;
     const key = JSON.stringify([units.system, palette.name]);
     if (this.drawn?.result === result && this.drawn.key === key) return;
     this.drawn = { result, key };
-    this.charts.pressure.show(pressureMap(result, units, palette));
-    if (friction > 0) this.charts.zones.show(zonesMap(result, units, palette));
+    for (const [name, mapOf] of Object.entries(MAPS))
+      if (friction > 0 || !OF_FRICTION.includes(name)) this.charts[name].show(mapOf(result, units, palette));
     this.notes.replaceChildren(...sentenceItems(result.warnings, units));
     this.table.replaceChildren(figuresTable(result, isFine ? coarse : null, friction, units));
   }

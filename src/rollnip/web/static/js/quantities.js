@@ -62,6 +62,9 @@ const MATERIAL = {
   "shift.reference": { label: say("input.reference"), dimension: "temperature", low: -40, high: 150 },
   "shift.c1": { label: say("input.c1"), dimension: "ratio", low: 1, high: 40 },
   "shift.c2": { label: say("input.c2"), dimension: "temperature difference", low: 10, high: 300 },
+  "energy.second": { label: say("energy.second"), dimension: "ratio", low: -0.2, high: 0.2, hint: say("hint.second") },
+  "energy.third": { label: say("energy.third"), dimension: "ratio", low: -0.02, high: 0.02 },
+  "energy.limit": { label: say("energy.limit"), dimension: "ratio", low: 0.5, high: 200, log: true, hint: say("hint.limit") },
   "shift.activation_energy": { label: say("input.energy"), dimension: "molar energy", low: 10, high: 400 },
 };
 
@@ -142,6 +145,8 @@ const SIZES = {
 const TERMS = {
   modulus: { ...MATERIAL.modulus, label: say("input.term"), hint: null },
   relaxation_time: { ...MATERIAL.relaxation_time, hint: null },
+  weight: { label: say("energy.weight"), dimension: "ratio", low: -5, high: 5, hint: say("hint.weight") },
+  exponent: { label: say("energy.exponent"), dimension: "ratio", low: -10, high: 10 },
 };
 
 const END = { dimension: "roller force", low: 10, high: 500000, log: true, hint: say("hint.ends") };
@@ -150,6 +155,7 @@ const FACE = {
   skew: { label: say("face.skew"), dimension: "angle of axes", low: 0, high: 0.02, hint: say("hint.skew") },
   nip_angle: { label: say("face.angle"), dimension: "angle of axes", low: 0, high: Math.PI, hint: say("hint.angle") },
   bearing_offset: { label: say("face.offset"), dimension: "length", low: -0.5, high: 0.5, hint: say("hint.offset") },
+  end_radius: { label: say("face.end-radius"), dimension: "length", low: 0, high: 50, hint: say("hint.end-radius") },
   bearing_lever: { label: say("face.bearing-lever"), dimension: "length", low: 20, high: 3000, log: true },
   force: { label: say("face.arm-force"), dimension: "roller force", low: 1, high: 100000, log: true, hint: say("hint.arm-force") },
   lever: { label: say("face.lever"), dimension: "length", low: 1, high: 5000, log: true },
@@ -233,7 +239,7 @@ const POINTS = {
 
 /** The input at a path: {path, label, dimension, low, high, log, hint, factor}; shown is factor times the value. */
 export function inputAt(path, tree) {
-  const last = path.replace(/^.*?(shift\.[a-z0-9_]+|[a-z_]+)$/, "$1");
+  const last = path.replace(/^.*?((?:shift|energy)\.[a-z0-9_]+|[a-z_]+)$/, "$1");
   const start = { path, factor: 1 };
   if (path.startsWith("sheet.")) return { ...start, ...SHEET[path.slice(6)] };
   if (path.startsWith("face.")) return { ...start, ...FACE[path.replace(/^face\.(arms\[.*\]\.)?/, "")] };

@@ -104,3 +104,25 @@ def test_the_command_says_that_a_strain_energy_is_left_out(tmp_path):
     found = CliRunner().invoke(app, ["feed", str(file), "--geometry", "linear"])
     assert found.exit_code == 0
     assert "the upper roller has a strain energy (Gent)" in found.stderr
+
+
+def test_bending_is_counted_in_all_changed_nips_or_in_none(monkeypatch):
+    # Left to each nip, it would be counted in some of them only: a jump, not a derivative.
+    import rollnip.feed
+
+    asked = []
+
+    def solved(nip, model, *, cache):
+        asked.append(nip.sheet.bending)
+        return rn.solve(nip, model, cache=cache)
+
+    monkeypatch.setattr(rollnip.feed, "solve", solved)
+    sheet = rn.Sheet(thickness=0.1, modulus=3500.0)
+    rubber = rn.Elastic(modulus=0.91, poisson=0.5)
+    upper = rn.Roller(radius=50, layers=[rn.Layer(2.0, rubber)])
+    lower = rn.Roller(radius=25, layers=[rn.Layer(2.7, rubber)])
+    nip = rn.Nip(upper=upper, lower=lower, normal=rn.LineLoad(1.78), friction=0.5, sheet=sheet)
+    rn.feed_sensitivity(nip, rn.Model(geometry="linear"))
+    assert asked[0] is None
+    assert len(set(asked[1:])) == 1
+    assert asked[1] is not None

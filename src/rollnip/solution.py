@@ -278,7 +278,7 @@ class Solution(Presented):
     ) -> InteriorField:
         """Displacements, stresses and strains inside the "upper" or "lower" roller, in its frame.
 
-        Of finite strain in geometry "full", inside elastic layers on rigid cores; else linear.
+        Of finite strain in geometry "full", inside layers on rigid cores; else linear.
 
         Parameters
         ----------
@@ -331,9 +331,8 @@ class Solution(Presented):
         upper = roller == "upper"
         one, rate = (self.nip.upper, self._rates[0]) if upper else (self.nip.lower, self._rates[1])
         depths = np.append(0.0, np.atleast_1d(np.asarray(z, dtype=float)))
-        lost = loss_below(
-            one, self._tractions_on(roller), depths, self.model.geometry, self.nip.speed
-        )
+        given = self.model.geometry, self.nip.speed
+        lost = loss_below(one, self._tractions_on(roller), depths, *given)
         further = self.final.mesh.kernels.heat_beyond[0 if upper else 1]
         share = 1.0 + further / lost[0] if lost[0] > 0.0 else 1.0
         return np.asarray(self.nip.speed * rate * share * lost[1:])
@@ -354,16 +353,17 @@ class Solution(Presented):
         return self._beyond(roller) is not None
 
     def _beyond(self, roller: str) -> FiniteFields | None:
-        """Return what finite strain adds to the linear fields inside a roller; None: nothing."""
-        return self._beyond_upper if roller == "upper" else self._beyond_lower
+        """Return what finite strain adds to the linear fields inside; None: nothing."""
+        if roller not in self._found_inside:
+            upper, speed = roller == "upper", self.nip.speed
+            one, rate = (self.nip.upper if upper else self.nip.lower), self._rates[not upper]
+            given = self._tractions_on(roller), None if speed is None else (speed, rate * speed)
+            self._found_inside[roller] = beyond_linear(one, self.model.geometry, *given)
+        return self._found_inside[roller]
 
     @cached_property
-    def _beyond_upper(self) -> FiniteFields | None:
-        return beyond_linear(self.nip.upper, self.model.geometry, self._tractions_on("upper"))
-
-    @cached_property
-    def _beyond_lower(self) -> FiniteFields | None:
-        return beyond_linear(self.nip.lower, self.model.geometry, self._tractions_on("lower"))
+    def _found_inside(self) -> dict[str, FiniteFields | None]:
+        return {}
 
     @property
     def _section(self) -> Array:

@@ -191,6 +191,28 @@ def test_a_strain_energy_is_read_and_written(tree, table, energy):
     assert names["nip"] == case.nip
 
 
+@pytest.mark.parametrize(("table", "energy"), ENERGIES[1:3])
+def test_a_viscoelastic_material_has_a_strain_energy_too(tree, table, energy):
+    given = copy.deepcopy(tree)
+    given["materials"]["black"] = {
+        "model": "prony",
+        "modulus": "0.9 MPa",
+        "terms": [{"modulus": "0.5 MPa", "relaxation_time": "2 ms"}],
+        "poisson": 0.5,
+        "energy": table,
+    }
+    given["nip"]["speed"] = "1 m/s"
+    case = parse_case(given)
+    assert black(case).energy == energy
+    assert parse_case(base_tree(given)).nip == case.nip
+    names = {}
+    exec(case_python(case).split("solution =")[0], names)
+    assert names["nip"] == case.nip
+    given["materials"]["black"]["energy"] = {"model": "gent", "limit": -1}
+    with pytest.raises(rn.CaseFileError, match="energy"):
+        parse_case(given)
+
+
 def test_a_sweep_may_change_a_constant_of_an_energy(tree):
     given = stretched(tree, ENERGIES[-1][0])
     changed = with_values(given, {"materials.black.energy.terms[0].exponent": 2.5})

@@ -197,6 +197,10 @@ class Body:
             c = c + second.j
         return _Fields(deformation, c, straight, step, rate, second, viscous)
 
+    def relaxing(self, state: State) -> Viscous | None:
+        """Return the stresses of a state that relax; None where all layers are elastic."""
+        return None if self.memory is None else self._fields(state).viscous
+
     def _means(self, fields: _Fields) -> Array:
         """Return the derivatives of the volumes, weighted with the basis `LINEAR`."""
         f_xx, f_xy, f_yx, f_yy = fields.deformation[:, :, None, :]

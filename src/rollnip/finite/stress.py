@@ -15,8 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.finite.equilibrium import Body
 from rollnip.finite.state import State
 from rollnip.finite.strip import LINEAR, Array, Strip, below_radius, on_circle, quadratics
+from rollnip.finite.viscous import Viscous
 from rollnip.materials import Energy, NeoHookean
 
 PARTS = ("u_x", "u_z", "s_xx", "s_zz", "s_xz", "s_yy", "e_xx", "e_zz", "e_xz", "energy")
@@ -54,13 +56,13 @@ class _Law:
 
 
 def element_fields(
-    strip: Strip, state: State, along: Array, down: Array, near: float | None = None
+    body: Body, state: State, along: Array, down: Array, near: float | None = None
 ) -> tuple[Array, Array]:
     """Return the fields of a state at the same places of every element.
 
     Parameters
     ----------
-    strip, state :
+    body, state :
         a mesh and its equilibrium.
     along, down :
         (points,) places in each element, from -1 to 1.
@@ -77,18 +79,27 @@ def element_fields(
     Fields (parts, columns, rows, points), the parts named by `PARTS`: displacements along and into
     the roller, defined as at its surface [mm]; stresses [MPa]; stretches less 1 along and across
     the present line of constant depth, and half the shear angle; strain energy per undeformed
-    volume [MPa].
+    volume [MPa], with half the product of relaxing stress and strain.
     """
+    strip, viscous = body.strip, body.relaxing(state)
     law = _Law.of(strip)
     local = np.append(state.displacement, 0.0)[strip.unknowns].reshape(-1, 9, 2)
     arc, depth, moved, hoop, inward = _deformed(strip, local, along, down)
-    c, stored = _volume_law(strip, law, local, state.pressure, np.stack([along, down], axis=-1))
+    at = np.stack([along, down], axis=-1)
+    c, stored = _volume_law(strip, law, local, state.pressure, at)
+    held = None
+    if viscous is not None:
+        held = _projected(strip, _relaxed(law, viscous), at)
+        c, stored = c + held[..., 3], stored + held[..., 5]
     stretch = np.hypot(hoop[..., 0], hoop[..., 1])
     tangent = hoop / stretch[..., None]
     normal = np.stack([-tangent[..., 1], tangent[..., 0]], axis=-1)
     ratio = hoop[..., 0] * inward[..., 1] - hoop[..., 1] * inward[..., 0]
     thinning = ratio / stretch
     stress, axial, energy = _stresses(law, (hoop, inward, ratio), c)
+    if held is not None:
+        stress += _pushed(held, hoop, inward) / ratio[..., None]
+        axial += held[..., 4] / ratio
     curvature = strip.depths.roller.curvature
     if near is None:
         place, u_x, u_z = arc, *_polar(curvature * arc, moved)
@@ -212,6 +223,43 @@ def _stresses(law: _Law, deformed: tuple[Array, ...], c: Array) -> tuple[Array, 
         stored = energy.value(volume, spread[where]) - energy.rest * np.log1p(volume - 1.0)
         psi[where] = shear * stored
     return stress, axial, psi
+
+
+def _relaxed(law: _Law, viscous: Viscous) -> Array:
+    """Return T_ss, T_zz, T_sz, what c gets, T_yy and the energy that relax, (elements, 9, 6)."""
+    x_s, x_z, y_s, y_z = viscous.deformation
+    volume, spread = x_s * y_z - x_z * y_s, (x_s - y_z) ** 2 + (x_z + y_s) ** 2
+    total, apart = np.sqrt(spread + 4.0 * volume), np.sqrt(spread)
+    principal = np.stack([0.5 * (total + apart), 0.5 * (total - apart), np.ones_like(total)])
+    axial = np.empty(volume.shape)
+    for energy, where in law.energies:
+        third = energy.principal(principal[:, where])[2] - energy.rest
+        axial[where] = law.shear[where] * third
+    held = viscous.stress
+    along, across = 0.5 * (x_s**2 + y_s**2 - 1.0), 0.5 * (x_z**2 + y_z**2 - 1.0)
+    work = held[..., 0] * along + held[..., 1] * across + held[..., 2] * (x_s * x_z + y_s * y_z)
+    if viscous.volume is not None:
+        work = work + held[..., 3] * viscous.volume[1]
+    pressed = np.broadcast_to(viscous.volume_law[0], volume.shape)
+    axial = viscous.memory.relaxing(axial[..., None])[..., 0]
+    return np.stack([*np.moveaxis(held[..., :3], -1, 0), pressed, axial, 0.5 * work], axis=-1)
+
+
+def _projected(strip: Strip, values: Array, at: Array) -> Array:
+    """Return values at points of Gauss, made linear in each element, at places (points, 2)."""
+    weighted, inverse = strip.products
+    basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
+    return np.asarray(basis.T @ (inverse @ (weighted @ values)))
+
+
+def _pushed(held: Array, hoop: Array, inward: Array) -> Array:
+    """Return F T F^T as xx, yy, xy."""
+    ss, zz, sz = (held[..., part] for part in range(3))
+    out = np.empty((*ss.shape, 3))
+    for place, (i, j) in enumerate(((0, 0), (1, 1), (0, 1))):
+        out[..., place] = ss * hoop[..., i] * hoop[..., j] + zz * inward[..., i] * inward[..., j]
+        out[..., place] += sz * (hoop[..., i] * inward[..., j] + inward[..., i] * hoop[..., j])
+    return out
 
 
 def _component(stress: Array, one: Array, other: Array) -> Array:

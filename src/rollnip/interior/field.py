@@ -58,11 +58,12 @@ class InteriorField:
         (nz, nx) -V s_ij d(e_ij)/dx [MPa/s = mW/mm3]: the power that stress puts into a passing
         volume, stored and given back or lost; its integral over x is the heat. Zero where elastic.
         Within a few elements of the surface of a viscoelastic layer it has the logarithmic
-        spikes of a traction that is linear between nodes.
+        spikes of a traction that is linear between nodes. Of linear theory at finite strain, too.
     loss_per_depth :
         (nz,) int loss_density (1 - z/R) dx over all x [N/(mm s)] (flat layers: without the
         factor): heat per depth and axial length; over 2 pi R the mean power per volume of a
-        turn. Its integral over the layers is the viscous dissipation. Zero where elastic.
+        turn. Its integral over the layers is the viscous dissipation of linear theory. Zero where
+        elastic.
     poisson : (nz,) Poisson ratios.
     axial : (nz, nx) axial stress at finite strain [MPa]; None: as in linear theory.
     stored : (nz, nx) strain energy per undeformed volume at finite strain [MPa]; None: likewise.

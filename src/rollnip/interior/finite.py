@@ -1,4 +1,4 @@
-"""What finite strain adds to the linear fields inside a covering of elastic layers.
+"""What finite strain adds to the linear fields inside a covering.
 
 The difference of two solutions by finite elements, of finite strain and linear, under the same
 tractions at present places: their errors are alike and cancel. Both are seen on the two lines of
@@ -31,6 +31,7 @@ from rollnip.finite import (
 from rollnip.interior.tractions import Array, SurfaceTractions
 from rollnip.rollers import Roller
 
+Speeds = tuple[float, float]
 _COLUMNS = 48  # elements under the tractions
 _GROWTH = 1.5  # of elements beside them
 _LONGEST = 1.0  # element, over the thickness that counts
@@ -69,17 +70,21 @@ class FiniteFields:
     linear_values: Array
 
     @classmethod
-    def of(cls, roller: Roller, tractions: SurfaceTractions) -> FiniteFields | None:
+    def of(
+        cls, roller: Roller, tractions: SurfaceTractions, speeds: Speeds | None = None
+    ) -> FiniteFields | None:
         """Return the fields under tractions in the roller's own frame; None where none are found.
 
         Parameters
         ----------
-        roller : with elastic layers on a rigid core.
+        roller : with layers on a rigid core.
         tractions : at present places, along the present tangent and normal.
+        speeds : of linear theory and of the roller's undeformed surface [mm/s]; None: no
+            material is viscoelastic.
         """
         for split, columns in ((_SPLIT, _COLUMNS), (1, _COLUMNS // 2)):
             try:
-                return _solved(cls, roller, tractions, (split, columns))
+                return _solved(cls, roller, tractions, (split, columns), speeds)
             except NoEquilibriumError:
                 continue
         return None
@@ -123,16 +128,17 @@ class FiniteFields:
 
 
 def beyond_linear(
-    roller: Roller, geometry: str, tractions: SurfaceTractions
+    roller: Roller, geometry: str, tractions: SurfaceTractions, speeds: Speeds | None = None
 ) -> FiniteFields | None:
     """Return what finite strain adds to the linear fields inside a roller; None for nothing.
 
-    It adds something in geometry "full", to elastic layers on a rigid core that carry a load.
+    It adds something in geometry "full", to layers on a rigid core that carry a load. ``speeds``
+    are as in `FiniteFields.of`.
     """
-    is_bonded = bool(roller.layers) and roller.core is None and not roller.is_viscoelastic
+    is_bonded = bool(roller.layers) and roller.core is None
     if geometry != "full" or not is_bonded or not np.any(tractions.t_z > 0.0):
         return None
-    return FiniteFields.of(roller, tractions)
+    return FiniteFields.of(roller, tractions, speeds)
 
 
 def _through_zero(upper: Array, lower: Array, eta: float) -> Array:
@@ -143,7 +149,11 @@ def _through_zero(upper: Array, lower: Array, eta: float) -> Array:
 
 
 def _solved(
-    kind: type[FiniteFields], roller: Roller, tractions: SurfaceTractions, size: tuple[int, int]
+    kind: type[FiniteFields],
+    roller: Roller,
+    tractions: SurfaceTractions,
+    size: tuple[int, int],
+    speeds: Speeds | None,
 ) -> FiniteFields:
     split, columns = size
     touching = np.flatnonzero((tractions.t_z != 0.0) | (tractions.t_x != 0.0))
@@ -154,12 +164,13 @@ def _solved(
     depths = _depths(roller, half_width, split)
     places = _columns(roller, loaded, columns)
     acting = nodal(tractions.nodes, tractions.t_z[1:-1], tractions.t_x[1:-1])
-    flat = Body(Strip(depths, places))
+    flat = Body(Strip(depths, places), None if speeds is None else speeds[0])
     small = flat.equilibrium(_weak(acting, roller.curvature), flat.at_rest(), still=_STILL)
     linear = State(small.displacement / _SMALL, small.pressure / _SMALL)
-    body, state = _equilibrium(flat, linear, acting, near)
-    at, values = _sampled(element_fields(body.strip, state, _ALONG, _DOWN, near))
-    linear_at, weak = _sampled(element_fields(flat.strip, small, _ALONG, _DOWN))
+    passing = flat if speeds is None else Body(flat.strip, speeds[1])
+    body, state = _equilibrium(passing, linear, acting, near)
+    at, values = _sampled(element_fields(body, state, _ALONG, _DOWN, near))
+    linear_at, weak = _sampled(element_fields(flat, small, _ALONG, _DOWN))
     weak /= _SMALL
     weak[PARTS.index("energy")] /= _SMALL
     return kind(depths.ends, at, values, linear_at, weak)
@@ -197,7 +208,7 @@ def _equilibrium(flat: Body, linear: State, acting: Tractions, near: float) -> t
         arcs = places - np.interp(places, now, now - surface.arcs)
         if float(np.abs(arcs - body.strip.ends)[1:-1].max()) <= allowed:
             break
-        new = Body(Strip(body.strip.depths, arcs))
+        new = Body(Strip(body.strip.depths, arcs), body.speed)
         start = State(body.strip.moved_to(new.strip, state.displacement), state.pressure)
         body, state = new, new.equilibrium(acting, start)
     return body, state

@@ -209,7 +209,7 @@ def test_a_viscoelastic_material_has_a_strain_energy_too(tree, table, energy):
     exec(case_python(case).split("solution =")[0], names)
     assert names["nip"] == case.nip
     given["materials"]["black"]["energy"] = {"model": "gent", "limit": -1}
-    with pytest.raises(rn.CaseFileError, match="energy"):
+    with pytest.raises(CaseFileError, match="energy"):
         parse_case(given)
 
 

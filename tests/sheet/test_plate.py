@@ -37,7 +37,10 @@ def _roller(radius, covering):
     return rn.Roller(radius=radius, layers=[rn.Layer(covering.thickness, rubber)])
 
 
-@pytest.mark.parametrize("name", STORED)
+@pytest.mark.parametrize(
+    "name",
+    [name if name == "belt" else pytest.param(name, marks=pytest.mark.slow) for name in STORED],
+)
 def test_agrees_with_a_beam_of_finite_elements(name):
     case, wanted = JUDGE.CASES[name], STORED[name]
     sheet = rn.Sheet(
@@ -77,6 +80,7 @@ def test_agrees_with_a_beam_of_finite_elements(name):
     assert found.tension_max == pytest.approx(wanted["tension_max"], abs=3e-3 * case.load)
 
 
+@pytest.mark.slow
 def test_a_thin_sheet_is_one_that_bends_freely():
     # The same stretch, and a stiffness that goes as the square of the thickness
     thin = rn.Sheet(thickness=0.002, modulus=175e3, poisson=0.3, modulus_thickness=3500.0)
@@ -127,7 +131,7 @@ def test_between_equal_rollers_a_plate_stays_straight():
 @pytest.fixture(scope="module")
 def on_bare_roller():
     nip = nip_with(replace(BOARD, tension_in=0.1), lower=RIGID, friction=0.4, speed=100.0)
-    return rn.solve(nip, rn.Model(geometry="curved"))
+    return rn.solve(nip, LINEAR)
 
 
 def test_the_sheet_leaves_a_bare_roller_first(on_bare_roller):

@@ -132,8 +132,7 @@ def _offsets(
     linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)[side]
     sign, half = SIGNS[side], 0.5 * state.creepage
     rate = sheet_rate(*state.creepages)
-    bent = 0.5 * problem.sheet.thickness * np.diff(problem.rotation_at(state, mesh.nodes[1:]))
-    strained = (rate - 1.0) * (bent - sign * problem.strain_over(state, side))
+    strained = (rate - 1.0) * problem.creep_by_sheet(state, side, flat)
     return np.asarray(sign * mesh.sums((1.0 + sign * half) * excess - linear) + strained)
 
 

@@ -23,6 +23,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE, ContactState, States
 from rollnip.nip import Nip
+from rollnip.rolling import Displacements
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.plate.bending import Plate
 from rollnip.sheet.plate.sides import (
@@ -217,6 +218,20 @@ class PlateProblem:
         )
         strain = self.sheet.stretch_by_tension * self.tension_at(state, x)
         return np.asarray(strain + 0.5 * self.sheet.stretch_by_pressure * pressed)
+
+    def creep_by_sheet(self, state: PlateState, side: int, flat: Displacements) -> Array:
+        """Return what the strain of the sheet's face adds to the creep of one interface, (n,) [mm].
+
+        ``flat``: the linear displacements of its roller at nodes[1:].
+        """
+        mesh, sheet = self.meshes[side], self.sheet
+        tractions = np.concatenate(
+            [state.pressure[0], state.shear[0], state.pressure[1], state.shear[1]]
+        )
+        rows = slice(self.starts[2 * side + 1], self.starts[2 * side + 2])
+        roller = stretch_by(mesh, side, flat.four[2 * side], flat.four[2 * side + 1])
+        pulled = sheet.stretch_by_tension * sheet.tension_in * mesh.dx
+        return np.asarray(self.matrix[rows] @ tractions - SIGNS[side] * (roller + pulled))
 
     def strain_over(self, state: PlateState, side: int) -> Array:
         """Return int e dx of the sheet's middle over the intervals of one interface, (n,) [mm]."""

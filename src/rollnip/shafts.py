@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import inf, pi, sqrt
-from typing import Literal
+from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,7 +36,7 @@ __all__ = [
 Array = NDArray[np.float64]
 AnyCrown = Crown | CrownTable
 Across = Literal["free", "one-speed"]
-Ends = Literal["plane", "edge", "covering"]
+Ends = Literal["plane", "edge", "covering", "covering-upper", "covering-lower"]
 
 LARGEST_SKEW = 0.1
 """Largest angle between the axes [rad]; beyond, the gap is no parabola."""
@@ -216,7 +216,8 @@ class Face:
     ends :
         "plane": the nip is plane up to both ends of the face; "edge": there the face of one roller
         ends on the longer covering of the other, which carries more or less than in a plane nip;
-        "covering": there every covering ends, free of stress, and rubber gives way sideways.
+        "covering": there every covering ends, free of stress, and rubber gives way sideways;
+        "covering-upper" and "covering-lower": that roller's alone ends, the other one's goes on.
     end_radius :
         with which the shorter face is rounded at its ends [mm]; 0: a sharp edge.
 
@@ -252,9 +253,10 @@ class Face:
             offset = require_finite("bearing_offset", self.bearing_offset)
             object.__setattr__(self, "bearing_offset", offset)
         object.__setattr__(self, "end_radius", require_not_negative("end_radius", self.end_radius))
-        if self.ends not in ("plane", "edge", "covering"):
+        if self.ends not in get_args(Ends):
+            *first, last = (f'"{one}"' for one in get_args(Ends))
             raise InvalidInputError(
-                f'`ends` must be "plane", "edge" or "covering", got "{self.ends}".'
+                f'`ends` must be {", ".join(first)} or {last}, got "{self.ends}".'
             )
         if self.ends != "edge" and self.end_radius > 0.0:
             raise InvalidInputError('`end_radius` needs `ends` = "edge".')

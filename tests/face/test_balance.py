@@ -126,6 +126,8 @@ def test_rigid_rollers_share_the_load_evenly(rows):
     np.testing.assert_allclose(found.load, 6.0, rtol=1e-9)
     fresh = rn.solve(bare)
     assert found.creepage == pytest.approx(fresh.creepage, abs=2e-5)
+    assert np.ptp(found.traction) < 1e-9
+    assert found.largest_scrub == 0.0  # what rounding leaves is no scrub
 
 
 def test_approach_prescribed_in_the_middle(straight):

@@ -83,6 +83,31 @@ def test_a_covering_that_ends_carries_less(rows, short):
     assert parse_case(tree).face == face
 
 
+def test_one_covering_may_end_alone(rows):
+    """A bare lower roller has none: the upper one's end is both. With two, one lacks less."""
+    face = replace(SHORT, ends="covering", end_radius=0.0)
+    both = solve_face(stiff(), face, LINEAR, rows=rows)
+    upper = solve_face(stiff(), replace(face, ends="covering-upper"), LINEAR, rows=rows)
+    assert upper.added_length == pytest.approx(both.added_length, rel=1e-9)
+    assert parse_case(face_parts(upper)["case"]).face.ends == "covering-upper"
+    with pytest.raises(rn.InvalidInputError, match='`ends` cannot be "covering-lower"'):
+        solve_face(stiff(), replace(face, ends="covering-lower"), LINEAR, rows=rows)
+
+
+@pytest.mark.slow
+def test_of_two_coverings_that_of_one_roller_ends(rows):
+    nip = replace(stiff(), lower=replace(stiff().lower, layers=stiff().upper.layers))
+    face = replace(SHORT, ends="covering", end_radius=0.0)
+    lacking = [
+        solve_face(nip, replace(face, ends=ends), LINEAR, rows=rows).added_length
+        for ends in ("covering", "covering-upper", "covering-lower")
+    ]
+    assert lacking[0] < 1.2 * lacking[1] < 0.0
+    one = covering_end(nip.upper, nip.lower, 0.8, "upper")
+    assert lacking[1] == pytest.approx(2.0 * one.added_length, rel=0.02)
+    assert lacking[2] == pytest.approx(lacking[1], rel=0.1)  # radii 100 and 75 mm
+
+
 def test_the_figures_of_evenness_leave_the_ends_out(short):
     assert short.evenness == pytest.approx(1.0, abs=1e-12)
     assert short.load.min() < 0.9 * short.load[32]
@@ -113,7 +138,9 @@ def test_ends_are_in_the_result_and_in_its_case(short):
 
 
 def test_ends_that_cannot_be(short):
-    with pytest.raises(rn.InvalidInputError, match='`ends` must be "plane", "edge" or "covering"'):
+    with pytest.raises(
+        rn.InvalidInputError, match='"covering-upper" or "covering-lower", got "round"'
+    ):
         Face(length=100.0, ends="round")
     with pytest.raises(rn.InvalidInputError, match='`end_radius` needs `ends` = "edge"'):
         Face(length=100.0, end_radius=1.0)
@@ -122,5 +149,7 @@ def test_ends_that_cannot_be(short):
     with pytest.raises(rn.InvalidInputError, match="`end_radius` must be zero or positive"):
         Face(length=100.0, ends="edge", end_radius=-1.0)
     web = replace(press(), sheet=rn.Sheet.usual("newsprint"))
+    with pytest.raises(rn.InvalidInputError, match='"plane" beside a sheet, got "covering"'):
+        solve_face(web, Face(length=1600.0, ends="covering"))
     with pytest.raises(rn.InvalidInputError, match='`ends` must be "plane" beside a sheet'):
         solve_face(web, replace(FACE, ends="edge"))

@@ -230,6 +230,7 @@ def test_the_example_on_the_command_line(tmp_path):
     result = CliRunner().invoke(app, ["face", "solve", str(path), "--plot", str(picture)])
     assert result.exit_code == 0, result.output
     assert "ends feed more by" in result.stdout
+    assert "largest scrub             0 N/mm" in result.stdout  # strips under even tensions
     assert picture.stat().st_size > 10_000
 
 

@@ -11,6 +11,7 @@ whole face has what the end adds or takes, however few places lie there.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import floor, log
 
@@ -22,11 +23,18 @@ from rollnip.face.beam import FaceGrid
 from rollnip.face.rows import NipRows
 from rollnip.nip import Nip
 from rollnip.patch import FaceEnd, covering_end, face_end
+from rollnip.patch.covering_ends import Ending
 from rollnip.rollers import Roller
 from rollnip.shafts import Face
 
 Array = NDArray[np.float64]
 
+_ENDING: Mapping[str, Ending] = {
+    "covering": "both",
+    "covering-upper": "upper",
+    "covering-lower": "lower",
+}
+"""Whose covering ends, by `Face.ends`."""
 _STEP = 0.25  # of the logarithm of the approach, between solutions
 
 
@@ -124,8 +132,8 @@ def _kept(nip: Nip, face: Face, node: int, rows: NipRows) -> FaceEnd:
 
 def _solved(upper: Roller, lower: Roller, face: Face, approach: float) -> FaceEnd:
     try:
-        if face.ends == "covering":
-            return covering_end(upper, lower, approach)
+        if face.ends in _ENDING:
+            return covering_end(upper, lower, approach, _ENDING[face.ends])
         return face_end(upper, lower, approach, face.end_radius)
     except InvalidInputError as error:
         raise InvalidInputError(f'`ends` cannot be "{face.ends}": {error}') from None

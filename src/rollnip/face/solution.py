@@ -21,6 +21,7 @@ from rollnip.shafts import Face
 Array = NDArray[np.float64]
 
 _EVEN = 0.1  # of the mean load: the share of the face that is even is counted within this
+_ROUNDING = 1e-9  # of the largest load: what a balance leaves of a traction
 _FINE = 2001  # places of an even grid, by which shares of the face are counted
 
 
@@ -243,7 +244,8 @@ class FaceSolution:
     def largest_scrub(self) -> float:
         """Largest departure of the traction from its mean [N/mm]: surfaces that rub each other."""
         mean = self.total_traction / self.face.length
-        return float(np.max(np.abs(self.traction - mean)))
+        scrub = float(np.max(np.abs(self.traction - mean)))
+        return scrub if scrub > _ROUNDING * float(np.max(self.load)) else 0.0
 
     def to_xarray(self) -> Any:
         """Return the face as an xarray Dataset over y: what the netCDF file of a result holds.

@@ -116,9 +116,9 @@ class FaceTable(FileTable):
         "free",
         description="Whether a sheet in the nip runs as strips of their own speed, or as one web.",
     )
-    ends: Literal["plane", "edge", "covering"] = Field(
+    ends: Literal["plane", "edge", "covering", "covering-upper", "covering-lower"] = Field(
         "plane",
         description="Whether the nip is plane up to the ends, one face ends on a longer covering, "
-        "or the coverings themselves end.",
+        "or the coverings themselves end, both or one.",
     )
     end_radius: Length = Field(0.0, description="Of the ends of the shorter face; 0: sharp.")

@@ -203,6 +203,18 @@ def test_forces_given_are_met_and_give_back_the_creepages():
 
 
 @pytest.mark.slow
+def test_forces_given_with_spin_cost_no_more_than_twice_the_creepages():
+    """Products with the compliance on the finest grid, which are what a solution costs."""
+    curved = curvatures(8.0, 4.0, 82e3, 82e3 / 0.72)
+    given = contact_patch(*curved, 82e3, 0.3, across=rn.Creepage(6.25e-4), spin=-6.25e-4)
+    one = rn.solve_patch(given, grid=(72, 72))
+    forces = replace(given, along=rn.Force(2000.0), across=rn.Force(one.traction_y))
+    other = rn.solve_patch(forces, grid=(72, 72))
+    assert other.traction_x == pytest.approx(2000.0, rel=1e-4)
+    assert other.level.rolling.products <= 2 * one.level.rolling.products < 600
+
+
+@pytest.mark.slow
 def test_mirror_in_y_turns_lateral_forces():
     """Lateral creepage and spin are as good to one side as to the other."""
     one = rn.solve_patch(wheel(across=rn.Creepage(0.01), spin=1e-3), grid=(32, 32))

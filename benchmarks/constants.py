@@ -1,19 +1,24 @@
 """Table of the constants that steer the engine: each halved and doubled, and what that changes.
 
-    python benchmarks/constants.py --count 60 [--only rolling.placing] [--list]
+    python benchmarks/constants.py --count 60 [--only rolling.placing] [--list] [--unnamed]
 
 The nips are those of tests/properties/population.py and some in "finite" geometry. Errors are
 measured against solutions with a hundredth of the tolerance (a tenth in "finite"), made by the
 engine as it is. Cost is counted in elements and linear systems, for these do not depend on the
 machine. A constant that changes nothing may go, or needs no test; one that does needs one.
+
+`--unnamed` lists what steers without a name: numbers that functions take unless told otherwise,
+and decimal fractions within functions (halves and quarters are those of formulas).
 """
 
 import argparse
+import ast
 import functools
 import importlib
 import pkgutil
 import sys
 import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -31,10 +36,10 @@ FIRST = 300_000  # number of the first nip; neither tests nor tuning use these
 FINITE_SHARE = 6  # every so many nips is solved in "finite" too
 # Tables of influence functions are kept between solves, but not where a constant changes them.
 OF_TABLES = ("influence.",)
-# Numbers of states and places, exponents that theory gives, words of units: nothing steers by them.
+# Numbers of states and places, exponents that theory gives, definitions: nothing steers by them.
 NO_CHOICE = {
-    "FREE", "STICK", "SLIP_PLUS", "SLIP_MINUS", "_SHEAR_SIGNS", "_TINY", "_ROOT", "_SMOOTH",
-    "_SECOND", "_CREEPAGE", "_PEAK",
+    "_SHEAR_SIGNS", "_ROOT", "_SMOOTH", "_SECOND", "_CREEPAGE", "_PEAK", "MOST_CREEPAGE",
+    "NO_SECOND_ORDER",
 }  # fmt: skip
 LEAST_CLAIM = 1e-9  # relative, for errors of rounding
 
@@ -97,35 +102,73 @@ def forget():
 
 
 def is_number(value):
-    if isinstance(value, tuple) and value:
-        return all(map(is_number, value))
+    if isinstance(value, (tuple, Mapping)) and value:
+        return all(map(is_number, value.values() if isinstance(value, Mapping) else value))
     if isinstance(value, np.ndarray):
         return value.dtype.kind == "f"
     return isinstance(value, (int, float)) and not isinstance(value, bool)
 
 
+def numbers_in(node):
+    """The numbers that are written out below a node of the syntax tree, with their lines."""
+    for part in ast.walk(node):
+        if isinstance(part, ast.Constant) and is_number(part.value):
+            yield part.lineno, part.value
+
+
+def assigned(tree):
+    """Names in capitals at the top of a module to which an expression with a number is given."""
+    for node in tree.body:
+        if not isinstance(node, (ast.Assign, ast.AnnAssign)) or node.value is None:
+            continue
+        targets = node.targets if isinstance(node, ast.Assign) else [node.target]
+        if any(numbers_in(node.value)):
+            for target in targets:
+                yield from (n.id for n in ast.walk(target) if isinstance(n, ast.Name))
+
+
+def source_of(module):
+    return ast.parse(Path(module.__file__).read_text(encoding="utf-8"))
+
+
 def constants():
-    """The numeric constants in capitals of the floors, each at home in one module."""
+    """The numeric constants in capitals of the floors, each at home in one module.
+
+    What follows from other constants or from the precision of numbers is none.
+    """
     found = []
     everywhere = modules()
     for module in everywhere:
-        source = Path(module.__file__).read_text(encoding="utf-8")
-        for name, value in vars(module).items():
-            bare = name.strip("_")
-            if not (bare.isupper() and is_number(value)):
+        for name in dict.fromkeys(assigned(source_of(module))):
+            value = vars(module)[name]
+            chosen = name.strip("_").isupper() and is_number(value)
+            if not chosen or name in NO_CHOICE:
                 continue
-            if name in NO_CHOICE and not module.__name__.endswith("rolling.free_ends"):
-                continue
-            if not any(
-                line.startswith(name) or f", {name}" in line.split("=")[0]
-                for line in source.splitlines()
-                if "=" in line and not line.startswith((" ", "#", "from", "import"))
-            ):
-                continue  # imported from elsewhere
             holders = tuple(m for m in everywhere if vars(m).get(name) is value or m is module)
             home = module.__name__.removeprefix("rollnip.")
             found.append(Constant(home, name, value, holders))
     return found
+
+
+def unnamed():
+    """Numbers that steer without a name: (module, line, number)."""
+    for module in modules():
+        tree, found = source_of(module), set()
+        for node in ast.walk(tree):
+            if isinstance(node, ast.FunctionDef):
+                defaults = [d for d in (*node.args.defaults, *node.args.kw_defaults) if d]
+                found |= {n for d in defaults for n in numbers_in(d) if n[1] not in (0, 1)}
+                found |= {n for line in node.body for n in numbers_in(line) if is_decimal(n[1])}
+            elif isinstance(node, ast.ClassDef):
+                fields = [f.value for f in node.body if isinstance(f, ast.AnnAssign) and f.value]
+                found |= {n for f in fields for n in numbers_in(f) if n[1] not in (0, 1)}
+        for line, number in sorted(found):
+            yield module.__name__.removeprefix("rollnip."), line, number
+
+
+def is_decimal(number):
+    """Whether a number is no multiple of 1/1024: formulas hold such ones, choices mostly others."""
+    return number * 1024.0 != round(number * 1024.0)
 
 
 def cases(count):
@@ -196,6 +239,8 @@ def off(solution, truth):
 
 def changed(value, factor):
     """The value times a factor; a whole number stays whole and at least 1."""
+    if isinstance(value, Mapping):
+        return {key: changed(one, factor) for key, one in value.items()}
     if isinstance(value, tuple):
         return tuple(changed(one, factor) for one in value)
     if isinstance(value, int):
@@ -236,7 +281,12 @@ def main():
     parser.add_argument("--only", default="", help="constants of modules that begin so")
     parser.add_argument("--skip", default="-", help="none of modules that begin so")
     parser.add_argument("--list", action="store_true", help="only name the constants")
+    parser.add_argument("--unnamed", action="store_true", help="list numbers without a name")
     asked = parser.parse_args()
+    if asked.unnamed:
+        for found in unnamed():
+            sys.stdout.write("{}:{} {:g}\n".format(*found))
+        return
     chosen = [c for c in constants() if c.home.startswith(asked.only)]
     chosen = [c for c in chosen if not c.home.startswith(asked.skip)]
     if asked.list:

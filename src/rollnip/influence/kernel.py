@@ -19,8 +19,10 @@ from rollnip.influence._weights import (
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
 
-_POINTS_PER_OCTAVE = 8
-_NODES = 14
+_POINTS_PER_OCTAVE = 8  # of a table; panels in an octave of wave numbers are as many at most
+_NODES = 14  # of a panel
+TOLERANCE = 1e-7
+"""Unresolved part of a compliance that a table leaves, relative to the largest."""
 MOST_OCTAVES = 40
 """Octaves of length, and of wave numbers below them, that a table covers at most."""
 
@@ -202,7 +204,7 @@ def tabulate(
     window: Window,
     *,
     low_limit: tuple[complex, ...],
-    tolerance: float = 1e-7,
+    tolerance: float = TOLERANCE,
     nodes: int = _NODES,
 ) -> Kernel:
     """Influence functions of compliances, by the non-equidistant inverse Fourier transform.

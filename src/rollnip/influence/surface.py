@@ -11,7 +11,7 @@ import numpy as np
 from rollnip.compliance import flat_compliance, half_space_limit, ring_compliance
 from rollnip.influence._weights import ComplexArray
 from rollnip.influence.hats import displacement_under
-from rollnip.influence.kernel import Array, Kernel, Window, half_space_kernel, tabulate
+from rollnip.influence.kernel import TOLERANCE, Array, Kernel, Window, half_space_kernel, tabulate
 from rollnip.materials import Material
 from rollnip.model import RINGS
 from rollnip.rollers import Roller
@@ -84,7 +84,7 @@ def surface_kernels(
     speed: float | None,
     geometry: str,
     window: Window,
-    tolerance: float = 1e-7,
+    tolerance: float = TOLERANCE,
 ) -> SurfaceKernels:
     """Tabulate the influence functions of a roller in steady rolling.
 

@@ -2,8 +2,8 @@
 
     python benchmarks/constants.py --count 60 [--only rolling.placing] [--list] [--unnamed]
 
-The nips are those of tests/properties/population.py and some in "finite" geometry. Errors are
-measured against solutions with a hundredth of the tolerance (a tenth in "finite"), made by the
+The nips are those of tests/properties/population.py and some in "second" geometry. Errors are
+measured against solutions with a hundredth of the tolerance (a tenth in "second"), made by the
 engine as it is. Cost is counted in elements and linear systems, for these do not depend on the
 machine. A constant that changes nothing may go, or needs no test; one that does needs one.
 
@@ -33,7 +33,7 @@ from rollnip.influence import KernelCache
 
 FLOORS = ("contact", "influence", "rolling")
 FIRST = 300_000  # number of the first nip; neither tests nor tuning use these
-FINITE_SHARE = 6  # every so many nips is solved in "finite" too
+FINITE_SHARE = 6  # every so many nips is solved in "second" too
 # Tables of influence functions are kept between solves, but not where a constant changes them.
 OF_TABLES = ("influence.",)
 # Numbers of states and places, exponents that theory gives, definitions: nothing steers by them.
@@ -177,7 +177,7 @@ def cases(count):
         case = random_case(number)
         yield case.nip, case.geometry
         if number % FINITE_SHARE == 0:
-            yield case.nip, "finite"
+            yield case.nip, "second"
 
 
 def solved(nip, geometry, tolerance, cache):
@@ -193,8 +193,8 @@ def truths(chosen, cache):
     """Figures of solutions that are much finer, None where there are none."""
     found = []
     for nip, geometry in chosen:
-        fine = solved(nip, geometry, 1e-4 if geometry == "finite" else 1e-5, cache)
-        is_fine = fine is not None and (fine.converged or geometry == "finite")
+        fine = solved(nip, geometry, 1e-4 if geometry == "second" else 1e-5, cache)
+        is_fine = fine is not None and (fine.converged or geometry == "second")
         found.append(fine.final.figures if is_fine else None)
     return found
 

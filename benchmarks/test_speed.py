@@ -19,7 +19,7 @@ import rollnip as rn
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 CURVED = rn.Model(geometry="curved")
-FULL = rn.Model(geometry="full")
+FULL = rn.Model(geometry="finite")
 RUBBER = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.007, poisson=0.5)
 SPONGE = rn.Elastic(modulus=1.0, poisson=0.45)
 

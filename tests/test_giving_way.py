@@ -1,4 +1,4 @@
-"""When "finite" gives way to "curved": only where it has no solution, never for an error."""
+"""When "second" gives way to "curved": only where it has no solution, never for an error."""
 
 from dataclasses import replace
 
@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 
 import rollnip as rn
+
+SECOND = rn.Model(geometry="second")
 
 
 def fuser(load):
@@ -32,8 +34,8 @@ def gave_way(solution):
 def test_figures_of_a_stiff_skin_have_no_step():
     """Over these loads the model changed four times, and the creepage threefold at each."""
     loads = np.array([0.05, 0.08, 0.0864, 0.0869, 0.1, 0.15, 0.25, 0.4])
-    found = [rn.solve(fuser(load)) for load in loads]
-    assert {solution.model.geometry for solution in found} == {"finite"}
+    found = [rn.solve(fuser(load), SECOND) for load in loads]
+    assert {solution.model.geometry for solution in found} == {"second"}
     assert not any(gave_way(solution) for solution in found)
     assert sum(solution.converged for solution in found) >= len(found) - 2
     for name in ("nip_width", "approach"):
@@ -46,20 +48,20 @@ def test_figures_of_a_stiff_skin_have_no_step():
 
 def test_a_stiff_skin_against_finite_elements():
     """Plane strain at finite strain, computed by another program."""
-    solution = rn.solve(fuser(0.25))
-    assert solution.model.geometry == "finite"
+    solution = rn.solve(fuser(0.25), SECOND)
+    assert solution.model.geometry == "second"
     assert solution.approach == pytest.approx(0.1897, rel=3e-3)
     # a small difference of stretches, of which a skin makes more than the second order says
     assert solution.creepage == pytest.approx(0.0009, abs=2.5e-3)
 
 
 def test_an_error_beyond_the_tolerance_does_not_change_the_model():
-    solution = rn.solve(fuser(0.1), rn.Model(tolerance=2e-5))
+    solution = rn.solve(fuser(0.1), replace(SECOND, tolerance=2e-5))
     assert not solution.converged
-    assert solution.model.geometry == "finite"
+    assert solution.model.geometry == "second"
     assert not gave_way(solution)
     assert "estimated error" in solution.status
-    coarse = rn.solve(fuser(0.1), rn.Model(tolerance=1e-2))
+    coarse = rn.solve(fuser(0.1), replace(SECOND, tolerance=1e-2))
     assert coarse.converged
     assert solution.nip_width == pytest.approx(coarse.nip_width, rel=1e-2)
 
@@ -68,8 +70,8 @@ def test_an_error_beyond_the_tolerance_does_not_change_the_model():
 def test_no_step_where_strains_pass_the_limit(sign):
     """Beside the slipping edge strains pass 30 %: the figures go on, with a warning."""
     tractions = sign * np.linspace(0.1, 0.6, 11)
-    found = [rn.solve(replace(DRIVEN, tangential=rn.Traction(t))) for t in tractions]
-    assert all(s.converged and s.model.geometry == "finite" for s in found)
+    found = [rn.solve(replace(DRIVEN, tangential=rn.Traction(t)), SECOND) for t in tractions]
+    assert all(s.converged and s.model.geometry == "second" for s in found)
     for name in ("nip_width", "approach", "creepage"):
         values = np.array([getattr(s, name) for s in found])
         bends = np.abs(np.diff(values, 2))
@@ -86,10 +88,10 @@ def test_where_there_is_no_solution_the_reason_is_given():
     nip = rn.Nip(
         upper=covered, lower=rn.Roller(radius=30.0), normal=rn.LineLoad(100.0), friction=5.0
     )
-    solution = rn.solve(nip)
+    solution = rn.solve(nip, SECOND)
     assert solution.model.geometry == "curved"
     assert solution.warnings[0].startswith(
-        'No solution of geometry "finite" was found: its second-order terms did not come to rest'
+        'No solution of geometry "second" was found: its second-order terms did not come to rest'
     )
     assert "strain" not in solution.warnings[0]
 
@@ -103,9 +105,9 @@ def test_tractions_without_equilibrium_are_said_to_be_the_cause():
         normal=rn.LineLoad(2.0),
         friction=0.5,
     )
-    solution = rn.solve(nip, rn.Model(geometry="full"))
-    assert solution.model.geometry == "finite"
+    solution = rn.solve(nip, rn.Model(geometry="finite"))
+    assert solution.model.geometry == "second"
     assert solution.warnings[0] == (
-        'No solution of geometry "full" was found: its tractions have no equilibrium, or none that '
-        'was found. All figures are those of geometry "finite".'
+        'No solution of geometry "finite" was found: its tractions have no equilibrium, or none '
+        'that was found. All figures are those of geometry "second".'
     )

@@ -12,7 +12,7 @@ def test_defaults():
     assert Model() == Model(geometry="finite", tolerance=1e-3)
 
 
-@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved", "finite", "full"])
+@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved", "second", "finite"])
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-3, 0.1])
 def test_allowed(geometry, tolerance):
     model = Model(geometry=geometry, tolerance=tolerance)
@@ -21,7 +21,7 @@ def test_allowed(geometry, tolerance):
 
 @pytest.mark.parametrize("geometry", ["Curved", "", "flat", None, 3, ["linear"]])
 def test_unknown_geometry(geometry):
-    known = r'"linear", "corrected", "curved", "finite", "full"'
+    known = r'"linear", "corrected", "curved", "second", "finite"'
     pattern = rf"^`geometry` must be one of {known}, got .*\.$"
     with pytest.raises(InvalidInputError, match=pattern) as caught:
         Model(geometry=geometry)

@@ -87,7 +87,7 @@ def test_a_torque_beyond_friction_does_not_settle(torque):
 
 
 def test_failure_is_returned_or_raised():
-    too_fine = Model(tolerance=1e-4)  # finer than the second order of "finite" is, on any mesh
+    too_fine = Model(tolerance=1e-4)  # finer than the second order of "second" is, on any mesh
     returned = solve(NIP, too_fine)
     assert not returned.converged
     with pytest.raises(rn.ConvergenceError) as caught:
@@ -171,5 +171,5 @@ def test_second_order_terms_that_run_away_on_the_way_leave_no_warning_of_numpy()
             friction=0.5,
         )
     )
-    assert solution.model.geometry in ("finite", "curved")
+    assert solution.model.geometry in ("second", "curved")
     assert np.isfinite(solution.nip_width)

@@ -99,12 +99,12 @@ def cases() -> tuple[dict[str, Any], ...]:
 
 @cache
 def judged(geometry: str) -> tuple[Judged | None, ...]:
-    """Return one geometry beside every finite-element result; None for stiff skins in `full`.
+    """Return one geometry beside every finite-element result; None for stiff skins in `finite`.
 
     These take seconds each: the slow tests hold them.
     """
     return tuple(
-        None if geometry == "full" and is_skinned(case) else _judge(case, geometry)
+        None if geometry == "finite" and is_skinned(case) else _judge(case, geometry)
         for case in cases()
     )
 
@@ -203,8 +203,8 @@ def summary_table() -> str:
 
 
 def case_table() -> str:
-    """Return every case with the deviations of `curved`, `finite` and `full`, as Markdown."""
-    names = ("curved", "finite", "full")
+    """Return every case with the deviations of `curved`, `second` and `finite`, as Markdown."""
+    names = ("curved", "second", "finite")
     head = ["case", "T/F"]
     for name in names:
         head += [f"{name}: δ", "edges", "peak", "ξ"]
@@ -298,7 +298,7 @@ def skins() -> tuple[int, list[float], float]:
     largest deviation of those without it.
     """
     ratios, unwarned = [], [0.0]
-    for one in judged("finite"):
+    for one in judged("second"):
         layers = one.case["upper"].get("layers", [])
         if one.creepage is None or len(layers) < 2 or layers[0]["modulus"] <= layers[1]["modulus"]:
             continue

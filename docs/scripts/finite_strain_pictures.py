@@ -22,7 +22,7 @@ STYLES = {
     "linear": {"color": "#E69F00", "linestyle": ":", "linewidth": 2.0},
     "corrected": {"color": "#009E73", "linestyle": "-.", "linewidth": 1.4},
     "curved": {"color": "#0072B2", "linestyle": "--", "linewidth": 1.6},
-    "finite": {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4},
+    "second": {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4},
 }
 MODELS = [name for name in STYLES if name in get_args(Geometry)]
 PICTURES = {

@@ -15,7 +15,7 @@ from rollnip.model import Model
 from rollnip.nip import Approach, LineLoad, Nip
 from rollnip.rollers import Roller
 from rollnip.sheet import SheetSolution
-from rollnip.solver import solve
+from rollnip.solver import geometry_for, solve
 
 __all__ = ["FeedChange", "feed_sensitivity"]
 
@@ -115,7 +115,7 @@ def feed_sensitivity(
 def _solved(nip: Nip, model: Model, cache: KernelCache) -> SheetSolution:
     solution = solve(nip, model, cache=cache)
     assert isinstance(solution, SheetSolution)
-    if solution.model.geometry != model.geometry and model.geometry != "full":
+    if solution.model.geometry != geometry_for(nip, model):
         raise ConvergenceError(
             f'No solution of geometry "{model.geometry}" was found; take geometry "curved".'
         )

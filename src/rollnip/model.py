@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal, get_args
 
 from rollnip._errors import InvalidInputError, require_positive, with_hints
 
-Geometry = Literal["linear", "corrected", "curved", "finite", "full"]
-FINITE: tuple[Geometry, ...] = ("finite", "full")
+Geometry = Literal["linear", "corrected", "curved", "second", "finite"]
+_SYNONYMS: Mapping[object, Geometry] = {"full": "finite"}
+"""Names that cases of earlier versions hold."""
+FINITE: tuple[Geometry, ...] = ("second", "finite")
 """Geometries of finite strain: tractions and displacements belong to present places."""
 RINGS: tuple[Geometry, ...] = ("curved", *FINITE)
 """Geometries that bend the layers to rings."""
@@ -26,17 +29,19 @@ class Model:
     ----------
     geometry :
         "linear": flat layers, parabolic gap. "corrected": flat layers, true distance of the
-        deformed surfaces. "curved": ring layers and stretch to second order. "finite": ring
-        layers of finite strain, to second order throughout. "full": finite strain of all orders,
-        for layers on rigid cores (docs/geometry.md).
+        deformed surfaces. "curved": ring layers and stretch to second order. "second": ring
+        layers at finite strain, to second order throughout. "finite", the default: finite strain
+        of all orders (docs/geometry.md). With a sheet and on half-space cores there is none of all
+        orders: "second" is solved there in place of "finite", and a result says which it is.
+        "full" is another word for "finite".
     tolerance :
         wanted relative accuracy of creepage, nip width, peak pressure, approach or load; between
-        1e-6 and 0.1. "finite" gives approach and load to 0.001, the peak pressure to 0.0015, the
-        nip width to 0.002 and the creepage to 0.01, which counts as met by a tolerance of 0.001 or
-        more; a finer one it cannot meet, and the solution says so. "full" gives approach and load
-        to 0.0003, the peak pressure to 0.003, the nip width to 0.001 and the creepage to 0.005,
-        which counts likewise; where a surface is stretched far beside a slipping edge less well, by
-        what the solution's status says.
+        1e-6 and 0.1. "finite" gives approach and load to 0.0003, the peak pressure to 0.003, the
+        nip width to 0.001 and the creepage to 0.005, which counts as met by a tolerance of 0.001 or
+        more; a finer one it cannot meet, and the solution says so. Where a surface is stretched far
+        beside a slipping edge it is less accurate, by what the solution's status says. "second"
+        gives approach and load to 0.001, the peak pressure to 0.0015, the nip width to 0.002 and
+        the creepage to 0.01, which counts likewise.
 
     Raises
     ------
@@ -48,6 +53,8 @@ class Model:
     tolerance: float = 1e-3
 
     def __post_init__(self) -> None:
+        if isinstance(self.geometry, str):
+            object.__setattr__(self, "geometry", _SYNONYMS.get(self.geometry, self.geometry))
         if self.geometry not in get_args(Geometry):
             known = ", ".join(f'"{name}"' for name in get_args(Geometry))
             raise InvalidInputError(f"`geometry` must be one of {known}, got {self.geometry!r}.")

@@ -202,7 +202,7 @@ class Solution(Presented):
     def error(self) -> dict[str, float]:
         """Estimated errors, absolute, in the unit of each figure; nan where it is not defined.
 
-        What the mesh leaves; in "finite" at least what its second order leaves open. `converged`
+        What the mesh leaves; in "second" at least what its second order leaves open. `converged`
         and `status` follow from those that `Model.tolerance` is for. A prescribed figure is off by
         what it misses the prescribed value by.
         """
@@ -278,7 +278,7 @@ class Solution(Presented):
     ) -> InteriorField:
         """Displacements, stresses and strains inside the "upper" or "lower" roller, in its frame.
 
-        Of finite strain in geometry "full", inside layers on rigid cores; else linear.
+        Of finite strain in geometry "finite", inside layers on rigid cores; else linear.
 
         Parameters
         ----------
@@ -323,7 +323,7 @@ class Solution(Presented):
         Returns
         -------
         (nz,) powers [N/s = mW/mm]; at depth 0 all that the roller loses, 0 for an elastic one.
-        Both rollers together at depth 0 are ``dissipation_viscous``. In geometry "full" that is
+        Both rollers together at depth 0 are ``dissipation_viscous``. In geometry "finite" that is
         the loss of finite strain, spread over the depth as in linear theory.
         """
         if self.nip.speed is None:

@@ -38,10 +38,10 @@ from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import Strains, validity_warnings
 
 _CLEARLY = 1.5  # times a limit that is known roughly
-_SIMPLER: dict[Geometry, Geometry] = {"full": "finite", "finite": "curved"}
+_SIMPLER: dict[Geometry, Geometry] = {"finite": "second", "second": "curved"}
 _BEYOND: dict[Geometry, str] = {
-    "full": "terms beyond the linear ones",
-    "finite": "second-order terms",
+    "finite": "terms beyond the linear ones",
+    "second": "second-order terms",
 }
 _THIN = 0.025  # covering over half the nip width, below which hardly compressible ones are hard
 _HARDLY_COMPRESSIBLE = 0.49  # Poisson ratio
@@ -100,6 +100,19 @@ def solve(
     return solution
 
 
+def geometry_for(nip: Nip, model: Model) -> Geometry:
+    """Return the geometry that a nip is solved in where a model asks for one.
+
+    With a sheet and on half-space cores "finite" is of second order, a measured profile is solved
+    with linear elasticity; elsewhere it is the one asked for.
+    """
+    if nip.has_profile and model.geometry in FINITE:
+        return "curved"
+    if model.geometry == "finite" and (nip.sheet is not None or nip.has_half_space):
+        return "second"
+    return model.geometry
+
+
 def _require_kinds(nip: object, model: object, on_failure: object) -> None:
     """Raise InvalidInputError for arguments of another kind, such as a case instead of its nip."""
     if not isinstance(nip, Nip):
@@ -118,12 +131,7 @@ def _require_kinds(nip: object, model: object, on_failure: object) -> None:
 def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solution:
     """Solve one nip; ``start``: the clock at the call, from which the solver time counts [s]."""
     left: tuple[str, ...] = ()
-    if model.geometry == "full" and nip.has_half_space:
-        model = replace(model, geometry="finite")
-        left = (
-            'Geometry "full" is for layers on rigid cores. '
-            'All figures are those of geometry "finite", of second order.',
-        )
+    model = replace(model, geometry=geometry_for(nip, model))
     kernels, final = _refined(nip, model, cache)
     causes = []
     while model.geometry in FINITE and (cause := _without_solution(model, final)):
@@ -181,7 +189,7 @@ def _refined(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, R
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    if model.geometry == "full":
+    if model.geometry == "finite":
         return refine_all_orders(nip, model, kernels, half_width)
     return kernels, refine(nip, model, kernels, half_width)
 

@@ -22,17 +22,17 @@ from rollnip.rolling import Round, surface_strain_in_nip
 NIP_STRAIN = 0.15
 """Approach over the thickness of the coverings."""
 THICKNESS_RATIO = 0.15
-"""Thickness of a covering over the radius of its roller, but in "finite"."""
+"""Thickness of a covering over the radius of its roller, but at finite strain."""
 THICKNESS_RATIO_FINITE = 0.4
-"""The same in geometry "finite"."""
+"""The same at finite strain."""
 SURFACE_STRAIN = 0.3
 """Strain of a surface in the nip, mean over an element."""
 CONTACT_ANGLE = 0.25
 """Half the nip width over the smaller radius [rad]."""
 SECOND_SHARE = 0.15
-"""Second-order part of the indentation over the approach, geometry "finite"."""
+"""Second-order part of the indentation over the approach, geometry "second"."""
 SKIN_CREEPAGE = 3e-4
-"""Creepage by third-order stretch under stiff top layers, geometry "finite"; both this ..."""
+"""Creepage by third-order stretch under stiff top layers, geometry "second"; both this ..."""
 SKIN_SHARE = 0.03
 """... and this share of the creepage must be exceeded."""
 SHEET_SHARE = 0.6
@@ -51,9 +51,9 @@ class Strains:
     ----------
     surface : largest strain of either surface in the contact, mean over an element.
     second : largest second-order indentation in the contact over the approach; 0 where there is
-        none, and in "full".
+        none, and in "finite".
     skin : third-order stretch of stiff top layers, as `_skin_stretch` estimates it; 0 where there
-        are none, and but in "finite".
+        are none, and but in "second".
     """
 
     surface: float
@@ -64,7 +64,7 @@ class Strains:
     def of(cls, nip: Nip, model: Model, final: Round) -> Strains:
         """Return the strains of a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
-        if model.geometry == "full":  # of all orders: nothing is left out
+        if model.geometry == "finite":  # of all orders: nothing is left out
             return cls(surface, 0.0, 0.0)
         return cls(surface, _second_share(nip, final), _skin_stretch(nip, final))
 
@@ -75,7 +75,7 @@ def validity_warnings(nip: Nip, model: Model, final: Round, strains: Strains) ->
         _nip_strain(nip, final),
         *(_thickness_ratio(name, roller, model) for name, roller in _rollers(nip)),
         _contact_angle(nip, final),
-        "" if model.geometry == "full" else _surface_strain(strains.surface),
+        "" if model.geometry == "finite" else _surface_strain(strains.surface),
         _second_order(strains.second),
         _stiff_skin(strains.skin, final.figures.creepage),
         *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),
@@ -113,7 +113,7 @@ def _thickness_ratio(name: str, roller: Roller, model: Model) -> str:
         return f"{covering}; compared with finite elements was up to {limit:g}."
     return (
         f"{covering}; beyond {limit:g} the error of the creepage grows to some 20 % (at 0.4). "
-        'Geometry "finite" has it within 1.5 %, where strains are small enough for it.'
+        'Geometry "finite" has it within 1.5 %.'
     )
 
 
@@ -134,7 +134,7 @@ def _surface_strain(largest: float) -> str:
     return (
         f"Somewhere in the nip a surface is strained by {100.0 * largest:.0f} %, beside a slipping "
         "edge as a rule: this geometry does not hold for such a strain; do not read the strain "
-        "there. For elastic coverings, geometry full has all orders."
+        'there. Geometry "finite" has all orders, without a sheet and on rigid cores.'
     )
 
 
@@ -223,8 +223,8 @@ def _stiff_skin(stretch: float, creepage: float) -> str:
         return ""
     return (
         "A stiff top layer bends and resists stretch like a sheet: terms of third order, which "
-        f'geometry "finite" leaves out, may change the creepage by about {stretch:.1g} (it is '
-        f'{creepage:.2g}). Geometry "full", for layers on rigid cores, takes them in.'
+        f'geometry "second" leaves out, may change the creepage by about {stretch:.1g} (it is '
+        f'{creepage:.2g}). Geometry "finite", for layers on rigid cores, takes them in.'
     )
 
 
@@ -268,7 +268,7 @@ def _materials(name: str, roller: Roller, nip: Nip, final: Round) -> list[str]:
 
 
 def _energies(name: str, roller: Roller, model: Model) -> list[str]:
-    return [] if model.geometry == "full" else energies_left_out(name, roller)
+    return [] if model.geometry == "finite" else energies_left_out(name, roller)
 
 
 def energies_left_out(name: str, roller: Roller) -> list[str]:
@@ -281,7 +281,7 @@ def energies_left_out(name: str, roller: Roller) -> list[str]:
     """
     return [
         f"Material {number} (from the surface) of the {name} roller has a strain energy "
-        f'({type(material.energy).__name__}), which counts only in geometry "full"; here its '
+        f'({type(material.energy).__name__}), which counts only in geometry "finite"; here its '
         "modulus and Poisson ratio alone are used."
         for number, material in enumerate(roller.materials, start=1)
         if material.energy not in (None, NeoHookean())

@@ -231,7 +231,7 @@ def test_every_way_of_driving(designer):
 def test_geometry_core_plane_and_face_width_under_advanced(designer):
     page = designer.page
     designer.unfold("advanced")
-    for geometry in ("linear", "corrected", "curved", "finite"):
+    for geometry in ("linear", "corrected", "curved", "second", "finite"):
         assert designer.choose("in-geometry", geometry)["model"]["geometry"] == geometry
         assert geometry in page.inner_text("#solver-line")
     tree = designer.sent(lambda: page.check("#in-has-width"))

@@ -43,7 +43,7 @@ def test_a_strain_energy_is_chosen_with_its_constants(designer, kind, number, te
 
 
 def test_an_energy_changes_the_answer_where_strains_of_all_orders_count(designer):
-    case = DEFAULT | {"model": {"geometry": "full"}, "nip": DEFAULT["nip"] | {"load": 20}}
+    case = DEFAULT | {"model": {"geometry": "finite"}, "nip": DEFAULT["nip"] | {"load": 20}}
     designer.show({"case": case})
     plain = designer.nip_width
     designer.unfold(f"{MATERIAL}-more")
@@ -70,7 +70,7 @@ def test_the_ends_of_a_face_are_chosen(designer):
     assert designer.page.locator('[data-face="added_length"]').count() == 0
 
 
-@pytest.mark.parametrize(("geometry", "said"), [("curved", "small strain"), ("full", "finite")])
+@pytest.mark.parametrize(("geometry", "said"), [("curved", "small strain"), ("finite", "finite")])
 def test_inside_it_is_said_of_which_strain_the_stresses_are(designer, geometry, said):
     designer.show({"case": DEFAULT | {"model": {"geometry": geometry}}, "tab": "inside"}).quiet()
     assert said in designer.page.inner_text("#inside-strain")

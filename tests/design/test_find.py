@@ -158,10 +158,10 @@ def test_a_jump_with_the_model_says_so():
     evaluate, _ = evaluating(lambda x: 1.0 if x < 2.345 else 3.0)
 
     def falling_back(tree):
-        return evaluate(tree) | {"geometry": "finite" if tree["nip"]["load"] < 2.345 else "curved"}
+        return evaluate(tree) | {"geometry": "second" if tree["nip"]["load"] < 2.345 else "curved"}
 
     answer = find(COATED, "nip.load", "nip_width", 2.0, 1.0, 5.0, evaluate=falling_back)
-    assert "from geometry finite to curved" in answer.message
+    assert "from geometry second to curved" in answer.message
 
 
 def test_a_wanted_value_out_of_all_proportion_is_not_called_no_influence():

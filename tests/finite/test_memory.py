@@ -89,7 +89,7 @@ def test_linear_elements_are_the_linear_theory(material):
     u_x, u_z = linear_surface(body, body.linear_displacements(nodal(nodes, p, q)))
     inside = np.abs(places) < HALF
     window = covering_window((roller, BARE), SPEED)
-    surface = surface_kernels(roller, SPEED, "finite", window)
+    surface = surface_kernels(roller, SPEED, "second", window)
     xx, zz, xz = displacement_under(
         surface.together, places[inside], nodes, np.stack([p, q], axis=1)
     )

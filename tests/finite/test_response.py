@@ -52,7 +52,7 @@ def test_linear_elements_are_the_linear_theory(roller):
     body = Body(Strip(Depths.of(roller, HALF), places))
     u_x, u_z = linear_surface(body, body.linear_displacements(nodal(nodes, p, q)))
     inside = np.abs(places) < HALF
-    surface = surface_kernels(roller, None, "finite", covering_window((roller, BARE), None))
+    surface = surface_kernels(roller, None, "second", covering_window((roller, BARE), None))
     xx, zz, xz = displacement_under(
         surface.together, places[inside], nodes, np.stack([p, q], axis=1)
     )
@@ -68,7 +68,7 @@ def test_begins_as_the_second_order(roller):
     x = np.linspace(-0.9, 0.9, 19) * HALF
     all_orders = np.stack([f(x) for f in FiniteResponse(roller, HALF).displacement(nodes, p, q)])
     response = second_response(roller, None, HALF)
-    surface = surface_kernels(roller, None, "finite", covering_window((roller, BARE), None))
+    surface = surface_kernels(roller, None, "second", covering_window((roller, BARE), None))
     inward = surface.inward_at(0.0, nodes, p, q) if response.is_short else None
     second = np.stack([f(x) for f in response.displacement(nodes, p, q, inward)])
     np.testing.assert_allclose(all_orders, second, atol=0.05 * np.abs(second).max())

@@ -22,7 +22,7 @@ def nip(material=RUBBER, radius=50.0):
     )
 
 
-@pytest.mark.parametrize("geometry", ["linear", "curved", "finite"])
+@pytest.mark.parametrize("geometry", ["linear", "curved", "second"])
 def test_results_are_the_same_to_the_last_bit(geometry):
     cache, model = rn.KernelCache(), rn.Model(geometry=geometry)
     for load in (1.0, 1.2):
@@ -31,7 +31,7 @@ def test_results_are_the_same_to_the_last_bit(geometry):
         np.testing.assert_array_equal(kept.pressure, fresh.pressure)
         np.testing.assert_array_equal(kept.shear, fresh.shear)
         assert kept.creepage == fresh.creepage
-    assert len(cache) == (4 if geometry == "finite" else 2)
+    assert len(cache) == (4 if geometry == "second" else 2)
 
 
 @pytest.mark.parametrize(
@@ -104,7 +104,7 @@ LIGHT = rn.Nip(
     ],
 )
 def test_what_the_second_order_depends_on(changed, new):
-    cache, model = rn.KernelCache(), rn.Model(geometry="finite")
+    cache, model = rn.KernelCache(), rn.Model(geometry="second")
     rn.solve(LIGHT, model, cache=cache)
     before = len(cache)
     kept = rn.solve(changed, model, cache=cache)

@@ -29,7 +29,7 @@ def covered(radius, thickness, material=RUBBER):
     return rn.Roller(radius=radius, layers=(rn.Layer(thickness, material),))
 
 
-FINITE = rn.Model(geometry="finite")
+FINITE = rn.Model(geometry="second")
 SLOW = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.01, poisson=0.4)
 MANY = (rn.Layer(0.5, FOAM), rn.Layer(1.5, SLOW), rn.Layer(1.0, RUBBER))
 SPEED = 100.0
@@ -93,7 +93,7 @@ def test_a_short_grid_is_told_how_far_the_contact_moves(monkeypatch):
     nodes = np.linspace(-half_width, half_width, 41)
     p = 0.002 * np.sqrt(1.0 - (nodes[1:-1] / half_width) ** 2)
     window = covering_window((roller,), None)
-    inward = surface_kernels(roller, None, "finite", window).inward_at(0.0, nodes, p, 0.0 * p)
+    inward = surface_kernels(roller, None, "second", window).inward_at(0.0, nodes, p, 0.0 * p)
     short = second_response(roller, None, half_width)
     assert short.is_short
     monkeypatch.setattr(second, "_LARGEST_SPREAD", 80.0)
@@ -242,7 +242,7 @@ def test_equal_rollers_are_one_roller_on_a_plane():
 def test_light_load_is_linear():
     upper, lower = covered(25.0, 3.0), rn.Roller(radius=50.0)
     light = [
-        rn.solve(nip(upper, lower, 1e-4, 2.0), rn.Model(geometry=g)) for g in ("curved", "finite")
+        rn.solve(nip(upper, lower, 1e-4, 2.0), rn.Model(geometry=g)) for g in ("curved", "second")
     ]
     assert light[1].approach == pytest.approx(light[0].approach, rel=5e-3)
     assert light[1].nip_width == pytest.approx(light[0].nip_width, rel=5e-3)

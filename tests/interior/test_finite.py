@@ -19,7 +19,7 @@ from rollnip.plots import plot_field
 STORED = json.loads(
     (Path(__file__).parents[1] / "data" / "finite_strain_fe_inside.json").read_text("utf-8")
 )
-FULL = rn.Model(geometry="full")
+FULL = rn.Model(geometry="finite")
 
 
 def driven(load=0.74, share=0.3):
@@ -37,14 +37,14 @@ def driven(load=0.74, share=0.3):
 @cache
 def solved(load=0.74):
     solution = rn.solve(driven(load), FULL)
-    assert solution.model.geometry == "full"
+    assert solution.model.geometry == "finite"
     return solution
 
 
 def linear(solution, z, x):
     of = solution.nip.upper
     return interior_field(
-        of, solution._tractions_on("upper"), z, x, geometry="full", speed=solution.nip.speed
+        of, solution._tractions_on("upper"), z, x, geometry="finite", speed=solution.nip.speed
     )
 
 
@@ -122,7 +122,7 @@ def remembering(load=2.0, stiffening=1.8):
         speed=100.0,
     )
     solution = rn.solve(nip, FULL)
-    assert solution.model.geometry == "full"
+    assert solution.model.geometry == "finite"
     assert solution.is_finite_inside("upper")
     return solution
 

@@ -72,7 +72,7 @@ BAD = [
     (
         ("model", "geometry"),
         "curvy",
-        "model.geometry: must be 'linear', 'corrected', 'curved', 'finite' or 'full'",
+        "model.geometry: must be 'linear', 'corrected', 'curved', 'second', 'finite' or 'full'",
     ),
     # dimensions and units
     (("upper", "radius"), "50 MPa", "upper.radius: must be a length such as"),

@@ -29,7 +29,7 @@ def solved():
         speed=100.0,
         title="A <title> -- with é",
     )  # fmt: skip
-    return rn.solve(nip)
+    return rn.solve(nip, rn.Model(geometry="second"))
 
 
 def arrays(path):

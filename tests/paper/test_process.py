@@ -46,7 +46,7 @@ def test_agrees_with_solve(name):
 
 def test_what_it_does_not_know_is_refused():
     with pytest.raises(rn.InvalidInputError, match="`geometry` must be"):
-        solve_by_process(configuration(2, driven=True), "finite")
+        solve_by_process(configuration(2, driven=True), "second")
 
 
 def test_command_prints_the_figures():
@@ -67,7 +67,7 @@ def test_command_prints_the_figures():
     ("arguments", "said"),
     [
         (["paper", "process", "nowhere.toml"], "nowhere.toml"),
-        (["paper", "process", "CASE", "--geometry", "finite"], "`geometry` must be"),
+        (["paper", "process", "CASE", "--geometry", "second"], "`geometry` must be"),
         (["paper"], "`--out` must name"),
     ],
 )

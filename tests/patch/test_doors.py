@@ -232,7 +232,7 @@ def test_solve_takes_a_case_with_a_patch(tmp_path):
         *("load", "approach", "length", "width", "area", "peak_pressure", "traction_x"),
         *("traction_y", "spin_moment", "creepage", "lateral_creepage", "spin"),
     }
-    refused = CliRunner().invoke(app, ["solve", str(path), "--geometry", "finite"])
+    refused = CliRunner().invoke(app, ["solve", str(path), "--geometry", "second"])
     assert refused.exit_code == 2
     assert "`--geometry` must be linear for a case with [patch]" in refused.stderr
 

@@ -269,7 +269,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     parser.add_argument("--first", type=int, default=0)
     parser.add_argument("--count", type=int, default=30)
-    parser.add_argument("--geometry", choices=("linear", "curved", "corrected", "finite"))
+    parser.add_argument("--geometry", choices=("linear", "curved", "corrected", "second"))
     parser.add_argument("--tolerance", type=float, default=1e-3)
     parser.add_argument("--csv", type=Path)
     asked = parser.parse_args()

@@ -72,10 +72,10 @@ def test_claims_of_nips_never_seen_before():
 
 @pytest.mark.parametrize("tolerance", [1e-2, 1e-3])
 def test_claims_are_kept_where_much_is_of_second_order(tolerance):
-    """Of "finite" the second order, a quarter of the peak here, is that of each mesh itself."""
-    case = random_case(1120, "finite")
+    """Of "second" the second order, a quarter of the peak here, is that of each mesh itself."""
+    case = random_case(1120, "second")
     found, fine = solved(case, tolerance), solved(case, 1e-4)
-    assert found.model.geometry == fine.model.geometry == "finite"
+    assert found.model.geometry == fine.model.geometry == "second"
     for name in ("creepage", "nip_width", "peak_pressure", "approach"):
         apart = abs(getattr(found, name) - getattr(fine, name))
         assert apart <= 1.5 * (found.error[name] + fine.error[name]), name
@@ -84,8 +84,8 @@ def test_claims_are_kept_where_much_is_of_second_order(tolerance):
 @pytest.mark.parametrize("number", [1044, 1054])
 def test_figures_of_linear_elements_converge_with_a_second_order(number):
     """Many zones on few elements; what the terms still move counts where the pressure peaks."""
-    solution = solved(random_case(number, "finite"), 1e-4)
-    assert solution.model.geometry == "finite"
+    solution = solved(random_case(number, "second"), 1e-4)
+    assert solution.model.geometry == "second"
     # of the mesh: the second order itself leaves more
     assert excess(solution.nip, solution.final, 1e-4) <= 1.0
     assert solution.solver.residual <= 1e-4

@@ -1,4 +1,4 @@
-"""`finite` against finite-strain finite elements; the notes in tests/data say how made."""
+"""`second` against finite-strain finite elements; the notes in tests/data say how made."""
 
 import json
 from pathlib import Path
@@ -44,8 +44,8 @@ def solved(case, geometry):
 
 @pytest.mark.parametrize("case", CASES, ids=name_of)
 def test_finite(case):
-    solution = solved(case, "finite")
-    assert solution.model.geometry == "finite"
+    solution = solved(case, "second")
+    assert solution.model.geometry == "second"
     assert solution.converged
     # a skin bends and stretches like a sheet
     (trailing, leading), near = solution.contact[0], 0.02 if case["case"] == "stiff skin" else 0.015
@@ -60,7 +60,7 @@ def test_finite(case):
 @pytest.mark.parametrize("case", RUBBER, ids=name_of)
 def test_driven_rubber(case):
     """Up to 0.3 of the load, coverings on one roller or both: second order, and what it leaves."""
-    solution = solved(case, "finite")
+    solution = solved(case, "second")
     assert solution.converged
     trailing, leading = solution.contact[0]
     assert solution.approach == pytest.approx(case["approach"], rel=0.01)
@@ -73,7 +73,7 @@ def test_driven_rubber(case):
 @pytest.mark.parametrize("case", PRESS, ids=name_of)
 def test_press(case):
     """Pressed in by a tenth and driven with 0.23 of the load: what the second order leaves."""
-    solution = solved(case, "finite")
+    solution = solved(case, "second")
     assert solution.converged
     trailing, leading = solution.contact[0]
     assert solution.approach == pytest.approx(case["approach"], rel=0.015)
@@ -85,7 +85,7 @@ def test_press(case):
 @pytest.mark.parametrize("case", FUSER, ids=name_of)
 def test_fuser(case):
     """A foil 900 times stiffer than what it covers; its peaks and its creepage are not held."""
-    solution = solved(case, "finite")
+    solution = solved(case, "second")
     trailing, leading = solution.contact[0]
     assert solution.approach == pytest.approx(case["approach"], rel=3e-3)
     assert trailing == pytest.approx(case["contact_x"][0], rel=0.02)
@@ -107,7 +107,7 @@ def test_is_nearer_than_curved(case):
             parts.append((solution.creepage - case["creepage"]) / max(abs(case["creepage"]), 0.01))
         return sum(part**2 for part in parts)
 
-    found, before = (error(solved(case, geometry)) for geometry in ("finite", "curved"))
+    found, before = (error(solved(case, geometry)) for geometry in ("second", "curved"))
     assert found < before + 5e-5
 
 
@@ -135,7 +135,7 @@ def test_light_loads_creep_in_proportion():
         nip = rn.Nip(
             upper=upper, lower=rn.Roller(radius=40.0), normal=rn.LineLoad(load), friction=0.5
         )
-        solution = rn.solve(nip)
-        assert solution.model.geometry == "finite"
+        solution = rn.solve(nip, rn.Model(geometry="second"))
+        assert solution.model.geometry == "second"
         found.append(solution.creepage / load)
     assert found == pytest.approx([found[0]] * 3, rel=5e-3)

@@ -1,4 +1,4 @@
-"""`full` against finite-strain finite elements, and what it says where it gives way."""
+"""`finite` against finite-strain finite elements, and what it says where it gives way."""
 
 import json
 from pathlib import Path
@@ -21,7 +21,7 @@ SKINS = [
     for case in json.loads((DATA / "finite_strain_fe_skins.json").read_text())["results"]
     if case["case"] in ("sleeve", "skin, driven", "foil, heavy load")
 ]
-FULL = rn.Model(geometry="full")
+FULL = rn.Model(geometry="finite")
 
 
 def share(case):
@@ -62,7 +62,7 @@ def is_as_the_elements(case):
     Creepage 0.3 %, and in that file, which knows it to 0.3 to 0.5 %, 0.9 %.
     """
     solution = solved(case)
-    assert solution.model.geometry == "full"
+    assert solution.model.geometry == "finite"
     own = "mu ." not in case["case"]
     creep = 9e-3 if own else 3e-3
     (trailing, leading), near = solution.contact[0], 8e-3 if own and share(case) else 2e-3
@@ -94,7 +94,7 @@ def test_every_second_one_of_the_others(case):
 def test_stiff_skins(case):
     """Top layers up to 900 times stiffer than what they cover: their peaks are not held."""
     solution = solved(case)
-    assert solution.model.geometry == "full"
+    assert solution.model.geometry == "finite"
     trailing, leading = solution.contact[0]
     assert solution.approach == pytest.approx(case["approach"], rel=2e-3)
     assert trailing == pytest.approx(case["contact_x"][0], rel=6e-3)
@@ -126,7 +126,7 @@ def test_slow_and_fast_memories_are_elastic(speed, modulus):
     stiff = rn.Elastic(modulus=modulus, poisson=0.5)
     upper = rn.Roller(radius=50.0, layers=(rn.Layer(2.0, stiff),))
     elastic = rn.solve(rolling(upper, BARE, normal=rn.Approach(0.28), friction=0.5), FULL)
-    assert solution.model.geometry == elastic.model.geometry == "full"
+    assert solution.model.geometry == elastic.model.geometry == "finite"
     assert solution.converged
     assert solution.load == pytest.approx(elastic.load, rel=1e-3)
     assert solution.nip_width == pytest.approx(elastic.nip_width, rel=1e-3)
@@ -138,7 +138,7 @@ def test_slow_and_fast_memories_are_elastic(speed, modulus):
 
 def test_between_glass_and_rubber_much_is_lost():
     solution = rn.solve(remembering(300.0), FULL)
-    assert solution.model.geometry == "full"
+    assert solution.model.geometry == "finite"
     assert not solution.warnings
     assert solution.converged
     second = rn.solve(remembering(300.0))
@@ -150,8 +150,8 @@ def test_between_glass_and_rubber_much_is_lost():
 
 def test_light_loads_are_those_of_the_second_order():
     nip = rolling(COVERED, BARE, normal=rn.LineLoad(0.01), friction=0.5)
-    full, second = (rn.solve(nip, rn.Model(geometry=g)) for g in ("full", "finite"))
-    assert full.model.geometry == "full"
+    full, second = (rn.solve(nip, rn.Model(geometry=g)) for g in ("finite", "second"))
+    assert full.model.geometry == "finite"
     assert full.approach == pytest.approx(second.approach, rel=2e-3)
     assert full.nip_width == pytest.approx(second.nip_width, rel=2e-3)
     assert full.creepage == pytest.approx(second.creepage, rel=1e-2)
@@ -180,7 +180,7 @@ def test_a_sweep_of_traction_has_no_step():
     """
     tractions = np.linspace(0.15, 0.55, 9)
     found = [driven(traction) for traction in tractions]
-    assert all(one.converged and one.model.geometry == "full" for one in found)
+    assert all(one.converged and one.model.geometry == "finite" for one in found)
     assert found[-1].max_surface_strain > 1.0
     assert found[-1].error["creepage"] > 2.0 * found[0].error["creepage"]
     for name in ("approach", "creepage", "nip_width", "peak_pressure"):
@@ -209,7 +209,7 @@ def test_a_sweep_of_load_has_no_step():
     for load in loads:
         nip = rolling(COVERED, BARE, normal=rn.LineLoad(float(load)), friction=0.5)
         solution = rn.solve(nip, FULL)
-        assert solution.model.geometry == "full"
+        assert solution.model.geometry == "finite"
         assert solution.converged
         found.append((solution.approach, solution.nip_width, -solution.creepage))
     logs, x = np.log(np.array(found)), np.log(loads)
@@ -229,7 +229,7 @@ def test_power_in_is_the_heat_of_friction():
         speed=100.0,
     )
     solution = rn.solve(nip, FULL)
-    assert solution.model.geometry == "full"
+    assert solution.model.geometry == "finite"
     assert solution.converged
     passed = 0.2 * 100.0
     assert solution.power_in == pytest.approx(solution.dissipation_friction, abs=2e-3 * passed)
@@ -252,7 +252,7 @@ def test_a_skin_that_has_no_second_order():
     soft = rn.Layer(4.0, rn.Elastic(modulus=2.0, poisson=0.5))
     upper = rn.Roller(radius=50.0, layers=(skin, soft))
     solution = rn.solve(rolling(upper, BARE, normal=rn.LineLoad(5.0), friction=0.0), FULL)
-    assert solution.model.geometry == "full"
+    assert solution.model.geometry == "finite"
     assert solution.solver.residual < 1e-3
     assert solution.error["approach"] < 1e-3 * solution.approach
 
@@ -268,7 +268,7 @@ def test_a_covering_that_is_nearly_incompressible(stiffening):
         upper = rn.Roller(radius=25.0, layers=(rn.Layer(4.0, rubber),))
         nip = rolling(upper, BARE, normal=rn.Approach(0.6), friction=0.0, speed=100.0)
         solution = rn.solve(nip, FULL)
-        assert solution.model.geometry == "full"
+        assert solution.model.geometry == "finite"
         found.append(solution)
     assert found[0].load == pytest.approx(found[1].load, rel=2e-2)
     assert found[0].nip_width == pytest.approx(found[1].nip_width, rel=5e-3)
@@ -294,7 +294,7 @@ def test_a_memory_against_a_calculation_in_time(stored):
         speed=case["speed"],
     )
     solution = rn.solve(nip, FULL)
-    assert solution.model.geometry == "full"
+    assert solution.model.geometry == "finite"
     assert solution.load == pytest.approx(stored["load"], rel=3e-3)
     assert solution.peak_pressure == pytest.approx(stored["peak_pressure"], rel=3e-3)
     lost = case["speed"] * stored["heat"]

@@ -17,7 +17,7 @@ NIP = rn.Nip(
     friction=0.5,
     speed=100.0,
 )
-GEOMETRIES = ("linear", "curved", "finite")
+GEOMETRIES = ("linear", "curved", "second")
 
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)

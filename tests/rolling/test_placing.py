@@ -1,4 +1,4 @@
-"""The start of the search from a guess, and how often the second order of "finite" is evaluated."""
+"""The start of the search from a guess, and how often the second order of "second" is evaluated."""
 
 from dataclasses import replace
 from math import inf
@@ -12,15 +12,15 @@ from rollnip.influence import KernelCache
 from rollnip.rolling import half_width_guess, pair_kernels, with_second_order
 from rollnip.rolling.placing import Placing
 
-FINITE = rn.Model(geometry="finite")
+FINITE = rn.Model(geometry="second")
 
 
 @pytest.fixture
 def placing(cases):
     nip = cases["II driven, curved"][0]
-    kernels = pair_kernels(nip, "finite")
+    kernels = pair_kernels(nip, "second")
     width = half_width_guess(nip, kernels)
-    kernels = with_second_order(kernels, nip, "finite", width, KernelCache())
+    kernels = with_second_order(kernels, nip, "second", width, KernelCache())
     return Placing(nip, FINITE, kernels), Layout.sticking(width)
 
 

@@ -8,7 +8,7 @@ import pytest
 import rollnip as rn
 from rollnip.rolling import surface_depths
 
-GEOMETRIES = ("linear", "corrected", "curved", "finite")
+GEOMETRIES = ("linear", "corrected", "curved", "second")
 SOLID = rn.StandardLinearSolid(modulus=2.0, stiffening=0.2, relaxation_time=3e-3, poisson=0.45)
 LOSSY = rn.StandardLinearSolid(modulus=1.0, stiffening=1.0, relaxation_time=1e-2, poisson=0.5)
 SOFT = rn.Elastic(modulus=1.0, poisson=0.49)
@@ -56,7 +56,7 @@ def slope(solution):
 
 @pytest.mark.parametrize("name", VISCOUS)
 def test_viscous_losses_are_alike_in_every_geometry(name):
-    """Models differ by strains of some 10 %, so do their losses: "finite" had -.339 for .104."""
+    """Models differ by strains of some 10 %, so do their losses: "second" had -.339 for .104."""
     losses = [solved(VISCOUS[name], geometry).dissipation_viscous for geometry in GEOMETRIES]
     assert all(loss > 0.0 for loss in losses)
     assert losses == pytest.approx([losses[0]] * 4, rel=0.12)
@@ -83,16 +83,16 @@ def test_what_the_axles_put_in_is_lost(name, geometry):
     assert solution.power_in == pytest.approx(lost, abs=1e-3 * size)
 
 
-@pytest.mark.parametrize("geometry", ["linear", "curved", "finite"])
+@pytest.mark.parametrize("geometry", ["linear", "curved", "second"])
 @pytest.mark.parametrize("name", NIPS)
 def test_axles_are_in_equilibrium_to_the_order_of_the_geometry(name, geometry):
     """Torques from moments of pressure and shear about both axles, which know no losses.
 
-    They differ by what a geometry leaves out: the second order of the slope, in "finite" the
+    They differ by what a geometry leaves out: the second order of the slope, in "second" the
     third; and by the mesh, 2 % of the second order where coverings remember.
     """
     solution = solved(NIPS[name], geometry)
-    order = 3 if geometry == "finite" else 2
+    order = 3 if geometry == "second" else 2
     arm = solution.nip.upper.radius * solution.load
     allowed = arm * (slope(solution) ** order + 0.02 * slope(solution) ** 2)
     upper, lower = moments(solution)
@@ -106,7 +106,7 @@ def test_the_order_of_finite_is_the_third():
     apart = []
     for share in (1.0, 0.25, 0.0625):
         light = replace(of, normal=rn.LineLoad(share * 2.0), tangential=rn.Traction(share * 0.6))
-        solution = solved(light, "finite")
+        solution = solved(light, "second")
         size = light.upper.radius * solution.load * slope(solution) ** 2
         apart.append(abs(solution.torque_upper - moments(solution)[0]) / size)
     assert apart[0] > 2.0 * apart[1] > 4.0 * apart[2]
@@ -119,7 +119,7 @@ def test_full_balances_three_ways(name):
 
     They agree to 0.1 % of the power passed on; without traction to 0.1 % of the heat.
     """
-    solution = solved(NIPS[name], "full")
+    solution = solved(NIPS[name], "finite")
     of, half = solution.nip, 0.5 * solution.creepage
     upper, lower = moments(solution)
     by_moments = upper * (1.0 + half) / of.upper.radius + lower * (1.0 - half) / of.lower.radius
@@ -156,11 +156,11 @@ def middle(values):
 
 @pytest.mark.parametrize("geometry", GEOMETRIES)
 def test_a_bare_roller_has_the_moment_of_its_shear_alone(geometry):
-    """Pressure passes through its axle; in "finite" the shear acts along its circumference."""
+    """Pressure passes through its axle; in "second" the shear acts along its circumference."""
     solution = solved(VISCOUS["one covered, driven"], geometry)
     radius = solution.nip.lower.radius
     x, q = solution.final.nodes, np.pad(solution.shear, 1)
-    if geometry == "finite":
+    if geometry == "second":
         x = radius * np.arcsin(x / radius)
     assert solution.torque_lower == pytest.approx(-radius * np.trapezoid(q, x), rel=1e-4)
 

@@ -7,7 +7,7 @@ import numpy as np
 
 import rollnip as rn
 
-GEOMETRIES = ("linear", "curved", "finite")
+GEOMETRIES = ("linear", "curved", "second")
 
 
 @dataclass(frozen=True)

@@ -32,7 +32,7 @@ def _errors(number):
     scale = scales(case.nip, truth)
     scale[scale == 0.0] = 1.0  # losses of elastic layers: rounding
     claim = refined.errors.values / scale
-    if model.geometry == "finite":
+    if model.geometry == "second":
         claim = np.maximum(claim, SHARES_OF_FINITE)
     return np.stack([np.abs(refined.figures.values - truth.values) / scale, claim])
 

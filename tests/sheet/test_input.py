@@ -93,10 +93,10 @@ def test_an_unknown_usual_sheet_is_refused():
         rn.Sheet.usual("ofice paper")
 
 
-def test_geometry_full_says_that_it_is_finite():
-    solution = rn.solve(nip_with(paper()), rn.Model(geometry="full"))
-    assert solution.model.geometry == "finite"
-    assert any('"full" is for nips without a sheet' in line for line in solution.warnings)
+def test_finite_strain_is_of_second_order_with_a_sheet():
+    default, second = (rn.solve(nip_with(paper()), m) for m in (None, rn.Model(geometry="second")))
+    assert default.model.geometry == "second"
+    assert default.approach == second.approach
 
 
 def test_usual_sheets_have_sources():

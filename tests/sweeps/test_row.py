@@ -128,8 +128,8 @@ def test_a_fault_of_the_program_is_a_message_too(monkeypatch: pytest.MonkeyPatch
 
 
 def test_what_is_not_verified_says_so() -> None:
-    """A tolerance finer than the second order of "finite" can meet, on whatever mesh."""
-    row = evaluate(CASE | {"model": {"geometry": "finite"}, "solver": {"tolerance": 1e-4}})
+    """A tolerance finer than the second order of "second" can meet, on whatever mesh."""
+    row = evaluate(CASE | {"model": {"geometry": "second"}, "solver": {"tolerance": 1e-4}})
     assert row["status"] in STATUSES
     assert row["status"] == "unverified"
     assert row["converged"] is False

@@ -41,7 +41,7 @@ def test_influence_functions_are_kept_from_task_to_task(
     assert tabulated == [1.0, 2.032]  # not once for each load
 
 
-@pytest.mark.parametrize("geometry", ["linear", "curved", "finite"])
+@pytest.mark.parametrize("geometry", ["linear", "curved", "second"])
 def test_a_row_is_the_same_to_the_last_bit_whatever_was_solved_before(
     tree: dict[str, Any], monkeypatch: pytest.MonkeyPatch, geometry: str
 ) -> None:

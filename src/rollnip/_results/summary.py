@@ -70,8 +70,8 @@ def finite_inside(solution: Any) -> list[str]:
 
 
 def inside_notes(solution: Any) -> list[str]:
-    """Return a sentence for each roller of geometry "full" inside which linear theory was left."""
-    if solution.model.geometry != "full" or not solution.peak_pressure > 0.0:
+    """Return a sentence for each roller inside which fields of geometry "finite" are linear."""
+    if solution.model.geometry != "finite" or not solution.peak_pressure > 0.0:
         return []
     finite = finite_inside(solution)
     return [

@@ -9,6 +9,7 @@ from rollnip.face.problem import FaceProblem
 from rollnip.face.solve import Balance
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.solver import geometry_for
 from rollnip.validity import energies_left_out
 
 Array = NDArray[np.float64]
@@ -25,7 +26,8 @@ def warnings_of(problem: FaceProblem, found: Balance, model: Model) -> tuple[str
             "Over a part of the face the surfaces slide all over the nip: one creepage for the "
             "whole face is too far from that of free rolling there."
         )
-    return (*notes, *([] if model.geometry == "full" else energies_of(problem.nip)))
+    has_energies = geometry_for(problem.nip, model) == "finite"
+    return (*notes, *([] if has_energies else energies_of(problem.nip)))
 
 
 def energies_of(nip: Nip) -> list[str]:

@@ -13,10 +13,10 @@ from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.face import NipRows, solve_face
 from rollnip.identification.costs import Measurements, Scalars
 from rollnip.identification.unknowns import Unknown
-from rollnip.io import case_hash, dimension_at, parse_case, with_values
+from rollnip.io import Case, case_hash, dimension_at, parse_case, with_values
 from rollnip.model import Model
 from rollnip.solution import Solution
-from rollnip.solver import solve
+from rollnip.solver import geometry_for, solve
 
 Array = NDArray[np.float64]
 Predictions = tuple[Array, ...]
@@ -140,11 +140,8 @@ class Forward:
             if found["geometry"] is None:
                 raise InvalidInputError(str(found["message"]))
             known[key] = Numbers(found)
-            self._count(known[key].converged, found["geometry"] != self._geometry)
-
-    @property
-    def _geometry(self) -> str:
-        return model_of(self.tree, None, None).geometry
+            wanted = _geometry_of(parse_case(trees[key]))
+            self._count(known[key].converged, found["geometry"] != wanted)
 
     def _count(self, converged: bool, is_fallback: bool) -> None:
         self.solves += 1
@@ -186,8 +183,13 @@ class Forward:
         if key not in known:
             found = solve(case.nip, case.model, on_failure="return")
             known[key] = found
-            self._count(found.converged, found.model.geometry != case.model.geometry)
+            self._count(found.converged, found.model.geometry != _geometry_of(case))
         return known[key]
+
+
+def _geometry_of(case: Case) -> str:
+    """Return the geometry that the nip of a case is solved in."""
+    return geometry_for(case.nip, case.model)
 
 
 def check_paths(

@@ -22,7 +22,7 @@ class KernelCache:
 
     They depend on the layers and the core, on the speed where something is viscoelastic, on the
     radius where the layers are rings, and on the lengths the table covers; not on load, traction,
-    friction or the other roller's covering. The second order of `geometry = "finite"` has tables
+    friction or the other roller's covering. The second order of `geometry = "second"` has tables
     of its own, which serve contacts of about the same size: within a fifth. A result is the same
     to the last bit with a cache and without. Pass one object to several `rollnip.solve`; the
     oldest tables go first. It may be used by several threads; between processes it is not shared.

@@ -95,7 +95,7 @@ def surface_kernels(
     speed :
         rolling speed V [mm/s]; may be None where all materials are elastic.
     geometry :
-        "curved", "finite" and "full" bend the layers to rings; the others keep them flat.
+        "curved", "second" and "finite" bend the layers to rings; the others keep them flat.
     window :
         lengths and wave numbers to tabulate.
     tolerance :

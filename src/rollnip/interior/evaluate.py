@@ -48,7 +48,7 @@ def interior_field(
     x :
         (nx,) or scalar places [mm], in any order.
     geometry :
-        "curved", "finite" and "full" bend the layers on a rigid core to rings; others keep
+        "curved", "second" and "finite" bend the layers on a rigid core to rings; others keep
         them flat.
     speed :
         V [mm/s]; needed where a material is viscoelastic.

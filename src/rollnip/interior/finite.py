@@ -132,11 +132,11 @@ def beyond_linear(
 ) -> FiniteFields | None:
     """Return what finite strain adds to the linear fields inside a roller; None for nothing.
 
-    It adds something in geometry "full", to layers on a rigid core that carry a load. ``speeds``
+    It adds something in geometry "finite", to layers on a rigid core that carry a load. ``speeds``
     are as in `FiniteFields.of`.
     """
     is_bonded = bool(roller.layers) and roller.core is None
-    if geometry != "full" or not is_bonded or not np.any(tractions.t_z > 0.0):
+    if geometry != "finite" or not is_bonded or not np.any(tractions.t_z > 0.0):
         return None
     return FiniteFields.of(roller, tractions, speeds)
 

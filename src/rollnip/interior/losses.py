@@ -43,7 +43,7 @@ def loss_per_distance(
     tractions :
         on its surface, in its own frame.
     geometry :
-        "curved", "finite" and "full" bend the layers on a rigid core to rings; others keep
+        "curved", "second" and "finite" bend the layers on a rigid core to rings; others keep
         them flat.
     speed :
         V [mm/s]; needed where a material is viscoelastic.

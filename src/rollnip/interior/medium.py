@@ -31,7 +31,7 @@ class Medium:
     ----------
     roller : not a bare rigid one.
     speed : V [mm/s]; None where all is elastic.
-    geometry : "curved", "finite" or "full" bends the layers to rings.
+    geometry : "curved", "second" or "finite" bends the layers to rings.
     side : "above" or "below": the layer that a depth on an interface belongs to.
     """
 

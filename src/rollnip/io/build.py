@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.cooling import HeatBalance
@@ -52,7 +52,7 @@ from rollnip.materials import (
 from rollnip.materials.relaxation import READING_TIME
 from rollnip.materials.shift import Vertical
 from rollnip.materials.shore import shore_a_modulus
-from rollnip.model import Model
+from rollnip.model import Geometry, Model
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Profile, Roller
 from rollnip.shafts import Face
@@ -101,7 +101,7 @@ class Builder:
         return self._made(
             "model",
             lambda: Model(
-                geometry=model.geometry if geometry is None else geometry,
+                geometry=cast("Geometry", model.geometry if geometry is None else geometry),
                 tolerance=model.tolerance if tolerance is None else tolerance,
             ),
             {"tolerance": "solver.tolerance"},

@@ -64,7 +64,7 @@ class DataTable(FileTable):
 class MethodTable(FileTable):
     """The settings of a fit."""
 
-    geometry: Literal["linear", "corrected", "curved", "finite", "full"] | None = None
+    geometry: Literal["linear", "corrected", "curved", "second", "finite", "full"] | None = None
     tolerance: Ratio | None = None
     tried: int | None = None
     followed: int | None = None

@@ -175,7 +175,7 @@ class ElasticTable(ThermalTable):
     shore_a: Ratio | None = None
     poisson: Ratio
     energy: Energy | None = Field(
-        None, description="Strain energy, for geometry 'full'; neo-Hookean by default."
+        None, description="Strain energy, for geometry 'finite'; neo-Hookean by default."
     )
 
 
@@ -193,7 +193,7 @@ class ViscoelasticTable(ThermalTable):
     temperature: Temperature | None = None
     shift: Shift | None = None
     energy: Energy | None = Field(
-        None, description="Strain energy, for geometry 'full'; neo-Hookean by default."
+        None, description="Strain energy, for geometry 'finite'; neo-Hookean by default."
     )
 
 
@@ -317,7 +317,7 @@ class NipTable(FileTable):
 class ModelTable(FileTable):
     """The model of the geometry."""
 
-    geometry: Literal["linear", "corrected", "curved", "finite", "full"] | None = None
+    geometry: Literal["linear", "corrected", "curved", "second", "finite", "full"] | None = None
 
 
 class SolverTable(FileTable):

@@ -34,7 +34,7 @@ class Material(ABC):
     thermal :
         thermal properties; None where they are not known.
     energy :
-        strain energy, for geometry "full"; None: neo-Hookean.
+        strain energy, for geometry "finite"; None: neo-Hookean.
     """
 
     __slots__ = ()

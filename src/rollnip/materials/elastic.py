@@ -40,7 +40,7 @@ class Elastic(Material):
         thermal properties; they count only for a `HeatBalance`.
     energy :
         strain energy, such as `Yeoh`; None: `NeoHookean`. It says how the material stiffens with
-        stretch, from the modulus on, and counts only in geometry "full".
+        stretch, from the modulus on, and counts only in geometry "finite".
 
     Raises
     ------

@@ -52,7 +52,7 @@ class Viscoelastic(Material):
         its thermal properties; they count only for a `HeatBalance`.
     energy :
         strain energy of the relaxed material, such as `Yeoh`; None: `NeoHookean`. Its stress
-        relaxes as the modulus does. It counts only in geometry "full".
+        relaxes as the modulus does. It counts only in geometry "finite".
     """
 
     poisson: float

@@ -110,8 +110,8 @@ def plot_field(
 
 
 def _theory(solution: Solution, names: tuple[Name, ...]) -> str:
-    """Return whether what is drawn in geometry "full" is of finite strain."""
-    if solution.model.geometry != "full":
+    """Return whether what is drawn in geometry "finite" is of finite strain."""
+    if solution.model.geometry != "finite":
         return ""
     soft = [name for name in names if not roller_of(solution, name).is_rigid]
     linear = [name for name in soft if not solution.is_finite_inside(name)]

@@ -262,8 +262,8 @@ def loss_inside(
 ) -> float:
     """Return the heat inside one of the rollers per distance of its surface [N/mm].
 
-    It is that of the linear fields under the tractions of the solution; in geometry "full" with
-    what all orders add to it. In "finite" it leaves out a share as large as the strains.
+    It is that of the linear fields under the tractions of the solution; in geometry "finite" with
+    what all orders add to it. In "second" it leaves out a share as large as the strains.
     """
     roller, sign = (nip.upper, 1.0) if side == "upper" else (nip.lower, -1.0)
     if not roller.is_viscoelastic:

@@ -1,6 +1,6 @@
 """What a geometry of finite strain adds to the influence functions of both rollers.
 
-"finite" adds the second order, which every mesh evaluates anew. "full" adds to that a correction,
+"second" adds the second order, which every mesh evaluates anew. "finite" adds to that a correction,
 the difference of all orders by finite elements and the second one, held while a contact is solved
 and evaluated anew from its solution. In free rolling the correction is a few hundredths of the
 first-order terms, and a turn leaves a twentieth of its error.
@@ -95,7 +95,7 @@ class _AllOrders:
         second = replace(kernels, beyond=None).second_fields(nodes, pressure, shear)
         functions: list[Field | None] = []
         rough: list[Field | None] = []
-        rates = rates_of("full", latest.state.creepage)
+        rates = rates_of("finite", latest.state.creepage)
         sides = (self.upper, 1.0, second.functions[0]), (self.lower, -1.0, second.functions[2])
         for (response, sign, along), rate in zip(sides, rates, strict=True):
             if response is None:
@@ -256,6 +256,9 @@ def _solved_again(
     layout = Layout.of(latest.zones)
     if layout is None:
         return None
-    start_search = SearchState(layout, latest, off=_OFF)
-    placed = Placing(nip, model, kernels).placed(start_search, as_cosines(latest), known=True)
+    search = SearchState(layout, latest, off=_OFF)
+    try:
+        placed = Placing(nip, model, kernels).placed(search, as_cosines(latest), known=True)
+    except np.linalg.LinAlgError:
+        return None
     return None if placed is None else placed.before

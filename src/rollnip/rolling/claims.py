@@ -22,22 +22,22 @@ from rollnip.rolling.round import Further, Round, creepage_scale
 FINEST_OF_FINITE = 1e-3
 """The finest tolerance that geometries of finite strain can meet; below, they leave more open."""
 _NAMES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
-# Relative change of these figures between grids of 12 to 32 points a half-width in "finite",
-# between meshes of 24 to 64 elements in "full" (docs/geometry.md).
+# Relative change of these figures between grids of 12 to 32 points a half-width in "second",
+# between meshes of 24 to 64 elements in "finite" (docs/geometry.md).
 _SHARES: Mapping[Geometry, Mapping[str, float]] = {
-    "finite": dict(zip(_NAMES, (1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3), strict=True)),
-    "full": dict(zip(_NAMES, (3e-4, 3e-4, 5e-3, 1e-3, 3e-3), strict=True)),
+    "second": dict(zip(_NAMES, (1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3), strict=True)),
+    "finite": dict(zip(_NAMES, (3e-4, 3e-4, 5e-3, 1e-3, 3e-3), strict=True)),
 }
 _LEFT_BY: Mapping[Geometry, str] = {
-    "finite": 'the second order of "finite"',
-    "full": 'the finite elements of "full"',
+    "second": 'the second order of "second"',
+    "finite": 'the finite elements of "finite"',
 }
-# Error of these figures over the violation of the contact conditions by what "full" leaves out of
+# Error of these figures over the violation of the contact conditions by what "finite" leaves out of
 # its correction: configurations II and III driven, with half, once and twice the wave number cut.
 _SHARES_OF_CUT = dict(zip(_NAMES, (0.1, 0.1, 1.0, 1.0, 0.3), strict=True))
 # Likewise for `Further`, over `further_sizes`: the largest change in 70 random nips.
 _FURTHER_SHARES = np.array([5e-3, 2e-3, 2e-3, 2e-3, 3e-3, 3e-3, 2e-3, 7e-3])
-_VERB: Mapping[Geometry, str] = {"finite": "leaves", "full": "leave"}
+_VERB: Mapping[Geometry, str] = {"second": "leaves", "finite": "leave"}
 _WORDS = {
     "approach": "approach",
     "load": "load",

@@ -45,7 +45,7 @@ _STICK_AND_SLIP = HeldContact()
 _MOST_MESHES = 4  # of one size at a tolerance of 1e-3, and one more for each further digit
 _MOST_IMPROPER = 3  # meshes in a row that ask for ends beyond each other
 _MOST_ZONE_CHANGES = 2  # changes of the zones, on meshes of one size
-# Meshes more: to place the new ends after a change, and for the second order of "finite", which is
+# Meshes more: to place the new ends after a change, and for the second order of "second", which is
 # held while a mesh is solved on.
 _MORE_MESHES = 3
 _SECANT_SLOPES = 0.5, 3.0  # bounds of the move computed for a break over how far it is off
@@ -78,7 +78,7 @@ class SearchState:
     ----------
     layout : where the zones are thought to be.
     before : the last solution.
-    change : of the second-order terms when the second order of "finite" was last evaluated, over
+    change : of the second-order terms when the second order of "second" was last evaluated, over
         the tolerance.
     expected : the change that all further evaluations would add up to, over the tolerance.
     off : how far the ends of zones may be off, over the width of the contact.

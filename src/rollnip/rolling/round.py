@@ -78,9 +78,9 @@ class Round:
     residual : largest relative violation of the contact conditions, evaluated afresh; inf where
         it was not evaluated.
     further_error : estimated discretisation error of the further figures; None where unknown.
-    cut : largest relative violation of the contact conditions by what "full" leaves out, because it
-        is too short for the contact.
-    is_balanced : whether an equilibrium at finite strain was found in "full"; True where none is
+    cut : largest relative violation of the contact conditions by what "finite" leaves out, because
+        it is too short for the contact.
+    is_balanced : whether an equilibrium at finite strain was found in "finite"; True where none is
         asked for.
     """
 

@@ -47,10 +47,10 @@ def solve_rough(
             '`geometry` must be "linear" or "curved" with a measured profile, got "corrected".'
         )
     if model.geometry in FINITE:
-        model = replace(model, geometry="curved")
+        asked, model = model.geometry, replace(model, geometry="curved")
         notes = (
             "A measured profile is solved with linear elasticity: geometry is "
-            '"curved", not "finite".',
+            f'"curved", not "{asked}".',
         )
     kernels = pair_kernels(nip, model.geometry)
     sampling = sampled(nip, half_width_guess(_levelled(nip), kernels))

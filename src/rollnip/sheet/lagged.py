@@ -45,7 +45,7 @@ def lagged_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -
     flat = mesh.linear_displacements(state)
     u = mesh.with_second(flat, state)
     clearance, lean, offsets = first.clearance, 0.0, first.offsets
-    if geometry == "finite":
+    if geometry == "second":
         depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
         approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
         clearance = depth - approximate

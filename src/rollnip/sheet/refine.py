@@ -323,4 +323,4 @@ SHARES_OF_FINITE = np.array(
         *(3e-3, 3e-3, 3e-3, 3e-3, 2e-3, 2e-3, 5e-3, 7e-3, 1e-2),
     ]
 )
-"""Relative error that the second order of "finite" leaves in each figure, as for a bare nip."""
+"""Relative error that the second order of "second" leaves in each figure, as for a bare nip."""

@@ -229,7 +229,7 @@ class SheetSolution(Solution):
     def _errors(self) -> dict[str, float]:
         """Errors of all figures of the refinement, none less than the model's own."""
         figures, values = self.refined.figures, self.refined.errors.values
-        share = SHARES_OF_FINITE if self.model.geometry == "finite" else 0.0
+        share = SHARES_OF_FINITE if self.model.geometry == "second" else 0.0
         least = share * scales(self.nip, figures)
         mine = dict(zip(NAMES, np.maximum(values, least).tolist(), strict=True))
         if isinstance(self.nip.tangential, Creepage | Torque):

@@ -43,7 +43,7 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
     Parameters
     ----------
     nip : with a sheet.
-    model : geometry "linear", "curved" or "finite".
+    model : geometry "linear", "curved" or "second", which is solved in place of "finite" too.
     cache : influence functions of solves before.
     version : of rollnip, for the record.
 
@@ -60,14 +60,10 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
             '`geometry` must be "linear", "curved" or "finite" with a sheet, got "corrected".'
         )
     require_torque(nip)
-    simpler: tuple[str, ...] = ()
-    if model.geometry == "full":
-        model = replace(model, geometry="finite")
-        simpler = (
-            'Geometry "full" is for nips without a sheet: all figures are those of "finite".',
-        )
+    if model.geometry == "finite":
+        model = replace(model, geometry="second")
     assert nip.sheet is not None
-    record, bending = (version, simpler), nip.sheet.bending
+    record, bending = (version, ()), nip.sheet.bending
     if bending or (bending is None and stiffness_shows(nip, model, cache)):
         counted = solve_plate(nip, model, cache, record)
         if counted is not None:
@@ -112,13 +108,13 @@ def _bending_freely(
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
 ) -> tuple[PairKernels, Refined, tuple[str, ...]]:
-    """Return influence functions, the solution, and a sentence where "finite" was left."""
+    """Return influence functions, the solution, and a sentence where "second" was left."""
     try:
         kernels, refined = _attempt(nip, model, cache)
-        if model.geometry != "finite" or refined.stand.stands_still:
+        if model.geometry != "second" or refined.stand.stands_still:
             return kernels, refined, ()
     except np.linalg.LinAlgError:
-        if model.geometry != "finite":
+        if model.geometry != "second":
             raise ConvergenceError(
                 "No solution with this sheet was found; try a larger load or other tensions."
             ) from None
@@ -132,7 +128,7 @@ def _refined(
         kernels,
         refined,
         (
-            'No solution of geometry "finite" was found with this sheet: its zones or its '
+            'No solution of geometry "second" was found with this sheet: its zones or its '
             'second-order terms did not come to rest. All figures are those of geometry "curved".',
         ),
     )

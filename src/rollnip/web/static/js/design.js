@@ -85,7 +85,7 @@ export function designOf(tree) {
     upper: roller(tree.upper),
     lower: roller(tree.lower),
   };
-  if (!whole.model.geometry) whole.model = { ...whole.model, geometry: "finite" };
+  if (!whole.model.geometry || whole.model.geometry === "full") whole.model = { ...whole.model, geometry: "finite" };
   return bare(whole);
 }
 
@@ -98,7 +98,7 @@ function bare(tree) {
 
 /** The same nip while a slider moves: the finite geometry gives way to the faster curved one. */
 export function quickCase(tree) {
-  return ["finite", "full"].includes(tree.model.geometry) ? setAt(tree, "model.geometry", "curved") : tree;
+  return ["second", "finite"].includes(tree.model.geometry) ? setAt(tree, "model.geometry", "curved") : tree;
 }
 
 /** "load" or "approach". */

@@ -14,8 +14,8 @@ import { TableBox } from "./tablebox.js";
 import { say } from "./texts.js";
 
 const GEOMETRIES = [
-  ["full", say("geometry.full")],
   ["finite", say("geometries.finite")],
+  ["second", say("geometry.second")],
   ["curved", say("geometry.curved")],
   ["corrected", say("geometry.corrected")],
   ["linear", say("geometry.linear")],

@@ -35,8 +35,8 @@ const MODELS = {
   "loss-factor": say("report.loss-factor"),
 };
 const GEOMETRIES = {
-  full: say("assume.full"),
   finite: say("assume.finite"),
+  second: say("assume.second"),
   curved: say("assume.curved"),
   corrected: say("assume.corrected"),
   linear: say("assume.linear"),

@@ -3,7 +3,7 @@
 import { inLanguage } from "./sentences.js";
 import { say } from "./texts.js";
 
-const MODEL = /`?[Gg]eometry (?:= )?"(full|finite|curved|corrected|linear)"`?/g;
+const MODEL = /`?[Gg]eometry (?:= )?"(second|finite|curved|corrected|linear)"`?/g;
 const NUMBER = String.raw`([-\u2212]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)`;
 const UNITS = { mm: "length", "N/mm": "line load", MPa: "pressure", "mm/s": "speed" };
 const MEASURED = new RegExp(`${NUMBER} (N/mm|mm/s|mm|MPa)(?![\\w/])`, "g");

@@ -4,7 +4,7 @@ export const SOLVER_DE = {
   "solver.pressed-in": "Die Bezüge sind um {pressed} % ihrer Dicke eingedrückt; über {limit} % wurde das Modell nicht mit finiten Elementen verglichen.",
   "solver.thick-compared": "Der Bezug der {side} Walze ist {ratio} ihres Radius dick; mit finiten Elementen verglichen wurde bis {limit}.",
   "solver.angle": "Der Spalt reicht über {angle} Grad der kleineren Walze; über {limit} wurde das Modell nicht mit finiten Elementen verglichen.",
-  "solver.surface": "Irgendwo im Spalt ist eine Oberfläche um {strain} % gedehnt, meist neben einem gleitenden Rand: Für eine solche Dehnung gilt diese Geometrie nicht; lesen Sie die Dehnung dort nicht ab. Für elastische Bezüge hat die Geometrie full alle Ordnungen.",
+  "solver.surface": "Irgendwo im Spalt ist eine Oberfläche um {strain} % gedehnt, meist neben einem gleitenden Rand: Für eine solche Dehnung gilt diese Geometrie nicht; lesen Sie die Dehnung dort nicht ab. Die Geometrie \"finite\" hat alle Ordnungen, ohne Bahn und auf starren Kernen.",
   "solver.second": "Die endliche Dehnung ändert die Eindrückung um {share} % der Annäherung; über {limit} % wurde die zweite Ordnung nicht mit finiten Elementen verglichen.",
   "solver.half-space": "Der Kern der {side} Walze ist ein Halbraum: Ihre Schichten gelten als flach, ihre Umfangsdehnung bleibt weg.",
   "solver.thin-layer": "Die oberste Schicht der {side} Walze ({thickness} mm) ist dünner als ein halbes Element ({element} mm); Spannungen darin ändern sich schneller, als die Lösung zeigt.",

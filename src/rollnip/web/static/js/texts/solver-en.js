@@ -4,7 +4,7 @@ export const SOLVER_EN = {
   "solver.pressed-in": "The coverings are pressed in by {pressed} % of their thickness; beyond {limit} % the model was not compared with finite elements.",
   "solver.thick-compared": "The covering of the {side} roller is {ratio} of its radius; compared with finite elements was up to {limit}.",
   "solver.angle": "The nip spans {angle} degrees of the smaller roller; beyond {limit} the model was not compared with finite elements.",
-  "solver.surface": "Somewhere in the nip a surface is strained by {strain} %, beside a slipping edge as a rule: this geometry does not hold for such a strain; do not read the strain there. For elastic coverings, geometry full has all orders.",
+  "solver.surface": "Somewhere in the nip a surface is strained by {strain} %, beside a slipping edge as a rule: this geometry does not hold for such a strain; do not read the strain there. Geometry \"finite\" has all orders, without a sheet and on rigid cores.",
   "solver.second": "Finite strain changes the indentation by {share} % of the approach; beyond {limit} % the second order was not compared with finite elements.",
   "solver.half-space": "The {side} roller has a half-space core: its layers are taken as flat and its hoop strain is left out.",
   "solver.thin-layer": "The top layer of the {side} roller ({thickness} mm) is thinner than half an element ({element} mm); stresses within it vary faster than the solution shows.",

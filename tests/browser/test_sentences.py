@@ -18,7 +18,7 @@ OWN = {"solver.english", "solver.line", "solver.change"}  # of the page itself
 def written():
     """Long texts of the sources, without the name of a value before, 7 for what is filled in."""
     found = set()
-    for folder in ("", "rolling", "sheet", "patch", "face", "web"):
+    for folder in ("", "rolling", "sheet", "patch", "face", "heat", "web"):
         for path in (PACKAGE / folder).glob("*.py"):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.JoinedStr):

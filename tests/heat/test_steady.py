@@ -144,7 +144,10 @@ def test_a_sheet_takes_heat_along():
 def test_moduli_without_shift_are_warned_of():
     found = rn.solve_heat(press(lossy()), cooled(), PLAIN)
     assert found.solves == 1
-    said = "The moduli of upper.layers[0].material do not follow the temperature: it has no shift."
+    said = (
+        "Material 1 (from the surface) of the upper roller has no shift: its moduli do not follow "
+        "the temperature."
+    )
     assert said in found.warnings
 
 

@@ -275,18 +275,14 @@ def _warnings(thermal: HeatProblem) -> tuple[str, ...]:
         roller = getattr(thermal.nip, side)
         for index, material in enumerate(roller.materials):
             layered = index < len(roller.layers)
-            place = f"{side}.layers[{index}].material" if layered else f"{side}.core"
+            where = f"Material {index + 1} (from the surface) of the {side} roller"
             if not material.is_elastic and not follows(material):
-                said.append(
-                    f"The moduli of {place} do not follow the temperature: it has no shift."
-                )
+                said.append(f"{where} has no shift: its moduli do not follow the temperature.")
             elif isinstance(material, LossFactor):
-                said.append(
-                    f"The loss factor of {place} does not follow the temperature: it has no times."
-                )
+                said.append(f"{where} has a loss factor, which does not follow the temperature.")
             elif follows(material) and not layered:
                 said.append(
-                    f"The moduli of {place} are those of its mean temperature; put a layer of the "
-                    "same material on it to see the temperature vary."
+                    f"The core of the {side} roller has the moduli of its mean temperature; put a "
+                    "layer of the same material on it to see the temperature vary."
                 )
     return tuple(said)

@@ -142,7 +142,8 @@ SHEETS: Mapping[str, Sheet] = {
 }
 """Usual sheets along their machine direction, without tension: a start where nothing is measured.
 
-Vary with `dataclasses.replace`; `SHEET_SOURCES` says where the values come from and what is usual.
+Vary with `dataclasses.replace`; `SHEET_SOURCES` says which values a source states, which are
+typical without one, and what is usual.
 """
 
 
@@ -155,68 +156,96 @@ class SheetSource:
     thickness, modulus : lowest and highest usual value [mm, MPa]; the modulus along the machine
         direction.
     modulus_thickness : the same across the thickness; None where that in the plane is taken.
-    text : the sources; "typical" marks a value without one.
+    text : what the sources state.
+    typical : what is typical of such a sheet and comes from none of these sources; an "end" is
+        one of its range.
     """
 
     thickness: tuple[float, float]
     modulus: tuple[float, float]
     modulus_thickness: tuple[float, float] | None
     text: str
+    typical: tuple[str, ...]
 
 
 _PAPER_MODULUS = (
-    "modulus 3 to 8.9 GPa from newsprint to kraft (Ashby, Materials and the Environment, 2nd "
-    "edition, 2013, paper and cardboard), within it typical of the grade along the machine; "
-    "across the thickness about a hundredth, some 40 MPa in a milk carton board (Mann, Baum and "
-    "Habeger, Tappi 63 (2), 1980, 163); Poisson's ratio typical"
+    "modulus of paper from newsprint to kraft: 3 to 8.9 GPa (Ashby, Materials and the "
+    "Environment, paper and cardboard)"
+)
+_PAPER_TYPICAL = (
+    "modulus of the grade",
+    "modulus across the thickness (some hundredth of that along the machine)",
+    "Poisson's ratio",
 )
 SHEET_SOURCES: Mapping[str, SheetSource] = {
     "office paper": SheetSource(
-        (0.095, 0.115), (4000.0, 8900.0), (20.0, 80.0), f"of 80 g/m2; {_PAPER_MODULUS}"
+        (0.095, 0.115),
+        (4000.0, 8900.0),
+        (20.0, 80.0),
+        _PAPER_MODULUS,
+        ("thickness (of 80 g/m2)", *_PAPER_TYPICAL),
     ),
     "newsprint": SheetSource(
-        (0.055, 0.08), (3000.0, 5000.0), (15.0, 50.0), f"of 45 g/m2; {_PAPER_MODULUS}"
+        (0.055, 0.088),
+        (3000.0, 5000.0),
+        (15.0, 50.0),
+        "thickness at 45 g/m2: 0.075 mm, 0.013 mm more or less allowed (United States "
+        f"government paper specification JCP A10, 1999); {_PAPER_MODULUS}",
+        ("lower end of the thickness", *_PAPER_TYPICAL),
     ),
     "board": SheetSource(
-        (0.3, 0.6), (3000.0, 8000.0), (20.0, 60.0), f"folding boxboard, 250 g/m2; {_PAPER_MODULUS}"
+        (0.3, 0.6),
+        (3000.0, 8000.0),
+        (20.0, 60.0),
+        _PAPER_MODULUS,
+        ("thickness (folding boxboard, some 250 g/m2)", *_PAPER_TYPICAL),
     ),
     "PET film": SheetSource(
         (0.001, 0.5),
-        (4000.0, 5000.0),
+        (3790.0, 4800.0),
         None,
-        "biaxially drawn: 4.5 GPa by ISO 527 (Mitsubishi Polyester Film, Comparative data for "
-        "plastic films); 4.8 GPa by ASTM D 882 and Poisson's ratio 0.38 below yield (DuPont Teijin "
-        "Films, Mylar physical-thermal properties, H-37232-3)",
+        "biaxially drawn: thickness 1 to 500 um, modulus 4.5 GPa by ISO 527 (Mitsubishi Polyester "
+        "Film, Comparative data for plastic films); 4.8 GPa by ASTM D 882, Poisson's ratio 0.38 "
+        "before yield (DuPont Teijin Films, Mylar physical-thermal properties, H-37232-3); "
+        "3.79 GPa by ASTM D 882 (data sheet of Mylar LBT, 12 um)",
+        (),
     ),
     "BOPP film": SheetSource(
         (0.004, 0.08),
         (1700.0, 2500.0),
         None,
-        "2.5 GPa along and 4.5 GPa across the machine by ISO 527 (Mitsubishi Polyester Film, "
-        "Comparative data for plastic films); Poisson's ratio typical of polypropylene",
+        "thickness 4 to 80 um, modulus 2.5 GPa along and 4.5 GPa across the machine by ISO 527 "
+        "(Mitsubishi Polyester Film, Comparative data for plastic films)",
+        ("lower end of the modulus", "Poisson's ratio"),
     ),
     "PE film": SheetSource(
         (0.01, 0.2),
-        (100.0, 300.0),
+        (120.0, 282.0),
         None,
-        "low density, typical; 0.12 GPa by ISO 527 for a soft copolymer (LyondellBasell, technical "
-        "data sheet Lucalen A2540D, 2016); of high density some 0.8 to 1 GPa",
+        "modulus of low density: 0.172 to 0.282 GPa, of high density 1.08 GPa (Callister's "
+        "textbook of materials science, table B.2); 0.12 GPa by ISO 527 for a soft copolymer "
+        "(LyondellBasell, technical data sheet Lucalen A2540D, 2016)",
+        ("thickness", "Poisson's ratio"),
     ),
     "aluminium foil": SheetSource(
         (0.006, 0.2),
         (69e3, 72e3),
         None,
-        "household foil; modulus and Poisson's ratio of the metal (EN 1999-1-1, 3.2.5)",
+        "thickness of foil: 6 to 200 um (EN 546-1); modulus 70 GPa and Poisson's ratio 0.3 for "
+        "design (EN 1999-1-1), 69 to 72 GPa among wrought alloys",
+        ("thickness of household foil",),
     ),
     "steel belt": SheetSource(
         (0.1, 1.2),
         (190e3, 210e3),
         None,
-        "of austenitic stainless steel, 200 GPa at 20 degC (EN 10088-1); thickness typical",
+        "modulus of austenitic stainless steels 1.4301 and 1.4401: 200 GPa at 20 degC (EN 10088-1)",
+        ("thickness", "ends of the modulus", "Poisson's ratio"),
     ),
 }
-"""Sources and usual ranges of the values of `SHEETS`, by name.
+"""Sources, usual ranges and typical values of `SHEETS`, by name.
 
-Friction is no property of a sheet alone. It is measured by ISO 15359 or TAPPI T 549 for paper and
-by ISO 8295 or ASTM D 1894 for film, against the surface that the roller has.
+Friction is no property of a sheet alone. TAPPI T 549 slides paper on itself, ISO 15359 paper and
+board, ISO 8295 and ASTM D 1894 film on itself or on another substance: slide the sheet on the
+surface that the roller has.
 """

@@ -1,10 +1,13 @@
 """A rigid ball on a coated half-space, frictionless: an integral equation over the radius.
 
 The surface of a layer (G_1, nu_1, thickness d) on a half-space (G_2, nu_2) gives way to a pressure
-of wave number k by (1 - nu_1)/(G_1 k) times (O'Sullivan & King 1988, J. Tribology 110, 235-240)
+of wave number k by (1 - nu_1)/(G_1 k) times
 
     1 + h = (1 + 4 k d b e - a b e^2)/(1 - (a + b + 4 k^2 d^2 b) e + a b e^2),  e = exp(-2 k d),
-    a = 1 - 4 (1 - nu_1)/(1 + m (3 - 4 nu_2)),  b = (m - 1)/(m + 3 - 4 nu_1),  m = G_1/G_2.
+    a = 1 - 4 (1 - nu_1)/(1 + m (3 - 4 nu_2)),  b = (m - 1)/(m + 3 - 4 nu_1),  m = G_1/G_2,
+
+for which O'Sullivan & King 1988, J. Tribology 110, 235-240, are cited (the paper was not at hand;
+`test_coated_half_space.py` has the same from the equations of the layer to 1e-12).
 
 A pressure over a circle of radius a has the Hankel transform int_0^a f(t) cos(k t) dt, and f is
 that pressure's own where f(a) = 0. Abel's inversion of the displacement turns contact with a ball
@@ -13,7 +16,7 @@ of radius R, delta - r^2/2R inside, into
     f(x) + (2/pi) int_0^a f(t) int_0^inf h(k) cos(k x) cos(k t) dk dt
         = (2/pi) G_1/(1 - nu_1) (delta - x^2/R),
 
-a Fredholm equation of the second kind (Dhaliwal & Rau 1970). The force is 2 pi int f.
+a Fredholm equation of the second kind. The force is 2 pi int f.
 
 numpy alone; never rollnip.
 """

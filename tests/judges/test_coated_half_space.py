@@ -24,7 +24,7 @@ def material(shear: float, poisson: float) -> rn.Elastic:
 
 @pytest.mark.parametrize("coated", COATINGS, ids=NAMES)
 def test_closed_form_of_the_compliance(coated):
-    """O'Sullivan & King 1988, J. Tribology 110, 235-240."""
+    """The closed form that is cited as O'Sullivan & King's, against the layer solved."""
     k = np.geomspace(0.01, 30.0, 9) / coated.thickness
     top, base = (
         material(coated.shear, coated.poisson),
@@ -39,10 +39,11 @@ def test_closed_form_of_the_compliance(coated):
 
 @pytest.mark.parametrize("thickness", [0.1, 0.5, 1.0, 3.0])
 def test_the_judge_has_the_closed_form_of_a_punch(thickness):
-    """A coating a little unlike its base: Gao, Chiu & Lee 1992, Int. J. Solids Struct. 29, 2471.
+    """A coating a little unlike its base, to the first order of the differences.
 
-    A flat punch of radius 1 feels G_2 + (G_1 - G_2) I_0 and nu_2 + (nu_1 - nu_2) I_1, exact to the
-    first order of the differences.
+    A flat punch of radius 1 feels G_2 + (G_1 - G_2) I_0 and nu_2 + (nu_1 - nu_2) I_1. The functions
+    are known as those of Gao, Chiu & Lee 1992, doi:10.1016/0020-7683(92)90004-D. The paper was not
+    at hand; the integral equation, which knows nothing of them, has both.
     """
     x, nu, small = thickness, 0.3, 1e-3
     log = np.log1p(1.0 / x**2)

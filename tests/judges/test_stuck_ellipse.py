@@ -14,35 +14,32 @@ from rollnip.patch.rolling import SHIFT
 NAMES = ("C11", "C22", "C23", "C32", "C33")
 
 
-def test_the_judge_has_the_printed_table():
-    """Kalker 1967, On the Rolling Contact of Two Elastic Bodies in the Presence of Dry Friction."""
-    found = coefficients(1.0, 1.0, 0.25)
-    # As printed, nu = 0.25 and a circle.
-    for name, value in zip(NAMES, (4.12, 3.67, 1.47, 1.47, 1.19), strict=True):
-        assert found[name] == pytest.approx(value, abs=0.01), name
-
-
-PRINTED = {
+QUOTED = {
     (0.1, 0.5): (4.85, 2.53, 0.731, 11.7),
     (0.2, 0.25): (3.37, 2.63, 0.603, 4.27),
     (0.3, 0.0): (2.68, 2.68, 0.607, 2.49),
     (0.5, 0.25): (3.62, 3.01, 0.929, 1.93),
     (0.8, 0.5): (5.05, 3.65, 1.40, 1.42),
     (1.0, 0.0): (3.40, 3.40, 1.33, 1.21),
+    (1.0, 0.25): (4.12, 3.67, 1.47, 1.19),
     (1.0, 0.5): (5.20, 3.98, 1.63, 1.16),
     (2.0, 0.0): (4.37, 4.37, 2.35, 0.958),
     (2.0, 0.5): (6.11, 5.56, 2.96, 0.650),
     (5.0, 0.25): (7.78, 8.14, 6.63, 0.601),
 }
-"""C11, C22, C23 and C33 for a/b and nu."""
+"""C11, C22, C23 and C33 for a/b and nu.
+
+C11, C22 and C23 are those of Kalker 1990, table E.3, as the source of CONTACT has them (linrol in
+src/m_hertz.f90). C33 is not there; it is quoted from memory of the literature, and no print of it
+was at hand: of C33 this is no check of the program, which judges by itself.
+"""
 
 
-@pytest.mark.parametrize(("ratio", "poisson"), PRINTED)
-def test_the_judge_has_the_printed_ellipses(ratio, poisson):
-    """Kalker 1967, his table of creepage and spin coefficients."""
+@pytest.mark.parametrize(("ratio", "poisson"), QUOTED)
+def test_the_judge_has_the_quoted_table(ratio, poisson):
+    """Three figures are quoted, ours stand to four; the largest difference is 0.8 %."""
     found = coefficients(ratio**0.5, ratio**-0.5, poisson, 8)
-    for name, value in zip(("C11", "C22", "C23", "C33"), PRINTED[ratio, poisson], strict=True):
-        # Three figures as printed; ours stand to four, and the largest difference is 0.8 %.
+    for name, value in zip(("C11", "C22", "C23", "C33"), QUOTED[ratio, poisson], strict=True):
         assert found[name] == pytest.approx(value, rel=8e-3), name
 
 

@@ -19,7 +19,7 @@ import rollnip as rn
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 CURVED = rn.Model(geometry="curved")
-FULL = rn.Model(geometry="finite")
+SECOND = rn.Model(geometry="second")
 RUBBER = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.007, poisson=0.5)
 SPONGE = rn.Elastic(modulus=1.0, poisson=0.45)
 
@@ -63,9 +63,9 @@ def carter(number=0):
     ("what", "nip", "model", "goal"),
     [
         ("configuration II driven, curved", "configuration-2-driven", CURVED, "6 x (stretch 3)"),
-        ("configuration II driven, finite (default)", "configuration-2-driven", rn.Model(), "-"),
-        ("configuration I free, full", "configuration-1-free", FULL, "20 x"),
-        ("configuration II driven, full", "configuration-2-driven", FULL, "40 x"),
+        ("configuration II driven, second", "configuration-2-driven", SECOND, "-"),
+        ("configuration I free, finite (default)", "configuration-1-free", rn.Model(), "20 x"),
+        ("configuration II driven, finite", "configuration-2-driven", rn.Model(), "40 x"),
         ("configuration II free, curved", "configuration-2-free", CURVED, "-"),
         ("viscoelastic two layers on two, curved", None, CURVED, "12 x"),
         ("figure 4, top layer 0.2 mm", "figure-4-top-layer-0.2mm", CURVED, "12 x"),

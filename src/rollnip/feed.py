@@ -117,7 +117,7 @@ def _solved(nip: Nip, model: Model, cache: KernelCache) -> SheetSolution:
     assert isinstance(solution, SheetSolution)
     if solution.model.geometry != geometry_for(nip, model):
         raise ConvergenceError(
-            f'No solution of geometry "{model.geometry}" was found; take geometry "curved".'
+            f'No solution of geometry "{geometry_for(nip, model)}" was found; take "curved".'
         )
     return solution
 

@@ -31,7 +31,7 @@ def fit(
     geometry: Annotated[
         str | None,
         typer.Option(
-            help="Geometry: linear, corrected, curved, finite or full; overrides the file."
+            help="Geometry: linear, corrected, curved, second or finite; overrides the file."
         ),
     ] = None,
     json: Annotated[bool, typer.Option("--json", help="Print the fit as JSON.")] = False,

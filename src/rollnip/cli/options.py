@@ -18,7 +18,7 @@ Json = Annotated[bool, typer.Option("--json", help="Print the result as JSON.")]
 Out = Annotated[Path | None, typer.Option(help="Write the result: name.json or name.nc (netCDF).")]
 Geometry = Annotated[
     str | None,
-    typer.Option(help="Geometry: linear, corrected, curved, finite or full; overrides the file."),
+    typer.Option(help="Geometry: linear, corrected, curved, second or finite; overrides the file."),
 ]
 Tolerance = Annotated[
     str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides the file.")

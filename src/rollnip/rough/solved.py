@@ -29,7 +29,7 @@ def solve_rough(
     ----------
     nip : with a profile on at least one roller.
     model :
-        geometry "linear" or "curved"; with "finite", the default, "curved" is solved and said.
+        geometry "linear" or "curved"; in place of "second" and "finite" "curved" is solved.
     on_failure : as in ``solve``.
     version : of rollnip, for the record.
 

@@ -57,17 +57,19 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
     start = perf_counter()
     if model.geometry == "corrected":
         raise InvalidInputError(
-            '`geometry` must be "linear", "curved" or "finite" with a sheet, got "corrected".'
+            '`geometry` must be "linear", "curved" or "second" with a sheet, got "corrected".'
         )
     require_torque(nip)
     if model.geometry == "finite":
         model = replace(model, geometry="second")
     assert nip.sheet is not None
-    record, bending = (version, ()), nip.sheet.bending
+    bending = nip.sheet.bending
+    record: tuple[str, tuple[str, ...]] = (version, ())
     if bending or (bending is None and stiffness_shows(nip, model, cache)):
         counted = solve_plate(nip, model, cache, record)
         if counted is not None:
             return counted
+        record = (version, ("No solution with the sheet's bending stiffness could be verified.",))
     return _bending_freely(nip, model, cache, record, start)
 
 

@@ -96,7 +96,7 @@ function bare(tree) {
   return Object.fromEntries(kept.map(([name, value]) => [name, bare(value)]));
 }
 
-/** The same nip while a slider moves: the finite geometry gives way to the faster curved one. */
+/** The same nip while a slider moves: curved layers, which are faster, in place of finite strain. */
 export function quickCase(tree) {
   return ["second", "finite"].includes(tree.model.geometry) ? setAt(tree, "model.geometry", "curved") : tree;
 }

@@ -159,8 +159,6 @@ export class Inputs {
       this.change(setAt(this.app.store.state.case, "nip.face_width", yes ? 1000 : undefined));
     const hasWidth = tree.nip.face_width !== undefined;
     const isWhole = ["force", "cylinders"].includes(pressKind(this.app));
-    const note =
-      say("geometry.note");
     return this.fold(
       "advanced",
       say("group.advanced"),
@@ -172,7 +170,7 @@ export class Inputs {
           value: tree.model.geometry,
           act: geometry,
         }),
-        el("p", { class: "note", text: note }),
+        el("p", { class: "note", text: say("geometry.note") }),
         isWhole || tree.face ? null : checkbox("in-has-width", say("face.totals"), hasWidth, width),
         hasWidth && !isWhole && !tree.face ? this.control("nip.face_width") : null,
         ...["upper", "lower"].flatMap((side) => [coreEditor(side, tree, this), this.planeBox(side, tree)]),

@@ -31,7 +31,7 @@ export const LIBRARY_DE = {
   "example.configuration-1-free": "Konfiguration I, frei rollend",
   "example.configuration-1-free.hint": `${PAPER}, Bild 6A. Alle Zahlen außer der Geschwindigkeit sind die des Aufsatzes.`,
   "example.configuration-2-driven": "Konfiguration II, angetrieben",
-  "example.configuration-2-driven.hint": `${PAPER}, Bild 7B. Neben dem gleitenden Rand ist der Gummi auf mehr als das Doppelte gedehnt; nur das Modell „Endliche Dehnung“ gilt dort, die anderen sagen es in einem Hinweis. ${RADII} ${BLACK} ${DRIVES}`,
+  "example.configuration-2-driven.hint": `${PAPER}, Bild 7B. Neben dem gleitenden Rand ist der Gummi auf mehr als das Doppelte gedehnt; nur das Modell „Endliche Dehnung“ rechnet mit so großen Dehnungen; andere weisen darauf hin. ${RADII} ${BLACK} ${DRIVES}`,
   "example.configuration-2-free": "Konfiguration II, frei rollend",
   "example.configuration-2-free.hint": `${PAPER}, Bild 7A. ${RADII} ${BLACK}`,
   "example.configuration-3-driven": "Konfiguration III, angetrieben",

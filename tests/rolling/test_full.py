@@ -19,7 +19,8 @@ QUICK = (("nu .3", 0.0), ("heavy", 2.7), ("two layers, mu .5", 0.5), ("IIb, mu .
 SKINS = [
     case
     for case in json.loads((DATA / "finite_strain_fe_skins.json").read_text())["results"]
-    if case["case"] in ("sleeve", "skin, driven", "foil, heavy load")
+    if case["case"]
+    in ("sleeve", "skin, driven", "thin skin", "very stiff foil", "foil, heavy load")
 ]
 FULL = rn.Model(geometry="finite")
 
@@ -92,9 +93,16 @@ def test_every_second_one_of_the_others(case):
 @pytest.mark.slow
 @pytest.mark.parametrize("case", SKINS, ids=name_of)
 def test_stiff_skins(case):
-    """Top layers up to 900 times stiffer than what they cover: their peaks are not held."""
+    """Top layers up to 900 times stiffer than what they cover: their peaks are held by the claim.
+
+    Beside the edge of a foil the elements knew the peak to 2 %. On a mesh that was not graded anew
+    for the last correction the one under the heavy load was 470 % off.
+    """
     solution = solved(case)
     assert solution.model.geometry == "finite"
+    off = abs(solution.peak_pressure - case["peak_pressure"])
+    assert off <= solution.error["peak_pressure"] + 2e-3 * case["peak_pressure"]
+    assert solution.converged
     trailing, leading = solution.contact[0]
     assert solution.approach == pytest.approx(case["approach"], rel=2e-3)
     assert trailing == pytest.approx(case["contact_x"][0], rel=6e-3)

@@ -175,9 +175,11 @@ def _turns(
     """Solve the contact and evaluate its correction in turns.
 
     They end when the contact conditions are met with the correction that belongs to the solution
-    itself.
+    itself, on a mesh that was graded for it: on one that was kept, the edges have moved away from
+    where it is fine, and the pressure rises towards them.
     """
     change, afresh, past = inf, 0, _Past(_places(latest))
+    is_graded = False
     for _ in range(_MOST_TURNS):
         made = orders.beyond(kernels, latest)
         if made is None:
@@ -188,7 +190,14 @@ def _turns(
             checked = with_residual(nip, model, smooth, _with(latest, smooth))
             is_near = _to_come(change, before) <= _ENOUGH * model.tolerance
             if checked.residual <= (1.0 if is_near else _ENOUGH) * model.tolerance:
-                return smooth, _with_cut(nip, model, kernels, checked, made[1])
+                if is_graded or latest.mesh.fine.values is not None:
+                    return smooth, _with_cut(nip, model, kernels, checked, made[1])
+                is_graded = True
+                latest = refine(nip, model, smooth, 0.5 * latest.figures.nip_width)
+                if not latest.stands_still:
+                    return None
+                kernels = smooth
+                continue
         assert kernels.beyond is not None
         mixed = replace(kernels, beyond=past.next(kernels.beyond, made[0]))
         found = _solved_again(nip, model, mixed, _with(latest, mixed), change)

@@ -51,7 +51,7 @@ def test_her_own_roller_takes_five_numbers_and_no_scrolling_between_answer_and_i
 def test_the_answer_is_big_has_its_unit_its_error_and_a_hint(designer):
     big = designer.page.locator("#big")
     learned(designer)
-    assert big.inner_text().startswith("12.05 mm")
+    assert big.inner_text().startswith("12.06 mm")
     assert "±" in big.inner_text()
     size = big.evaluate("node => parseFloat(getComputedStyle(node).fontSize)")
     assert size >= 40

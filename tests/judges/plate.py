@@ -272,12 +272,19 @@ CASES = {
         (40.0, 40.0), (RUBBER[1], RUBBER[0]), 2.5, (0.4, 0.4), thickness=1.0, modulus=300.0,
         across=300.0, tensions=(0.5, 0.5),
     ),
+    "idler": Plate(
+        (12.0, 8.0), (Covering(4.0, 2.04, 0.5), None), 0.2, (1.2, 0.3),
+        thickness=0.104, modulus=6000.0, across=40.0,
+    ),
 }  # fmt: skip
 """The cases of tests/data/plate_direct.json."""
-RANGES = {"board": 4.8, "pulled": 4.8, "bare": 4.8, "belt": 5.5}  # mm
+RANGES = {"board": 4.8, "pulled": 4.8, "bare": 4.8, "belt": 5.5, "idler": 1.05}  # mm
 
 
-COUNTS = {"board": (120, 240), "pulled": (90, 180), "bare": (120, 240), "belt": (120, 240)}
+COUNTS = {
+    "board": (120, 240), "pulled": (90, 180), "bare": (120, 240), "belt": (120, 240),
+    "idler": (160, 320),
+}  # fmt: skip
 """Elements of the coarser and the finer mesh."""
 
 

@@ -181,6 +181,20 @@ def test_a_warning_says_how_stiffness_is_counted():
     assert not any("bending stiffness" in line for line in counted.warnings)
 
 
+def test_peaks_opposite_the_edges_of_a_narrow_contact_are_resolved():
+    # Thin paper touches a bare idler over a sixth of the nip, and the pressure on the roller above
+    # peaks opposite both edges of that contact, each peak about as long as the paper is thick.
+    case = rn.read_case(HERE.parent / "examples" / "sheet-feed-nip.toml")
+    solution = rn.solve(case.nip, LINEAR)
+    assert solution.converged
+    assert solution.sheet.bends
+    trailing, leading = solution.sheet.zones_lower[0].start, solution.sheet.zones_lower[-1].stop
+    x, pressure = solution.profiles.x, solution.profiles.pressure
+    for edge in (trailing, leading):
+        near = np.abs(x - edge) < 0.5 * case.nip.sheet.thickness
+        assert pressure[near].max() > 1.01 * pressure[np.abs(x) < 0.05].max()
+
+
 def test_bending_is_true_or_false():
     with pytest.raises(rn.InvalidInputError, match="`bending` must be true or false"):
         paper(bending=1)

@@ -173,6 +173,11 @@ class PlateSearch:
         """Length of the shortest boundary layer at the ends of zones [mm]."""
         return min(boundary_layer(self.nip), sheet_layer(self.nip), squeeze_layer(self.nip))
 
+    @property
+    def _thickness(self) -> float:
+        assert self.nip.sheet is not None
+        return self.nip.sheet.thickness
+
     def _problem(
         self, zones: PlateZones, count: int, known: float, before: PlateStanding | None
     ) -> tuple[PlateProblem, bool]:
@@ -184,10 +189,11 @@ class PlateSearch:
         meshes, is_fine = [], True
         for number, side in enumerate(zones.sides):
             least = max(self.boundary, _SHORTEST_LAYER * side.width)
-            crowding = crowding_of(side.breaks, max(least, known * side.width))
-            is_fine = is_fine and crowding == crowding_of(side.breaks, least)
-            elements = elements_of_zones(side.breaks, count, crowding)
-            nodes = cosine_nodes(side.breaks, elements, crowding)
+            breaks = zones.breaks_of_mesh(number, self._thickness)
+            crowding = crowding_of(breaks, max(least, known * side.width))
+            is_fine = is_fine and crowding == crowding_of(breaks, least)
+            elements = elements_of_zones(breaks, count, crowding)
+            nodes = cosine_nodes(breaks, elements, crowding)
             fine = subdivided(nodes, elements, crowding)
             meshes.append(side_mesh(nodes, fine, self._holding(before, number), number))
         return PlateProblem.on(self.nip, (meshes[0], meshes[1])), is_fine

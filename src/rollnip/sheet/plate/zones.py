@@ -55,6 +55,24 @@ class PlateZones:
         """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
         return np.concatenate([side.breaks for side in self.sides])
 
+    def breaks_of_mesh(self, number: int, thickness: float) -> Array:
+        """Return the places where nodes of one interface crowd: its breaks, and edges opposite.
+
+        Opposite an edge of the other contact the pressure turns over about the thickness of the
+        sheet, which the nodes of a wide contact do not resolve by themselves. An edge nearer than
+        that to a break has the nodes of that break.
+
+        Parameters
+        ----------
+        number : of the interface.
+        thickness : of the sheet [mm].
+        """
+        own, opposite = self.sides[number], self.sides[1 - number].edges
+        apart = [x for x in opposite if float(np.abs(own.breaks - x).min()) > thickness]
+        first, last = own.edges
+        inside = [x for x in apart if first < x < last]
+        return np.sort(np.concatenate([own.breaks, inside]))
+
     def with_breaks(self, breaks: Array) -> PlateZones:
         """Return the same zones between other breaks, in the order of ``breaks``."""
         n = self.upper.breaks.size

@@ -8,7 +8,7 @@ from importlib.metadata import version as installed
 from pathlib import Path
 
 from rollnip.model import Model
-from rollnip.rolling.claims import model_share
+from rollnip.rolling.claims import MODEL_SHARES, SHARE_OF_EDGE_PEAK
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
@@ -72,9 +72,10 @@ myst_substitutions = {
     "default_tolerance": Model().tolerance,
     "release": release,
     **{
-        f"share_{name}": f"{100 * model_share(name, 'finite'):g} %"
+        f"share_{name}": f"{100 * MODEL_SHARES['finite'][name]:g} %"
         for name in ("load", "creepage", "nip_width", "peak_pressure")
     },
+    "share_edge_peak": f"{100 * SHARE_OF_EDGE_PEAK:g} %",
 }
 myst_heading_anchors = 3
 myst_dmath_double_inline = True

@@ -24,7 +24,7 @@ FINEST_OF_FINITE = 1e-3
 _NAMES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
 # Relative change of these figures between grids of 12 to 32 points a half-width in "second",
 # between meshes of 24 to 64 elements in "finite" (docs/geometry.md).
-_SHARES: Mapping[Geometry, Mapping[str, float]] = {
+MODEL_SHARES: Mapping[Geometry, Mapping[str, float]] = {
     "second": dict(zip(_NAMES, (1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3), strict=True)),
     "finite": dict(zip(_NAMES, (3e-4, 3e-4, 5e-3, 1e-3, 3e-3), strict=True)),
 }
@@ -34,7 +34,7 @@ _LEFT_BY: Mapping[Geometry, str] = {
 }
 # Error of a peak of pressure that lies within the thickness of a stiff skin from an edge: the
 # largest of the finite-element results with such peaks is 13 % ("second"), 10 % ("finite").
-_SHARE_OF_EDGE_PEAK = 0.15
+SHARE_OF_EDGE_PEAK = 0.15
 # Error of these figures over the violation of the contact conditions by what "finite" leaves out of
 # its correction: configurations II and III driven, with half, once and twice the wave number cut.
 _SHARES_OF_CUT = dict(zip(_NAMES, (0.1, 0.1, 1.0, 1.0, 0.3), strict=True))
@@ -138,10 +138,10 @@ def model_shares(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]
         return dict.fromkeys(_NAMES, 0.0)
     shares = {
         name: max(share, _SHARES_OF_CUT[name] * final.cut)
-        for name, share in _SHARES[geometry].items()
+        for name, share in MODEL_SHARES[geometry].items()
     }
     if _peaks_at_edge(nip, final):
-        shares["peak_pressure"] = max(shares["peak_pressure"], _SHARE_OF_EDGE_PEAK)
+        shares["peak_pressure"] = max(shares["peak_pressure"], SHARE_OF_EDGE_PEAK)
     return shares
 
 

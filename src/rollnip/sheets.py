@@ -149,7 +149,7 @@ typical without one, and what is usual.
 
 @dataclass(frozen=True, slots=True)
 class SheetSource:
-    """Where the values of a usual sheet come from, and the range that is usual.
+    """Source of the values of a usual sheet, and the range that is usual.
 
     Attributes
     ----------

@@ -78,7 +78,7 @@ class Body:
 
     @cached_property
     def memory(self) -> Memory | None:
-        """What viscoelastic layers remember; None where all layers are elastic."""
+        """Memory of the viscoelastic layers; None where all layers are elastic."""
         if self.speed is None or not self.strip.depths.roller.is_viscoelastic:
             return None
         return Memory(self.strip, self.speed)

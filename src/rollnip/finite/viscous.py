@@ -146,7 +146,7 @@ class Viscous:
 
     @cached_property
     def volume_law(self) -> tuple[Array | float, Array | float]:
-        """What the change of volume adds to U' at the points, and to its slope by J there."""
+        """Addition of the change of volume to U' at the points, and to its slope by J there."""
         if self.volume is None:
             return 0.0, 0.0
         lame, _, slope, bend = self.volume
@@ -168,7 +168,7 @@ class Viscous:
 
     @property
     def turning(self) -> Array:
-        """What T as it is adds to the stiffness of either direction, (elements, 9, 9)."""
+        """Stiffness of either direction that T adds as it is, (elements, 9, 9)."""
         by_s, by_z = self.memory.shapes
         held = (self.stress * self.memory.strip.shapes[1][..., None])[:, :, None]
         pulled = held[..., 0] * by_s + held[..., 2] * by_z

@@ -233,7 +233,22 @@ class RollingResistances(Scalars):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Torques(Scalars):
+class _OfOneRoller(Scalars):
+    """A figure that either roller has."""
+
+    roller: Roller = "upper"
+
+    def __post_init__(self) -> None:
+        check_roller(self.roller)
+        super().__post_init__()
+
+    @property
+    def _result(self) -> str:
+        return f"{self.result}_{self.roller}"
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Torques(_OfOneRoller):
     """Driving torques per length [N] on the axle of one roller, mostly at speeds.
 
     Parameters
@@ -245,19 +260,10 @@ class Torques(Scalars):
     """
 
     quantity, unit, result = "torque", "N", "torque"
-    roller: Roller = "upper"
-
-    def __post_init__(self) -> None:
-        check_roller(self.roller)
-        super().__post_init__()
-
-    @property
-    def _result(self) -> str:
-        return f"torque_{self.roller}"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Feeds(Scalars):
+class Feeds(_OfOneRoller):
     """Feeds of a sheet over one roller, mostly at loads or tensions.
 
     A feed is the length of sheet, free of tension, over the length that rolled off the roller,
@@ -272,15 +278,6 @@ class Feeds(Scalars):
     """
 
     quantity, unit, result = "feed", "", "feed"
-    roller: Roller = "upper"
-
-    def __post_init__(self) -> None:
-        check_roller(self.roller)
-        super().__post_init__()
-
-    @property
-    def _result(self) -> str:
-        return f"{self.result}_{self.roller}"
 
     def predict(self, solutions: Sequence[Solution]) -> Array:
         """Return the feed of each solution; nan where there is no sheet."""

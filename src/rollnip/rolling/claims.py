@@ -151,7 +151,7 @@ def _peaks_at_edge(nip: Nip, final: Round) -> bool:
     The fields there are as short as the skin is thick; what finite strain changes is evaluated on
     elements and grids that are longer.
     """
-    if not final.pressure.size:
+    if not final.zones:
         return False
     peak = final.nodes[int(np.argmax(final.pressure))]
     start, stop = final.zones[0].start, final.zones[-1].stop

@@ -52,7 +52,7 @@ _MOST_SLIPS = 30  # linear systems of one look for stick and slip
 _MOST_TURNS = 25
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
 _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
-_SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
+SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
 
 
 @dataclass(frozen=True, slots=True)
@@ -152,7 +152,7 @@ class Search:
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return how nodes crowd at ends that are known to some share of the width."""
         width = float(breaks[-1] - breaks[0])
-        return crowding_of(breaks, max(self.boundary, max(known, _SHORTEST_LAYER) * width))
+        return crowding_of(breaks, max(self.boundary, max(known, SHORTEST_LAYER) * width))
 
     @cached_property
     def boundary(self) -> float:

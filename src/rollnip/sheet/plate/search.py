@@ -29,7 +29,7 @@ from rollnip.sheet.plate.nodewise import Nodewise, slipping
 from rollnip.sheet.plate.sides import side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.search import longest_run, sheet_layer, squeeze_layer
+from rollnip.sheet.search import SHORTEST_LAYER, longest_run, sheet_layer, squeeze_layer
 from rollnip.sheet.system import SIGNS as SIGNS_OF_STATES
 
 Array = NDArray[np.float64]
@@ -43,7 +43,6 @@ _MOST_ROUGH = 12  # meshes in a row on which ends only move
 _MOST_CHANGES = 3  # of zones, before contact, stick and slip are sought together
 _MOST_TURNS = 25
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
-_SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
 _SECANT_SLOPES = 0.7, 2.5  # of the distance of an end by its place
 _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
 
@@ -188,7 +187,7 @@ class PlateSearch:
         """
         meshes, is_fine = [], True
         for number, side in enumerate(zones.sides):
-            least = max(self.boundary, _SHORTEST_LAYER * side.width)
+            least = max(self.boundary, SHORTEST_LAYER * side.width)
             breaks = zones.breaks_of_mesh(number, self._thickness)
             crowding = crowding_of(breaks, max(least, known * side.width))
             is_fine = is_fine and crowding == crowding_of(breaks, least)

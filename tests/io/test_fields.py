@@ -2,6 +2,7 @@
 
 import base64
 import xml.etree.ElementTree as ET
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -137,7 +138,7 @@ def test_a_failure_leaves_the_old_file(solved, tmp_path, monkeypatch):
     def fail(*_):
         raise OSError("no space")
 
-    monkeypatch.setattr("rollnip.io.fields.write_netcdf", fail)
+    monkeypatch.setattr(Path, "write_bytes", fail)
     with pytest.raises(rn.RollnipError, match="no space"):
         write_fields(solved, path)
     assert path.read_text() == "old"

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._files import check_target, write_whole
-from rollnip.io.netcdf import require_netcdf, write_netcdf
+from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
 from rollnip.io.paraview import rectilinear
 from rollnip.io.result import result_dict
 from rollnip.rollers import Roller
@@ -74,7 +74,11 @@ def write_fields(solution: Solution, path: str | Path) -> None:
     check_fields_target(target)
     sections = _sections(solution)
     if target.suffix.lower() == ".nc":
-        write_whole(target, lambda file: _write_netcdf(solution, sections, file))
+        write_netcdf(
+            result_groups(result_dict(solution))
+            | {section.name: _dataset(solution, section) for section in sections},
+            target,
+        )
     else:
         text = _vtr(solution.nip.title, sections)
         write_whole(target, lambda file: file.write_text(text, encoding="ascii", newline="\n"))
@@ -159,33 +163,31 @@ def _depths(roller: Roller, width: float) -> tuple[Array, NDArray[np.bool_]]:
     return np.concatenate(pieces), np.concatenate(tops)
 
 
-def _write_netcdf(solution: Solution, sections: list[Section], path: Path) -> None:
+def _dataset(solution: Solution, section: Section) -> Any:
+    """Return the fields of one roller as an xarray dataset."""
     import xarray as xr
 
-    write_netcdf(result_dict(solution), path)
-    for section in sections:
-        variables: dict[str, Any] = {
-            name: (("z", "x"), section.values[name], {"units": unit, "long_name": text})
-            for name, (unit, text) in _QUANTITIES.items()
-        }
-        text = "number of the layer, 0 at the surface; the number of layers: the core"
-        variables["layer"] = ("z", section.layer, {"units": "1", "long_name": text})
-        text = "heat per depth and axial length"
-        loss = ("z", section.loss_per_depth, {"units": "mW mm-2", "long_name": text})
-        variables["loss_per_depth"] = loss
-        along = {"units": "mm", "long_name": "place along the nip, towards the leading edge"}
-        depth = {"units": "mm", "long_name": "depth below the surface", "positive": "down"}
-        dataset = xr.Dataset(
-            variables,
-            coords={"x": ("x", section.x, along), "z": ("z", section.z, depth)},
-            attrs={
-                "Conventions": "CF-1.11",
-                "title": f"{solution.nip.title} ({section.name} roller)".strip(),
-                "comment": "the roller's own frame: x along the nip, z into its body",
-                "geometry": solution.model.geometry,
-            },
-        )
-        dataset.to_netcdf(path, mode="a", group=section.name, engine="h5netcdf")
+    variables: dict[str, Any] = {
+        name: (("z", "x"), section.values[name], {"units": unit, "long_name": text})
+        for name, (unit, text) in _QUANTITIES.items()
+    }
+    text = "number of the layer, 0 at the surface; the number of layers: the core"
+    variables["layer"] = ("z", section.layer, {"units": "1", "long_name": text})
+    text = "heat per depth and axial length"
+    loss = ("z", section.loss_per_depth, {"units": "mW mm-2", "long_name": text})
+    variables["loss_per_depth"] = loss
+    along = {"units": "mm", "long_name": "place along the nip, towards the leading edge"}
+    depth = {"units": "mm", "long_name": "depth below the surface", "positive": "down"}
+    return xr.Dataset(
+        variables,
+        coords={"x": ("x", section.x, along), "z": ("z", section.z, depth)},
+        attrs={
+            "Conventions": "CF-1.11",
+            "title": f"{solution.nip.title} ({section.name} roller)".strip(),
+            "comment": "the roller's own frame: x along the nip, z into its body",
+            "geometry": solution.model.geometry,
+        },
+    )
 
 
 def _vtr(title: str, sections: list[Section]) -> str:

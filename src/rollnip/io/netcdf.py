@@ -1,13 +1,19 @@
-"""The result tree as a netCDF file, through the extra ``rollnip[netcdf]``."""
+"""Results as netCDF files, through the extra ``rollnip[netcdf]``.
+
+A file is made in memory and written as one piece: where the disk is full, a plain write says so,
+while HDF5 would end the process when it cannot write what it still holds.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from io import BytesIO
 from pathlib import Path
 from typing import Any
 
 from rollnip._extras import require_extra
+from rollnip._files import write_whole
 from rollnip._results.dataset import result_dataset
-from rollnip.face.report import face_variables
 
 _UNITS = {
     "r": ("mm", "radius"),
@@ -27,43 +33,57 @@ def require_netcdf() -> None:
     require_extra("netcdf", "writing netCDF", "write .json")
 
 
-def write_netcdf(tree: dict[str, Any], path: Path) -> None:
-    """Write a result tree; None becomes NaN, lists become variables, texts attributes.
+def write_netcdf(groups: Mapping[str, Any], path: Path) -> None:
+    """Write xarray datasets to one file, all or nothing: each a group, "/" the root.
 
-    The root holds the nip and its face; temperatures of both rollers, a warm-up and a branch of
+    Raises RollnipError where the file cannot be written; a file of that name stays as it was.
+    """
+    from h5netcdf import File
+    from xarray.backends import H5NetCDFStore
+
+    memory = BytesIO()
+    with File(memory, "w") as file:
+        for name, dataset in groups.items():
+            dataset.dump_to_store(H5NetCDFStore(file if name == "/" else file.create_group(name)))
+    write_whole(path, lambda target: target.write_bytes(memory.getbuffer()))
+
+
+def result_groups(tree: dict[str, Any]) -> dict[str, Any]:
+    """Return a result tree as datasets; None becomes NaN, lists become variables, texts attributes.
+
+    The root "/" holds the nip and its face; temperatures of both rollers, a warm-up and a branch of
     steady states are groups.
     """
-    dataset = result_dataset(tree)
+    root = result_dataset(tree)
     if "face" in tree:
+        from rollnip.face.report import face_variables  # it loads all that solves a face
+
         variables, attributes = face_variables(tree["face"])
-        dataset = dataset.assign(variables).set_coords("y").assign_attrs(attributes)
-    dataset.to_netcdf(path, engine="h5netcdf")
+        root = root.assign(variables).set_coords("y").assign_attrs(attributes)
+    groups = {"/": root}
     if "heat" in tree:
-        _write_heat(tree["heat"], path)
+        groups |= {side: _temperatures(tree["heat"][side]) for side in _SIDES}
     if "warm_up" in tree:
-        _write_warm_up(tree["warm_up"], path)
+        groups["warm_up"] = _warm_up(tree["warm_up"])
     if "branch" in tree:
-        _write_branch(tree["branch"], path)
+        groups["branch"] = _branch(tree["branch"])
+    return groups
 
 
-def _write_heat(heat: dict[str, Any], path: Path) -> None:
-    for side in _SIDES:
-        one = heat[side]
-        attributes = {key: value for key, value in one.items() if isinstance(value, float)}
-        _write_group(
-            path, side, "r", {name: one[name] for name in ("r", "temperature")}, attributes
-        )
+def _temperatures(roller: dict[str, Any]) -> Any:
+    attributes = {key: value for key, value in roller.items() if isinstance(value, float)}
+    return _rows("r", {name: roller[name] for name in ("r", "temperature")}, attributes)
 
 
-def _write_warm_up(rows: dict[str, Any], path: Path) -> None:
+def _warm_up(rows: dict[str, Any]) -> Any:
     columns = {"time": rows["time"], "power": rows["power"]}
     for side in _SIDES:
         parts = rows[side].items()
         columns |= {f"{name}_{side}": value for name, value in parts if value is not None}
-    _write_group(path, "warm_up", "time", columns, {"status": rows["status"]})
+    return _rows("time", columns, {"status": rows["status"]})
 
 
-def _write_branch(branch: dict[str, Any], path: Path) -> None:
+def _branch(branch: dict[str, Any]) -> Any:
     points, unit = branch["points"], branch["unit"]
     names = ("value", "hot_spot", "rise", "power")
     columns = {name: [point[name] for point in points] for name in names}
@@ -72,17 +92,16 @@ def _write_branch(branch: dict[str, Any], path: Path) -> None:
     if branch["turning"] is not None:
         said["turning"] = branch["turning"]["value"]
     units = {"value": (unit.replace("/mm", " mm-1").replace("/s", " s-1"), branch["parameter"])}
-    _write_group(path, "branch", "value", columns, said, units)
+    return _rows("value", columns, said, units)
 
 
-def _write_group(
-    path: Path,
-    name: str,
+def _rows(
     along: str,
     columns: dict[str, Any],
     attributes: dict[str, Any],
     units: dict[str, tuple[str, str]] | None = None,
-) -> None:
+) -> Any:
+    """Return the dataset of columns over the one called ``along``."""
     import xarray as xr
 
     def described(key: str) -> dict[str, str]:
@@ -96,5 +115,4 @@ def _write_group(
     }
     variables = {key: (along, values, described(key)) for key, values in rows.items()}
     place = variables.pop(along)
-    dataset = xr.Dataset(variables, coords={along: place}, attrs=attributes)
-    dataset.to_netcdf(path, mode="a", group=name, engine="h5netcdf")
+    return xr.Dataset(variables, coords={along: place}, attrs=attributes)

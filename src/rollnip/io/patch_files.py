@@ -6,11 +6,12 @@ from collections.abc import Sequence
 from json import dumps
 from math import nan
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
 from rollnip._files import check_target, write_whole
-from rollnip.io.netcdf import require_netcdf
+from rollnip.io.netcdf import require_netcdf, write_netcdf
 from rollnip.io.paraview import rectilinear
 from rollnip.patch.depth import STRESSES, PatchStress, Side
 from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
@@ -56,7 +57,7 @@ def write_patch(solution: PatchSolution, path: str | Path) -> None:
         surface = _surface(solution)
         write_whole(target, lambda file: file.write_text(surface, "ascii", newline="\n"))
     else:
-        write_whole(target, lambda file: _write_netcdf(solution, file))
+        write_netcdf({"/": _dataset(solution)}, target)
 
 
 def write_stress(solution: PatchSolution, side: Side, z: Sequence[float], path: str | Path) -> None:
@@ -85,7 +86,7 @@ def write_stress(solution: PatchSolution, side: Side, z: Sequence[float], path: 
         text = _body(solution.patch.title, side, field)
         write_whole(target, lambda file: file.write_text(text, "ascii", newline="\n"))
     else:
-        write_whole(target, lambda file: _write_stress_netcdf(solution, side, field, file))
+        write_netcdf({"/": _stress_dataset(solution, side, field)}, target)
 
 
 def _surface(solution: PatchSolution) -> str:
@@ -117,13 +118,12 @@ def _body(title: str, side: Side, field: PatchStress) -> str:
     return rectilinear(title, places, data, scalars="von_mises")
 
 
-def _write_stress_netcdf(
-    solution: PatchSolution, side: Side, field: PatchStress, path: Path
-) -> None:
+def _stress_dataset(solution: PatchSolution, side: Side, field: PatchStress) -> Any:
+    """Return the stresses in one roller as an xarray dataset."""
     import xarray
 
     millimetres = {"units": "mm"}
-    dataset = xarray.Dataset(
+    return xarray.Dataset(
         {
             name: (("z", "y", "x"), getattr(field, name), {"units": "MPa", "long_name": text})
             for name, text in STRESSES.items()
@@ -135,10 +135,10 @@ def _write_stress_netcdf(
         },
         attrs={"title": solution.patch.title, "roller": side, "status": solution.status},
     )
-    dataset.to_netcdf(path, engine="h5netcdf")
 
 
-def _write_netcdf(solution: PatchSolution, path: Path) -> None:
+def _dataset(solution: PatchSolution) -> Any:
+    """Return the fields and figures of a patch as an xarray dataset."""
     import xarray
 
     values = {}
@@ -153,7 +153,7 @@ def _write_netcdf(solution: PatchSolution, path: Path) -> None:
         if error is not None:
             scalars[f"{key}_error"] = ((), error, {"units": figure.unit})
     places = {"units": "mm"}
-    dataset = xarray.Dataset(
+    return xarray.Dataset(
         values | scalars,
         coords={"x": ("x", solution.x, places), "y": ("y", solution.y, places)},
         attrs={
@@ -162,4 +162,3 @@ def _write_netcdf(solution: PatchSolution, path: Path) -> None:
             "converged": int(solution.converged),
         },
     )
-    dataset.to_netcdf(path, engine="h5netcdf")

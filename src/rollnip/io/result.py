@@ -9,7 +9,7 @@ from typing import Any
 
 from rollnip._files import check_target, write_whole
 from rollnip._results.tree import result_dict
-from rollnip.io.netcdf import require_netcdf, write_netcdf
+from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
 from rollnip.solution import Solution
 
 __all__ = ["check_result_target", "result_dict", "result_text", "write_result"]
@@ -50,7 +50,7 @@ def write_result(
     check_result_target(target)
     if target.suffix.lower() == ".nc":
         tree = {**result_dict(solution), **(parts or {})}
-        write_whole(target, lambda file: write_netcdf(tree, file))
+        write_netcdf(result_groups(tree), target)
     else:
         text = result_text(solution, parts)
         write_whole(target, lambda file: file.write_text(text, encoding="utf-8", newline="\n"))

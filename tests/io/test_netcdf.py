@@ -1,0 +1,56 @@
+"""netCDF files are made in memory: a disk without room is an error of one line, no crash."""
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from rollnip import RollnipError
+from rollnip.io import write_result
+from rollnip.io.netcdf import write_netcdf
+
+resource = pytest.importorskip("resource")  # POSIX only
+xr = pytest.importorskip("xarray")
+pytest.importorskip("h5netcdf")
+
+# Writing beyond the limit fails as on a full disk, in the middle of a file. HDF5 ended the process
+# at the two larger ones.
+ROOMS = (0, 4096, 9216)
+
+
+@pytest.fixture(params=ROOMS)
+def room(request) -> Iterator[int]:
+    """Bytes that a file may have."""
+    soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (request.param, hard))
+    yield request.param
+    resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+
+
+def datasets():
+    x = np.linspace(0.0, 1.0, 2000)
+    root = xr.Dataset({"p": ("x", np.sin(x))}, coords={"x": x}, attrs={"title": "root"})
+    return {"/": root, "upper": root.assign_attrs(title="upper"), "lower": root * 2.0}
+
+
+def test_no_room_leaves_the_old_file(tmp_path, room):
+    path = tmp_path / "a.nc"
+    path.touch()
+    with pytest.raises(RollnipError, match=r"a\.nc: cannot write: File too large\.$"):
+        write_netcdf(datasets(), path)
+    assert path.stat().st_size == 0
+    assert list(tmp_path.iterdir()) == [path]
+
+
+def test_no_room_for_a_result(solution, tmp_path, room):
+    with pytest.raises(RollnipError, match="File too large"):
+        write_result(solution, tmp_path / "a.nc")
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_groups_are_read_back(tmp_path):
+    path = tmp_path / "a.nc"
+    write_netcdf(datasets(), path)
+    for name, given in datasets().items():
+        with xr.open_dataset(path, group=name, engine="h5netcdf") as read:
+            xr.testing.assert_identical(read.load(), given)

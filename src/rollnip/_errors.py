@@ -7,7 +7,6 @@ A message names what is wrong, the rule, and the value that came:
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from difflib import get_close_matches
 from functools import wraps
 from inspect import signature
 from math import inf, nan
@@ -119,6 +118,8 @@ def with_hints(**hints: str) -> Callable[[type[T]], type[T]]:
 
 
 def _unknown(kind: str, name: str, known: Sequence[str], hints: Mapping[str, str]) -> str:
+    from difflib import get_close_matches  # of no use until a name is misspelt
+
     near = get_close_matches(name, known, n=1, cutoff=0.5)
     hint = hints.get(name) or (
         f"did you mean `{near[0]}`?" if near else f"it has {', '.join(known)}."

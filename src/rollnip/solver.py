@@ -32,8 +32,6 @@ from rollnip.rolling import (
     verdict,
     with_second_order,
 )
-from rollnip.rough import solve_rough
-from rollnip.sheet import solve_sheet
 from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import Strains, validity_warnings
 
@@ -86,6 +84,8 @@ def solve(
     model = Model() if model is None else model
     _require_kinds(nip, model, on_failure)
     if nip.has_profile:
+        from rollnip.rough import solve_rough  # few nips need it; loading it takes time
+
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
     cache = KernelCache() if cache is None else cache
     # Second-order terms that run away overflow; what is no number is never verified.
@@ -94,6 +94,8 @@ def solve(
         if nip.sheet is None:
             solution = _solved(nip, model, cache, start)
         else:
+            from rollnip.sheet import solve_sheet  # likewise
+
             solution = solve_sheet(nip, model, cache, _version())
     if on_failure == "raise" and not solution.converged:
         raise ConvergenceError(solution.status, solution)

@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from importlib.metadata import version
+from pathlib import Path
 
 import pytest
 
@@ -37,6 +38,31 @@ def test_the_solver_loads_no_part_of_scipy_that_a_plain_nip_does_not_need():
 def test_reading_a_case_loads_no_pictures():
     loaded = loaded_after("import rollnip as rn; rn.read_case, rn.write_result")
     assert loaded.isdisjoint({"matplotlib", "typer", "xarray", "h5py"})
+
+
+def test_a_plain_nip_on_the_command_line_loads_no_other_study(tmp_path):
+    """Faces, heat, patches, sheets and the parts of scipy that they need took half its time."""
+    case = Path(__file__).parents[2] / "examples/configuration-1-free.toml"
+    command = ["rollnip", "solve", str(case), "-q", "--out", str(tmp_path / "a.json")]
+    loaded = loaded_after(
+        f"import sys\nfrom rollnip.cli import main\nsys.argv = {command!r}\n"
+        "try:\n    main()\nexcept SystemExit as done:\n    assert not done.code",
+        parts=2,
+    )
+    assert {"rollnip.solver", "scipy.linalg"} <= loaded
+    assert loaded.isdisjoint(
+        f"rollnip.{one}"
+        for one in ("face", "heat", "patch", "sheet", "rough", "sweeps", "plots", "design", "web")
+    )
+    assert loaded.isdisjoint(
+        f"scipy.{one}"
+        for one in ("integrate", "interpolate", "ndimage", "optimize", "sparse", "spatial", "stats")
+    )
+    assert loaded.isdisjoint({"matplotlib", "xarray", "h5py", "urllib.request"})
+
+
+def test_import_loads_no_search_for_names_alike():
+    assert "difflib" not in loaded_after("import rollnip")
 
 
 def test_the_command_line_starts_without_numerics():

@@ -13,8 +13,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
-from scipy.stats import chi2 as chi_squared
-from scipy.stats import norm
+from scipy.special import chdtrc, ndtri
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.face.design import AnyLaw, Name, with_crown
@@ -285,9 +284,9 @@ def _reading(
     chi2 = 2.0 * float(fit.cost)  # type: ignore[attr-defined]
     freedom = int(jacobian.shape[0] - jacobian.shape[1])
     covariance = np.linalg.pinv(jacobian.T @ jacobian)
-    spread = float(norm.ppf(0.975)) * np.sqrt(np.diag(covariance))
+    spread = float(ndtri(0.975)) * np.sqrt(np.diag(covariance))
     notes = []
-    improbable = freedom > 0 and chi_squared.sf(chi2, freedom) < 0.01
+    improbable = freedom > 0 and chdtrc(freedom, chi2) < 0.01
     if improbable:
         spread = spread * np.sqrt(chi2 / freedom)
         notes.append(

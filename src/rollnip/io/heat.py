@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from rollnip.heat import Branch, HeatSolution, WarmUp
-from rollnip.heat.report import branch_dict, heat_parts, warm_up_dict
 from rollnip.io.result import result_text, write_result
+
+if TYPE_CHECKING:
+    from rollnip.heat import Branch, HeatSolution, WarmUp
 
 
 def heat_text(
@@ -42,6 +43,8 @@ def write_heat(
 
 
 def _parts(solution: HeatSolution, course: WarmUp | None, branch: Branch | None) -> dict[str, Any]:
+    from rollnip.heat.report import branch_dict, heat_parts, warm_up_dict
+
     parts = {"title": solution.nip.title} | heat_parts(solution)
     if course is not None:
         parts["warm_up"] = warm_up_dict(course)

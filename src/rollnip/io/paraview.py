@@ -5,7 +5,6 @@ from __future__ import annotations
 import base64
 from collections.abc import Mapping
 from typing import Any
-from xml.sax.saxutils import quoteattr
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,7 +31,7 @@ def rectilinear(
     """
     x, y, z = places
     extent = f'"0 {x.size - 1} 0 {y.size - 1} 0 {z.size - 1}"'
-    first = "" if vectors is None else f" Vectors={quoteattr(vectors)}"
+    first = "" if vectors is None else f' Vectors="{vectors}"'
     count = x.size * y.size * z.size
     lines = [
         '<?xml version="1.0"?>',
@@ -41,7 +40,7 @@ def rectilinear(
         'header_type="UInt64">',
         f"<RectilinearGrid WholeExtent={extent}>",
         f"<Piece Extent={extent}>",
-        f"<PointData Scalars={quoteattr(scalars)}{first}>",
+        f'<PointData Scalars="{scalars}"{first}>',
         *(_data_array(name, values, values.size // count) for name, values in data.items()),
         "</PointData>",
         "<Coordinates>",
@@ -61,7 +60,7 @@ def _data_array(name: str, values: NDArray[Any], components: int) -> str:
     encoded = base64.b64encode(len(raw).to_bytes(8, "little") + raw).decode("ascii")
     kind = "Int32" if integer else "Float64"
     return (
-        f'<DataArray type="{kind}" Name={quoteattr(name)} NumberOfComponents="{components}" '
+        f'<DataArray type="{kind}" Name="{name}" NumberOfComponents="{components}" '
         f'format="binary">{encoded}</DataArray>'
     )
 

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rollnip._results.case import problem_hash
-from rollnip.face import FaceSolution
-from rollnip.face.report import face_parts
-from rollnip.heat import HeatSolution
-from rollnip.heat.report import heat_parts
-from rollnip.heat.state import SIDES
+
+if TYPE_CHECKING:
+    from rollnip.face import FaceSolution
+    from rollnip.heat import HeatSolution
 
 
 def case_parts(along: FaceSolution | None, warm: HeatSolution | None) -> dict[str, Any]:
@@ -24,6 +23,12 @@ def case_parts(along: FaceSolution | None, warm: HeatSolution | None) -> dict[st
     -------
     dict with "face" and "heat" where they are there, "case" and "case_hash"; {} without both.
     """
+    if along is None and warm is None:
+        return {}
+    from rollnip.face.report import face_parts
+    from rollnip.heat.report import heat_parts
+    from rollnip.heat.state import SIDES
+
     if warm is None:
         return {} if along is None else face_parts(along)
     heated = heat_parts(warm)

@@ -28,6 +28,10 @@ def test_paper_pulled_against_a_bare_roller_is_solved():
     assert solution.sheet.traction_upper == pytest.approx(0.2, abs=1e-9)
 
 
-def test_a_random_nip_that_was_left_unsettled():
-    case = random_case(10)
-    assert rn.solve(case.nip, rn.Model(geometry=case.geometry)).converged
+@pytest.mark.parametrize("number", [8, 17, 22, 57, 284])
+def test_random_nips_whose_stick_and_slip_circled_are_solved(number):
+    # Geared rollers, all of one interface slipping, stiff sheets beside bare rollers.
+    case = random_case(number)
+    solution = rn.solve(case.nip, rn.Model(geometry=case.geometry))
+    assert solution.converged
+    assert solution.model.geometry == case.geometry

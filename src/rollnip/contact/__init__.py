@@ -1,5 +1,6 @@
 """Contact: which nodes touch, stick or slip, and where zones of them end."""
 
+from rollnip.contact.complementarity import Complementary, Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones, states_on
 from rollnip.contact.free_ends import GivenStates, HeldContact, Layout
@@ -32,6 +33,7 @@ from rollnip.contact.problem import (
 
 __all__ = [
     "CREEP_TO_EDGE",
+    "Complementary",
     "ContactProblem",
     "ContactState",
     "ContactZone",
@@ -45,6 +47,7 @@ __all__ = [
     "GridProblem",
     "GridState",
     "HeldContact",
+    "Inequalities",
     "Layout",
     "Safeguarded",
     "State",
@@ -62,6 +65,7 @@ __all__ = [
     "graded_nodes",
     "grid_intervals",
     "influence_of",
+    "interior_point",
     "more_elements",
     "next_slip",
     "next_states",

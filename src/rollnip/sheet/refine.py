@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import pairwise
-from math import ceil, inf, log
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.model import Model
-from rollnip.nip import LineLoad, Nip, Traction
+from rollnip.nip import LineLoad, Nip
 from rollnip.rolling import Figures, PairKernels
 from rollnip.rolling.round import peak_pressure, scale_of_creepage
 from rollnip.sheet.powers import SheetPowers, sheet_powers
-from rollnip.sheet.search import Search, Standing, overlap, sheet_layer, violation
+from rollnip.sheet.search import Search, Standing, overlap, violation
 from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
@@ -29,10 +28,6 @@ FEWEST, FEWEST_WITH_SLIP = 2, 3  # sizes of mesh before an error is believed
 _MOST_FAILURES = 3  # sizes of mesh whose zones are clearly wrong; finer ones find none either
 _CLEARLY_WRONG = 1.0  # violation of the conditions of friction
 _ROUGHLY, _CLOSELY = 0.5, 0.1  # of the tolerance: what ends may be off on first and last sizes
-_SOFT = 0.05  # over the half-width: length over which a sheet that is easy to begin with yields
-_EASED = 8.0  # ratio of the stiffnesses of sheets that are solved one after the other
-_SOFTER = tuple(4.0**-power for power in (5, 4, 3, 2, 1))  # of sheets whose zones lead to others
-_LIGHTER = (0.0, 0.25, 0.5, 0.7, 0.85)  # of the pulls whose zones lead to those of the whole
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
 # Least error of each figure over its scale, times the square of the number of elements; measured
@@ -139,14 +134,10 @@ class Refined:
 
 def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Refined:
     """Solve on ever finer meshes until the estimated errors are below the tolerance."""
-    search = Search(nip, model, kernels)
-    zones, stand, count = Zones.sticking(half_width), None, float(FIRST_COUNT)
+    search, count = Search(nip, model, kernels), float(FIRST_COUNT)
     history: list[tuple[float, SheetFigures, Zones]] = []
     best: Refined | None = None
-    for stiffer in _easier(nip, half_width):
-        eased = replace(search, nip=stiffer).begun(zones, FIRST_COUNT)
-        zones = eased.zones
-    stand = _begun(search, zones, Zones.sticking(half_width))
+    stand = search.begun(half_width, FIRST_COUNT)
     zones = stand.zones
     failures = 0
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
@@ -181,76 +172,6 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return best
-
-
-def _begun(search: Search, zones: Zones, sticking: Zones) -> Standing:
-    """Return a first solution of first order, if need be by way of easier nips.
-
-    In a stiff sheet each shear pulls at all others, and the look for stick and slip may circle.
-    Under a soft one both interfaces are nearly on their own, and without a pull little slips; the
-    zones of each such nip lead to those of the next. These begin from ``sticking``.
-    """
-    try:
-        first: Standing | None = search.begun(zones, FIRST_COUNT)
-    except np.linalg.LinAlgError:
-        first = None
-    if first is not None and first.stands_still:
-        return first
-    found = [] if first is None else [first]
-    for nips in (_softer(search.nip), _lighter(search.nip)):
-        zones = sticking
-        for nip in [*nips, search.nip]:
-            with suppress(np.linalg.LinAlgError):
-                stand = replace(search, nip=nip).begun(zones, FIRST_COUNT)
-                zones = stand.zones
-                if nip is search.nip:
-                    found.append(stand)
-        if found and found[-1].stands_still:
-            return found[-1]
-    if not found:
-        raise np.linalg.LinAlgError("no way to a first solution")
-    return min(found, key=violation)
-
-
-def _softer(nip: Nip) -> list[Nip]:
-    """Return nips with softer sheets, the softest first, across the thickness as they are."""
-    sheet = nip.sheet
-    assert sheet is not None
-    across = sheet.modulus if sheet.modulus_thickness is None else sheet.modulus_thickness
-    soft = [
-        replace(sheet, modulus=share * sheet.modulus, modulus_thickness=across) for share in _SOFTER
-    ]
-    return [replace(nip, sheet=one) for one in soft]
-
-
-def _lighter(nip: Nip) -> list[Nip]:
-    """Return nips with smaller tensions and a smaller traction, the smallest first."""
-    sheet, tangential = nip.sheet, nip.tangential
-    assert sheet is not None
-    out = []
-    for share in _LIGHTER:
-        pulled = {name: share * getattr(sheet, name) for name in ("tension_in", "tension_out")}
-        driven = tangential
-        if isinstance(tangential, Traction):
-            driven = Traction(share * tangential.traction)
-        out.append(replace(nip, sheet=replace(sheet, **pulled), tangential=driven))
-    return out
-
-
-def _easier(nip: Nip, half_width: float) -> list[Nip]:
-    """Return nips with stiffer sheets, the stiffest first, whose zones lead to those of the nip.
-
-    Under a sheet much softer than the coverings both interfaces pass on the same shear, and where
-    all sticks neither tells which of them slips.
-    """
-    sheet = nip.sheet
-    assert sheet is not None
-    times = _SOFT * half_width / sheet_layer(nip)
-    steps = ceil(log(times) / log(_EASED)) if times > 1.0 else 0
-    return [
-        replace(nip, sheet=replace(sheet, modulus=sheet.modulus * times ** ((steps - i) / steps)))
-        for i in range(steps)
-    ]
 
 
 def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:

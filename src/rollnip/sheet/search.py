@@ -16,19 +16,20 @@ from numpy.typing import NDArray
 
 from rollnip.contact import (
     State,
-    States,
     cosine_nodes,
     crowding_of,
     elements_of_zones,
     subdivided,
 )
 from rollnip.model import Model
-from rollnip.nip import Nip
+from rollnip.nip import Nip, Torque
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
+from rollnip.sheet.moves import Moves
+from rollnip.sheet.settled import settled
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import (
     SIGNS,
@@ -45,10 +46,13 @@ Array = NDArray[np.float64]
 
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
+_NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
 _PLACED = 0.5  # of the tolerance: what an end may be off on a first mesh, over the width
 _MOST_MESHES = 14
 _MOST_CHANGES = 5  # of zones, on meshes of one size
-_MOST_SLIPS = 30  # linear systems of one look for stick and slip
+_REACH = 1.12  # half of the first mesh over the half-width of the rollers alone
+_WIDER = 1.5  # times the reach, where the contact does not fit in
+_MOST_REACHES = 4
 _MOST_TURNS = 25
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
 _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
@@ -92,16 +96,31 @@ class Search:
     model: Model
     kernels: PairKernels
 
-    def begun(self, zones: Zones, count: int) -> Standing:
+    def begun(self, half_width: float, count: int) -> Standing:
         """Find a first solution, without terms that depend on it but a traction for a torque.
 
         Ends of zones that are far off leave singular tractions, under which such terms mean
-        nothing.
+        nothing. ``half_width``: about that of the nip [mm].
         """
         plain = replace(self, model=replace(self.model, geometry="linear"))
-        stand = plain.placed(zones, count, None)
+        stand = plain.placed(plain._first_zones(half_width, count), count, None)
         lagged = lagged_terms(stand.problem, self.model.geometry, stand.state)
         return replace(stand, lagged=lagged)
+
+    def _first_zones(self, half_width: float, count: int) -> Zones:
+        """Return the zones of a mesh that reaches beyond the contact."""
+        reach, shape = _REACH * half_width, (np.array([count]), (1.0,))
+        for _ in range(_MOST_REACHES):
+            problem = self._problem(Zones.sticking(reach), shape, None)
+            lagged = first_lagged(problem)
+            state = settled(problem, lagged, half_width)
+            if isinstance(self.nip.tangential, Torque):
+                lagged = lagged_terms(problem, self.model.geometry, state)
+                state = settled(problem, lagged, half_width)
+            if state.states[0] == state.states[-1] == State.FREE:
+                break
+            reach *= _WIDER
+        return Zones.around(problem.mesh.inner, state, problem.frictions)
 
     def placed(
         self, zones: Zones, count: int, before: Standing | None, closely: float = _PLACED
@@ -115,7 +134,7 @@ class Search:
         known = 1.0 if before is None else min(before.off, 1.0)
         elements: NDArray[np.intp] | None = None
         crowding: tuple[float, ...] = ()
-        stand = before
+        stand, moves = before, Moves[Zones]()
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().aligned()
             if not zones.is_proper:
@@ -132,11 +151,14 @@ class Search:
             asked = zones.moved(problem, stand.state)
             off = asked.distance(zones)
             known = min(known, off)
+            is_met = violation(stand) <= self._slack
             rough = off > _FAIRLY_PLACED and not changes
-            if rough or violation(stand) <= self._slack:
-                if off <= placed and stand.stands_still and is_fine:
+            # Without a violation zones are doubted once; with one, as soon as no end moves.
+            sure = changes > 0 if is_met else off > placed
+            if rough or (is_met and sure) or ((is_met or sure) and self._agrees(stand)):
+                if off <= placed and stand.stands_still and is_fine and is_met:
                     return replace(stand, zones=asked, off=off)
-                zones = asked
+                zones = asked if off > _NEARLY_PLACED else moves.next(zones, asked)
                 continue
             changes += 1
             if changes > _MOST_CHANGES:
@@ -204,50 +226,44 @@ class Search:
     def _slack(self) -> float:
         return min(self.model.tolerance, _SLACK)
 
+    def _agrees(self, stand: Standing) -> bool:
+        """Return whether the states that a solution calls for make the same zones as its own."""
+        wanted = next_slip(stand.problem, stand.state, stand.lagged, self._slack)
+        state = replace(stand.state, states=wanted[0], states_lower=wanted[1])
+        problem, zones = stand.problem, stand.zones
+        found = Zones.found(problem.mesh.inner, state, problem.frictions, zones.edges)
+        return found is not None and found.without_slivers().is_like(zones)
+
     def _other(self, stand: Standing, edges: Zones) -> tuple[Standing, Zones] | None:
         """Find other zones between known edges, node by node; None where there are none."""
-        problem, steps = stand.problem, stand.steps
-        states = next_slip(problem, stand.state, stand.lagged, self._slack)
-        seen: set[bytes] = set()
-        state = stand.state
-        for _ in range(_MOST_SLIPS):
-            state = problem.solve(_with_stick(states), stand.lagged)
-            steps += 1
-            ahead = next_slip(problem, state, stand.lagged, self._slack)
-            if np.array_equal(ahead, states):
-                break
-            seen.add(states.tobytes())
-            if ahead.tobytes() in seen:
-                first = np.flatnonzero((ahead != states).reshape(-1))[0]
-                single = states.copy()
-                single.reshape(-1)[first] = ahead.reshape(-1)[first]
-                ahead = single
-            states = ahead
+        problem = stand.problem
+        state = settled(problem, stand.lagged, 0.5 * stand.zones.width)
         zones = Zones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
         if zones is None:
             return None
-        return replace(stand, state=state, steps=steps), zones
+        return replace(stand, state=state, steps=stand.steps + state.steps), zones
 
 
 def violation(stand: Standing) -> float:
     """Return how badly a solution violates the conditions of friction, relative.
 
-    The parts are shear beyond the traction bound over its largest value, and slip with its own
-    shear: the distance slipped so in a piece, over a twentieth of the nip's slope times its width
-    or the larger creepage times it.
+    The parts are the traction that a piece in stick carries beyond the traction bound, over what
+    friction carries at most; and slip with its own shear: the distance slipped so in a piece, over
+    a twentieth of the nip's slope times its width or the larger creepage times it.
     """
     state, problem = stand.state, stand.problem
     creeps = problem.gap_and_creeps(state, stand.lagged)[1:]
-    peak, width = float(np.max(state.pressure)), float(np.ptp(problem.mesh.inner))
-    if not peak > 0.0:
+    weights, width = problem.mesh.weights, float(np.ptp(problem.mesh.inner))
+    load = float(weights @ state.pressure)
+    if not load > 0.0:
         return inf
     slope = 0.5 * width * problem.nip.curvature
     allowed = width * max(0.05 * slope, abs(state.creepage + state.creepage_lower))
     parts = [0.0]
     for side, friction in enumerate(problem.frictions):
         states, bound = state.both_states[side], friction * np.maximum(state.pressure, 0.0)
-        over = (np.abs(state.shears[side]) - bound)[states == State.STICK]
-        parts.append(float(np.max(over, initial=0.0)) / (friction * peak))
+        beyond = np.maximum(np.abs(state.shears[side]) - bound, 0.0) * weights
+        parts.append(longest_run(np.where(states == State.STICK, beyond, 0.0)) / (friction * load))
         signs = SIGNS.take(states)
         slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
         wrong = np.where(slips, np.maximum(-signs[:-1] * creeps[side, :-1], 0.0), 0.0)
@@ -319,15 +335,6 @@ def squeeze_layer(nip: Nip) -> float:
     tops = [roller.materials[0] for roller in (nip.upper, nip.lower) if roller.materials]
     yielding = sum((1.0 - top.poisson**2) / top.glassy_modulus for top in tops)
     return sheet.thickness * (1.0 + 0.5 * sheet.thickness * yielding / sheet.squeeze)
-
-
-def _with_stick(states: States) -> States:
-    """Keep one node of each interface in stick: material sticks first where it comes in."""
-    out = states.copy()
-    for row in out:
-        if not (row == State.STICK).any():
-            row[np.flatnonzero(row != State.FREE)[-1]] = State.STICK
-    return out
 
 
 def carried(stand: Standing, problem: SheetProblem) -> Lagged:

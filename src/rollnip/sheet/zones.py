@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactState, Layout, States
+from rollnip.contact import ContactState, Layout, States, contact_zones
 from rollnip.sheet.system import SheetProblem, SheetState
 
 Array = NDArray[np.float64]
@@ -63,6 +63,16 @@ class Zones:
         """Return the breaks of both interfaces together, each once, (m,) [mm]."""
         return np.unique(np.concatenate([side.breaks for side in self.sides]))
 
+    @property
+    def ends(self) -> Array:
+        """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
+        return np.concatenate([side.breaks for side in self.sides])
+
+    def with_ends(self, ends: Array) -> Zones:
+        """Return the same zones between other breaks, in the order of ``ends``."""
+        n = self.upper.breaks.size
+        return Zones(Layout(ends[:n], self.upper.states), Layout(ends[n:], self.lower.states))
+
     def is_like(self, other: Zones) -> bool:
         """Return whether the other zones have the same states in the same order."""
         pairs = zip(self.sides, other.sides, strict=True)
@@ -97,8 +107,8 @@ class Zones:
     def moved(self, problem: SheetProblem, state: SheetState) -> Zones:
         """Return the zones with their breaks moved to where a solution with them puts them.
 
-        A transition moves at most half way to its neighbours, and stays where the solution does not
-        say where it belongs: a zone that vanishes does so in several steps.
+        A transition that is asked to move more than half way to its neighbours stays, as where the
+        solution does not say where it belongs: whether there is such a zone is asked otherwise.
         """
         x = problem.mesh.inner
         asked = [
@@ -111,16 +121,35 @@ class Zones:
         trailing, leading = float(asked[0][0]), float(asked[0][-1])
         if not (np.isfinite(trailing) and np.isfinite(leading) and trailing < leading):
             trailing, leading = edges
-        sides = [
-            Layout(held(side.breaks, wanted, (trailing, leading)), side.states)
-            for side, wanted in zip(self.sides, asked, strict=True)
-        ]
+        sides = []
+        for side, wanted in zip(self.sides, asked, strict=True):
+            middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])
+            inner = wanted[1:-1]
+            inner[(inner < middles[:-1]) | (inner > middles[1:])] = np.nan
+            sides.append(Layout(held(side.breaks, wanted, (trailing, leading)), side.states))
         return Zones(sides[0], sides[1])
 
     def without_slivers(self) -> Zones:
         """Return the zones without those too short to matter."""
         sides = [without_slivers_in(side, SLIVER * self.width) for side in self.sides]
         return Zones(sides[0], sides[1])
+
+    @classmethod
+    def around(cls, x: Array, state: SheetState, frictions: tuple[float, float]) -> Zones:
+        """Return the zones of nodal states on a mesh that reaches beyond the contact.
+
+        One zone of stick where the contact or its zones are in pieces.
+        """
+        whole = [
+            contact_zones(x, _as_contact(state, number), friction)
+            for number, friction in enumerate(frictions)
+        ]
+        edges = whole[0][0].start, whole[0][-1].stop
+        upper, lower = (Layout.of(zones) for zones in whole)
+        if upper is None or lower is None:
+            stick = Layout(np.array(edges), Layout.sticking(1.0).states)
+            return cls(stick, stick)
+        return cls(upper, lower)
 
     @classmethod
     def found(

@@ -1,0 +1,106 @@
+"""Contact, stick and slip of both interfaces of a sheet, sought together on one mesh."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import Inequalities, State, States, interior_point
+from rollnip.nip import Creepage, LineLoad
+from rollnip.sheet.system import Lagged, SheetProblem, SheetState
+
+Array = NDArray[np.float64]
+
+_LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
+
+
+def settled(problem: SheetProblem, lagged: Lagged, half_width: float) -> SheetState:
+    """Return the solution on a mesh whose contact, stick and slip meet all conditions.
+
+    ``half_width``: about that of the contact [mm].
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        where none is found.
+    """
+    n = problem.mesh.inner.size
+    whole, start = _inequalities(problem, lagged, half_width)
+    found = interior_point(whole, start)
+    p, above, below = found.unknowns[: 3 * n].reshape(3, n)
+    approach, creepage, lower = found.unknowns[3 * n :].tolist()
+    states = found.states.reshape(2, n).copy()
+    states[:, ~found.touches] = State.FREE
+    _part(states, np.stack([above, below]))
+    return SheetState(
+        states=states[0],
+        pressure=np.where(found.touches, p, 0.0),
+        shear=above,
+        approach=approach,
+        creepage=creepage,
+        steps=found.steps,
+        settled=True,
+        states_lower=states[1],
+        shear_lower=below,
+        creepage_lower=lower,
+    )
+
+
+def _inequalities(
+    problem: SheetProblem, lagged: Lagged, half_width: float
+) -> tuple[Inequalities, Array]:
+    """Return gaps and creeps of a mesh and their bounds, and where to begin."""
+    nip, n, weights = problem.nip, problem.mesh.inner.size, problem.mesh.weights
+    matrix, right = np.zeros((3 * n + 3, 3 * n + 3)), np.zeros(3 * n + 3)
+    matrix[: 3 * n, : 3 * n], right[: 3 * n] = problem.matrix, problem.right(lagged).reshape(-1)
+    matrix[:n, -3], matrix[n : 2 * n, -2], matrix[2 * n : -3, -1] = -1.0, problem.dx, problem.dx
+    depth, slope = 0.5 * nip.curvature * half_width**2, nip.curvature * half_width
+    guess, pressure = _guessed(problem, half_width, depth)
+    force = pressure * half_width
+    scales = np.concatenate([np.full(n, depth), np.tile(slope * problem.dx, 2), np.full(3, force)])
+    if isinstance(nip.normal, LineLoad):
+        matrix[-3, :n], right[-3] = weights, -(nip.normal.load + lagged.lean)
+    else:
+        matrix[-3, -3], right[-3], scales[-3] = 1.0, -nip.normal.approach, depth
+    pulled = problem.sheet.tension_in - problem.sheet.tension_out
+    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3], right[-2] = weights, -weights, -pulled
+    if isinstance(nip.tangential, Creepage):
+        matrix[-1, -2:], right[-1], scales[-1] = 1.0, -nip.tangential.creepage, slope
+    else:
+        assert lagged.traction is not None
+        matrix[-1, 2 * n : -3], right[-1] = weights, -lagged.traction
+    sizes = np.concatenate([np.full(3 * n, pressure), [depth, slope, slope]])
+    places = np.arange(3 * n)
+    return (
+        Inequalities(
+            matrix=matrix,
+            right=right,
+            pressures=places[:n],
+            shears=places[n:],
+            bounding=np.tile(places[:n], 2),
+            frictions=np.repeat(problem.frictions, n),
+            sizes=sizes,
+            scales=scales,
+        ),
+        np.concatenate([guess, np.zeros(2 * n), [depth, 0.0, 0.0]]),
+    )
+
+
+def _guessed(problem: SheetProblem, half_width: float, depth: float) -> tuple[Array, float]:
+    """Return a pressure like an ellipse that presses the rollers as deep as they overlap."""
+    x, n = problem.mesh.inner, problem.mesh.inner.size
+    middle = 0.5 * (x[0] + x[-1])
+    ellipse = np.sqrt(np.maximum(1.0 - ((x - middle) / half_width) ** 2, 0.0))
+    pressed = problem.matrix[:n, :n] @ ellipse
+    inside = np.flatnonzero(ellipse)
+    rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
+    highest = depth / rise if rise > 0.0 else depth / float(np.abs(pressed).max())
+    return highest * np.maximum(ellipse, _LEAST), highest
+
+
+def _part(states: States, shears: Array) -> None:
+    """Let the node of less shear stick where slip turns from one sign to the other."""
+    for row, shear in zip(states, np.abs(shears), strict=True):
+        for i in np.flatnonzero((row[:-1] > State.STICK) & (row[1:] > State.STICK)):
+            if row[i] != row[i + 1] and row[i] > State.STICK:
+                row[i + int(shear[i + 1] < shear[i])] = State.STICK

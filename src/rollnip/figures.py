@@ -17,6 +17,7 @@ from rollnip._units import format_quantity
 __all__ = [
     "CLAIMED",
     "FIGURES",
+    "INTERFACE_FIGURES",
     "PROFILES",
     "ROUNDING",
     "Dimension",
@@ -385,3 +386,9 @@ CLAIMED: Mapping[str, Figure] = {one.name: one for one in _SCALARS if one.claime
 
 PROFILES: Mapping[str, Figure] = {one.key: one for one in _CURVES}
 """The distributions over x of a result by key, in the order of the JSON."""
+
+INTERFACE_FIGURES = (
+    "depth", "shear_min", "shear_min_x", "shear_max", "shear_max_x", "peel_min", "peel_min_x",
+    "peel_max", "peel_max_x", "shear_range", "peel_range", "von_mises_max",
+)  # fmt: skip
+"""The numbers of an ``InterfaceStress`` that stand in files."""

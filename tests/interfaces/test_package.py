@@ -9,6 +9,11 @@ import pytest
 
 import rollnip as rn
 
+# loading these takes longer than solving a nip
+SLOW_SCIPY = {
+    f"scipy.{one}"
+    for one in ("integrate", "interpolate", "ndimage", "optimize", "sparse", "spatial", "stats")
+}
 HEAVY = ("pydantic", "typer", "rich", "matplotlib", "xarray", "pandas", "h5py")
 
 
@@ -30,14 +35,16 @@ def test_import_loads_only_numpy_and_scipy():
     assert loaded.isdisjoint(HEAVY)
 
 
-def test_the_solver_loads_no_part_of_scipy_that_a_plain_nip_does_not_need():
-    loaded = loaded_after("import rollnip as rn; rn.solve", parts=2)
-    assert loaded.isdisjoint(f"scipy.{one}" for one in ("interpolate", "optimize", "stats"))
+@pytest.mark.parametrize("code", ["import rollnip as rn; rn.solve", "import rollnip.sweeps"])
+def test_what_solves_nips_loads_no_part_of_scipy_that_most_do_not_need(code):
+    loaded = loaded_after(code, parts=2)
+    assert loaded.isdisjoint(SLOW_SCIPY)
 
 
-def test_reading_a_case_loads_no_pictures():
-    loaded = loaded_after("import rollnip as rn; rn.read_case, rn.write_result")
-    assert loaded.isdisjoint({"matplotlib", "typer", "xarray", "h5py"})
+def test_reading_a_case_loads_no_pictures_and_no_solver():
+    """So that a wrong case is answered, and a schema printed, at once."""
+    loaded = loaded_after("import rollnip as rn; rn.read_case, rn.write_result", parts=2)
+    assert loaded.isdisjoint({"matplotlib", "typer", "xarray", "h5py", "scipy", "rollnip.solver"})
 
 
 def test_a_plain_nip_on_the_command_line_loads_no_other_study(tmp_path):
@@ -54,10 +61,7 @@ def test_a_plain_nip_on_the_command_line_loads_no_other_study(tmp_path):
         f"rollnip.{one}"
         for one in ("face", "heat", "patch", "sheet", "rough", "sweeps", "plots", "design", "web")
     )
-    assert loaded.isdisjoint(
-        f"scipy.{one}"
-        for one in ("integrate", "interpolate", "ndimage", "optimize", "sparse", "spatial", "stats")
-    )
+    assert loaded.isdisjoint(SLOW_SCIPY)
     assert loaded.isdisjoint({"matplotlib", "xarray", "h5py", "urllib.request"})
 
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from rollnip.figures import CLAIMED, FIGURES, PROFILES, Figure
-from rollnip.interior import INTERFACE_FIGURES
+from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PROFILES, Figure
 from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 
 _NAN = float("nan")

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from math import isfinite
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rollnip._results.case import case_tree, problem_hash
 from rollnip._results.summary import inside_notes
-from rollnip.figures import CLAIMED, FIGURES, PROFILES
-from rollnip.interior import INTERFACE_FIGURES
-from rollnip.rolling import Zone
+from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PROFILES
 from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
+
+if TYPE_CHECKING:
+    from rollnip.rolling import Zone
 
 SCHEMA = 1
 

@@ -8,7 +8,6 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import brentq, minimize_scalar
 
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.find import solve_face
@@ -104,6 +103,8 @@ def even_crown(
     def uneven(height: float) -> float:
         crowned = with_crown(nip, roller, Crown(height))
         return solve_face(crowned, face, model, law=law).largest_departure
+
+    from scipy.optimize import minimize_scalar
 
     guess = 2.0 * _rise(radial)
     reach = 0.3 * abs(guess) + 1e-6
@@ -235,6 +236,8 @@ def load_range(
         return None
     first, last = int(good[0]), int(good[-1])
 
+    from scipy.optimize import brentq
+
     def end(a: int, b: int) -> float:
         # inf has no root: a large number does.
         return float(
@@ -315,6 +318,8 @@ def plain_wall(
         return PlainWall(roller, within, None, None, solid)
     if uneven(core - 2.0 * thinnest) <= within:
         return PlainWall(roller, within, core - 2.0 * thinnest, thinnest, solid)
+    from scipy.optimize import brentq
+
     bore = brentq(
         lambda at: min(uneven(float(at)), 10.0) - within, 0.0, core - 2.0 * thinnest, rtol=1e-4
     )

@@ -12,7 +12,6 @@ from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import least_squares
 from scipy.special import chdtrc, ndtri
 
 from rollnip._errors import InvalidInputError, require_positive
@@ -188,6 +187,8 @@ def read_impressions(
             for i, s in zip(impressions, solved(values), strict=True)
         ]
         return np.concatenate(parts)
+
+    from scipy.optimize import least_squares
 
     begin = np.array([start[u] / scales[u] for u in unknowns])
     low = [1e-3 if u in ("load", "modulus") else -np.inf for u in unknowns]

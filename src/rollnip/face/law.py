@@ -16,16 +16,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import sqrt
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 from rollnip.face.covering import Axis, Coverings, weights_of
 from rollnip.face.lattice import Lattice
 from rollnip.face.rows import NipRows
 from rollnip.model import Model
 from rollnip.nip import Nip
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline, RectBivariateSpline
 
 Array = NDArray[np.float64]
 
@@ -262,6 +265,8 @@ class NipLaw:
         loss goes with the square of s, on either side of free rolling with another factor: its root
         is taken, and no spline goes through the kink.
         """
+        from scipy.interpolate import CubicSpline, RectBivariateSpline
+
         knots = np.log(self.loads)
         values = dict(self.table)
         values |= {name: np.log(values[name]) for name in _POSITIVE}
@@ -300,7 +305,7 @@ class NipLaw:
         is_beyond = bool(np.any(farther) or np.any(slipped))
         value, by_load, by_s, mixed = (np.zeros_like(log_load) for _ in range(4))
         for spline, share in zip(self._splines[name], places.weights.T, strict=True):
-            if isinstance(spline, CubicSpline):
+            if self.s.size == 1:
                 value = value + share * spline(near)
                 by_load = by_load + share * spline(near, 1)
                 continue

@@ -14,8 +14,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.integrate import solve_ivp
-from scipy.interpolate import PchipInterpolator
 
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.cooling import HeatBalance
@@ -206,6 +204,8 @@ class _Path:
         self._interpolate()
 
     def _interpolate(self) -> None:
+        from scipy.interpolate import PchipInterpolator
+
         rows = np.array([_packed(state) for state in self.states])
         self._rows = rows if len(rows) == 1 else PchipInterpolator(self.nodes, rows, axis=0)
 
@@ -269,6 +269,8 @@ class _Path:
 
         def jacobian(_: float, cells: Array) -> Array:
             return self._rates(conduction.system(_over(self.row(cells), n))[0])
+
+        from scipy.integrate import solve_ivp
 
         done = solve_ivp(
             slope,

@@ -12,22 +12,6 @@ from rollnip.interior.finite import FiniteFields
 from rollnip.interior.tractions import Array, SurfaceTractions
 from rollnip.rollers import Roller
 
-INTERFACE_FIGURES = (
-    "depth",
-    "shear_min",
-    "shear_min_x",
-    "shear_max",
-    "shear_max_x",
-    "peel_min",
-    "peel_min_x",
-    "peel_max",
-    "peel_max_x",
-    "shear_range",
-    "peel_range",
-    "von_mises_max",
-)
-"""The numbers of an ``InterfaceStress`` that stand in summaries and files."""
-
 
 @dataclass(frozen=True, slots=True)
 class InterfaceStress:

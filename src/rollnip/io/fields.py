@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,9 @@ from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
 from rollnip.io.paraview import rectilinear
 from rollnip.io.result import result_dict
 from rollnip.rollers import Roller
-from rollnip.solution import Solution
+
+if TYPE_CHECKING:
+    from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
 

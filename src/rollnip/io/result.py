@@ -5,12 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from rollnip._files import check_target, write_whole
 from rollnip._results.tree import result_dict
 from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
-from rollnip.solution import Solution
+
+if TYPE_CHECKING:
+    from rollnip.solution import Solution
 
 __all__ = ["check_result_target", "result_dict", "result_text", "write_result"]
 

@@ -20,7 +20,6 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 from scipy.fft import irfft2, next_fast_len, rfft2
-from scipy.interpolate import CubicSpline
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.compliance import flat_fields, shear_fields
@@ -283,6 +282,8 @@ class _Medium:
                 for i in range(0, k.size, _AT_ONCE)
             ]
             return np.concatenate(parts, axis=1).reshape(8, *k.shape)
+        from scipy.interpolate import CubicSpline
+
         places = np.geomspace(float(k.min()), float(k.max()) * 1.000001, _TABLE)
         table = CubicSpline(np.log(places), self._computed(places, 0.0 * places).real, axis=-1)
         return np.asarray(table(np.log(k)))

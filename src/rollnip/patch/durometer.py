@@ -13,7 +13,6 @@ from dataclasses import dataclass
 from math import inf, radians, tan
 
 import numpy as np
-from scipy.optimize import brentq
 
 from rollnip._blas import one_blas_thread
 from rollnip._errors import InvalidInputError, require_positive
@@ -94,6 +93,8 @@ class Indentation:
 
         if not wrong(_LOWEST) > 0.0 > wrong(_HIGHEST):
             raise InvalidInputError("`layers` must read between 1 and 99 Shore A.")
+        from scipy.optimize import brentq
+
         return float(brentq(wrong, _LOWEST, _HIGHEST, xtol=1e-3))
 
 
@@ -157,6 +158,8 @@ def least_thickness(material: Material, within: float = 1.0) -> float:
         )
     if wrong(low) <= 0.0:
         return _THINNEST
+    from scipy.optimize import brentq
+
     return float(np.exp(brentq(wrong, low, high, xtol=_SAME_THICKNESS)))
 
 

@@ -17,15 +17,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from math import pi
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 from scipy.special import j0, j1
 
 from rollnip.compliance import flat_compliance, half_space_limit, shear_compliance
 from rollnip.rollers import Roller
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 Array = NDArray[np.float64]
 
@@ -122,6 +124,8 @@ def pair_kernel(upper: Roller, lower: Roller, reach: float) -> PairKernel:
         if roller.layers:
             tables.append((radial_table(roller, reach), sign))
     if alike and len(tables) == 2:
+        from scipy.interpolate import CubicSpline
+
         table = tables[0][0]
         twice = CubicSpline(table.spline.x, 2.0 * table.spline(table.spline.x) * _EVEN)
         tables = [(RadialTable(table.reach, table.finest, twice), 0.0)]
@@ -182,6 +186,8 @@ def tabulated(
         zero, one = j0(kr), j1(kr)
         two = np.where(kr > 1e-4, 2.0 * one / np.maximum(kr, 1e-4) - zero, kr * kr / 8.0)
         values[part] = np.stack([zero @ s, zero @ t, two @ t, zero @ z, one @ x], axis=1)
+    from scipy.interpolate import CubicSpline
+
     return [
         RadialTable(reach, thinnest, CubicSpline(r, values[..., i])) for i in range(rests.shape[0])
     ]

@@ -21,7 +21,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.interpolate import CubicSpline
 
 from rollnip.compliance import flat_compliance, half_space_limit, shear_compliance
 from rollnip.materials import Material
@@ -273,6 +272,8 @@ def _tables(roller: Roller, k: Array, rests: Array, reach: float) -> list[Radial
         return []
     thinnest = min(layer.thickness for layer in roller.layers)
     waves, weights = wave_numbers(thinnest, reach)
+    from scipy.interpolate import CubicSpline
+
     spline = CubicSpline(np.log(k), rests, axis=-1)
     fine = spline(np.log(np.clip(waves, k[0], k[-1])))
     return tabulated((waves, weights), fine, thinnest, reach)

@@ -18,14 +18,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import CubicSpline
 from scipy.linalg import cho_solve_banded, cholesky_banded
 
 from rollnip.patch.kernels import waves_of
 from rollnip.rollers import Roller
+
+if TYPE_CHECKING:
+    from scipy.interpolate import CubicSpline
 
 Array = NDArray[np.float64]
 Indices = NDArray[np.intp]
@@ -107,6 +110,8 @@ class EndedCovering:
             exact = plane * thickness / float(np.sum(column.compliance(k, 0)))
             rest = exact * strip.compliance(k, first) - plane * mass
             values.append(np.cosh(place) * rest)
+        from scipy.interpolate import CubicSpline
+
         still = np.zeros_like(values[0])
         spline = CubicSpline(places, np.array(values), bc_type=((1, still), "not-a-knot"))
         return cls(roller, y, spline, top)

@@ -44,7 +44,11 @@ _BENT = 81.0 / 175.0  # share of the springs' compliance under pressures that di
 
 
 def squeezed(
-    sheet: Sheet, x: Array, nodes: Array, tractions: Array, *, bent: bool = False
+    sheet: Sheet,
+    x: Array,
+    nodes: Array,
+    tractions: Array,
+    shares: tuple[float, float] = (1.0, 0.0),
 ) -> Array:
     """Return by how much pressures make the sheet thinner at some places, (m, s) [mm].
 
@@ -54,13 +58,13 @@ def squeezed(
     x : (m,) places [mm].
     nodes : (N + 1,) between which pressures are straight lines, 0 at both ends [mm].
     tractions : (N - 1, s) sets of pressures at nodes[1:-1] [MPa].
-    bent :
-        whether the pressures on both faces are opposite: then how far both faces move against the
-        pressure beside what a plate moves.
+    shares :
+        of the loss of thickness under equal pressures on both faces, and of how far both faces move
+        against opposite pressures beside what a plate moves.
     """
     padded = np.zeros((nodes.size, tractions.shape[1]))
     padded[1:-1] = tractions
-    made = (_BENT if bent else 1.0) * _straight(x, nodes, padded)
+    made = (shares[0] + _BENT * shares[1]) * _straight(x, nodes, padded)
     away = np.abs(x[:, None] - nodes[None, :])
     near = away < _FAR * sheet.thickness
     columns = near.any(axis=0)
@@ -69,7 +73,7 @@ def squeezed(
         slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
         slopes[1:-1] = np.diff(padded, axis=0) / np.diff(nodes)[:, None]
         turns = np.diff(slopes, axis=0)[columns]
-        spread = _spread(away[:, columns] / sheet.thickness, near[:, columns], bent)
+        spread = _spread(away[:, columns] / sheet.thickness, near[:, columns], shares)
         made += sheet.thickness * (spread @ turns)
     return np.asarray(sheet.squeeze * made)
 
@@ -84,28 +88,37 @@ def _straight(x: Array, nodes: Array, values: Array) -> Array:
     return np.asarray(weights[0] * values[at] + weights[1] * values[at + 1])
 
 
-def _spread(away: Array, near: NDArray[np.bool_], bent: bool) -> Array:
-    """Return the double integral of the share in space, less half of the distance, over h.
+def _spread(away: Array, near: NDArray[np.bool_], shares: tuple[float, float]) -> Array:
+    """Return the double integral of the shares in space, less half of the distance, over h.
 
     ``away``: distances over h; ``near``: where they are below `_FAR`, beyond which it is 0.
     """
     out = np.zeros(away.shape)
-    out[near] = _table(bent)(np.cbrt(away[near] / _FAR))
+    out[near] = _table(shares)(np.cbrt(away[near] / _FAR))
     return out
 
 
-@lru_cache(maxsize=2)
-def _table(bent: bool) -> CubicSpline:
+@lru_cache(maxsize=3)
+def _table(shares: tuple[float, float]) -> CubicSpline:
     # loads more than 200 modules, which a nip without a sheet does not need
     from scipy.interpolate import CubicSpline
 
-    number, sign = np.arange(1, _ROOTS + 1), -1.0 if bent else 1.0  # of sinh y + sign y = 0
+    place = np.linspace(0.0, 1.0, _PLACES)
+    values = sum(
+        share * _summed(sign, _FAR * place**3)
+        for share, sign in zip(shares, (1.0, -1.0), strict=True)
+        if share
+    )
+    return CubicSpline(place, values)
+
+
+def _summed(sign: float, away: Array) -> Array:
+    """Return the sum over the roots of sinh y + sign y = 0 at distances over h."""
+    number = np.arange(1, _ROOTS + 1)
     about = pi * (2.0 * number - 0.5 * sign)
     root = np.log(2.0 * about) + 1j * about
     for _ in range(20):  # Newton's method
         root = root - (np.sinh(root) + sign * root) / (np.cosh(root) + sign)
     cosh = np.cosh(root)
-    shares = -1j * 4.0 / root**3 * (cosh - sign) / (cosh + sign)
-    place = np.linspace(0.0, 1.0, _PLACES)
-    values = [2.0 * float(np.sum(shares * np.exp(1j * root * _FAR * t**3)).real) for t in place]
-    return CubicSpline(place, values)
+    parts = -1j * 4.0 / root**3 * (cosh - sign) / (cosh + sign)
+    return np.array([2.0 * float(np.sum(parts * np.exp(1j * root * one)).real) for one in away])

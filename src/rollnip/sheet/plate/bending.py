@@ -66,41 +66,37 @@ class Plate:
         """Moment per rotation of the sheet that its tension makes, 2 sqrt(D N) [N]."""
         return 2.0 * sqrt(self.stiffness * self.tension)
 
-    def height(self, x: Array) -> Array:
-        """Return K at some distances, the height per load [mm/(N/mm)]."""
+    def under_force(self, x: Array) -> tuple[Array, Array, Array]:
+        """Return what a force of 1 N/mm does to the plate at distances ``x`` from it [mm].
+
+        Returns
+        -------
+        Height of the middle, K and the shear of the sections [mm]; rotation of the sections, K';
+        curvature, K'' [1/mm].
+        """
         away = np.abs(x)
-        return self._scale(3) * self._rest(away, 3)
-
-    def slope(self, x: Array) -> Array:
-        """Return K', the slope per load [1/(N/mm)]."""
-        return np.sign(x) * self._scale(2) * self._rest(np.abs(x), 2)
-
-    def bend(self, x: Array) -> Array:
-        """Return K'', the curvature per load [1/mm/(N/mm)]."""
-        return self._scale(1) * self._rest(np.abs(x), 1)
-
-    def sheared(self, x: Array) -> Array:
-        """Return the height by the shear of sections per load [mm/(N/mm)]."""
-        return -0.5 * self.shear * np.abs(x)
-
-    def _scale(self, power: int) -> float:
-        length = self.length
-        return (length**power if length < inf else 1.0) / (2.0 * self.stiffness)
-
-    def _rest(self, away: Array, order: int) -> Array:
-        """Return what exp(-t) leaves after its terms below ``order``, with the sign of t^order."""
-        length = self.length
+        length, yielding = self.length, 0.5 / self.stiffness
         if length == inf:
-            return np.asarray(away**order / factorial(order))
-        t = away / length
-        short = t < _SHORT
-        out = np.empty(t.shape)
-        near = t[short]
-        series = np.zeros(near.shape)
-        for n in range(order + _TERMS, order - 1, -1):
-            series = series * -near + 1.0 / factorial(n)
-        out[short] = series * near**order
-        far = t[~short]
-        known = sum((-far) ** n / factorial(n) for n in range(order))
-        out[~short] = (-1.0) ** order * (np.exp(-far) - known)
-        return out
+            bend, slope, height = away, 0.5 * away**2, away**3 / 6.0
+        else:
+            bend, slope, height = _remainders(away / length)
+            bend, slope, height = length * bend, length**2 * slope, length**3 * height
+        height = yielding * height - 0.5 * self.shear * away
+        return height, yielding * np.copysign(slope, x), yielding * bend
+
+
+def _remainders(t: Array) -> tuple[Array, Array, Array]:
+    """Return what exp(-t) leaves after one, two and three terms of its series, all positive.
+
+    They are 1 - exp(-t), exp(-t) - 1 + t, and t^2/2 - t + 1 - exp(-t).
+    """
+    if t.max(initial=0.0) < _SHORT:  # differences would leave little but rounding
+        series = np.zeros(t.shape)
+        for n in range(3 + _TERMS, 2, -1):
+            series = series * -t + 1.0 / factorial(n)
+        third = series * t**3
+        second = 0.5 * t**2 - third
+        return t - second, second, third
+    first = -np.expm1(-t)
+    second = t - first
+    return first, second, 0.5 * t**2 - second

@@ -14,11 +14,12 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.plate.lagged import lost_inside, pull_of
-from rollnip.sheet.plate.search import PlateSearch, PlateStanding, overlap, violation
+from rollnip.sheet.plate.search import PlateAttempt, PlateSearch, overlap, violation
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.powers import SheetPowers
 from rollnip.sheet.refine import (
+    FEWEST,
     FEWEST_WITH_SLIP,
     FIRST_COUNT,
     GROWTH,
@@ -45,7 +46,7 @@ class PlateRefined:
     residual : how badly it violates the conditions.
     """
 
-    stand: PlateStanding
+    stand: PlateAttempt
     figures: SheetFigures
     errors: SheetFigures
     residual: float
@@ -66,7 +67,8 @@ def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float
     best: PlateRefined | None = None
     stand, failed = search.begun(half_width, FIRST_COUNT), 0
     while count <= MOST_COUNT:
-        stand = search.placed(stand.zones, round(count), stand)
+        if history or failed or model.geometry != "linear":
+            stand = search.placed(stand.zones, round(count), stand)
         figures = plate_figures(stand, model.geometry)
         here = (count, figures, stand.zones)
         errors = SheetFigures(errors_between(nip, [*history, here]))
@@ -76,7 +78,7 @@ def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float
             history.append(here)
             best = latest
             slips = any(side.states.size > 1 for side in stand.zones.sides)
-            enough = len(history) >= (FEWEST_WITH_SLIP if slips else 2)
+            enough = len(history) >= (FEWEST_WITH_SLIP if slips else FEWEST)
             if enough and max(left, ratio(nip, figures, errors)) <= model.tolerance:
                 return latest
             failed = 0
@@ -89,7 +91,7 @@ def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float
     return best
 
 
-def plate_figures(stand: PlateStanding, geometry: Geometry) -> SheetFigures:
+def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
     """Return the figures of a solution."""
     problem, state, meshes = stand.problem, stand.state, stand.problem.meshes
     upper = meshes[0]
@@ -113,7 +115,7 @@ def plate_figures(stand: PlateStanding, geometry: Geometry) -> SheetFigures:
     return SheetFigures(np.array([*first, *spent.array().tolist(), *last]))
 
 
-def plate_powers(stand: PlateStanding, geometry: Geometry) -> SheetPowers:
+def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
     """Return torques over radii and losses of a solution."""
     problem, state = stand.problem, stand.state
     return SheetPowers(
@@ -127,14 +129,14 @@ def plate_powers(stand: PlateStanding, geometry: Geometry) -> SheetPowers:
     )
 
 
-def _pushed(stand: PlateStanding, side: int) -> Array:
+def _pushed(stand: PlateAttempt, side: int) -> Array:
     """Return int q dx over the intervals of one interface but the last, (n - 1,) [N/mm]."""
     mesh, one = stand.problem.meshes[side], stand.problem.spreads[side]
     tails = one.tails(mesh.inner)[0]
     return np.asarray(-np.diff(tails, axis=0) @ stand.state.shear[side])
 
 
-def _slipped(stand: PlateStanding, side: int) -> float:
+def _slipped(stand: PlateAttempt, side: int) -> float:
     """Return what slip on one interface loses per rolled distance [N/mm]."""
     problem, states = stand.problem, stand.state.states[side]
     creep = problem.gaps_and_creeps(stand.state, stand.lagged)[side][1]
@@ -144,7 +146,7 @@ def _slipped(stand: PlateStanding, side: int) -> float:
     return float((_pushed(stand, side) * rate)[both].sum())
 
 
-def _into_sheet(stand: PlateStanding) -> float:
+def _into_sheet(stand: PlateAttempt) -> float:
     """Return the power of the shears on the faces of the sheet over V [N/mm].
 
     Its faces run at V_s (1 + e -+ h y''/2); "linear" keeps the products with the strains, which

@@ -37,7 +37,8 @@ Array = NDArray[np.float64]
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 1e-3  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
-_PLACED = 0.1  # of the tolerance: what an end may be off, over the width
+_CLOSELY = 0.1  # of the tolerance: what an end may be off, over the width
+_ROUGHLY = 1.0  # the same where a solution only begins another one
 _MOST_MESHES = 18
 _MOST_ROUGH = 12  # meshes in a row on which ends only move
 _MOST_CHANGES = 3  # of zones, before contact, stick and slip are sought together
@@ -48,8 +49,8 @@ _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where over
 
 
 @dataclass(frozen=True, slots=True)
-class PlateStanding:
-    """A solution on two meshes, and where it stands in the search.
+class PlateAttempt:
+    """A solution on two meshes between the ends of some zones, and how well these are placed.
 
     Attributes
     ----------
@@ -83,8 +84,12 @@ class _Moves:
     zones: PlateZones | None = None
     step: Array | None = None
 
-    def next(self, zones: PlateZones, asked: PlateZones) -> PlateZones:
-        """Return where to put the ends next, each by the secant through its last two moves."""
+    def next(self, zones: PlateZones, asked: PlateZones, off: float) -> PlateZones:
+        """Return where to put the ends next.
+
+        Each end goes by the secant through its last two moves where these tell of the next one:
+        where it is nearly placed, and where it turns back.
+        """
         here, step = zones.breaks, asked.breaks - zones.breaks
         before, step_before = self.zones, self.step
         self.zones, self.step = zones, step
@@ -92,7 +97,8 @@ class _Moves:
             return asked
         with np.errstate(divide="ignore", invalid="ignore"):
             slope = (step_before - step) / (here - before.breaks)
-        factor = 1.0 / np.clip(np.nan_to_num(slope, nan=1.0), *_SECANT_SLOPES)
+        tells = (off <= _NEARLY_PLACED) | (step * step_before < 0.0)
+        factor = np.where(tells, 1.0 / np.clip(np.nan_to_num(slope, nan=1.0), *_SECANT_SLOPES), 1.0)
         found = zones.with_breaks(here + factor * step)
         return found if found.is_proper else asked
 
@@ -105,18 +111,29 @@ class PlateSearch:
     model: Model
     kernels: PairKernels
 
-    def begun(self, half_width: float, count: int) -> PlateStanding:
+    def begun(self, half_width: float, count: int) -> PlateAttempt:
         """Find a first solution, without terms that depend on it but a traction for a torque."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
+        closely = _CLOSELY if self.model.geometry == "linear" else _ROUGHLY
         zones = Nodewise(self.nip, plain._holding(None, 0)).first(half_width)
-        stand = plain.placed(zones, count, None)
+        stand = plain.placed(zones, count, None, closely)
         lagged = lagged_terms(stand.problem, self.model.geometry, stand.state)
         return replace(stand, lagged=lagged)
 
-    def placed(self, zones: PlateZones, count: int, before: PlateStanding | None) -> PlateStanding:
-        """Find the solution on meshes of some size with nodes at the ends of its zones."""
+    def placed(
+        self,
+        zones: PlateZones,
+        count: int,
+        before: PlateAttempt | None,
+        closely: float = _CLOSELY,
+    ) -> PlateAttempt:
+        """Find the solution on meshes of some size with nodes at the ends of its zones.
+
+        ``closely``: what an end may be off, of the tolerance times the width.
+        """
+        placed = closely * self.model.tolerance
         try:
-            stand = self._moved_until(zones, count, before)
+            stand = self._moved_until(zones, count, before, placed)
         except np.linalg.LinAlgError:
             if before is None:
                 raise
@@ -126,16 +143,19 @@ class PlateSearch:
         start = stand.zones if stand.zones.is_proper else zones
         try:
             found = Nodewise(self.nip, self.kernels).again(start, stand.lagged)
-            again = self._moved_until(found, count, stand)
+            again = self._moved_until(found, count, stand, placed)
         except np.linalg.LinAlgError:
             return stand
         return again if again.stands_still or again.off < stand.off else stand
 
     def _moved_until(
-        self, zones: PlateZones, count: int, before: PlateStanding | None
-    ) -> PlateStanding:
-        """Move the ends of zones until they stand still, and change zones that are wrong."""
-        placed, moves = _PLACED * self.model.tolerance, _Moves()
+        self, zones: PlateZones, count: int, before: PlateAttempt | None, placed: float
+    ) -> PlateAttempt:
+        """Move the ends of zones until they stand still, and change zones that are wrong.
+
+        ``placed``: what an end may be off, over the width.
+        """
+        moves = _Moves()
         changes = rough_ones = 0
         known = 1.0 if before is None else min(before.off, 1.0)
         stand, off = before, inf
@@ -155,7 +175,7 @@ class PlateSearch:
             if rough or violation(stand) <= self._slack:
                 if off <= placed and stand.stands_still and is_fine:
                     return replace(stand, zones=asked, off=off)
-                zones = asked if off > _NEARLY_PLACED else moves.next(zones, asked)
+                zones = moves.next(zones, asked, off)
                 continue
             changes += 1
             other = None if changes > _MOST_CHANGES else self._other(stand, asked)
@@ -178,7 +198,7 @@ class PlateSearch:
         return self.nip.sheet.thickness
 
     def _problem(
-        self, zones: PlateZones, count: int, known: float, before: PlateStanding | None
+        self, zones: PlateZones, count: int, known: float, before: PlateAttempt | None
     ) -> tuple[PlateProblem, bool]:
         """Assemble the problem on meshes with nodes at the ends of zones.
 
@@ -197,7 +217,7 @@ class PlateSearch:
             meshes.append(side_mesh(nodes, fine, self._holding(before, number), number))
         return PlateProblem.on(self.nip, (meshes[0], meshes[1])), is_fine
 
-    def _holding(self, before: PlateStanding | None, side: int) -> PairKernels:
+    def _holding(self, before: PlateAttempt | None, side: int) -> PairKernels:
         """Return influence functions with the second order of one roller in the solution before."""
         if self.kernels.is_linear:
             return self.kernels
@@ -213,7 +233,7 @@ class PlateSearch:
         lagged: LaggedPlate,
         steps: int,
         off: float,
-    ) -> PlateStanding:
+    ) -> PlateAttempt:
         """Solve on two meshes with given zones, in turns of the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
@@ -228,7 +248,7 @@ class PlateSearch:
             if not change > still:
                 break
         finite = all(bool(np.all(np.isfinite(one))) for one in state.pressure)
-        return PlateStanding(
+        return PlateAttempt(
             zones, problem, state, lagged, change, inf, steps, bool(change <= still and finite)
         )
 
@@ -237,8 +257,8 @@ class PlateSearch:
         return min(self.model.tolerance, _SLACK)
 
     def _other(
-        self, stand: PlateStanding, edges: PlateZones
-    ) -> tuple[PlateStanding, PlateZones] | None:
+        self, stand: PlateAttempt, edges: PlateZones
+    ) -> tuple[PlateAttempt, PlateZones] | None:
         """Find other zones between known edges, node by node; None where there are none."""
         problem = stand.problem
         states = next_slip(problem, stand.state, stand.lagged, self._slack)
@@ -249,7 +269,7 @@ class PlateSearch:
         return replace(stand, state=state, steps=stand.steps + steps), zones
 
 
-def violation(stand: PlateStanding) -> float:
+def violation(stand: PlateAttempt) -> float:
     """Return how badly a solution violates the conditions of friction, relative.
 
     As without bending: shear beyond the traction bound over its largest value, and slip with its
@@ -276,7 +296,7 @@ def violation(stand: PlateStanding) -> float:
     return max(parts)
 
 
-def overlap(stand: PlateStanding, kernels: PairKernels) -> float:
+def overlap(stand: PlateAttempt, kernels: PairKernels) -> float:
     """Return how far surfaces and sheet overlap outside the contacts, and tension, relative.
 
     Over the approach, or the depth of the gap at the edge; over the highest pressure.
@@ -321,7 +341,7 @@ def inward_at(mesh: Mesh, state: PlateState, kernels: PairKernels, side: int, x:
     return np.asarray(made[1, :, 0] - made[2, :, 1])
 
 
-def carried(stand: PlateStanding, problem: PlateProblem) -> LaggedPlate:
+def carried(stand: PlateAttempt, problem: PlateProblem) -> LaggedPlate:
     """Return the lagged terms of a solution on other meshes."""
     clearance, offsets, lagged = [], [], stand.lagged
     for side, (old, new) in enumerate(zip(stand.problem.meshes, problem.meshes, strict=True)):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import sqrt
 from typing import Literal
 
 import numpy as np
@@ -23,7 +24,7 @@ Name = Literal["upper", "lower"]
 NAMES: tuple[Name, Name] = ("upper", "lower")
 SIGNS = (1.0, -1.0)
 """Of the shear on each roller, and of the creep of its surface."""
-_GAUSS_POINTS = 3  # in each piece between finer nodes
+_GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # points of a piece, over its length
 
 
 def side_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels, side: int) -> Mesh:
@@ -94,83 +95,86 @@ class Spread:
     ----------
     sheet, plate : what they act on.
     nodes : (M + 1,) between which they are straight lines [mm].
-    acting : (M - 1, n) their values at nodes[1:-1] per nodal value.
-    places : (g,) of Gauss points [mm].
-    at_places : (g, n) tractions there times the lengths that they stand for [mm].
+    lines : (M + 1, n) their values at the nodes.
+    forces : (2 M, n) tractions at the Gauss points times the lengths that they stand for [mm].
+    beyond : (M + 1, n) int_x^inf t ds at the nodes [mm].
+    twice : (M + 1, n) integral of ``beyond`` from each node on [mm^2].
     """
 
     sheet: Sheet
     plate: Plate
     nodes: Array
-    acting: Array
-    places: Array
-    at_places: Array
+    lines: Array
+    forces: Array
+    beyond: Array
+    twice: Array
 
     @classmethod
     def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate) -> Spread:
         """Return the spread of nodal tractions on a mesh."""
-        fine = mesh.fine
-        assert fine.acting is not None
-        acting = fine.acting[1:-1, 1:-1]
-        points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
-        share = 0.5 * (1.0 + points)
-        lengths = np.diff(fine.nodes)
-        padded = np.zeros((fine.nodes.size, acting.shape[1]))
-        padded[1:-1] = acting
-        places = fine.nodes[:-1, None] + lengths[:, None] * share
-        before = (0.5 * lengths[:, None] * weights * (1.0 - share))[..., None]
-        after = (0.5 * lengths[:, None] * weights * share)[..., None]
-        values = before * padded[:-1, None] + after * padded[1:, None]
-        return cls(
-            sheet, plate, fine.nodes, acting, places.reshape(-1), values.reshape(places.size, -1)
-        )
+        nodes, acting = mesh.fine.nodes, mesh.fine.acting
+        assert acting is not None
+        lines = np.zeros((nodes.size, mesh.inner.size))
+        lines[1:-1] = acting[1:-1, 1:-1]
+        lengths = np.diff(nodes)[:, None]
+        forces = [
+            0.5 * lengths * ((1.0 - share) * lines[:-1] + share * lines[1:]) for share in _GAUSS
+        ]
+        beyond = _from_end(forces[0] + forces[1])
+        rest = lengths**2 * (lines[:-1] / 6.0 + lines[1:] / 3.0)
+        twice = _from_end(lengths * beyond[1:] + rest)
+        return cls(sheet, plate, nodes, lines, np.concatenate(forces), beyond, twice)
+
+    @property
+    def places(self) -> Array:
+        """Return the Gauss points, (2 M,) [mm]."""
+        lengths = np.diff(self.nodes)
+        return np.concatenate([self.nodes[:-1] + share * lengths for share in _GAUSS])
 
     @property
     def moment(self) -> Array:
         """Return int x t dx per nodal value, (n,) [mm^2]."""
-        return np.asarray(self.places @ self.at_places)
+        return np.asarray(self.places @ self.forces)
 
-    def height(self, x: Array) -> Array:
-        """Return the height of the middle under loads, (m, n) [mm/MPa]."""
-        away = x[:, None] - self.places
-        return np.asarray((self.plate.height(away) + self.plate.sheared(away)) @ self.at_places)
+    def bent(self, x: Array, ahead: Array) -> tuple[Array, Array, Array]:
+        """Return what loads do to the plate at some places, each (m, n).
 
-    def slope(self, x: Array) -> Array:
-        """Return the rotation of the sections under loads, (m, n) [1/MPa]."""
-        return np.asarray(self.plate.slope(x[:, None] - self.places) @ self.at_places)
+        Parameters
+        ----------
+        x : (m,) places [mm].
+        ahead : (m, n) int (s - x) t ds from x on, the second of `tails` [mm^2].
 
-    def bend(self, x: Array) -> Array:
-        """Return the curvature under loads, (m, n) [1/mm/MPa]."""
-        return np.asarray(self.plate.bend(x[:, None] - self.places) @ self.at_places)
-
-    def squeeze(self, x: Array) -> tuple[Array, Array]:
-        """Return how far the near and the far face give way to pressures on one face, each (m, n).
-
-        The near face is that under the pressure; towards the middle of the sheet [mm/MPa].
+        Returns
+        -------
+        Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa].
+        The part of the curvature that goes as |x - s| is exact, wherever its kink lies.
         """
-        even = squeezed(self.sheet, x, self.nodes, self.acting)
-        odd = squeezed(self.sheet, x, self.nodes, self.acting, bent=True)
-        return 0.25 * (even + odd), 0.25 * (even - odd)
+        away = x[:, None] - self.places
+        height, slope, curved = self.plate.under_force(away)
+        yielding = 0.5 / self.plate.stiffness
+        smooth = (curved - yielding * np.abs(away)) @ self.forces
+        kinked = 2.0 * ahead - self.moment + x[:, None] * self.beyond[0]
+        return height @ self.forces, slope @ self.forces, smooth + yielding * kinked
+
+    def squeezed(self, x: Array, *, far: bool) -> Array:
+        """Return how far a face gives way to the pressures towards the middle, (m, n) [mm/MPa].
+
+        ``far``: the face opposite to that under the pressures; else that face itself.
+        """
+        shares = (0.25, -0.25) if far else (0.25, 0.25)
+        return squeezed(self.sheet, x, self.nodes, self.lines[1:-1], shares)
 
     def tails(self, x: Array) -> tuple[Array, Array]:
         """Return int_x^inf t ds and its integral from x on, each (m, n) [mm], [mm^2]; exact."""
-        nodes = self.nodes
-        padded = np.zeros((nodes.size, self.acting.shape[1]))
-        padded[1:-1] = self.acting
-        lengths = np.diff(nodes)[:, None]
-        slopes = np.diff(padded, axis=0) / lengths
-        pieces = 0.5 * lengths * (padded[1:] + padded[:-1])
-        once = _from_end(pieces)
-        # over a piece int_x^inf t is that at its end plus what is left of the piece
-        rest = lengths**2 * (padded[:-1] / 6.0 + padded[1:] / 3.0)
-        twice = _from_end(lengths * once[1:] + rest)
+        nodes, lines = self.nodes, self.lines
         at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
         s = (np.clip(x, nodes[0], nodes[-1]) - nodes[at])[:, None]
-        t, slope = padded[at], slopes[at]
-        first = once[at] - s * t - 0.5 * s**2 * slope
-        second = twice[at] - s * once[at] + 0.5 * s**2 * t + s**3 / 6.0 * slope
+        t, once = lines[at], self.beyond[at]
+        rise = (lines[at + 1] - t) / (nodes[at + 1] - nodes[at])[:, None]
+        first = once - s * t - 0.5 * s**2 * rise
+        second = self.twice[at] - s * once + 0.5 * s**2 * t + s**3 / 6.0 * rise
         before = np.maximum(nodes[0] - x, 0.0)[:, None]
-        return first, second + before * once[:1]
+        return first, second + before * self.beyond[:1]
 
 
 def _from_end(pieces: Array) -> Array:

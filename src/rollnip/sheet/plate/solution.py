@@ -25,7 +25,7 @@ from rollnip.rolling import (
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.plate.refine import PlateRefined
-from rollnip.sheet.plate.search import PlateStanding
+from rollnip.sheet.plate.search import PlateAttempt
 from rollnip.sheet.plate.sides import NAMES, SIGNS, values_at
 from rollnip.sheet.result import SheetProfiles
 from rollnip.sheet.solution import SheetSolution, inside_zone
@@ -100,7 +100,7 @@ class PlateSolution(SheetSolution):
         return cast(SheetState, self.final.state)
 
     @property
-    def _standing(self) -> PlateStanding:
+    def _standing(self) -> PlateAttempt:
         refined: Any = self.refined
         return cast(PlateRefined, refined).stand
 
@@ -226,7 +226,7 @@ def plate_round(refined: PlateRefined) -> Round:
     )
 
 
-def round_of(stand: PlateStanding, final: Round, side: int) -> Round:
+def round_of(stand: PlateAttempt, final: Round, side: int) -> Round:
     """Return the round of one interface, with the figures of the solution."""
     mesh = stand.problem.meshes[side]
     figures = final.figures
@@ -249,7 +249,7 @@ def round_of(stand: PlateStanding, final: Round, side: int) -> Round:
     )
 
 
-def _as_problem(stand: PlateStanding, side: int) -> ContactProblem:
+def _as_problem(stand: PlateAttempt, side: int) -> ContactProblem:
     """Return what a bare nip on the mesh of one interface would be."""
     problem, mesh = stand.problem, stand.problem.meshes[side]
     curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]

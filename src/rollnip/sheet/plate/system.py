@@ -188,8 +188,9 @@ class PlateProblem:
         out = state.height + state.rotation * x
         half = 0.5 * self.sheet.thickness
         for side, one in enumerate(self.spreads):
-            out -= SIGNS[side] * (one.height(x) @ state.pressure[side])
-            out -= half * (one.slope(x) @ state.shear[side])
+            made = self.plate.under_force(x[:, None] - one.places)
+            out -= SIGNS[side] * (made[0] @ (one.forces @ state.pressure[side]))
+            out -= half * (made[1] @ (one.forces @ state.shear[side]))
         return np.asarray(out)
 
     def rotation_at(self, state: PlateState, x: Array) -> Array:
@@ -197,8 +198,9 @@ class PlateProblem:
         out = np.full(x.size, state.rotation)
         half = 0.5 * self.sheet.thickness
         for side, one in enumerate(self.spreads):
-            out -= SIGNS[side] * (one.slope(x) @ state.pressure[side])
-            out -= half * (one.bend(x) @ state.shear[side])
+            made = self.plate.under_force(x[:, None] - one.places)
+            out -= SIGNS[side] * (made[1] @ (one.forces @ state.pressure[side]))
+            out -= half * (made[2] @ (one.forces @ state.shear[side]))
         return out
 
     def thinned_at(self, state: PlateState, x: Array) -> Array:
@@ -206,9 +208,8 @@ class PlateProblem:
         out = np.zeros((2, x.size))
         out += 0.5 * self.sheet.stretch_by_pressure * self.tension_at(state, x)
         for side, one in enumerate(self.spreads):
-            near, far = one.squeeze(x)
-            out[side] += near @ state.pressure[side]
-            out[1 - side] += far @ state.pressure[side]
+            out[side] += one.squeezed(x, far=False) @ state.pressure[side]
+            out[1 - side] += one.squeezed(x, far=True) @ state.pressure[side]
         return out
 
     def strain_at(self, state: PlateState, x: Array) -> Array:
@@ -266,21 +267,20 @@ def _by_sheet(
     ``sides``: the interface that they are of, and the one that the tractions act on.
     """
     (at, by), mesh, one = sides, meshes[sides[0]], spreads[sides[1]]
-    n, m, x = mesh.inner.size, one.acting.shape[1], mesh.nodes[1:]
+    n, m, x = mesh.inner.size, one.forces.shape[1], mesh.nodes[1:]
     sheet, half = one.sheet, 0.5 * one.sheet.thickness
     here, there = SIGNS[at], SIGNS[by]
     first, second = one.tails(x)
-    slope = one.slope(x)
+    height, slope, bend = one.bent(x, second)
     by_pressure = sheet.stretch_by_pressure
     out = np.zeros((2, n, 2, m))
-    near, far = one.squeeze(mesh.inner)
     # y goes with -p_u and +p_l, the gap above with -y and below with +y
-    out[0, :, 0] = here * there * one.height(mesh.inner) + (near if at == by else far)
+    out[0, :, 0] = here * there * height[:-1] + one.squeezed(mesh.inner, far=at != by)
     out[0, :, 1] = here * half * slope[:-1] - 0.5 * there * by_pressure * first[:-1]
-    pressed = -np.diff(first, axis=0)
+    pressed = first[:-1] - first[1:]
     out[1, :, 0] = -there * half * np.diff(slope, axis=0) - 0.5 * here * by_pressure * pressed
     share = _lumped_share(one, mesh, own)
-    exact = _stretched(one, here * there, np.diff(second, axis=0), np.diff(one.bend(x), axis=0))
+    exact = _stretched(one, here * there, np.diff(second, axis=0), np.diff(bend, axis=0))
     out[1, :, 1] = (1.0 - share) * exact
     if share.any():
         out[1, :, 1] += share * _point_stretched(meshes, spreads, sides)
@@ -319,6 +319,6 @@ def _point_stretched(
     x, places = meshes[at].nodes[1:], meshes[by].inner
     weights, one = meshes[by].weights, spreads[by]
     ahead = np.maximum(places - x[:, None], 0.0)
-    bends = one.plate.bend(x[:, None] - places)
+    bends = one.plate.under_force(x[:, None] - places)[2]
     found = _stretched(one, SIGNS[at] * SIGNS[by], np.diff(ahead, axis=0), np.diff(bends, axis=0))
     return np.asarray(weights * found)

@@ -66,7 +66,7 @@ def _sheet(
 _SHEET_CLAIMED = (
     *("creepage_upper", "creepage_lower", "feed_upper", "feed_lower"),
     *("traction_upper", "traction_lower", "tension_max", "tension_min", "strain_max"),
-    *("friction_upper", "friction_lower"),
+    *("friction_upper", "friction_lower", "nip_width_lower", "peak_pressure_lower"),
 )
 _FED = "Positive where the sheet is longer than what rolled off the roller."
 _SHEET = (
@@ -227,7 +227,13 @@ SHEET_PROFILES: Mapping[str, Figure] = {
             "pressure",
             "Pressure between the sheet and the lower roller.",
         ),
-        _curve("height", "y", "path of the sheet", "length", "Height of the sheet's middle."),
+        _curve(
+            "height",
+            "y",
+            "path of the sheet",
+            "length",
+            "Height of the sheet, its thickness left out.",
+        ),
     )
 }
 """The distributions of a sheet over x by key."""

@@ -154,8 +154,29 @@ def test_the_picture_reads_the_tension_on_the_right(pulled):
     plot_sheet(pulled, ax)
     (right,) = ax.child_axes
     ax.figure.draw_without_rendering()
-    low, high = ax.get_ylim()
-    assert right.get_ylim() == pytest.approx((low * pulled.nip_width, high * pulled.nip_width))
+    sheet = pulled.sheet.profiles
+    shear = max(np.abs(pulled.profiles.shear).max(), np.abs(sheet.shear_lower).max())
+    # as far from 0 as the larger shear, however small the tension is
+    times = np.abs(sheet.tension).max() / shear
+    assert right.get_ylim() == pytest.approx(tuple(times * end for end in ax.get_ylim()))
     line = next(one for one in ax.lines if one.get_label().startswith("tension"))
-    ends = line.get_ydata()[[0, -1]] * pulled.nip_width
-    assert ends == pytest.approx([0.05, 0.2])  # outlet, inlet
+    assert line.get_ydata()[[0, -1]] * times == pytest.approx([0.05, 0.2])  # outlet, inlet
+
+
+def test_the_picture_of_the_path_reads_its_height_on_the_right(pulled):
+    from matplotlib.figure import Figure
+
+    from rollnip.plots import plot_sheet_path
+
+    ax = Figure().subplots()
+    plot_sheet_path(pulled, ax)
+    (right,) = ax.child_axes
+    ax.figure.draw_without_rendering()
+    lines = {one.get_label(): one.get_ydata() for one in ax.lines}
+    sheet = pulled.sheet.profiles
+    assert np.array_equal(lines["pressure on the upper roller"], pulled.profiles.pressure)
+    assert np.array_equal(lines["pressure on the lower roller"], sheet.pressure_lower)
+    low, high = ax.get_ylim()
+    bottom, top = right.get_ylim()
+    drawn = bottom + (lines["path of the sheet (right)"] - low) * (top - bottom) / (high - low)
+    assert drawn == pytest.approx(sheet.height, abs=1e-9)

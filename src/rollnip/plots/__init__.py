@@ -9,7 +9,7 @@ from rollnip.plots.overview import plot_overview
 from rollnip.plots.patch import plot_patch
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.scatter import plot_distribution, plot_shares
-from rollnip.plots.sheet import plot_sheet
+from rollnip.plots.sheet import plot_sheet, plot_sheet_path
 from rollnip.plots.study import plot_curves, plot_pareto
 from rollnip.plots.style import new_axes
 from rollnip.plots.surfaces import plot_deformed_surfaces, plot_gap, plot_speed, plot_strain
@@ -31,6 +31,7 @@ __all__ = [
     "plot_pressure",
     "plot_shares",
     "plot_sheet",
+    "plot_sheet_path",
     "plot_speed",
     "plot_strain",
     "save_figure",

@@ -15,6 +15,7 @@ from rollnip.figures import FIGURES
 from rollnip.plots.field import plot_field
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.section import layer_texts
+from rollnip.plots.sheet import plot_sheet
 from rollnip.plots.style import (
     LETTER,
     MM,
@@ -59,6 +60,8 @@ _SIGNS = (
 def plot_overview(solution: Solution, *, style: Style = "light") -> Figure:
     """Draw one page: pressure, normal stress inside, deformed surfaces, strain, key figures.
 
+    With a sheet the shears on its faces and its tension take the place of the strain.
+
     Parameters
     ----------
     solution :
@@ -93,13 +96,14 @@ def plot_overview(solution: Solution, *, style: Style = "light") -> Figure:
     pressure = plot_pressure(solution, axes["pressure"], style=style)
     plot_field(solution, "s_zz", ax=axes["field"], style=style)
     plot_deformed_surfaces(solution, axes["surfaces"], style=style)
-    plot_strain(solution, axes["strain"], style=style)
+    has_sheet = solution.sheet is not None
+    (plot_sheet if has_sheet else plot_strain)(solution, axes["strain"], style=style)
     look = Look(palette, pressure.xaxis.label.get_size())  # type: ignore[attr-defined]
     headings = {
         "pressure": "Pressure and shear",
         "field": "Normal stress inside",
         "surfaces": "Deformed surfaces",
-        "strain": "Strain of the surfaces",
+        "strain": "Shears and tension of the sheet" if has_sheet else "Strain of the surfaces",
     }
     for name, text in headings.items():
         axes[name].set_title(text, loc="left", fontsize=1.05 * look.size, color=palette.ink)

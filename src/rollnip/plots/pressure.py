@@ -30,6 +30,9 @@ def plot_pressure(
 ) -> Axes:
     """Draw pressure, shear and the traction bound +-mu p over x; stick and slip are shaded.
 
+    With a sheet they are those of its upper face; the pressure on the other face is drawn too
+    where the sheet resists bending.
+
     Parameters
     ----------
     solution :
@@ -62,12 +65,22 @@ def plot_pressure(
             label="pressure p",
         )
     ]
+    high = float(np.max(profiles.pressure))
+    if solution.sheet is not None and solution.sheet.bends:
+        below = solution.sheet.profiles.pressure_lower
+        dashes: dict[str, Any] = {
+            "linewidth": look.line,
+            "linestyle": "-.",
+            "label": "pressure below the sheet",
+        }
+        curves += ax.plot(profiles.x, below, color=look.palette.pressure, **dashes)
+        high = max(high, float(np.max(below)))
     if friction > 0.0:
         curves += _shear(ax, look, solution)
     ax.set_xlim(*view(solution, _SIDE))
     # the bound of a high friction may leave the picture
-    low, high = float(np.min(profiles.shear)), float(np.max(profiles.shear))
-    heights(ax, min(0.0, low), max(high, float(np.max(profiles.pressure))))
+    low, most = float(np.min(profiles.shear)), float(np.max(profiles.shear))
+    heights(ax, min(0.0, low), max(most, high))
     label(ax, look, "x [mm]", "stress [MPa]")
     title(ax, look, solution, "Pressure and shear in the nip")
     mark_direction(ax, look, solution)

@@ -1,17 +1,18 @@
-"""A sheet in the nip: the shears on both of its faces, and the tension along it."""
+"""A sheet in the nip: shears on both of its faces, tension, pressures on both faces, path."""
 
 from __future__ import annotations
 
 from functools import partial
-from operator import mul
 from typing import Any
 
 import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
+from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip.plots.style import (
+    Look,
     Style,
     heights,
     label,
@@ -22,9 +23,11 @@ from rollnip.plots.style import (
     title,
     view,
 )
+from rollnip.sheet.result import SheetResult
 from rollnip.solution import Solution
 
 _SIDE = 0.35  # shown on either side, in nip widths
+_FLAT = 1e-3  # of the nip width: what the scale of a straight path spans
 
 
 def plot_sheet(solution: Solution, ax: Axes | None = None, *, style: Style | None = None) -> Axes:
@@ -43,24 +46,25 @@ def plot_sheet(solution: Solution, ax: Axes | None = None, *, style: Style | Non
     -------
     Axes
         with x [mm] from the trailing to the leading edge and shear [MPa]; the tension [N/mm] is
-        read on the right, where a shear over the whole nip stands for the tension it makes.
+        read on the right, where it reaches as far from 0 as the larger shear does.
 
     Raises
     ------
     InvalidInputError
         where the solution has no sheet, or the style is unknown.
     """
-    sheet = solution.sheet
-    if sheet is None:
-        raise InvalidInputError("`solution` must be of a nip with a sheet, got one without.")
+    sheet = _sheet_of(solution)
     ax, look = prepare(ax, style)
-    x, width = solution.profiles.x, solution.nip_width
+    x = solution.profiles.x
+    times = _largest(sheet.profiles.tension) / _largest(
+        solution.profiles.shear, sheet.profiles.shear_lower
+    )
     zones = shade(ax, look, solution)
     ax.axhline(0.0, color=look.palette.muted, linewidth=look.thin)
     rows: tuple[tuple[Any, str, str, str], ...] = (
         (solution.profiles.shear, look.palette.shear, "--", "shear of the upper roller"),
         (sheet.profiles.shear_lower, look.palette.shear, ":", "shear on the underside"),
-        (sheet.profiles.tension / width, look.palette.pressure, "-", "tension (right)"),
+        (sheet.profiles.tension / times, look.palette.pressure, "-", "tension (right)"),
     )
     curves: list[Artist] = []
     for values, color, dashes, name in rows:
@@ -72,10 +76,93 @@ def plot_sheet(solution: Solution, ax: Axes | None = None, *, style: Style | Non
         max(0.0, *(float(np.max(row[0])) for row in rows)),
     )
     label(ax, look, "x [mm]", "shear [MPa]")
-    right = ax.secondary_yaxis("right", functions=(partial(mul, width), partial(mul, 1.0 / width)))
-    right.set_ylabel("tension [N/mm]", fontsize=look.size, color=look.palette.pressure)
-    right.tick_params(colors=look.palette.pressure, labelsize=look.small)
+    _on_right(ax, look, "tension [N/mm]", (0.0, times), look.palette.pressure)
     title(ax, look, solution, "Shears and tension of the sheet")
     mark_direction(ax, look, solution)
     legend(ax, look, curves + zones)
     return ax
+
+
+def plot_sheet_path(
+    solution: Solution, ax: Axes | None = None, *, style: Style | None = None
+) -> Axes:
+    """Draw the pressures on both faces of a sheet, and the path that it takes through the nip.
+
+    Parameters
+    ----------
+    solution, ax, style : as in `plot_sheet`; zones of the upper face are shaded.
+
+    Returns
+    -------
+    Axes
+        with x [mm] from the trailing to the leading edge and pressure [MPa]; the height of the
+        sheet over the top of the undeformed lower roller, its thickness left out [mm], is read on
+        the right.
+
+    Raises
+    ------
+    InvalidInputError
+        where the solution has no sheet, or the style is unknown.
+    """
+    sheet = _sheet_of(solution)
+    ax, look = prepare(ax, style)
+    x, colours = solution.profiles.x, look.palette
+    first, last = _both_contacts(solution)
+    shown = (x >= first) & (x <= last)
+    zones = shade(ax, look, solution)
+    ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
+    rows: tuple[tuple[Any, str, str, str], ...] = (
+        (solution.profiles.pressure, colours.upper, "-", "pressure on the upper roller"),
+        (sheet.profiles.pressure_lower, colours.lower, "--", "pressure on the lower roller"),
+    )
+    high = max(float(np.max(row[0])) for row in rows)
+    height = sheet.profiles.height
+    low, rise = float(np.min(height[shown])), float(np.ptp(height[shown]))
+    times = (rise or _FLAT * solution.nip_width) / high
+    path = ((height - low) / times, colours.ink, "-", "path of the sheet (right)")
+    curves: list[Artist] = []
+    for values, color, dashes, name in (*rows, path):
+        curves += ax.plot(x, values, color=color, linestyle=dashes, linewidth=look.line, label=name)
+    ax.set_xlim(first, last)
+    heights(ax, 0.0, high)
+    label(ax, look, "x [mm]", "pressure [MPa]")
+    _on_right(ax, look, "height of the sheet [mm]", (low, times), colours.ink)
+    title(ax, look, solution, "Pressures on the sheet, and its path")
+    mark_direction(ax, look, solution)
+    legend(ax, look, curves + zones)
+    return ax
+
+
+def _sheet_of(solution: Solution) -> SheetResult:
+    sheet: SheetResult | None = solution.sheet
+    if sheet is None:
+        raise InvalidInputError("`solution` must be of a nip with a sheet, got one without.")
+    return sheet
+
+
+def _largest(*rows: NDArray[np.float64]) -> float:
+    """Return the largest size of some values, 1 where all are 0."""
+    return max(float(np.abs(row).max()) for row in rows) or 1.0
+
+
+def _both_contacts(solution: Solution) -> tuple[float, float]:
+    """Return the drawn range of x [mm], which holds the contacts of both faces."""
+    (first, last), zones = view(solution, _SIDE), _sheet_of(solution).zones_lower
+    reach = _SIDE * solution.nip_width
+    x = solution.profiles.x
+    if zones:
+        first, last = min(first, zones[0].start - reach), max(last, zones[-1].stop + reach)
+    return max(first, float(x[0])), min(last, float(x[-1]))
+
+
+def _on_right(ax: Axes, look: Look, name: str, scale: tuple[float, float], color: str) -> None:
+    """Add a scale on the right: the first of ``scale``, and the second times the left one."""
+    first, times = scale
+    functions = partial(_line, first, times), partial(_line, -first / times, 1.0 / times)
+    right = ax.secondary_yaxis("right", functions=functions)
+    right.set_ylabel(name, fontsize=look.size, color=color)
+    right.tick_params(colors=color, labelsize=look.small)
+
+
+def _line(first: float, times: float, value: Any) -> Any:
+    return first + times * value

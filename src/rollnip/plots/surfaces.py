@@ -179,6 +179,8 @@ def plot_deformed_surfaces(
 ) -> Axes:
     """Draw both deformed surfaces; thin: the undeformed ones at the same approach.
 
+    Of a sheet the thickness is left out; a line between the surfaces is the path of one that bends.
+
     Parameters
     ----------
     solution, ax, style :
@@ -203,6 +205,9 @@ def plot_deformed_surfaces(
     upper, lower = solution.deformed_surfaces.upper, solution.deformed_surfaces.lower
     curves = _pair(ax, look, solution, upper, lower, x)
     shown = [upper, lower]
+    if solution.sheet is not None and solution.sheet.bends:
+        path = solution.sheet.profiles.height
+        curves += ax.plot(x, path, color=look.palette.ink, linewidth=look.thin, label="sheet")
     if solution.approach is not None:  # a half-space sinks by an unknown amount
         outlines = _outlines(solution, x)
         thin = [ax.plot(x, line, **_thin(look))[0] for line in outlines]

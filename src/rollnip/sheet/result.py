@@ -28,8 +28,8 @@ class SheetProfiles:
         outside the contact; None without speed.
     pressure_lower : (n,) on the lower interface [MPa]; of a sheet that bends freely it is that on
         the upper one.
-    height : (n,) of the sheet's middle: its path, over the top of the undeformed lower roller [mm];
-        of a sheet that bends freely it lies halfway between the surfaces, its thickness left out.
+    height : (n,) of the sheet over the top of the undeformed lower roller, its thickness left out:
+        its path [mm]; of a sheet that bends freely it lies halfway between the surfaces.
     """
 
     x: Array

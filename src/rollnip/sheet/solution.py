@@ -30,7 +30,7 @@ from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.common import bending_length
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
-from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, Refined, scales
+from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, Refined, SheetFigures, scales
 from rollnip.sheet.result import Grip, SheetProfiles, SheetResult
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of
@@ -210,6 +210,11 @@ class SheetSolution(Solution):
         """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
         return self.nip_width, self.peak_pressure
 
+    @property
+    def _lower_errors(self) -> tuple[float, float]:
+        """Estimated errors of ``_lower``."""
+        return self._errors["nip_width"], self._errors["peak_pressure"]
+
     def _sheet_errors(self) -> dict[str, float]:
         """Return the errors of the figures of the sheet, by their names."""
         mine, half = self._errors, 0.5 * self.creepage
@@ -218,6 +223,7 @@ class SheetSolution(Solution):
         out = {name: mine[name] for name in (*names, "tension_max", "tension_min", "strain_max")}
         for name in ("friction_upper", "friction_lower"):
             out[name] = speed * mine[name]
+        out["nip_width_lower"], out["peak_pressure_lower"] = self._lower_errors
         both = mine["creepage_upper"] + mine["creepage_lower"]
         share = 0.5 * abs(self._state.creepage) * both
         out["feed_upper"] = mine["creepage_upper"] / (1.0 + half) + share
@@ -228,10 +234,8 @@ class SheetSolution(Solution):
     @cached_property
     def _errors(self) -> dict[str, float]:
         """Errors of all figures of the refinement, none less than the model's own."""
-        figures, values = self.refined.figures, self.refined.errors.values
-        share = SHARES_OF_FINITE if self.model.geometry == "second" else 0.0
-        least = share * scales(self.nip, figures)
-        mine = dict(zip(NAMES, np.maximum(values, least).tolist(), strict=True))
+        figures = self.refined.figures
+        mine = self._claimed(figures, self.refined.errors)
         if isinstance(self.nip.tangential, Creepage | Torque):
             return mine
         sheet = self.nip.sheet
@@ -240,6 +244,12 @@ class SheetSolution(Solution):
         wanted = self.nip.tangential.traction + sheet.tension_in - sheet.tension_out
         mine["traction_upper"] = abs(figures.traction_upper - wanted)
         return mine
+
+    def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
+        """Return errors by name, none less than what the model's own order leaves open."""
+        share = SHARES_OF_FINITE if self.model.geometry == "second" else 0.0
+        least = share * scales(self.nip, figures)
+        return dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
 
     @cached_property
     def zones(self) -> tuple[Zone, ...]:

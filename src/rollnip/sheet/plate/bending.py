@@ -66,37 +66,41 @@ class Plate:
         """Moment per rotation of the sheet that its tension makes, 2 sqrt(D N) [N]."""
         return 2.0 * sqrt(self.stiffness * self.tension)
 
-    def under_force(self, x: Array) -> tuple[Array, Array, Array]:
-        """Return what a force of 1 N/mm does to the plate at distances ``x`` from it [mm].
+    def curvature(self, x: Array) -> Array:
+        """Return K'', the curvature by a force of 1 N/mm at distances ``x`` from it [1/mm]."""
+        away, yielding = np.abs(x), 0.5 / self.stiffness
+        length = self.length
+        return yielding * (away if length == inf else -length * np.expm1(-away / length))
+
+    def straightened(self, x: Array) -> tuple[Array, Array, Array]:
+        """Return by how much tension lessens what a force does at distances ``x`` from it.
 
         Returns
         -------
-        Height of the middle, K and the shear of the sections [mm]; rotation of the sections, K';
-        curvature, K'' [1/mm].
+        |x|^3/(12 D) - K [mm], its first derivative, and its second one [1/mm], per 1 N/mm. They are
+        smooth at 0: the kinks of K are those without tension.
         """
-        away = np.abs(x)
         length, yielding = self.length, 0.5 / self.stiffness
-        if length == inf:
-            bend, slope, height = away, 0.5 * away**2, away**3 / 6.0
-        else:
-            bend, slope, height = _remainders(away / length)
-            bend, slope, height = length * bend, length**2 * slope, length**3 * height
-        height = yielding * height - 0.5 * self.shear * away
-        return height, yielding * np.copysign(slope, x), yielding * bend
+        second, third, fourth = _remainders(np.abs(x) / length)
+        return (
+            yielding * length**3 * fourth,
+            yielding * length**2 * np.copysign(third, x),
+            yielding * length * second,
+        )
 
 
 def _remainders(t: Array) -> tuple[Array, Array, Array]:
-    """Return what exp(-t) leaves after one, two and three terms of its series, all positive.
+    """Return what exp(-t) leaves after two, three and four terms of its series, all positive.
 
-    They are 1 - exp(-t), exp(-t) - 1 + t, and t^2/2 - t + 1 - exp(-t).
+    They are exp(-t) - 1 + t, t^2/2 - t + 1 - exp(-t), and so on.
     """
     if t.max(initial=0.0) < _SHORT:  # differences would leave little but rounding
         series = np.zeros(t.shape)
-        for n in range(3 + _TERMS, 2, -1):
+        for n in range(4 + _TERMS, 3, -1):
             series = series * -t + 1.0 / factorial(n)
-        third = series * t**3
-        second = 0.5 * t**2 - third
-        return t - second, second, third
-    first = -np.expm1(-t)
-    second = t - first
-    return first, second, 0.5 * t**2 - second
+        fourth = series * t**4
+        third = t**3 / 6.0 - fourth
+        return 0.5 * t**2 - third, third, fourth
+    second = t + np.expm1(-t)
+    third = 0.5 * t**2 - second
+    return second, third, t**3 / 6.0 - third

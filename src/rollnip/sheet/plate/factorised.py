@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,8 @@ from rollnip.sheet.system import SIGNS
 
 Array = NDArray[np.float64]
 
-_FEWEST = 5  # unknowns beside the tractions: approach, creepages, height and rotation
+FURTHER = 5
+"""Unknowns beside the tractions: approach, creepages, height and rotation of the sheet."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,25 +39,27 @@ class FactorisedPlate:
     def solved(self, lagged: LaggedPlate) -> PlateState:
         """Return the solution for these states."""
         problem, states = self.problem, self.states
-        unknowns, info = lapack.dgetrs(
-            self.factors, self.pivots, _right_side(problem, states, lagged), trans=1
-        )
+        right = -given(problem, lagged)[_places(states, problem.starts[-1])]
+        unknowns, info = lapack.dgetrs(self.factors, self.pivots, right, trans=1)
         assert info == 0
         tractions = np.zeros(problem.starts[-1])
-        tractions[_unknown(states)] = unknowns[:-_FEWEST]
+        tractions[_places(states, 0)[:-FURTHER]] = unknowns[:-FURTHER]
         p_u, q_u, p_l, q_l = np.split(tractions, problem.starts[1:-1])
         slips = _ratios(problem, states)
         q_u, q_l = q_u + slips[0] * p_u, q_l + slips[1] * p_l
-        approach, upper, lower, height, rotation = unknowns[-_FEWEST:].tolist()
+        approach, upper, lower, height, rotation = unknowns[-FURTHER:].tolist()
         return PlateState(
             states, (p_u, p_l), (q_u, q_l), approach, (upper, lower), height, rotation
         )
 
 
-def _unknown(states: tuple[States, States]) -> NDArray[np.intp]:
-    """Return the places of unknown tractions: pressures in contact, shears in stick."""
+def _places(states: tuple[States, States], end: int) -> NDArray[np.intp]:
+    """Return the places of what is unknown: pressures in contact, shears in stick, and the rest.
+
+    ``end``: where the tractions end.
+    """
     parts = [mask for one in states for mask in (one != State.FREE, one == State.STICK)]
-    return np.concatenate(parts).nonzero()[0]
+    return np.append(np.concatenate(parts).nonzero()[0], np.arange(end, end + FURTHER))
 
 
 def _ratios(problem: PlateProblem, states: tuple[States, States]) -> Pair:
@@ -73,7 +75,7 @@ def _conditions(problem: PlateProblem) -> Array:
     a, b, c, d, end = problem.starts
     weights = [mesh.weights for mesh in problem.meshes]
     moments = [one.moment for one in problem.spreads]
-    half, rows = 0.5 * problem.sheet.thickness, np.zeros((_FEWEST, end))
+    half, rows = 0.5 * problem.sheet.thickness, np.zeros((FURTHER, end))
     rows[0, a:b] = weights[0]
     rows[1, a:b], rows[1, c:d] = -weights[0], weights[1]
     rows[2, a:b], rows[2, c:d] = -moments[0], moments[1]
@@ -83,67 +85,44 @@ def _conditions(problem: PlateProblem) -> Array:
     return rows
 
 
-def _matrix(problem: PlateProblem, states: tuple[States, States]) -> Array:
-    """Return the matrix of gaps in contact, creeps in stick, and the five further conditions."""
+def equations(problem: PlateProblem) -> Array:
+    """Return the matrix of gaps, creeps and the further conditions.
+
+    The rows are gap and creep of all nodes of the upper, then of the lower interface, and load,
+    forces and moment on the sheet, pull of the sheet, and what drives; the unknowns the tractions,
+    then approach, creepages, height and rotation.
+    """
     a, b, c, d, end = problem.starts
-    chosen = _unknown(states)
-    whole = np.zeros((end + _FEWEST, end + _FEWEST))
+    whole = np.zeros((end + FURTHER, end + FURTHER))
     whole[:end, :end], whole[end:, :end] = problem.matrix, _conditions(problem)
-    for ratio, at in zip(_ratios(problem, states), ((a, b, c), (c, d, end)), strict=True):
-        if ratio.any():
-            whole[:, at[0] : at[1]] += whole[:, at[1] : at[2]] * ratio
     x_u, x_l = (mesh.inner for mesh in problem.meshes)
     whole[a:b, end], whole[a:b, end + 3], whole[a:b, end + 4] = -1.0, -1.0, -x_u
     whole[c:d, end + 3], whole[c:d, end + 4] = 1.0, x_l
     whole[b:c, end + 1], whole[d:end, end + 2] = problem.meshes[0].dx, problem.meshes[1].dx
+    whole[end + 2, end + 4] = -problem.plate.righting
     if not isinstance(problem.nip.normal, LineLoad):
         whole[end, :end], whole[end, end] = 0.0, 1.0
-    whole[end + 2, end + 4] = -problem.plate.righting
     if isinstance(problem.nip.tangential, Creepage):
         whole[end + 4, :end], whole[end + 4, end + 1 : end + 3] = 0.0, 1.0
-    places = np.concatenate([chosen, np.arange(end, end + _FEWEST)])
-    return cast(Array, whole[np.ix_(places, places)])
+    return whole
 
 
-def _right_side(problem: PlateProblem, states: tuple[States, States], lagged: LaggedPlate) -> Array:
+def given(problem: PlateProblem, lagged: LaggedPlate) -> Array:
+    """Return what the rows of `equations` have without unknowns."""
     nip, sheet = problem.nip, problem.sheet
     normal, tangential = nip.normal, nip.tangential
     load = normal.load + lagged.lean if isinstance(normal, LineLoad) else normal.approach
     last = tangential.creepage if isinstance(tangential, Creepage) else lagged.traction
     assert last is not None
     pulled = sheet.tension_in - sheet.tension_out
-    right = -problem.right(lagged)[_unknown(states)]
-    return np.concatenate([right, [load, 0.0, 0.0, pulled, last]])
+    return np.concatenate([problem.right(lagged), [-load, 0.0, 0.0, -pulled, -last]])
 
 
-def next_slip(
-    problem: PlateProblem, state: PlateState, lagged: LaggedPlate, slack: float
-) -> tuple[States, States]:
-    """Return the states of both interfaces that creep and shear call for.
-
-    Free nodes and those under tension keep theirs. Within ``slack`` of the highest pressure's
-    bound a node keeps its state.
-    """
-    found = []
-    sides = zip(
-        state.states,
-        state.pressure,
-        state.shear,
-        problem.gaps_and_creeps(state, lagged),
-        problem.own,
-        problem.frictions,
-        strict=True,
-    )
-    for states, pressure, shear, (_, creep), own, friction in sides:
-        little = slack * float(np.abs(pressure).max())
-        kept = (states != State.FREE) & (pressure >= -little)
-        sought = shear - creep / own
-        bound, room = friction * np.maximum(pressure, 0.0), friction * little
-        plus = sought > bound + np.where(states == State.SLIP_PLUS, -room, room)
-        minus = sought < -bound - np.where(states == State.SLIP_MINUS, -room, room)
-        out = states.copy()
-        out[kept] = State.STICK
-        out[kept & plus] = State.SLIP_PLUS
-        out[kept & minus] = State.SLIP_MINUS
-        found.append(out)
-    return found[0], found[1]
+def _matrix(problem: PlateProblem, states: tuple[States, States]) -> Array:
+    """Return the equations of given states: gaps in contact, creeps in stick, five conditions."""
+    a, b, c, d, end = problem.starts
+    whole, places = equations(problem), _places(states, end)
+    for ratio, at in zip(_ratios(problem, states), ((a, b, c), (c, d, end)), strict=True):
+        if ratio.any():
+            whole[:, at[0] : at[1]] += whole[:, at[1] : at[2]] * ratio
+    return np.asarray(whole[np.ix_(places, places)])

@@ -13,8 +13,9 @@ from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.lagged import sheet_rate
+from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import lost_inside, pull_of
-from rollnip.sheet.plate.search import PlateAttempt, PlateSearch, overlap, violation
+from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.powers import SheetPowers
@@ -24,6 +25,7 @@ from rollnip.sheet.refine import (
     FIRST_COUNT,
     GROWTH,
     MOST_COUNT,
+    NAMES,
     SheetFigures,
     errors_between,
     ratio,
@@ -44,12 +46,20 @@ class PlateRefined:
     figures, errors : see `SheetFigures`; nip width and pressure are those of the upper interface;
         errors inf where unknown.
     residual : how badly it violates the conditions.
+    lower, lower_errors : the same with nip width and pressure of the lower interface.
     """
 
     stand: PlateAttempt
     figures: SheetFigures
     errors: SheetFigures
     residual: float
+    lower: SheetFigures
+    lower_errors: SheetFigures
+
+    def ratio(self, nip: Nip) -> float:
+        """Return the largest relative error of the figures that the tolerance is for."""
+        sides = (self.figures, self.errors), (self.lower, self.lower_errors)
+        return max(ratio(nip, *side) for side in sides)
 
 
 def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> PlateRefined:
@@ -64,6 +74,7 @@ def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float
     """
     search, count = PlateSearch(nip, model, kernels), float(FIRST_COUNT)
     history: list[tuple[float, SheetFigures, PlateZones]] = []
+    below: list[tuple[float, SheetFigures, PlateZones]] = []
     best: PlateRefined | None = None
     stand, failed = search.begun(half_width, FIRST_COUNT), 0
     while count <= MOST_COUNT:
@@ -71,15 +82,19 @@ def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float
             stand = search.placed(stand.zones, round(count), stand)
         figures = plate_figures(stand, model.geometry)
         here = (count, figures, stand.zones)
+        lower = _of_lower(figures, stand)
+        here_below = (count, lower, stand.zones)
         errors = SheetFigures(errors_between(nip, [*history, here]))
+        lower_errors = SheetFigures(errors_between(nip, [*below, here_below]))
         left = max(violation(stand), overlap(stand, kernels))
-        latest = PlateRefined(stand, figures, errors, left)
+        latest = PlateRefined(stand, figures, errors, left, lower, lower_errors)
         if stand.stands_still:
             history.append(here)
+            below.append(here_below)
             best = latest
             slips = any(side.states.size > 1 for side in stand.zones.sides)
             enough = len(history) >= (FEWEST_WITH_SLIP if slips else FEWEST)
-            if enough and max(left, ratio(nip, figures, errors)) <= model.tolerance:
+            if enough and max(left, latest.ratio(nip)) <= model.tolerance:
                 return latest
             failed = 0
         else:
@@ -115,6 +130,19 @@ def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
     return SheetFigures(np.array([*first, *spent.array().tolist(), *last]))
 
 
+def _of_lower(figures: SheetFigures, stand: PlateAttempt) -> SheetFigures:
+    """Return figures with width, highest pressure and its place on the lower interface."""
+    mesh = stand.problem.meshes[1]
+    peak, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(stand.state.pressure[1]))
+    values = figures.values.copy()
+    values[[NAMES.index(name) for name in ("nip_width", "peak_pressure", "peak_pressure_x")]] = (
+        stand.zones.lower.width,
+        peak,
+        place,
+    )
+    return SheetFigures(values)
+
+
 def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
     """Return torques over radii and losses of a solution."""
     problem, state = stand.problem, stand.state
@@ -132,8 +160,7 @@ def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
 def _pushed(stand: PlateAttempt, side: int) -> Array:
     """Return int q dx over the intervals of one interface but the last, (n - 1,) [N/mm]."""
     mesh, one = stand.problem.meshes[side], stand.problem.spreads[side]
-    tails = one.tails(mesh.inner)[0]
-    return np.asarray(-np.diff(tails, axis=0) @ stand.state.shear[side])
+    return -np.diff(one.of(stand.state.shear[side]).beyond(mesh.inner)[0, :, 0])
 
 
 def _slipped(stand: PlateAttempt, side: int) -> float:

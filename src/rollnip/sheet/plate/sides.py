@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import sqrt
+from math import factorial, sqrt
 from typing import Literal
 
 import numpy as np
@@ -24,6 +24,11 @@ Name = Literal["upper", "lower"]
 NAMES: tuple[Name, Name] = ("upper", "lower")
 SIGNS = (1.0, -1.0)
 """Of the shear on each roller, and of the creep of its surface."""
+_PIECES = tuple(
+    (1.0 / factorial(k + 1) - (k + 1.0) / factorial(k + 2), (k + 1.0) / factorial(k + 2))
+    for k in range(4)
+)
+"""Integrals of s^k/k! over a piece of length 1, times 1 - s and s."""
 _GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # points of a piece, over its length
 
 
@@ -89,25 +94,22 @@ def stretch_by(mesh: Mesh, side: int, u_x: Array, u_z: Array) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class Spread:
-    """Tractions on one mesh as the sheet feels them at other places, per nodal value.
+    """Tractions as the sheet feels them at other places, per value of each of their sets.
 
     Attributes
     ----------
     sheet, plate : what they act on.
     nodes : (M + 1,) between which they are straight lines [mm].
     lines : (M + 1, n) their values at the nodes.
-    forces : (2 M, n) tractions at the Gauss points times the lengths that they stand for [mm].
-    beyond : (M + 1, n) int_x^inf t ds at the nodes [mm].
-    twice : (M + 1, n) integral of ``beyond`` from each node on [mm^2].
+    tails : (4, M + 1, n) int_x^inf t ds at the nodes, its integral from each node on, and so on:
+        the k-th is int (s - x)^k/k! t ds from x on [mm^(k + 1)].
     """
 
     sheet: Sheet
     plate: Plate
     nodes: Array
     lines: Array
-    forces: Array
-    beyond: Array
-    twice: Array
+    tails: Array
 
     @classmethod
     def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate) -> Spread:
@@ -116,45 +118,83 @@ class Spread:
         assert acting is not None
         lines = np.zeros((nodes.size, mesh.inner.size))
         lines[1:-1] = acting[1:-1, 1:-1]
-        lengths = np.diff(nodes)[:, None]
-        forces = [
-            0.5 * lengths * ((1.0 - share) * lines[:-1] + share * lines[1:]) for share in _GAUSS
-        ]
-        beyond = _from_end(forces[0] + forces[1])
-        rest = lengths**2 * (lines[:-1] / 6.0 + lines[1:] / 3.0)
-        twice = _from_end(lengths * beyond[1:] + rest)
-        return cls(sheet, plate, nodes, lines, np.concatenate(forces), beyond, twice)
+        length, (first, last) = np.diff(nodes)[:, None], (lines[:-1], lines[1:])
+        tails = np.zeros((4, *lines.shape))
+        for k, (one, two) in enumerate(_PIECES):
+            piece = length ** (k + 1) * (one * first + two * last)
+            for j in range(k):
+                piece += length ** (k - j) / factorial(k - j) * tails[j, 1:]
+            tails[k, :-1] = np.cumsum(piece[::-1], axis=0)[::-1]
+        return cls(sheet, plate, nodes, lines, tails)
 
-    @property
-    def places(self) -> Array:
-        """Return the Gauss points, (2 M,) [mm]."""
-        lengths = np.diff(self.nodes)
-        return np.concatenate([self.nodes[:-1] + share * lengths for share in _GAUSS])
+    def of(self, values: Array) -> Spread:
+        """Return the spread of one set of tractions, of nodal values (n,)."""
+        one = values[:, None]
+        return replace(self, lines=self.lines @ one, tails=self.tails @ one)
 
     @property
     def moment(self) -> Array:
-        """Return int x t dx per nodal value, (n,) [mm^2]."""
-        return np.asarray(self.places @ self.forces)
+        """Return int x t dx of each set, (n,) [mm^2]."""
+        return np.asarray(self.tails[1, 0] + self.nodes[0] * self.tails[0, 0])
 
-    def bent(self, x: Array, ahead: Array) -> tuple[Array, Array, Array]:
+    def beyond(self, x: Array) -> Array:
+        """Return ``tails`` from some places on, (4, m, n); exact."""
+        nodes = self.nodes
+        at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
+        step = (nodes[at] - np.minimum(x, nodes[-1]))[:, None]  # negative but before the first node
+        t = self.lines[at]
+        rise = (self.lines[at + 1] - t) / (nodes[at + 1] - nodes[at])[:, None]
+        inside = np.minimum(step, 0.0)
+        out = np.empty((4, x.size, t.shape[1]))
+        for k in range(4):
+            out[k] = self.tails[k, at] + inside ** (k + 1) / factorial(k + 1) * t
+            out[k] -= inside ** (k + 2) / factorial(k + 2) * rise
+            for j in range(k):
+                out[k] += step ** (k - j) / factorial(k - j) * self.tails[j, at]
+        return out
+
+    def bent(self, x: Array, beyond: Array) -> tuple[Array, Array, Array]:
         """Return what loads do to the plate at some places, each (m, n).
 
         Parameters
         ----------
         x : (m,) places [mm].
-        ahead : (m, n) int (s - x) t ds from x on, the second of `tails` [mm^2].
+        beyond : what `beyond` says of them.
 
         Returns
         -------
         Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa].
-        The part of the curvature that goes as |x - s| is exact, wherever its kink lies.
         """
-        away = x[:, None] - self.places
-        height, slope, curved = self.plate.under_force(away)
+        # |x - s|^3/6 and its derivatives: twice what lies ahead, less all of it with its sign
+        step = (self.nodes[0] - x)[:, None]
+        whole = [
+            sum(step ** (k - j) / factorial(k - j) * self.tails[j, :1] for j in range(k + 1))
+            for k in (1, 2, 3)
+        ]
         yielding = 0.5 / self.plate.stiffness
-        smooth = (curved - yielding * np.abs(away)) @ self.forces
-        kinked = 2.0 * ahead - self.moment + x[:, None] * self.beyond[0]
-        return height @ self.forces, slope @ self.forces, smooth + yielding * kinked
+        kinked = 2.0 * beyond[1] - whole[0]
+        height = yielding * (2.0 * beyond[3] - whole[2]) - 0.5 * self.plate.shear * kinked
+        slope, bend = yielding * (whole[1] - 2.0 * beyond[2]), yielding * kinked
+        if self.plate.tension > 0.0:
+            places, forces = self._points
+            for out, less in zip(
+                (height, slope, bend),
+                self.plate.straightened(x[:, None] - places),
+                strict=True,
+            ):
+                out -= less @ forces
+        return height, slope, bend
+
+    @property
+    def _points(self) -> tuple[Array, Array]:
+        """Return Gauss points (2 M,) [mm], and tractions there times their lengths (2 M, n)."""
+        length, lines = np.diff(self.nodes), self.lines
+        places = [self.nodes[:-1] + share * length for share in _GAUSS]
+        forces = [
+            0.5 * length[:, None] * ((1.0 - share) * lines[:-1] + share * lines[1:])
+            for share in _GAUSS
+        ]
+        return np.concatenate(places), np.concatenate(forces)
 
     def squeezed(self, x: Array, *, far: bool) -> Array:
         """Return how far a face gives way to the pressures towards the middle, (m, n) [mm/MPa].
@@ -163,25 +203,6 @@ class Spread:
         """
         shares = (0.25, -0.25) if far else (0.25, 0.25)
         return squeezed(self.sheet, x, self.nodes, self.lines[1:-1], shares)
-
-    def tails(self, x: Array) -> tuple[Array, Array]:
-        """Return int_x^inf t ds and its integral from x on, each (m, n) [mm], [mm^2]; exact."""
-        nodes, lines = self.nodes, self.lines
-        at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
-        s = (np.clip(x, nodes[0], nodes[-1]) - nodes[at])[:, None]
-        t, once = lines[at], self.beyond[at]
-        rise = (lines[at + 1] - t) / (nodes[at + 1] - nodes[at])[:, None]
-        first = once - s * t - 0.5 * s**2 * rise
-        second = self.twice[at] - s * once + 0.5 * s**2 * t + s**3 / 6.0 * rise
-        before = np.maximum(nodes[0] - x, 0.0)[:, None]
-        return first, second + before * self.beyond[:1]
-
-
-def _from_end(pieces: Array) -> Array:
-    """Return sums of pieces from each node to the end, with 0 at the last."""
-    out = np.zeros((pieces.shape[0] + 1, *pieces.shape[1:]))
-    out[:-1] = np.cumsum(pieces[::-1], axis=0)[::-1]
-    return out
 
 
 def values_at(mesh: Mesh, x: Array) -> Array:

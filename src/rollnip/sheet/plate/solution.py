@@ -17,15 +17,14 @@ from rollnip.rolling import (
     Profiles,
     Round,
     fine_points,
-    peak_pressure,
     stretch_excess,
     surface_depths,
     surface_strain,
 )
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.surfaces import pair_displacements
+from rollnip.sheet.plate.attempt import PlateAttempt
 from rollnip.sheet.plate.refine import PlateRefined
-from rollnip.sheet.plate.search import PlateAttempt
 from rollnip.sheet.plate.sides import NAMES, SIGNS, values_at
 from rollnip.sheet.result import SheetProfiles
 from rollnip.sheet.solution import SheetSolution, inside_zone
@@ -49,7 +48,7 @@ class PlateSolution(SheetSolution):
         speeds = self._roller_speeds
         strains = [self._strain(x, side) for side in (0, 1)]
         pressure = self._at(x, self.final.pressure)
-        gap = self._surfaces[0] - self._height - (self._thickness - self._thinned_faces[0])
+        gap = self.deformed_surfaces.upper - self._height + self._thinned_faces[0]
         return Profiles(
             x=x,
             pressure=pressure,
@@ -65,9 +64,9 @@ class PlateSolution(SheetSolution):
     @cached_property
     def deformed_surfaces(self) -> DeformedSurfaces:
         """Heights of both surfaces; between them lies the sheet, whose thickness is left out."""
-        x, _ = self._points
-        upper, lower = self._surfaces
-        return DeformedSurfaces(x, upper - self._thickness, lower + self._thickness)
+        x, u = self._points
+        upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
+        return DeformedSurfaces(x, upper - self.final.state.approach, -lower)
 
     @property
     def _bends(self) -> bool:
@@ -76,10 +75,15 @@ class PlateSolution(SheetSolution):
     @property
     def _lower(self) -> tuple[float, float]:
         """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
-        stand = self._standing
-        mesh = stand.problem.meshes[1]
-        peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(stand.state.pressure[1]))[0]
-        return stand.zones.lower.width, peak
+        figures = self._plate_refined.lower
+        return figures.nip_width, figures.peak_pressure
+
+    @property
+    def _lower_errors(self) -> tuple[float, float]:
+        """Estimated errors of ``_lower``."""
+        refined = self._plate_refined
+        mine = self._claimed(refined.lower, refined.lower_errors)
+        return mine["nip_width"], mine["peak_pressure"]
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
@@ -101,18 +105,16 @@ class PlateSolution(SheetSolution):
 
     @property
     def _standing(self) -> PlateAttempt:
-        refined: Any = self.refined
-        return cast(PlateRefined, refined).stand
+        return self._plate_refined.stand
 
     @property
-    def _thickness(self) -> float:
-        """Half of the thickness of the sheet without load [mm]."""
-        assert self.nip.sheet is not None
-        return 0.5 * self.nip.sheet.thickness
+    def _plate_refined(self) -> PlateRefined:
+        refined: Any = self.refined
+        return cast(PlateRefined, refined)
 
     @cached_property
     def _lower_round(self) -> Round:
-        return round_of(self._standing, self.final, 1)
+        return lower_round(self._plate_refined, self.final)
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
         one = self._of_side(NAMES.index("upper" if roller == "upper" else "lower"))
@@ -136,21 +138,14 @@ class PlateSolution(SheetSolution):
 
     @cached_property
     def _height(self) -> Array:
-        """Height of the sheet's middle over the top of the lower roller, at ``_points`` [mm]."""
+        """Height of the sheet at ``_points``, its thickness left out [mm]."""
         stand = self._standing
-        return stand.problem.height_at(stand.state, self._points[0]) + self._thickness
+        return stand.problem.height_at(stand.state, self._points[0])
 
     @cached_property
     def _thinned_faces(self) -> Array:
         stand = self._standing
         return stand.problem.thinned_at(stand.state, self._points[0])
-
-    @cached_property
-    def _surfaces(self) -> tuple[Array, Array]:
-        """Heights of both rollers' surfaces over the top of the lower one, at ``_points`` [mm]."""
-        x, u = self._points
-        upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
-        return upper - self.final.state.approach + 2.0 * self._thickness, -lower
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
@@ -177,7 +172,13 @@ class PlateSolution(SheetSolution):
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = problem.strain_at(state, x)
         face = 0.5 * (strain[1:] + strain[:-1])
-        face -= SIGNS[side] * self._thickness * np.diff(problem.rotation_at(state, x)) / dx
+        face -= (
+            SIGNS[side]
+            * 0.5
+            * problem.sheet.thickness
+            * np.diff(problem.rotation_at(state, x))
+            / dx
+        )
         rate = state.creepages[side] + SIGNS[side] * (stretch - face)
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
@@ -226,26 +227,21 @@ def plate_round(refined: PlateRefined) -> Round:
     )
 
 
-def round_of(stand: PlateAttempt, final: Round, side: int) -> Round:
-    """Return the round of one interface, with the figures of the solution."""
-    mesh = stand.problem.meshes[side]
-    figures = final.figures
-    pressure = stand.state.pressure[side]
-    peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(pressure))[0]
-    layout = stand.zones.sides[side]
+def lower_round(refined: PlateRefined, upper: Round) -> Round:
+    """Return the round of the lower interface beside that of the upper one."""
+    stand = refined.stand
+    mesh, lagged = stand.problem.meshes[1], stand.lagged
     return replace(
-        final,
+        upper,
         mesh=mesh,
-        problem=_as_problem(stand, side),
-        state=stand.state.side(side, creepage=stand.state.creepage),
+        problem=_as_problem(stand, 1),
+        state=stand.state.side(1, creepage=stand.state.creepage),
         second=SecondOrder(
-            stand.lagged.clearance[side],
-            np.zeros(mesh.inner.size),
-            stand.lagged.offsets[side],
-            stand.lagged.traction,
+            lagged.clearance[1], np.zeros(mesh.inner.size), lagged.offsets[1], lagged.traction
         ),
-        zones=layout.zones,
-        figures=replace(figures, nip_width=layout.width, peak_pressure=peak),
+        zones=stand.zones.lower.zones,
+        figures=refined.lower.watched,
+        error=refined.lower_errors.watched,
     )
 
 

@@ -17,7 +17,6 @@ from rollnip.rolling import (
     Round,
     SolverInfo,
     half_width_guess,
-    impossible,
     pair_kernels,
     with_second_order,
 )
@@ -29,7 +28,7 @@ from rollnip.sheet.common import (
     sheet_verdict,
 )
 from rollnip.sheet.plate.refine import PlateRefined, refine_plate
-from rollnip.sheet.plate.solution import PlateSolution, plate_round, round_of
+from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.validity import Strains, validity_warnings
 
 COUNTED = 0.2
@@ -124,10 +123,11 @@ def _solution(
 ) -> PlateSolution:
     said, seconds, version = record
     final, stand = plate_round(refined), refined.stand
-    both = final, round_of(stand, final, 1)
+    both = final, lower_round(refined, final)
     converged, status = sheet_verdict(nip, model, refined, final)
-    if converged and (reason := impossible(nip, model.geometry, both[1])):
-        converged, status = False, reason
+    if converged:
+        below, reason = sheet_verdict(nip, model, refined, both[1])
+        converged, status = (True, status) if below else (False, f"On the lower side: {reason}")
     strains = _strains(nip, model, both)
     warned = said + _pushed(refined) + validity_warnings(nip, model, final, strains)
     plain: Any = refined

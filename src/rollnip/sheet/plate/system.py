@@ -180,27 +180,35 @@ class PlateProblem:
 
     def tension_at(self, state: PlateState, x: Array) -> Array:
         """Return the tension of the sheet at some places, (m,) [N/mm]."""
-        upper, lower = (one.tails(x)[0] for one in self.spreads)
-        return np.asarray(self.sheet.tension_in - upper @ state.shear[0] + lower @ state.shear[1])
+        upper, lower = (
+            one.of(shear).beyond(x)[0, :, 0]
+            for one, shear in zip(self.spreads, state.shear, strict=True)
+        )
+        return np.asarray(self.sheet.tension_in - upper + lower)
 
     def height_at(self, state: PlateState, x: Array) -> Array:
         """Return the height of the sheet's middle at some places, (m,) [mm]."""
         out = state.height + state.rotation * x
         half = 0.5 * self.sheet.thickness
-        for side, one in enumerate(self.spreads):
-            made = self.plate.under_force(x[:, None] - one.places)
-            out -= SIGNS[side] * (made[0] @ (one.forces @ state.pressure[side]))
-            out -= half * (made[1] @ (one.forces @ state.shear[side]))
+        for side, (pressed, sheared) in enumerate(self._bent_at(state, x)):
+            out -= SIGNS[side] * pressed[0] + half * sheared[1]
         return np.asarray(out)
 
     def rotation_at(self, state: PlateState, x: Array) -> Array:
         """Return the rotation of the sheet's sections at some places, (m,)."""
         out = np.full(x.size, state.rotation)
         half = 0.5 * self.sheet.thickness
-        for side, one in enumerate(self.spreads):
-            made = self.plate.under_force(x[:, None] - one.places)
-            out -= SIGNS[side] * (made[1] @ (one.forces @ state.pressure[side]))
-            out -= half * (made[2] @ (one.forces @ state.shear[side]))
+        for side, (pressed, sheared) in enumerate(self._bent_at(state, x)):
+            out -= SIGNS[side] * pressed[1] + half * sheared[2]
+        return out
+
+    def _bent_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
+        """Return what pressure and shear of either interface do as loads, see `Spread.bent`."""
+        out = []
+        for one, *tractions in zip(self.spreads, state.pressure, state.shear, strict=True):
+            alone = [one.of(values) for values in tractions]
+            made = [[part[:, 0] for part in of.bent(x, of.beyond(x))] for of in alone]
+            out.append((made[0], made[1]))
         return out
 
     def thinned_at(self, state: PlateState, x: Array) -> Array:
@@ -208,8 +216,9 @@ class PlateProblem:
         out = np.zeros((2, x.size))
         out += 0.5 * self.sheet.stretch_by_pressure * self.tension_at(state, x)
         for side, one in enumerate(self.spreads):
-            out[side] += one.squeezed(x, far=False) @ state.pressure[side]
-            out[1 - side] += one.squeezed(x, far=True) @ state.pressure[side]
+            alone = one.of(state.pressure[side])
+            out[side] += alone.squeezed(x, far=False)[:, 0]
+            out[1 - side] += alone.squeezed(x, far=True)[:, 0]
         return out
 
     def strain_at(self, state: PlateState, x: Array) -> Array:
@@ -240,9 +249,10 @@ class PlateProblem:
         tension = sheet.tension_in * mesh.dx
         pressed = np.zeros(mesh.dx.size)
         for number, one in enumerate(self.spreads):
-            first, second = one.tails(mesh.nodes[1:])
-            tension += SIGNS[number] * (np.diff(second, axis=0) @ state.shear[number])
-            pressed -= np.diff(first, axis=0) @ state.pressure[number]
+            second = one.of(state.shear[number]).beyond(mesh.nodes[1:])[1, :, 0]
+            first = one.of(state.pressure[number]).beyond(mesh.nodes[1:])[0, :, 0]
+            tension += SIGNS[number] * np.diff(second)
+            pressed -= np.diff(first)
         strain = sheet.stretch_by_tension * tension
         return np.asarray(strain + 0.5 * sheet.stretch_by_pressure * pressed)
 
@@ -267,11 +277,12 @@ def _by_sheet(
     ``sides``: the interface that they are of, and the one that the tractions act on.
     """
     (at, by), mesh, one = sides, meshes[sides[0]], spreads[sides[1]]
-    n, m, x = mesh.inner.size, one.forces.shape[1], mesh.nodes[1:]
+    n, m, x = mesh.inner.size, one.lines.shape[1], mesh.nodes[1:]
     sheet, half = one.sheet, 0.5 * one.sheet.thickness
     here, there = SIGNS[at], SIGNS[by]
-    first, second = one.tails(x)
-    height, slope, bend = one.bent(x, second)
+    beyond = one.beyond(x)
+    first, second = beyond[:2]
+    height, slope, bend = one.bent(x, beyond)
     by_pressure = sheet.stretch_by_pressure
     out = np.zeros((2, n, 2, m))
     # y goes with -p_u and +p_l, the gap above with -y and below with +y
@@ -319,6 +330,6 @@ def _point_stretched(
     x, places = meshes[at].nodes[1:], meshes[by].inner
     weights, one = meshes[by].weights, spreads[by]
     ahead = np.maximum(places - x[:, None], 0.0)
-    bends = one.plate.under_force(x[:, None] - places)[2]
+    bends = one.plate.curvature(x[:, None] - places)
     found = _stretched(one, SIGNS[at] * SIGNS[by], np.diff(ahead, axis=0), np.diff(bends, axis=0))
     return np.asarray(weights * found)

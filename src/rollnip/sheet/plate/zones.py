@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import Layout, States
+from rollnip.contact import Layout, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
 from rollnip.sheet.zones import SLIVER, held, without_slivers_in
 
@@ -30,10 +30,10 @@ class PlateZones:
     lower: Layout
 
     @classmethod
-    def sticking(cls, upper: tuple[float, float], lower: tuple[float, float]) -> PlateZones:
-        """Return one zone of stick on each interface, between given edges [mm]."""
-        stick = Layout.sticking(1.0).states
-        return cls(Layout(np.array(upper), stick), Layout(np.array(lower), stick))
+    def sticking(cls, reach: float) -> PlateZones:
+        """Return one zone of stick on each interface, as far as ``reach`` on either side [mm]."""
+        both = Layout.sticking(reach)
+        return cls(both, both)
 
     @property
     def sides(self) -> tuple[Layout, Layout]:
@@ -51,7 +51,7 @@ class PlateZones:
         return self.upper.is_proper and self.lower.is_proper
 
     @property
-    def breaks(self) -> Array:
+    def ends(self) -> Array:
         """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
         return np.concatenate([side.breaks for side in self.sides])
 
@@ -73,10 +73,10 @@ class PlateZones:
         inside = [x for x in apart if first < x < last]
         return np.sort(np.concatenate([own.breaks, inside]))
 
-    def with_breaks(self, breaks: Array) -> PlateZones:
-        """Return the same zones between other breaks, in the order of ``breaks``."""
+    def with_ends(self, ends: Array) -> PlateZones:
+        """Return the same zones between other breaks, in the order of ``ends``."""
         n = self.upper.breaks.size
-        upper, lower = Layout(breaks[:n], self.upper.states), Layout(breaks[n:], self.lower.states)
+        upper, lower = Layout(ends[:n], self.upper.states), Layout(ends[n:], self.lower.states)
         return PlateZones(upper, lower)
 
     def is_like(self, other: PlateZones) -> bool:
@@ -131,6 +131,23 @@ class PlateZones:
         """Return the zones without those too short to matter."""
         upper, lower = (without_slivers_in(side, SLIVER * side.width) for side in self.sides)
         return PlateZones(upper, lower)
+
+    @classmethod
+    def around(cls, problem: PlateProblem, state: PlateState) -> PlateZones:
+        """Return the zones of nodal states on meshes that reach beyond the contacts.
+
+        One zone of stick on an interface whose contact or zones are in pieces.
+        """
+        sides = []
+        for number, (mesh, friction) in enumerate(
+            zip(problem.meshes, problem.frictions, strict=True)
+        ):
+            zones = contact_zones(mesh.inner, state.side(number), friction)
+            if not zones:
+                raise np.linalg.LinAlgError("an interface without contact")
+            edges = np.array([zones[0].start, zones[-1].stop])
+            sides.append(Layout.of(zones) or Layout(edges, Layout.sticking(1.0).states))
+        return cls(sides[0], sides[1])
 
     def found(self, problem: PlateProblem, state: PlateState) -> PlateZones | None:
         """Return the zones of nodal states between the edges of these; None if unclear."""

@@ -1,0 +1,117 @@
+"""Contact, stick and slip of both interfaces of a plate, sought together on two meshes."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import Inequalities, State, States, interior_point
+from rollnip.sheet.plate.factorised import FURTHER, equations, given
+from rollnip.sheet.plate.system import LaggedPlate, Pair, PlateProblem, PlateState
+
+Array = NDArray[np.float64]
+
+_LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
+
+
+def settled(
+    problem: PlateProblem, lagged: LaggedPlate, half_width: float
+) -> tuple[PlateState, int]:
+    """Return the solution on two meshes whose contact, stick and slip meet all conditions.
+
+    Parameters
+    ----------
+    problem, lagged : on meshes that hold the contacts.
+    half_width : about that of the wider contact [mm].
+
+    Returns
+    -------
+    The solution, and how many linear systems it took.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        where none is found.
+    """
+    found = interior_point(*_inequalities(problem, lagged, half_width))
+    end, n = problem.starts[-1], problem.meshes[0].inner.size
+    p_u, q_u, p_l, q_l = np.split(found.unknowns[:end], problem.starts[1:-1])
+    approach, upper, lower, height, rotation = found.unknowns[end:].tolist()
+    states = [
+        _parted(np.where(touches, slips, State.FREE).astype(np.int8), shear)
+        for touches, slips, shear in (
+            (found.touches[:n], found.states[:n], q_u),
+            (found.touches[n:], found.states[n:], q_l),
+        )
+    ]
+    pressure = [
+        np.where(one == State.FREE, 0.0, p) for one, p in zip(states, (p_u, p_l), strict=True)
+    ]
+    state = PlateState(
+        states=(states[0], states[1]),
+        pressure=(pressure[0], pressure[1]),
+        shear=(q_u, q_l),
+        approach=approach,
+        creepages=(upper, lower),
+        height=height,
+        rotation=rotation,
+    )
+    return state, found.steps
+
+
+def _inequalities(
+    problem: PlateProblem, lagged: LaggedPlate, half_width: float
+) -> tuple[Inequalities, Array]:
+    """Return gaps and creeps on two meshes and their bounds, and where to begin."""
+    a, b, c, d, end = problem.starts
+    matrix, right = equations(problem), given(problem, lagged)
+    curvature = problem.nip.curvature
+    depth, slope = 0.5 * curvature * half_width**2, curvature * half_width
+    guess, pressure = _guessed(problem, half_width, depth)
+    scales, start = np.empty(end + FURTHER), np.zeros(end + FURTHER)
+    for side, (first, middle, last) in enumerate(((a, b, c), (c, d, end))):
+        scales[first:middle], scales[middle:last] = depth, slope * problem.meshes[side].dx
+        start[first:middle] = guess[side]
+    force = pressure * half_width
+    scales[end:] = force, force, force * half_width, force, force
+    for row in (0, FURTHER - 1):  # a given approach, and the creepage of geared rollers
+        if not matrix[end + row, :end].any():
+            scales[end + row] = depth if row == 0 else slope
+    start[end] = depth
+    sizes = np.concatenate([np.full(end, pressure), [depth, slope, slope, depth, slope]])
+    places = np.arange(end)
+    whole = Inequalities(
+        matrix=matrix,
+        right=right,
+        pressures=np.concatenate([places[a:b], places[c:d]]),
+        shears=np.concatenate([places[b:c], places[d:end]]),
+        bounding=np.concatenate([places[a:b], places[c:d]]),
+        frictions=np.repeat(problem.frictions, (b - a, d - c)),
+        sizes=sizes,
+        scales=scales,
+    )
+    return whole, start
+
+
+def _guessed(problem: PlateProblem, half_width: float, depth: float) -> tuple[Pair, float]:
+    """Return pressures like ellipses that press the rollers as deep as they overlap."""
+    a, b, c, d, _ = problem.starts
+    x_u, x_l = (mesh.inner for mesh in problem.meshes)
+    ellipses = [np.sqrt(np.maximum(1.0 - (x / half_width) ** 2, 0.0)) for x in (x_u, x_l)]
+    under = np.concatenate(ellipses)
+    matrix = problem.matrix[:, np.r_[a:b, c:d]]
+    pressed = matrix[a:b] @ under + np.interp(x_u, x_l, matrix[c:d] @ under)
+    inside = np.flatnonzero(ellipses[0])
+    rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
+    highest = depth / (rise if rise > 0.0 else float(np.abs(pressed).max()))
+    first, second = (highest * np.maximum(one, _LEAST) for one in ellipses)
+    return (first, second), highest
+
+
+def _parted(states: States, shear: Array) -> States:
+    """Let the node of less shear stick where slip turns from one sign to the other."""
+    size = np.abs(shear)
+    for i in np.flatnonzero((states[:-1] > State.STICK) & (states[1:] > State.STICK)):
+        if states[i] != states[i + 1] and states[i] > State.STICK:
+            states[i + int(size[i + 1] < size[i])] = State.STICK
+    return states

@@ -1,0 +1,173 @@
+"""The equations of a plate between two contacts: its kernel, equilibrium, and mirror image."""
+
+from dataclasses import replace
+from itertools import pairwise
+from math import sqrt
+
+import numpy as np
+import pytest
+from scipy.integrate import quad
+from sheet_nips import HARD, SOFT, nip_with
+
+import rollnip as rn
+from rollnip.contact import cosine_nodes, subdivided
+from rollnip.rolling import pair_kernels
+from rollnip.sheet.plate.bending import Plate
+from rollnip.sheet.plate.sides import Spread, side_mesh
+
+LINEAR = rn.Model(geometry="linear")
+BOARD = replace(rn.Sheet.usual("board"), bending=True, tension_in=0.3, tension_out=0.2)
+
+
+def _kernel(plate, x):
+    """K and its first two derivatives by what tension takes of |x|^3/(12 D)."""
+    less = (0.0, 0.0, 0.0) if plate.tension == 0.0 else plate.straightened(np.array([x]))
+    stiff = 12.0 * plate.stiffness
+    free = abs(x) ** 3 / stiff, 3.0 * x * abs(x) / stiff, 6.0 * abs(x) / stiff
+    return [one - float(np.squeeze(two)) for one, two in zip(free, less, strict=True)]
+
+
+@pytest.mark.parametrize("tension", [0.0, 1e-9, 0.3, 40.0])
+def test_the_kernel_solves_the_equation_of_a_plate(tension):
+    # D y'''' - N y'' = delta: D K'' - N K is |x|/2 and a constant, but for the parabola
+    # x^2/(4 sqrt(D N)), which under forces that add up to nothing is a rotation
+    plate = replace(Plate.of(BOARD), tension=tension)
+    curvature = float(plate.curvature(np.array([0.7]))[0])
+    assert _kernel(plate, 0.7)[2] == pytest.approx(curvature, rel=1e-9)
+    assert _kernel(plate, -0.7)[1] == -_kernel(plate, 0.7)[1]
+    third = 0.5 / plate.stiffness  # K''' beside the force: half of 1/D
+    assert _kernel(plate, 1e-5)[2] == pytest.approx(1e-5 * third, rel=1e-4)
+    if tension:
+        start = plate.stiffness * _kernel(plate, 0.0)[2] - tension * _kernel(plate, 0.0)[0]
+        for x in (0.05, 0.7, 3.0):
+            height, _, bent = _kernel(plate, x)
+            parabola = 0.5 * x**2 / plate.righting
+            line = plate.stiffness * bent - tension * (height - parabola)
+            assert line - start == pytest.approx(0.5 * x, rel=1e-6)
+
+
+def test_no_tension_is_the_limit_of_little():
+    slack, taut = (replace(Plate.of(BOARD), tension=tension) for tension in (0.0, 1e-12))
+    for x in (0.01, 1.0, 9.0):
+        assert _kernel(taut, x) == pytest.approx(_kernel(slack, x), rel=1e-5)
+
+
+@pytest.fixture(scope="module")
+def tractions():
+    """Tractions on one interface: their spread, and the same as a function."""
+    kernels = pair_kernels(nip_with(BOARD), "linear")
+    nodes = cosine_nodes(np.array([-1.1, 0.9]), np.array([12]), (1.0,))
+    mesh = side_mesh(nodes, subdivided(nodes, np.array([12]), (1.0,)), kernels, 0)
+    values = 0.4 * np.sqrt((mesh.inner + 1.1) * (0.9 - mesh.inner)) + 0.1 * mesh.inner
+    acting = np.concatenate([[0.0], mesh.acting(values), [0.0]])
+    return mesh, values, lambda s: np.interp(s, mesh.fine.nodes, acting, left=0.0, right=0.0)
+
+
+@pytest.mark.parametrize("tension", [0.0, 0.3])
+@pytest.mark.parametrize("x", [-1.4, -0.3141, 0.0271, 0.8, 1.3])
+def test_what_tractions_do_to_the_plate_is_their_integral(tractions, tension, x):
+    # The places are no nodes of the mesh that the tractions are on, as those of the other
+    # interface: Gauss points took the kinks of K for smooth, which made pressures waver by 1e-3.
+    mesh, values, line = tractions
+    plate = replace(Plate.of(BOARD), tension=tension)
+    one = Spread.on(mesh, BOARD, plate).of(values)
+    beyond = one.beyond(np.array([x]))
+    found = [float(part[0, 0]) for part in one.bent(np.array([x]), beyond)]
+    pieces = np.sort(np.append(mesh.fine.nodes, np.clip(x, -1.1, 0.9)))
+
+    def integral(function):
+        return sum(
+            quad(lambda s: function(s) * line(s), a, b, epsabs=1e-15)[0]
+            for a, b in pairwise(pieces)
+            if b > a
+        )
+
+    wanted = [integral(lambda s, k=k: _kernel(plate, x - s)[k]) for k in range(3)]
+    wanted[0] -= 0.5 * plate.shear * integral(lambda s: abs(x - s))
+    exact = tension == 0.0  # two Gauss points for what tension takes, which is smooth
+    assert found == pytest.approx(wanted, rel=1e-9 if exact else 1e-7, abs=0.0 if exact else 1e-9)
+    for k, factor in enumerate((1.0, 1.0, 0.5, 1.0 / 6.0)):
+        ahead = integral(lambda s, k=k, c=factor: c * max(s - x, 0.0) ** k if s > x else 0.0)
+        assert float(beyond[k, 0, 0]) == pytest.approx(ahead, rel=1e-9, abs=1e-13)
+
+
+@pytest.fixture(scope="module")
+def pulled():
+    """Board that is pulled through a nip whose rollers differ."""
+    sheet = replace(BOARD, friction_upper=0.4, friction_lower=0.6)
+    return rn.solve(nip_with(sheet, tangential=rn.Traction(0.1)), LINEAR)
+
+
+def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
+    # int (D psi' phi'' + N psi phi') dx = int [(p_l - p_u) phi + h/2 (q_u + q_l) phi'] dx for any
+    # phi that vanishes far away; psi is the rotation of the sections
+    assert pulled.converged
+    attempt = pulled.refined.stand
+    problem, state = attempt.problem, attempt.state
+    x = np.linspace(-12.0, 12.0, 12001)
+    rotation = problem.rotation_at(state, x)
+    stiffness, tension = BOARD.bending_stiffness, 0.25
+    for middle, length in ((0.3, 1.1), (-2.0, 2.5), (3.1, 2.0)):
+        t = np.clip((x - middle) / (2.0 * length), -1.0, 1.0)
+        phi = (1.0 - t**2) ** 4
+        slope, bend = np.gradient(phi, x), np.gradient(np.gradient(phi, x), x)
+        inner = np.trapezoid(
+            stiffness * np.gradient(rotation, x) * bend + tension * rotation * slope, x
+        )
+        outer = 0.0
+        for side, sign in ((0, -1.0), (1, 1.0)):
+            mesh = problem.meshes[side]
+            s, ends = mesh.fine.nodes, (np.array([0.0]),) * 2
+            p, q = (
+                np.concatenate([ends[0], mesh.acting(t[side]), ends[1]])
+                for t in (state.pressure, state.shear)
+            )
+            pressed, sheared = np.interp(x, s, p), np.interp(x, s, q)
+            work = sign * pressed * phi + 0.5 * BOARD.thickness * sheared * slope
+            outer += np.trapezoid(work, x)
+        # the sum over 12001 places is good to 1e-4 of the load
+        assert inner == pytest.approx(outer, abs=2e-4 * pulled.load)
+
+
+def test_forces_on_the_sheet_and_their_moment_balance(pulled):
+    attempt = pulled.refined.stand
+    problem, state = attempt.problem, attempt.state
+    force = moment = 0.0
+    for side, sign in ((0, -1.0), (1, 1.0)):
+        mesh, one = problem.meshes[side], problem.spreads[side]
+        force += sign * float(mesh.weights @ state.pressure[side])
+        moment += sign * float(one.moment @ state.pressure[side])
+        moment += 0.5 * BOARD.thickness * float(mesh.weights @ state.shear[side])
+    righting = 2.0 * sqrt(BOARD.bending_stiffness * 0.25)
+    assert force == pytest.approx(0.0, abs=1e-12 * pulled.load)
+    assert moment == pytest.approx(righting * state.rotation, abs=1e-10)
+    # far away it runs along the x axis again, both sides parallel
+    far = problem.rotation_at(state, np.array([-400.0, 400.0]))
+    assert far == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("geometry", ["linear", "second"])
+def test_the_mirror_image_of_a_nip_has_the_mirror_image_of_its_solution(geometry):
+    # Upper and lower side change places: shears, tractions and creepages change sides and sign,
+    # all that does not depend on a side is the same to rounding.
+    sheet = replace(BOARD, friction_upper=0.4, friction_lower=0.6)
+    nip = nip_with(sheet, tangential=rn.Traction(0.1))
+    mirrored = nip_with(
+        replace(sheet, friction_upper=0.6, friction_lower=0.4),
+        upper=HARD,
+        lower=SOFT,
+        tangential=rn.Traction(-0.2),
+    )
+    one, two = (rn.solve(each, rn.Model(geometry=geometry)) for each in (nip, mirrored))
+    assert one.converged
+    assert two.converged
+    assert two.approach == pytest.approx(one.approach, rel=1e-9)
+    assert two.sheet.nip_width_lower == pytest.approx(one.nip_width, rel=1e-9)
+    assert two.nip_width == pytest.approx(one.sheet.nip_width_lower, rel=1e-9)
+    assert two.sheet.peak_pressure_lower == pytest.approx(one.peak_pressure, rel=1e-9)
+    assert two.sheet.creepage_lower == pytest.approx(-one.sheet.creepage_upper, rel=1e-9)
+    assert two.sheet.creepage_upper == pytest.approx(-one.sheet.creepage_lower, rel=1e-9)
+    assert two.sheet.tension_max == pytest.approx(one.sheet.tension_max, rel=1e-9)
+    assert two.torque_lower == pytest.approx(one.torque_upper, rel=1e-8)
+    errors = one.sheet.error["peak_pressure_lower"], two.error["peak_pressure"]
+    assert errors[0] == pytest.approx(errors[1], rel=1e-3)

@@ -12,7 +12,7 @@ DOCS_STAMP := $(VENV)/.installed-docs
 CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
 
 .DEFAULT_GOAL := help
-.PHONY: help venv demo serve test test-slow bench check docs clean
+.PHONY: help venv demo serve test test-slow test-browser bench check docs clean
 
 help: ## list the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
@@ -44,9 +44,11 @@ serve: venv ## the nip designer at http://127.0.0.1:8000
 test: venv ## the tests, in some minutes
 	$(BIN)/python -m pytest -m "not slow"
 
-test-slow: venv ## the tests that take more: in a browser, with killed processes, on many random nips
-	$(BIN)/python -m pytest -m slow
+test-slow: venv ## the tests that take more: with killed processes, on many random nips, of the built pages
+	$(BIN)/python -m pytest -m slow --ignore=tests/browser
 
+test-browser: venv ## the tests in a browser
+	$(BIN)/python -m pytest -m slow tests/browser
 
 bench: venv ## how long things take, as ratios to a calibration on this machine
 	$(BIN)/python -m pytest benchmarks -q -p no:cacheprovider --benchmark-timer=time.process_time --benchmark-quiet

@@ -1,9 +1,9 @@
 """Faces that several tests look at, each solved once."""
 
 import pytest
-from press_face import FACE, press
+from press_face import FACE, press, solve_face
 
-from rollnip.face import NipRows, solve_face
+from rollnip.face import NipRows
 from rollnip.shafts import Crown
 
 

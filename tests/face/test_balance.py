@@ -6,7 +6,7 @@ from math import inf, pi
 
 import numpy as np
 import pytest
-from press_face import FACE, foundation_law, press
+from press_face import CURVED, FACE, foundation_law, press, solve_face
 
 import rollnip as rn
 from rollnip.closed_forms import end_loaded_rollers
@@ -18,7 +18,6 @@ from rollnip.face import (
     Journal,
     NipRows,
     balance,
-    solve_face,
     with_crown,
 )
 from rollnip.face.covering import Coverings
@@ -84,7 +83,7 @@ def test_every_place_is_a_plane_nip(crowned):
             normal=rn.LineLoad(float(crowned.load[i])),
             tangential=rn.Traction(float(crowned.traction[i])),
         )
-        fresh = rn.solve(nip)
+        fresh = rn.solve(nip, CURVED)
         assert crowned.approach[i] == pytest.approx(fresh.approach, rel=1e-3)
         assert crowned.nip_width[i] == pytest.approx(fresh.nip_width, rel=1e-3)
         assert crowned.peak_pressure[i] == pytest.approx(fresh.peak_pressure, rel=1e-3)
@@ -124,7 +123,7 @@ def test_rigid_rollers_share_the_load_evenly(rows):
     bare = replace(nip, upper=replace(nip.upper, shaft=None), lower=replace(nip.lower, shaft=None))
     found = solve_face(bare, FACE, rows=rows)
     np.testing.assert_allclose(found.load, 6.0, rtol=1e-9)
-    fresh = rn.solve(bare)
+    fresh = rn.solve(bare, CURVED)
     assert found.creepage == pytest.approx(fresh.creepage, abs=2e-5)
     assert np.ptp(found.traction) < 1e-9
     assert found.largest_scrub == 0.0  # what rounding leaves is no scrub
@@ -412,7 +411,8 @@ def test_one_bearing_far_too_low(rows):
             press(),
             normal=rn.LineLoad(float(found.load[heavy])),
             tangential=rn.Traction(float(found.traction[heavy])),
-        )
+        ),
+        CURVED,
     )
     assert found.nip_width[heavy] == pytest.approx(fresh.nip_width, rel=2e-3)
     assert found.approach[heavy] == pytest.approx(fresh.approach, rel=2e-3)
@@ -449,7 +449,8 @@ def test_torques_and_losses_are_as_well_known_as_claimed(crowned):
             press(),
             normal=rn.LineLoad(float(crowned.load[i])),
             tangential=rn.Traction(float(crowned.traction[i])),
-        )
+        ),
+        CURVED,
     )
     rise = 1.0 + crowned.problem.rise[0, i]
     off = abs(crowned.torque_upper[i] / rise - fresh.torque_upper) / 100.0
@@ -483,6 +484,6 @@ def test_uneven_ends_ask_for_the_nips_on_their_path_alone(ends, most):
         normal=rn.LineLoad(float(found.load[i])),
         tangential=rn.Traction(float(found.traction[i])),
     )
-    fresh = rn.solve(nip)
+    fresh = rn.solve(nip, CURVED)
     assert found.approach[i] == pytest.approx(fresh.approach, rel=2e-3)
     assert found.local_creepage[i] == pytest.approx(fresh.creepage, abs=2e-4)

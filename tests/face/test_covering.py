@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from press_face import FACE, press
+from press_face import CURVED, FACE, press, solve_face
 
 import rollnip as rn
-from rollnip.face import CoveringTable, NipRows, solve_face
+from rollnip.face import CoveringTable, NipRows
 from rollnip.face.covering import Axis
 
 
@@ -24,7 +24,7 @@ def plane(solution, i, layer, lower=()):
         lower=replace(nip.lower, layers=lower, shaft=None),
         normal=rn.LineLoad(float(solution.load[i])),
     )
-    return rn.solve(changed)
+    return rn.solve(changed, CURVED)
 
 
 def assert_is_plane(solution, i, fresh, tolerance):

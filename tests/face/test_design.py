@@ -4,12 +4,20 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from press_face import FACE, press
+from press_face import (
+    FACE,
+    even_crown,
+    load_range,
+    plain_wall,
+    press,
+    read_impressions,
+    solve_face,
+)
 
 import rollnip as rn
-from rollnip.face import CoveringTable, Face, plain_wall, solve_face
-from rollnip.face.design import even_crown, load_range, with_crown
-from rollnip.face.impression import Impression, read_impressions
+from rollnip.face import CoveringTable, Face
+from rollnip.face.design import with_crown
+from rollnip.face.impression import Impression
 from rollnip.shafts import Crown, Shaft
 
 

@@ -95,16 +95,26 @@ def test_a_database_that_cannot_be_written_is_not_called_a_full_disk(
 
 def test_others_read_while_one_writes(tmp_path: Path, about: About) -> None:
     path = tmp_path / "a.db"
-    read = "import sys; from pathlib import Path; from rollnip.sweeps.store import Store\n"
-    read += "with Store(Path(sys.argv[1])) as store: print(store.tally())"
-    with Store(path, about) as one:
+    read = (
+        "import sys; from pathlib import Path; from rollnip.sweeps.store import Store\n"
+        "for _ in sys.stdin:\n"
+        "    with Store(Path(sys.argv[1])) as store: print(store.tally(), flush=True)"
+    )
+    other = subprocess.Popen(
+        [sys.executable, "-c", read, path],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+    )
+    with other, Store(path, about) as one:
+        assert other.stdin is not None
+        assert other.stdout is not None
         assert connect.is_being_written(path)
         for count in (1, 2, 3):
             one.write(outcome(count))
-            done = subprocess.run(
-                [sys.executable, "-c", read, path], capture_output=True, text=True, check=True
-            )
-            assert done.stdout == f"{{'refused': {count}}}\n"
+            other.stdin.write("\n")
+            other.stdin.flush()
+            assert other.stdout.readline() == f"{{'refused': {count}}}\n"
         with pytest.raises(RollnipError, match="is in use by another process"):
             Store(path, about)
     assert not connect.is_being_written(path)

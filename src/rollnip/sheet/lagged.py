@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import sqrt
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from rollnip.geometry import linear_stretch
@@ -95,11 +96,10 @@ def path_turn(mesh: Mesh, nip: Nip, u: Displacements) -> Array:
     fine = mesh.finer(u)
     x, height = mesh.fine.nodes[1:-1], (fine.z_upper - fine.z_lower)[:-1]
     middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
-    weights = np.sqrt(np.gradient(x))
-    path = np.polynomial.legendre.legfit((x - middle) / half, height, _DEGREE, w=weights)
-    slopes = np.polynomial.legendre.legval(
-        (mesh.inner - middle) / half, np.polynomial.legendre.legder(path) / half
-    )
+    basis = legendre.legvander((x - middle) / half, _DEGREE)
+    weighted = basis * np.gradient(x)[:, None]
+    path = np.linalg.solve(weighted.T @ basis, height @ weighted)  # least squares
+    slopes = legendre.legval((mesh.inner - middle) / half, legendre.legder(path) / half)
     bent = np.append(slopes[1:] - slopes[:-1], 0.0)  # the last interval lies outside
     return np.asarray(0.5 * ((nip.upper.curvature - nip.lower.curvature) * mesh.dx + bent))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
 
@@ -133,45 +133,56 @@ class Refined:
 
 
 def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Refined:
-    """Solve on ever finer meshes until the estimated errors are below the tolerance."""
+    """Solve on ever finer meshes until the estimated errors are below the tolerance.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        where no size of mesh has a solution.
+    """
     search, count = Search(nip, model, kernels), float(FIRST_COUNT)
+    stand = search.begun(half_width, FIRST_COUNT)
     history: list[tuple[float, SheetFigures, Zones]] = []
     best: Refined | None = None
-    stand = search.begun(half_width, FIRST_COUNT)
-    zones = stand.zones
     failures = 0
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
-        fewest = FEWEST if zones.breaks.size == 2 else FEWEST_WITH_SLIP
-        may_be_last = len(history) + 1 >= fewest
-        if history or failures or model.geometry != "linear":
-            closely = _CLOSELY if may_be_last else _ROUGHLY
-            try:
-                stand = search.placed(zones, round(count), stand, closely)
-            except np.linalg.LinAlgError:
-                failures, count = failures + 1, count * GROWTH
-                continue
-            zones = stand.zones
+        may_be_last = len(history) + 1 >= _fewest(stand.zones)
+        closely = _CLOSELY if may_be_last else _ROUGHLY
+        try:
+            stand = search.placed(stand.zones, round(count), stand, closely)
+        except np.linalg.LinAlgError:
+            failures, count = failures + 1, count * GROWTH
+            continue
         figures = SheetFigures.of(stand, model.geometry)
-        here = (count, figures, zones)
+        here = (count, figures, stand.zones)
         errors = SheetFigures(errors_between(nip, [*history, here]))
-        violated = violation(stand)
-        left = max(violated, overlap(stand, kernels))
-        latest = Refined(stand, figures, errors, left)
+        latest = Refined(stand, figures, errors, violation(stand))
         if stand.stands_still:
             history.append(here)
             best = latest
-            # Where something slips, two sizes may agree by chance.
-            fewest = FEWEST if zones.breaks.size == 2 else FEWEST_WITH_SLIP
-            enough = may_be_last and len(history) >= fewest
-            if enough and max(left, ratio(nip, figures, errors)) <= model.tolerance:
-                return latest
+            enough = may_be_last and len(history) >= _fewest(stand.zones)
+            if enough and ratio(nip, figures, errors) <= model.tolerance:
+                best = _with_overlap(latest, kernels)
+                if best.residual <= model.tolerance:
+                    return best
         else:
-            best = latest if best is None else best
-            failures += not violated <= _CLEARLY_WRONG
+            best = best or latest
+            failures += not latest.residual <= _CLEARLY_WRONG
         count *= GROWTH
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
-    return best
+    return _with_overlap(best, kernels)
+
+
+def _fewest(zones: Zones) -> int:
+    """Return the fewest sizes of mesh; where something slips, two may agree by chance."""
+    return FEWEST if zones.breaks.size == 2 else FEWEST_WITH_SLIP
+
+
+def _with_overlap(refined: Refined, kernels: PairKernels) -> Refined:
+    """Return a solution with what it overlaps outside the contact, too."""
+    left = max(refined.residual, overlap(refined.stand, kernels))
+    return replace(refined, residual=left)
 
 
 def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:

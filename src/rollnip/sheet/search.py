@@ -22,19 +22,20 @@ from rollnip.contact import (
     subdivided,
 )
 from rollnip.model import Model
-from rollnip.nip import Nip, Torque
+from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
 from rollnip.sheet.moves import Moves
-from rollnip.sheet.settled import settled
+from rollnip.sheet.settled import settled, slipping
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import (
     SIGNS,
     Factorised,
     Lagged,
+    SheetMesh,
     SheetProblem,
     SheetState,
     next_slip,
@@ -97,30 +98,33 @@ class Search:
     kernels: PairKernels
 
     def begun(self, half_width: float, count: int) -> Standing:
-        """Find a first solution, without terms that depend on it but a traction for a torque.
+        """Find zones and terms that depend on the solution, on a mesh that reaches beyond it.
 
-        Ends of zones that are far off leave singular tractions, under which such terms mean
-        nothing. ``half_width``: about that of the nip [mm].
+        ``half_width``: about that of the nip [mm]; ``count``: elements.
         """
-        plain = replace(self, model=replace(self.model, geometry="linear"))
-        stand = plain.placed(plain._first_zones(half_width, count), count, None)
-        lagged = lagged_terms(stand.problem, self.model.geometry, stand.state)
-        return replace(stand, lagged=lagged)
-
-    def _first_zones(self, half_width: float, count: int) -> Zones:
-        """Return the zones of a mesh that reaches beyond the contact."""
         reach, shape = _REACH * half_width, (np.array([count]), (1.0,))
         for _ in range(_MOST_REACHES):
             problem = self._problem(Zones.sticking(reach), shape, None)
             lagged = first_lagged(problem)
-            state = settled(problem, lagged, half_width)
-            if isinstance(self.nip.tangential, Torque):
-                lagged = lagged_terms(problem, self.model.geometry, state)
+            state, steps = settled(problem, lagged, half_width), 0
+            if not has_none(problem, self.model.geometry):
+                problem = self._with_own(problem, state)
+                lagged, steps = lagged_terms(problem, self.model.geometry, state), state.steps
                 state = settled(problem, lagged, half_width)
             if state.states[0] == state.states[-1] == State.FREE:
                 break
             reach *= _WIDER
-        return Zones.around(problem.mesh.inner, state, problem.frictions)
+        zones = Zones.around(problem.mesh.inner, state, problem.frictions)
+        return Standing(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
+
+    def _with_own(self, problem: SheetProblem, state: SheetState) -> SheetProblem:
+        """Return a problem with the second order of its solution."""
+        if self.kernels.is_linear:
+            return problem
+        held = problem.mesh.second_fields(state)
+        mesh = problem.mesh.holding(replace(self.kernels, held=held))
+        assert isinstance(mesh, SheetMesh)
+        return replace(problem, mesh=mesh)
 
     def placed(
         self, zones: Zones, count: int, before: Standing | None, closely: float = _PLACED
@@ -148,14 +152,15 @@ class Search:
             start = first_lagged(problem) if stand is None else carried(stand, problem)
             stand = self._solved(problem, zones, start, steps, off)
             steps = stand.steps
-            asked = zones.moved(problem, stand.state)
+            called = self._called_for(stand)
+            asked = zones.moved(problem, stand.state, called or zones)
             off = asked.distance(zones)
             known = min(known, off)
             is_met = violation(stand) <= self._slack
             rough = off > _FAIRLY_PLACED and not changes
             # Without a violation zones are doubted once; with one, as soon as no end moves.
             sure = changes > 0 if is_met else off > placed
-            if rough or (is_met and sure) or ((is_met or sure) and self._agrees(stand)):
+            if rough or (is_met and sure) or ((is_met or sure) and called is not None):
                 if off <= placed and stand.stands_still and is_fine and is_met:
                     return replace(stand, zones=asked, off=off)
                 zones = asked if off > _NEARLY_PLACED else moves.next(zones, asked)
@@ -226,18 +231,21 @@ class Search:
     def _slack(self) -> float:
         return min(self.model.tolerance, _SLACK)
 
-    def _agrees(self, stand: Standing) -> bool:
-        """Return whether the states that a solution calls for make the same zones as its own."""
+    def _called_for(self, stand: Standing) -> Zones | None:
+        """Return the zones that the states make which a solution calls for, if like its own."""
         wanted = next_slip(stand.problem, stand.state, stand.lagged, self._slack)
         state = replace(stand.state, states=wanted[0], states_lower=wanted[1])
         problem, zones = stand.problem, stand.zones
         found = Zones.found(problem.mesh.inner, state, problem.frictions, zones.edges)
-        return found is not None and found.without_slivers().is_like(zones)
+        found = None if found is None else found.without_slivers()
+        return found if found is not None and found.is_like(zones) else None
 
     def _other(self, stand: Standing, edges: Zones) -> tuple[Standing, Zones] | None:
         """Find other zones between known edges, node by node; None where there are none."""
         problem = stand.problem
-        state = settled(problem, stand.lagged, 0.5 * stand.zones.width)
+        state = slipping(problem, stand.state, stand.lagged, self._slack)
+        if state is None:
+            state = settled(problem, stand.lagged, 0.5 * stand.zones.width)
         zones = Zones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
         if zones is None:
             return None

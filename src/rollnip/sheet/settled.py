@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, States, interior_point
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.system import Lagged, SheetProblem, SheetState
+from rollnip.sheet.system import Lagged, SheetProblem, SheetState, next_slip
 
 Array = NDArray[np.float64]
 
+_MOST_STEPS = 4  # linear systems, while a few nodes change their states
 _LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
 
 
@@ -44,6 +47,21 @@ def settled(problem: SheetProblem, lagged: Lagged, half_width: float) -> SheetSt
         shear_lower=below,
         creepage_lower=lower,
     )
+
+
+def slipping(
+    problem: SheetProblem, state: SheetState, lagged: Lagged, slack: float
+) -> SheetState | None:
+    """Return the solution on a given contact whose stick and slip suit it; None where not near.
+
+    ``state``: a solution near to it; ``slack``: see `next_slip`.
+    """
+    for steps in range(1, _MOST_STEPS + 1):
+        wanted = next_slip(problem, state, lagged, slack)
+        if steps > 1 and np.array_equal(wanted, state.both_states):
+            return replace(state, steps=steps)
+        state = problem.solve(wanted, lagged)
+    return None
 
 
 def _inequalities(

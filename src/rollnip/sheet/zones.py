@@ -104,11 +104,12 @@ class Zones:
         upper, lower = (Layout(p, s.states) for p, s in zip(places, self.sides, strict=True))
         return Zones(upper, lower)
 
-    def moved(self, problem: SheetProblem, state: SheetState) -> Zones:
+    def moved(self, problem: SheetProblem, state: SheetState, called: Zones) -> Zones:
         """Return the zones with their breaks moved to where a solution with them puts them.
 
-        A transition that is asked to move more than half way to its neighbours stays, as where the
-        solution does not say where it belongs: whether there is such a zone is asked otherwise.
+        ``called``: like zones, of the states that the solution calls for. They say where a
+        transition belongs whose nearest shears do not, or would move it beyond the middle of a
+        zone.
         """
         x = problem.mesh.inner
         asked = [
@@ -122,10 +123,11 @@ class Zones:
         if not (np.isfinite(trailing) and np.isfinite(leading) and trailing < leading):
             trailing, leading = edges
         sides = []
-        for side, wanted in zip(self.sides, asked, strict=True):
+        for side, wanted, other in zip(self.sides, asked, called.sides, strict=True):
             middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])
             inner = wanted[1:-1]
-            inner[(inner < middles[:-1]) | (inner > middles[1:])] = np.nan
+            clear = (inner > middles[:-1]) & (inner < middles[1:])
+            inner[~clear] = other.breaks[1:-1][~clear]
             sides.append(Layout(held(side.breaks, wanted, (trailing, leading)), side.states))
         return Zones(sides[0], sides[1])
 

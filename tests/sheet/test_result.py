@@ -58,7 +58,7 @@ def test_geared_rollers_hold_with_both():
     solution = rn.solve(nip, rn.Model(geometry="linear"))
     assert solution.converged
     assert solution.sheet.grip.largest == pytest.approx(2.0 * 0.3 * 1.78, rel=1e-6)
-    assert solution.sheet.grip.first == "both"
+    assert solution.sheet.grip.first == "lower"  # the harder covering
 
 
 def test_json_holds_the_sheet(pulled):

@@ -12,7 +12,7 @@ from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Roller
 from rollnip.rolling import Round, impossible, verdict
-from rollnip.sheet.refine import SheetFigures
+from rollnip.sheet.refine import SheetFigures, scales
 from rollnip.sheet.system import frictions_of
 
 _CLEARLY = 1.2  # times what friction carries; a torque also turns against the pressure
@@ -45,6 +45,11 @@ class Refined(Protocol):
     @property
     def figures(self) -> SheetFigures:
         """Its figures."""
+        ...
+
+    @property
+    def errors(self) -> SheetFigures:
+        """Their estimated errors."""
         ...
 
     @property
@@ -116,8 +121,22 @@ def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tup
             f"the tolerance {model.tolerance:g}; try another tolerance or a smaller load."
         )
     is_met, words = verdict(nip, model, final)
+    for side, error in zip(("upper", "lower"), creepage_errors(nip, refined), strict=True):
+        if is_met and not error <= model.tolerance:
+            return False, (
+                f"The estimated error of the creepage on the {side} roller is {error:.1e} "
+                f"(relative), {error / model.tolerance:.1f} times what the tolerance "
+                f"{model.tolerance:g} allows, on the finest mesh; accept it with a larger "
+                "tolerance."
+            )
     left = f"{refined.residual:.1e}"
     return is_met, f"Solved and verified: residual {left}, {words}" if is_met else words
+
+
+def creepage_errors(nip: Nip, refined: Refined) -> tuple[float, float]:
+    """Return the estimated errors of both creepages against the sheet, relative."""
+    upper, lower = (refined.errors.values[5:7] / scales(nip, refined.figures)[5:7]).tolist()
+    return upper, lower
 
 
 def bending_length(nip: Nip) -> float:

@@ -53,15 +53,15 @@ class Grip:
     pull : present [N/mm].
     largest, smallest : pulls between which the nip holds the sheet [N/mm]; with a prescribed
         traction or torque the lower roller's share stays as it is.
-    first : the side that slips first where the pull is raised; "both" where the rollers are
-        geared together, for then both slide before the sheet is lost.
+    first : the side that slides all over first where the pull is raised. With geared rollers the
+        sheet is lost when the other one does, too.
     use_upper, use_lower : traction of each interface over friction times load, in size.
     """
 
     pull: float
     largest: float
     smallest: float
-    first: Literal["upper", "lower", "both"]
+    first: Literal["upper", "lower"]
     use_upper: float
     use_lower: float
 
@@ -128,3 +128,9 @@ class SheetResult:
     def grip_reserve(self) -> float:
         """Change of the pull that makes the sheet slip through [N/mm]; see `Grip`."""
         return self.grip.reserve
+
+
+def slip_share_of(zones: tuple[Zone, ...]) -> float:
+    """Return the share of the nip width that slips."""
+    slipping = sum(zone.stop - zone.start for zone in zones if zone.state == "slip")
+    return slipping / (zones[-1].stop - zones[0].start)

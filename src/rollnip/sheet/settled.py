@@ -60,7 +60,10 @@ def slipping(
         wanted = next_slip(problem, state, lagged, slack)
         if steps > 1 and np.array_equal(wanted, state.both_states):
             return replace(state, steps=steps)
-        state = problem.solve(wanted, lagged)
+        try:
+            state = problem.solve(wanted, lagged)
+        except np.linalg.LinAlgError:  # nothing is left that sticks
+            return None
     return None
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactZone, State
 from rollnip.interior import SurfaceTractions
-from rollnip.nip import Creepage, Nip, Torque, Traction
+from rollnip.nip import Creepage, Torque, Traction
 from rollnip.rolling import (
     DeformedSurfaces,
     Displacements,
@@ -28,10 +28,11 @@ from rollnip.rolling import (
 )
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.common import bending_length
+from rollnip.sheet.grip import grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
 from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, Refined, SheetFigures, scales
-from rollnip.sheet.result import Grip, SheetProfiles, SheetResult
+from rollnip.sheet.result import SheetProfiles, SheetResult, slip_share_of
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of
 from rollnip.solution import Solution
@@ -175,14 +176,19 @@ class SheetSolution(Solution):
             friction_upper=power(spent.friction_upper),
             friction_lower=power(spent.friction_lower),
             power=power(spent.into_sheet),
-            slip_share_upper=_slip_share(self._zones(0)),
-            slip_share_lower=_slip_share(self._zones(1)),
+            slip_share_upper=slip_share_of(self._zones(0)),
+            slip_share_lower=slip_share_of(self._zones(1)),
             zones_lower=self._zones(1),
             bending_length=bending_length(self.nip),
             bends=self._bends,
             nip_width_lower=self._lower[0],
             peak_pressure_lower=self._lower[1],
-            grip=_grip(self.nip, self.load, self._figure("traction_upper"), self.traction),
+            grip=grip_of(
+                self.nip,
+                self.load,
+                (self._figure("traction_upper"), self.traction),
+                self._sliding(),
+            ),
             profiles=self._sheet_profiles(),
             error=self._sheet_errors(),
         )
@@ -343,6 +349,21 @@ class SheetSolution(Solution):
         u = Displacements(np.stack(four))
         return (x, u) if self.kernels.is_linear else (x, u + mesh.second_fields(state).at(x))
 
+    def _sliding(self) -> tuple[Array, Array]:
+        """Return creeps over length, see `grip.first_to_slide`."""
+        stand, state = self.refined.stand, self._state
+        mu_u, mu_l = frictions_of(self.nip)
+        slid = replace(
+            state,
+            shear=mu_u * state.pressure,
+            shear_lower=-mu_l * state.pressure,
+            creepage=0.0,
+            creepage_lower=0.0,
+        )
+        _, upper, lower = stand.problem.gap_and_creeps(slid, stand.lagged)[:, :-1]
+        length = stand.problem.dx[:-1]
+        return upper / length, lower / length
+
     def _slip(self, side: int) -> Array | None:
         """Return the slip velocity of the upper surface of an interface over the lower one."""
         speed = self.nip.speed
@@ -370,27 +391,6 @@ class SheetSolution(Solution):
         return out
 
 
-def _slip_share(zones: tuple[Zone, ...]) -> float:
-    """Return the share of the nip width that slips."""
-    slipping = sum(zone.stop - zone.start for zone in zones if zone.state == "slip")
-    return slipping / (zones[-1].stop - zones[0].start)
-
-
 def inside_zone(x: Array, zone: ContactZone) -> NDArray[np.bool_]:
     """Return which places lie in a zone."""
     return np.asarray((x >= zone.start) & (x <= zone.stop))
-
-
-def _grip(nip: Nip, load: float, upper: float, lower: float) -> Grip:
-    mu_u, mu_l = frictions_of(nip)
-    geared = isinstance(nip.tangential, Creepage)
-    reach = (mu_u + mu_l) * load if geared else mu_u * load
-    kept = 0.0 if geared else lower
-    return Grip(
-        pull=upper - lower,
-        largest=reach - kept,
-        smallest=-reach - kept,
-        first="both" if geared else "upper",
-        use_upper=abs(upper) / (mu_u * load),
-        use_lower=abs(lower) / (mu_l * load),
-    )

@@ -162,6 +162,14 @@ class PlateSolution(SheetSolution):
             four.append(rows)
         return x, Displacements(np.concatenate(four))
 
+    def _sliding(self) -> tuple[Array, Array]:
+        stand, state = self._standing, self._standing.state
+        (mu_u, mu_l), (above, below) = stand.problem.frictions, state.pressure
+        slid = replace(state, shear=(mu_u * above, -mu_l * below), creepages=(0.0, 0.0))
+        (_, upper), (_, lower) = stand.problem.gaps_and_creeps(slid, stand.lagged)
+        first, second = (mesh.dx[:-1] for mesh in stand.problem.meshes)
+        return upper[:-1] / first, lower[:-1] / second
+
     def _slip(self, side: int) -> Array | None:
         speed = self.nip.speed
         if speed is None:

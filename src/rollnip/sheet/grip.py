@@ -1,0 +1,60 @@
+"""How hard a sheet can be pulled before it slips through, and which interface slides first."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.nip import Creepage, Nip
+from rollnip.sheet.result import Grip
+from rollnip.sheet.system import frictions_of
+
+Array = NDArray[np.float64]
+
+
+def grip_of(
+    nip: Nip, load: float, pulls: tuple[float, float], sliding: tuple[Array, Array]
+) -> Grip:
+    """Return the pulls that a nip holds.
+
+    Parameters
+    ----------
+    nip : with a sheet.
+    load : line load [N/mm].
+    pulls : T_u and T_l [N/mm].
+    sliding : see `first_to_slide`; used where the rollers are geared together.
+    """
+    (mu_u, mu_l), (upper, lower) = frictions_of(nip), pulls
+    first: Literal["upper", "lower"] = "upper"
+    reach, kept = mu_u * load, lower
+    if isinstance(nip.tangential, Creepage):
+        reach, kept = (mu_u + mu_l) * load, 0.0
+        first = first_to_slide(sliding, nip.tangential.creepage)
+    return Grip(
+        pull=upper - lower,
+        largest=reach - kept,
+        smallest=-reach - kept,
+        first=first,
+        use_upper=abs(upper) / (mu_u * load),
+        use_lower=abs(lower) / (mu_l * load),
+    )
+
+
+def first_to_slide(sliding: tuple[Array, Array], creepage: float) -> Literal["upper", "lower"]:
+    """Return the side of geared rollers that slides all over first where the pull is raised.
+
+    As the pull grows, the upper roller runs ahead of the sheet and, the sum of both creepages being
+    given, the lower one falls behind it by as much. An interface slides all over once that is more
+    than its surface and the sheet stretch apart anywhere: on the stiffer covering, with the smaller
+    friction, first.
+
+    Parameters
+    ----------
+    sliding : creep over length on the upper and on the lower interface, for creepages of zero and
+        shears of friction times pressure that pull the sheet backwards.
+    creepage : the sum of both.
+    """
+    upper, lower = sliding
+    return "upper" if float(np.max(-upper)) < creepage + float(np.max(lower)) else "lower"

@@ -67,6 +67,38 @@ def test_what_is_known_is_said_in_german(german):
     assert german.page.input_value("#in-upper-layers-0-thickness") == "12.7"
 
 
+SAID = {
+    'No solution of geometry "finite" was found: its second-order terms did not come to rest (they '
+    'last changed by 0.2 of the first-order ones). All figures are those of geometry "second".': (
+        "Endliche Dehnung, zweite Ordnung"
+    ),
+    "The nip could not be solved on the way: Contact, stick and slip did not settle; try "
+    '`geometry = "linear"`, a smaller load or another tolerance.': "kleinere Last",
+    "Layer 2 (from the surface) of the lower roller, 3 mm thick, is pressed in by 61 % of its "
+    "thickness; beyond 50 % none of the models here holds. Lower the load or the approach, or take "
+    "a thicker or harder covering.": "Schicht 2 (von der Oberfläche aus) der unteren Walze",
+    "The nip is open over a part of the face: from y = -700 to -650 mm and from y = 650 to 700 mm. "
+    "With a sheet it must be closed all over the face; try a smaller crown, skew or offset, or a "
+    "larger load.": "von y = -700 bis -650 mm und von y = 650 bis 700 mm",
+    "Path and heat still differ by 3 K. This state is not stable: a disturbance grows.": "Störung",
+}
+
+
+def test_what_the_solver_says_is_translated_also_where_it_is_put_together(german):
+    """Reasons within a sentence, and one sentence after the other."""
+    known = """async said => {
+      const { inLanguage } = await import('/static/js/sentences.js');
+      return said.map(inLanguage);
+    }"""
+    for sentence, text in zip(SAID, german.page.evaluate(known, list(SAID)), strict=True):
+        assert text is not None, sentence
+        assert SAID[sentence] in text
+        words = set(re.findall(r"[a-z]{3,}", text.lower()))
+        assert not words & {"the", "and", "from", "try", "layer"}, text
+    reason = "The nip could not be solved on the way: the rollers are in love."
+    assert german.page.evaluate(known, [reason]) == [None]
+
+
 def test_examples_and_materials_are_there_in_german(german):
     page = german.page
     page.click("#open-examples")

@@ -9,16 +9,18 @@ import pytest
 from tests.browser.test_static import messages
 
 PACKAGE = Path(__file__).parents[2] / "src" / "rollnip"
+WHERE = re.compile(r"^(?:[\w.\[\]]+: )*(?:`[\w.]+` )?")
 HOLE = re.compile(r"\{\w+\}")
 KNOWN = {key: text for key, text in messages("en").items() if key.startswith("solver.")}
+FOLDERS = ("", "rolling", "sheet", "sheet/plate", "patch", "face", "heat", "materials", "web")
 OWN = {"solver.english", "solver.line", "solver.change"}  # of the page itself
 
 
 @cache
 def written():
-    """Long texts of the sources, without the name of a value before, 7 for what is filled in."""
+    """Texts of the sources, also without path and name of a value before, 7 for what is filled in."""
     found = set()
-    for folder in ("", "rolling", "sheet", "patch", "face", "heat", "web"):
+    for folder in FOLDERS:
         for path in (PACKAGE / folder).glob("*.py"):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.JoinedStr):
@@ -28,7 +30,8 @@ def written():
                     found.add("".join(parts))
                 elif isinstance(node, ast.Constant) and isinstance(node.value, str):
                     found.add(node.value)
-    return frozenset(re.sub(r"^`[\w.]+` ", "", text) for text in found if len(text) > 20)
+    texts = [text.strip().replace("{}", "7") for text in found if len(text) > 12]
+    return frozenset([*(WHERE.sub("", text) for text in texts), *texts])
 
 
 @pytest.mark.parametrize("key", sorted(set(KNOWN) - OWN))

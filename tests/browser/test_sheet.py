@@ -84,6 +84,20 @@ def test_the_sheet_is_drawn_and_the_caption_says_how_thick(sheet):
     assert "sheet" not in page.inner_text("#drawings")
 
 
+def test_the_bound_of_the_shear_is_that_of_the_friction_of_each_side(sheet):
+    """Friction of a side of the sheet times pressure, not that of the rollers on each other."""
+    designer, _tree = sheet
+    designer.unfold("in-sheet-more")
+    designer.sent(lambda: designer.page.check("#in-sheet-friction"))
+    designer.enter("in-sheet-friction_upper", "0.4")
+    designer.enter("in-sheet-friction_lower", "0.3")
+    designer.tab("pressure")
+    pressure = np.array(designer.trace("chart-pressure", "pressure")["y"])
+    for side, friction in (("upper", 0.4), ("lower", 0.3)):
+        bound = designer.trace("chart-pressure", f"traction bound, {side} side")["y"]
+        np.testing.assert_allclose(bound, friction * pressure, atol=1e-9)
+
+
 def test_the_ticks_of_the_strain_are_round(sheet):
     designer, _tree = sheet
     designer.tab("sheet")

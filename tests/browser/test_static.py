@@ -97,7 +97,7 @@ def messages(language):
         )
     ]
     assert len(dict(found)) == len(found), "a message stands in two files"
-    return dict(found)
+    return {key: text.replace('\\"', '"') for key, text in found}
 
 
 def test_every_file_of_messages_is_used():

@@ -220,8 +220,11 @@ def _status(level: Level, name: str, worst: float, tolerance: float) -> str:
         return "One grid alone tells no error; give a finer one."
     plain = name.replace("_", " ")
     if worst <= tolerance:
-        return f"Solved; the largest error claimed is {worst:.1e}, of the {plain}."
-    return f"The {plain} is known to {worst:.1e} only, where {tolerance:.1e} was wanted."
+        return f"Solved; the largest error claimed is {100.0 * worst:.2g} %, of the {plain}."
+    return (
+        f"The {plain} is known to {100.0 * worst:.2g} % only, where "
+        f"{100.0 * tolerance:.2g} % were wanted."
+    )
 
 
 def patch_box(patch: Patch, tables: PairTables) -> Box:

@@ -2,12 +2,13 @@
 
 import { underway } from "./busy.js";
 import { placeInWords } from "./paths.js";
+import { inLanguage } from "./sentences.js";
 import { say } from "./texts.js";
 
 /** What went wrong, with the places in the case it belongs to. */
 export class ApiError extends Error {
   constructor(message, status, details = []) {
-    super(message);
+    super(known(message));
     this.status = status;
     this.details = details;
   }
@@ -16,13 +17,18 @@ export class ApiError extends Error {
 /** What went wrong, a sentence for each place it belongs to; `place` writes a path. */
 export function sentencesOf({ message, details = [] }, place = placeInWords) {
   if (details.length === 0) return [message];
-  return details.map((one) => place(one.path) + one.message);
+  return details.map((one) => place(one.path) + known(one.message));
 }
 
 /** A single complaint without its place: for a box that holds one value. */
 export function complaintOf({ message, details = [] }) {
-  const text = details[0]?.message ?? message;
+  const text = known(details[0]?.message ?? message);
   return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** A sentence of the server in the language of the page, where that has it. */
+function known(text) {
+  return inLanguage(text) ?? text;
 }
 
 /** Where a nip is solved; stresses on interfaces, which cost more than the rest, are not shown here. */

@@ -34,7 +34,7 @@ export function byId(id) {
 /** A number with its unit, the unit set smaller. */
 export function withUnit({ text, unit }) {
   if (!unit) return [text];
-  return [text, el("span", { class: "unit", text: unit === "%" ? "%" : ` ${unit}` })];
+  return [text, el("span", { class: "unit", text: unit === "%" ? "\u202f%" : ` ${unit}` })];
 }
 
 /** A button of the house; its content is a text or a pictogram. */

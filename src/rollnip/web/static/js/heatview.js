@@ -198,7 +198,7 @@ class Further {
     const heat = this.app.heats.of(tree);
     if (!heat) return;
     this.chart.node.hidden = false;
-    this.said.textContent = this.kind === "runaway" ? branchSentence(result, units) : warmSentence(result);
+    this.said.textContent = this.kind === "runaway" ? branchSentence(result, units) : warmSentence(result, units);
     const drawn = this.kind === "runaway" ? branchChart(result, heat, units, palette) : warmChart(result, units, palette);
     this.chart.show(drawn);
   }
@@ -217,8 +217,8 @@ function verdictOf(heat, units) {
   return say(heat.stable === false ? `heat.unstable-${side}` : `heat.steady-${side}`, values);
 }
 
-function warmSentence(course) {
-  if (!course.converged) return course.status;
+function warmSentence(course, units) {
+  if (!course.converged) return inWords(course.status, "", units);
   const half = course.half_time;
   return half === null ? say("heat.no-half") : say("heat.half", { time: spanOf(half) });
 }
@@ -231,7 +231,7 @@ function branchSentence(branch, units) {
   const dimension = branch.parameter === "speed" ? "speed" : "line load";
   if (!branch.turning) {
     const far = branch.points[branch.points.length - 1].value;
-    return `${say("heat.no-runaway", { value: units.text(far, dimension, 3) })} ${branch.reached ? "" : branch.status}`.trim();
+    return `${say("heat.no-runaway", { value: units.text(far, dimension, 3) })} ${branch.reached ? "" : inWords(branch.status, "", units)}`.trim();
   }
   const { value, hot_spot: hot } = branch.turning;
   const values = {

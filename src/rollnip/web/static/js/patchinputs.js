@@ -90,7 +90,8 @@ function put(app, patch) {
 }
 
 function group(title, ...children) {
-  return el("div", { class: "patch-group", role: "group", "aria-label": title }, el("h3", { text: title }), ...children);
+  const isLong = children.length > 5;
+  return el("div", { class: isLong ? "patch-group long" : "patch-group", role: "group", "aria-label": title }, el("h3", { text: title }), ...children);
 }
 
 function pressed(app, result, control) {

@@ -17,7 +17,6 @@ function pressurePlot(result, units, palette, tree) {
   const name = units.name("pressure");
   const pressure = units.list(profiles.pressure, "pressure");
   const shear = units.list(profiles.shear, "pressure");
-  const bound = pressure.map((value) => tree.nip.friction * value);
   data.push(
     line(say("curve.pressure"), x, pressure, palette.pressure, {
       width: 2.6,
@@ -32,19 +31,7 @@ function pressurePlot(result, units, palette, tree) {
     const style = { dash: "longdash", hovertemplate: `%{y:.4~g} ${name}` };
     data.push(line(say("curve.shear-lower"), x, lower, palette.lower, style));
   }
-  if (tree.nip.friction > 0) {
-    const style = { dash: "dash", width: 1.3, hoverinfo: "skip", legendgroup: "bound" };
-    data.push(line(say("curve.bound"), x, bound, palette.bound, style));
-    data.push(
-      line(
-        "",
-        x,
-        bound.map((value) => -value),
-        palette.bound,
-        { ...style, showlegend: false },
-      ),
-    );
-  }
+  data.push(...boundsOf(result, tree, units, x, palette));
   const [low, high] = span(pressure, shear);
   const layout = layoutOf(palette, along(units), titled(say("axis.pressure"), name), {
     along: units.name("length"),
@@ -119,6 +106,30 @@ function speedPlot(result, units, palette) {
   return { data, layout, label: say("chart.speed") };
 }
 
+/** Friction times pressure, up and down; one for each side of a sheet whose frictions differ. */
+function boundsOf(result, tree, units, x, palette) {
+  const own = tree.sheet ?? {};
+  const upper = own.friction_upper ?? tree.nip.friction;
+  const lower = own.friction_lower ?? tree.nip.friction;
+  const { pressure } = result.profiles;
+  const sides = [["curve.bound", upper, pressure, "dash"]];
+  if (result.sheet && upper !== lower) {
+    sides[0][0] = "curve.bound-upper";
+    sides.push(["curve.bound-lower", lower, result.sheet.profiles.pressure_lower ?? pressure, "dot"]);
+  }
+  return sides
+    .filter(([, friction]) => friction > 0)
+    .flatMap(([key, friction, pressed, dash]) => {
+      const bound = units.list(pressed, "pressure").map((value) => friction * value);
+      const style = { dash, width: 1.3, hoverinfo: "skip", legendgroup: key };
+      const below = bound.map((value) => -value);
+      return [
+        line(say(key), x, bound, palette.bound, style),
+        line("", x, below, palette.bound, { ...style, showlegend: false }),
+      ];
+    });
+}
+
 /** Tension of the sheet; strain on an axis of its own. */
 function sheetPlot(result, units, palette) {
   if (!result.sheet) return null;
@@ -136,8 +147,8 @@ function sheetPlot(result, units, palette) {
       hovertemplate: "%{y:.3~g} %",
     }),
   ];
-  const second = { text: titled(say("curve.strain"), "%"), standoff: 8 };
-  const layout = layoutOf(palette, along(units), titled(say("curve.tension"), unit), {
+  const second = { text: titled(say("axis.sheet-strain"), "%"), standoff: 8 };
+  const layout = layoutOf(palette, along(units), titled(say("axis.tension"), unit), {
     along: units.name("length"),
     xaxis: { range: reach(result, units) },
     yaxis2: {

@@ -118,8 +118,8 @@ function faceParts({ tree, face }, units, palette) {
 function heatParts({ tree, heat }, units) {
   if (!heat) return [];
   const inputs = heatPaths(tree).map((path) => row(tree, path, units, faceLabel(path, tree)));
-  const said = heat.converged ? heatTables(heat, tree, units) : [el("p", { class: "alarm", text: heat.status })];
-  const notes = heat.warnings.map((text) => el("li", { text }));
+  const said = heat.converged ? heatTables(heat, tree, units) : [el("p", { class: "alarm", text: inWords(heat.status, "", units) })];
+  const notes = sentenceItems(heat.warnings, units);
   return [el("h2", { text: say("heat.title") }), table(inputs), ...said, el("ul", {}, ...notes)];
 }
 

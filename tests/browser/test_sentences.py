@@ -18,7 +18,7 @@ OWN = {"solver.english", "solver.line", "solver.change"}  # of the page itself
 
 @cache
 def written():
-    """Texts of the sources, also without path and name of a value before, 7 for what is filled in."""
+    """Texts of the sources, with and without path and name before, 7 for what is filled in."""
     found = set()
     for folder in FOLDERS:
         for path in (PACKAGE / folder).glob("*.py"):

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import date, datetime, time
 from math import isfinite
 from typing import Any
 
-from rollnip._errors import RollnipError
+from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
 
 _PATH = re.compile(r"(materials\..{1,80}?|[^\s:]{1,120}): (.*)", re.DOTALL)
+_NAMED = re.compile(r"`([\w.]+)`")
 SOURCE = "case"
 
 
@@ -65,6 +66,23 @@ def refusal(error: RollnipError) -> dict[str, Any]:
     first = f"{path}: {message}" if path else message
     more = f" ({len(details) - 1} more below.)" if len(details) > 1 else ""
     return error_tree(first + more, details)
+
+
+def at_its_key(error: InvalidInputError, path_of: Callable[[str], str]) -> CaseFileError:
+    """Return an error of the solver as one of the case.
+
+    Parameters
+    ----------
+    error :
+        begins with the name of a value in backticks, or with none.
+    path_of :
+        path of the key in the case by that name, "" where there is none; a name with points is a
+        path already.
+    """
+    named = _NAMED.match(str(error))
+    name = named[1] if named else ""
+    path = name if "." in name else path_of(name)
+    return CaseFileError(f"{SOURCE}: {path}: {error}")
 
 
 def _placed(line: str) -> tuple[str, str]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import hashlib
 import json
 from collections.abc import AsyncIterator, Mapping
 from contextlib import asynccontextmanager
@@ -18,6 +19,7 @@ from rollnip.web.bodies import (
     RunawayBody,
     SweepBody,
 )
+from rollnip.web.kept import Kept
 from rollnip.web.limits import Limits
 from rollnip.web.patches import is_coarse
 from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError
@@ -40,16 +42,13 @@ class Desk:
     def __init__(self, limits: Limits) -> None:
         self.pool = Pool(limits)
         self._limits = limits
+        self._answers: Kept[Reply] = Kept(limits.kept, lambda reply: len(reply.body))
         self._long = 0
         self._gate = asyncio.Semaphore(max(1, limits.workers - 1))
 
     async def task(self, name: str, body: Mapping[str, Any]) -> Reply:
         """Do one task in the time of a solve. Raises RefusedError."""
-        with_time = self._limits.solve_seconds
-        try:
-            return await self.pool.run(name, body, with_time)
-        except (OverloadedError, TimeLimitError, WorkerError) as error:
-            raise _refused(error, with_time) from None
+        return await self._asked(name, body, self._limits.solve_seconds)
 
     async def solve(self, case: Mapping[str, Any], *, interfaces: bool) -> Reply:
         """Solve a case. Raises RefusedError."""
@@ -96,19 +95,12 @@ class Desk:
         """Return what is known about the figures of a case. Raises RefusedError."""
         async with self._gate:
             seconds = 3.0 * self._limits.solve_seconds  # three solves
-            try:
-                return await self.pool.run("known", body.model_dump(), seconds, patient=True)
-            except (OverloadedError, TimeLimitError, WorkerError) as error:
-                raise _refused(error, seconds) from None
+            return await self._asked("known", body.model_dump(), seconds, patient=True)
 
     async def face(self, case: Mapping[str, Any]) -> Reply:
         """Solve a case along its face, where its table is if it can be. Raises RefusedError."""
         seconds = self._limits.long_seconds  # the first time; a table that is there takes no time
-        body = {"case": case}
-        try:
-            return await self.pool.run("face", body, seconds, key=_section_key(case))
-        except (OverloadedError, TimeLimitError, WorkerError) as error:
-            raise _refused(error, seconds) from None
+        return await self._asked("face", {"case": case}, seconds, key=_section_key(case))
 
     async def crown(self, body: CrownBody) -> Reply:
         """Find the crown that evens out the load along the face. Raises RefusedError."""
@@ -129,31 +121,39 @@ class Desk:
     async def _long_answer(self, name: str, body: Mapping[str, Any]) -> Reply:
         """Do one long task, beside which a worker stays free. Raises RefusedError."""
         async with self._long_task(), self._gate:
-            seconds = self._limits.long_seconds
-            try:
-                return await self.pool.run(name, body, seconds, patient=True)
-            except (OverloadedError, TimeLimitError, WorkerError) as error:
-                raise _refused(error, seconds) from None
+            return await self._asked(name, body, self._limits.long_seconds, patient=True)
 
     async def impression(self, body: ImpressionBody) -> Reply:
         """Read measured nip widths along a face. Raises RefusedError."""
-        async with self._long_task(), self._gate:
-            seconds = self._limits.long_seconds
-            try:
-                return await self.pool.run("impression", body.model_dump(), seconds, patient=True)
-            except (OverloadedError, TimeLimitError, WorkerError) as error:
-                raise _refused(error, seconds) from None
+        return await self._long_answer("impression", body.model_dump())
 
     async def patch(self, case: Mapping[str, Any]) -> Reply:
         """Solve a patch; only on a coarse grid beside a slider that moves. Raises RefusedError."""
         if is_coarse(case):
             return await self.task("patch", {"case": case})
-        async with self._long_task(), self._gate:
-            seconds = self._limits.long_seconds
-            try:
-                return await self.pool.run("patch", {"case": case}, seconds, patient=True)
-            except (OverloadedError, TimeLimitError, WorkerError) as error:
-                raise _refused(error, seconds) from None
+        return await self._long_answer("patch", {"case": case})
+
+    async def _asked(
+        self,
+        name: str,
+        body: Mapping[str, Any],
+        seconds: float,
+        *,
+        patient: bool = False,
+        key: str | None = None,
+    ) -> Reply:
+        """Return the answer of a worker, or the one that was given before. Raises RefusedError.
+
+        The parameters are those of `rollnip.web.pool.Pool.run`.
+        """
+        question = _question(name, body)
+        if (kept := self._answers.get(question)) is not None:
+            return kept
+        try:
+            reply = await self.pool.run(name, body, seconds, patient=patient, key=key)
+        except (OverloadedError, TimeLimitError, WorkerError) as error:
+            raise _refused(error, seconds) from None
+        return self._answers.put(question, reply) if reply.status == 200 else reply
 
     async def _value(self, body: SweepBody, value: float | str) -> Reply:
         """One solve of a sweep; one that takes too long is an error of its row."""
@@ -181,6 +181,12 @@ class Desk:
             raise _refused(TimeLimitError(), self._limits.long_seconds) from None
         finally:
             self._long -= 1
+
+
+def _question(name: str, body: Mapping[str, Any]) -> str:
+    """Return what is the same for a question however its body is ordered."""
+    text = json.dumps(body, sort_keys=True)
+    return f"{name} {hashlib.sha256(text.encode()).hexdigest()}"
 
 
 def _section_key(case: Mapping[str, Any]) -> str:

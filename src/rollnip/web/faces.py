@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from collections import OrderedDict
 from dataclasses import replace
 from typing import Any, Literal
 
@@ -27,13 +25,13 @@ from rollnip.io import Case
 from rollnip.nip import LineLoad, Nip, Traction
 from rollnip.rollers import Roller
 from rollnip.shafts import STEEL, Crown, Face
-from rollnip.web.answers import SOURCE
+from rollnip.web.answers import SOURCE, at_its_key
+from rollnip.web.kept import Kept
 
 Array = NDArray[np.float64]
 
 _KEPT = 4  # tables, some ten kB each
 _FEW = 5  # places along the face where only its shafts are checked
-_NAMED = re.compile(r"`([\w.]+)`")
 _SIDES: tuple[Literal["upper", "lower"], ...] = ("upper", "lower")
 _PLACES = {
     "end_loads": "face.end_loads",
@@ -55,7 +53,7 @@ class Faces:
 
     def __init__(self, kernels: KernelCache) -> None:
         self._kernels = kernels
-        self._laws: OrderedDict[str, NipLaw | SheetLaw] = OrderedDict()
+        self._laws: Kept[NipLaw | SheetLaw] = Kept(_KEPT)
 
     def face(self, case: Case) -> dict[str, Any]:
         """Return the key "face" of the result of a case; with "crown", radii over those nominal.
@@ -65,7 +63,7 @@ class Faces:
         CaseFileError
             where the case has no face, or something along it does not fit; says at which key.
         """
-        solution = self._solved(case.nip, _face_of(case), case)
+        solution = self._solved(case.nip, face_of(case), case)
         rollers = {"upper": case.nip.upper, "lower": case.nip.lower}
         crowns = {name: _crown(one, solution).tolist() for name, one in rollers.items()}
         return face_dict(solution) | {"crown": crowns}
@@ -78,7 +76,7 @@ class Faces:
         line load along the face is within a share of the mean, null where the range goes on or
         none was found, which ``served`` tells apart.
         """
-        face = _face_of(case)
+        face = face_of(case)
         _check(case.nip, face)
         try:
             best = even_crown(case.nip, face, case.model, roller=roller, cache=self._kernels)
@@ -101,21 +99,17 @@ class Faces:
     def _solved(self, nip: Nip, face: Face, case: Case) -> FaceSolution:
         _check(nip, face)
         key = repr((_section(nip), case.model))
-        law = self._laws.pop(key, None)
+        law = self._laws.get(key)
         try:
             solution = solve_face(nip, face, case.model, law=law, cache=self._kernels)
         except InvalidInputError as error:
             raise _placed(error) from None
-        finally:
-            if law is not None:
-                self._laws[key] = law
-        self._laws[key] = solution.law
-        while len(self._laws) > _KEPT:
-            self._laws.popitem(last=False)
+        self._laws.put(key, solution.law)
         return solution
 
 
-def _face_of(case: Case) -> Face:
+def face_of(case: Case) -> Face:
+    """Return the face of a case. Raises CaseFileError where it has none."""
     if case.face is None:
         raise CaseFileError(f"{SOURCE}: face: is missing; add a table [face] with a length.")
     return case.face
@@ -174,12 +168,10 @@ def _check(nip: Nip, face: Face) -> None:
 
 def _placed(error: InvalidInputError, side: str = "") -> CaseFileError:
     """Return the error with the path of the key that it names."""
-    named = _NAMED.match(str(error))
-    key = named[1] if named else ""
-    if "." in key:
-        path = key
-    elif side:
-        path = f"{side}.shaft" if key in ("", "shaft") else f"{side}.shaft.{key}"
-    else:
-        path = _PLACES.get(key, "face")
-    return CaseFileError(f"{SOURCE}: {path}: {error}")
+
+    def path_of(name: str) -> str:
+        if not side:
+            return _PLACES.get(name, "face")
+        return f"{side}.shaft" if name in ("", "shaft") else f"{side}.shaft.{name}"
+
+    return at_its_key(error, path_of)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from typing import Any, Literal
 
 from rollnip._errors import CaseFileError, InvalidInputError
@@ -11,7 +10,8 @@ from rollnip.heat import HeatSolution, follow_heat, solve_heat, warm_up
 from rollnip.heat.report import branch_dict, heat_dict, warm_up_dict
 from rollnip.influence import KernelCache
 from rollnip.io import Case, case_hash
-from rollnip.web.answers import SOURCE
+from rollnip.web.answers import SOURCE, at_its_key
+from rollnip.web.kept import Kept
 
 _KEPT = 4
 _FROM, _TO = 0.1, 10.0  # of the case's own value: where a branch begins and ends
@@ -29,7 +29,7 @@ class Heats:
 
     def __init__(self, kernels: KernelCache) -> None:
         self._kernels = kernels
-        self._kept: OrderedDict[str, HeatSolution] = OrderedDict()
+        self._kept: Kept[HeatSolution] = Kept(_KEPT)
 
     def steady(self, case: Case) -> dict[str, Any]:
         """Return the key "heat" of the result of a case.
@@ -75,15 +75,13 @@ class Heats:
 
     def _steady(self, case: Case) -> HeatSolution:
         key = case_hash(case)
-        kept = self._kept.pop(key, None)
+        if (kept := self._kept.get(key)) is not None:
+            return kept
         try:
-            kept = kept or solve_heat(case.nip, _heat_of(case), case.model, cache=self._kernels)
+            found = solve_heat(case.nip, _heat_of(case), case.model, cache=self._kernels)
         except InvalidInputError as error:
             raise _placed(error) from None
-        self._kept[key] = kept
-        while len(self._kept) > _KEPT:
-            self._kept.popitem(last=False)
-        return kept
+        return self._kept.put(key, found)
 
 
 def _heat_of(case: Case) -> HeatBalance:
@@ -105,7 +103,4 @@ def _value_of(case: Case, parameter: Literal["speed", "load"]) -> float:
 
 def _placed(error: InvalidInputError) -> CaseFileError:
     """Return the error with the path of the key that it names."""
-    message = str(error)
-    name = message[1:].partition("`")[0] if message.startswith("`") else ""
-    path = name if "." in name else _PLACES.get(name, "heat")
-    return CaseFileError(f"{SOURCE}: {path}: {message}")
+    return at_its_key(error, lambda name: _PLACES.get(name, "heat"))

@@ -9,6 +9,7 @@ from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip.face import Impression, Reading, read_impressions
 from rollnip.io import Case
 from rollnip.web.answers import SOURCE
+from rollnip.web.faces import face_of
 
 
 def read_impression(case: Case, body: Mapping[str, Any]) -> dict[str, Any]:
@@ -23,8 +24,7 @@ def read_impression(case: Case, body: Mapping[str, Any]) -> dict[str, Any]:
     CaseFileError
         where the case has no face, or the widths cannot be read.
     """
-    if case.face is None:
-        raise CaseFileError(f"{SOURCE}: face: is missing; add a table [face] with a length.")
+    face = face_of(case)
     try:
         impressions = [
             Impression(one["y"], one["width"], body["scatter"], one["load"])
@@ -32,7 +32,7 @@ def read_impression(case: Case, body: Mapping[str, Any]) -> dict[str, Any]:
         ]
         unknowns = tuple(body["unknowns"])
         reading = read_impressions(
-            case.nip, case.face, impressions, unknowns, case.model, roller=body["roller"]
+            case.nip, face, impressions, unknowns, case.model, roller=body["roller"]
         )
     except InvalidInputError as error:
         raise CaseFileError(f"{SOURCE}: impressions: {error}") from None

@@ -42,6 +42,8 @@ class Limits:
         time of one solve [s].
     long_seconds :
         time of a sweep or an inverse solve, once it is begun [s].
+    kept :
+        bytes of answers that are kept, so that a question that comes again needs no worker.
     depth :
         nesting of a body.
     layers :
@@ -68,6 +70,7 @@ class Limits:
     long_waiting: int = 8
     solve_seconds: float = 10.0
     long_seconds: float = 60.0
+    kept: int = 16 * 1024 * 1024
     depth: int = 32
     layers: int = 20
     terms: int = 60

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import logging
-from collections import OrderedDict
 from collections.abc import Callable, Mapping
 from itertools import pairwise
 from math import isfinite
@@ -38,6 +37,7 @@ from rollnip.web.answers import SOURCE, Reply, as_json, error_tree, json_bytes, 
 from rollnip.web.faces import Faces
 from rollnip.web.heats import Heats
 from rollnip.web.impressions import read_impression
+from rollnip.web.kept import Kept
 from rollnip.web.known import JUDGED, at_end, bands, is_judged, spread
 from rollnip.web.library import Library
 from rollnip.web.limits import Limits
@@ -79,7 +79,7 @@ class Tasks:
 
     def __init__(self, limits: Limits) -> None:
         self._limits = limits
-        self._kept: OrderedDict[str, Solution] = OrderedDict()
+        self._kept: Kept[Solution] = Kept(_KEPT)
         self._kernels = KernelCache()
         self._faces = Faces(self._kernels)
         self._heats = Heats(self._kernels)
@@ -292,11 +292,9 @@ class Tasks:
 
     def _solution(self, case: Case) -> Solution:
         key = case_hash(case)
-        kept = self._kept.pop(key, None)
-        self._kept[key] = kept = kept or solve(case.nip, case.model, cache=self._kernels)
-        if len(self._kept) > _KEPT:
-            self._kept.popitem(last=False)
-        return kept
+        if (kept := self._kept.get(key)) is not None:
+            return kept
+        return self._kept.put(key, solve(case.nip, case.model, cache=self._kernels))
 
 
 def _dimension(tree: Body, path: str) -> Dimension:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from rollnip._errors import InvalidInputError, require_finite
 from rollnip._units import format_quantity
@@ -16,43 +16,39 @@ _ACTIVE = 1e-3  # relative distance from a limit below which the limit is active
 
 
 @dataclass(frozen=True, slots=True)
-class Minimise:
+class _Extreme:
+    """A result of a case that is to be as small or as large as can be."""
+
+    sense: ClassVar[Literal["minimise", "maximise"]]
+
+    quantity: str
+
+    def __post_init__(self) -> None:
+        require_quantity(self.quantity, self.sense)
+
+    @property
+    def key(self) -> str:
+        """Key of the objective in the results of a case."""
+        return self.quantity
+
+    @property
+    def solves(self) -> int:
+        """Number of solves of a case."""
+        return 1
+
+
+class Minimise(_Extreme):
     """The result that is to be as small as can be."""
 
-    quantity: str
-
-    def __post_init__(self) -> None:
-        require_quantity(self.quantity, "minimise")
-
-    @property
-    def key(self) -> str:
-        """Key of the objective in the results of a case."""
-        return self.quantity
-
-    @property
-    def solves(self) -> int:
-        """Number of solves of a case."""
-        return 1
+    __slots__ = ()
+    sense = "minimise"
 
 
-@dataclass(frozen=True, slots=True)
-class Maximise:
+class Maximise(_Extreme):
     """The result that is to be as large as can be."""
 
-    quantity: str
-
-    def __post_init__(self) -> None:
-        require_quantity(self.quantity, "maximise")
-
-    @property
-    def key(self) -> str:
-        """Key of the objective in the results of a case."""
-        return self.quantity
-
-    @property
-    def solves(self) -> int:
-        """Number of solves of a case."""
-        return 1
+    __slots__ = ()
+    sense = "maximise"
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,6 +64,8 @@ class LeastChange:
     against : path of the number in the case; not zero there.
     share : relative step of the difference, positive and at most 0.2.
     """
+
+    sense: ClassVar[Literal["minimise"]] = "minimise"
 
     quantity: str
     against: str
@@ -96,37 +94,43 @@ class LeastChange:
 
 
 @dataclass(frozen=True, slots=True)
-class AtLeast:
+class _Bound:
+    """A limit of a result: a number in base units, or a text with its unit.
+
+    ``tolerance`` is a share of the limit (of 1 where it is 0) by which it may be passed.
+    """
+
+    sense: ClassVar[Literal["at least", "at most"]]
+
+    quantity: str
+    limit: float | str
+    tolerance: float = 0.0
+
+    def __post_init__(self) -> None:
+        require_quantity(self.quantity, "result")
+        _require_tolerance(self.tolerance)
+        key = self.sense.replace(" ", "_")
+        object.__setattr__(self, "limit", read_result(key, self.limit, self.quantity))
+
+
+class AtLeast(_Bound):
     """A result must not be below a limit: a number in base units, or a text with its unit.
 
     ``tolerance`` is a share of the limit (of 1 where it is 0) by which it may be passed.
     """
 
-    quantity: str
-    limit: float | str
-    tolerance: float = 0.0
-
-    def __post_init__(self) -> None:
-        require_quantity(self.quantity, "result")
-        _require_tolerance(self.tolerance)
-        object.__setattr__(self, "limit", read_result("at_least", self.limit, self.quantity))
+    __slots__ = ()
+    sense = "at least"
 
 
-@dataclass(frozen=True, slots=True)
-class AtMost:
+class AtMost(_Bound):
     """A result must not be above a limit: a number in base units, or a text with its unit.
 
     ``tolerance`` is a share of the limit (of 1 where it is 0) by which it may be passed.
     """
 
-    quantity: str
-    limit: float | str
-    tolerance: float = 0.0
-
-    def __post_init__(self) -> None:
-        require_quantity(self.quantity, "result")
-        _require_tolerance(self.tolerance)
-        object.__setattr__(self, "limit", read_result("at_most", self.limit, self.quantity))
+    __slots__ = ()
+    sense = "at most"
 
 
 Objective = Minimise | Maximise | LeastChange
@@ -156,15 +160,10 @@ class LimitKept:
     is_active: bool
 
 
-def sense_of(limit: Limit) -> Literal["at least", "at most"]:
-    """Return the sense of a limit, "at least" or "at most"."""
-    return "at least" if isinstance(limit, AtLeast) else "at most"
-
-
 def limit_text(limit: Limit) -> str:
     """Return a limit in words, such as "nip_width at least 8.0000 mm"."""
     bound = format_quantity(float(limit.limit), QUANTITIES[limit.quantity], digits=_DIGITS)
-    return f"{limit.quantity} {sense_of(limit)} {bound}"
+    return f"{limit.quantity} {limit.sense} {bound}"
 
 
 def excess_over(limit: Limit, value: float) -> float:
@@ -184,7 +183,7 @@ def standing(limit: Limit, row: Mapping[str, Any], error: float | None) -> Limit
     return LimitKept(
         quantity=limit.quantity,
         unit=QUANTITIES[limit.quantity],
-        sense=sense_of(limit),
+        sense=limit.sense,
         limit=float(limit.limit),
         value=value,
         error=error,

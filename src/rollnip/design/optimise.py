@@ -9,7 +9,7 @@ from typing import Any, Literal
 from rollnip._frames import Column, Frame, Framed, numbers
 from rollnip._html import html_table
 from rollnip._units import format_quantity
-from rollnip.design.aims import Limit, LimitKept, Maximise, Objective, standing
+from rollnip.design.aims import Limit, LimitKept, Objective, standing
 from rollnip.design.find import Evaluate
 from rollnip.design.problem import Bounds, Problem
 from rollnip.design.quantities import QUANTITIES, json_tree, result_error
@@ -186,7 +186,7 @@ def optimise(
 
 def _answer(problem: Problem, found: Searched, row: Mapping[str, Any]) -> Optimum:
     objective, trials, values = problem.objective, found.trials, problem.by_path(found.best)
-    sign = -1.0 if isinstance(objective, Maximise) else 1.0
+    sign = -1.0 if objective.sense == "maximise" else 1.0
     limits: tuple[LimitKept, ...] = ()
     if not problem.fault(row):
         limits = tuple(
@@ -204,7 +204,7 @@ def _answer(problem: Problem, found: Searched, row: Mapping[str, Any]) -> Optimu
         chosen=chosen,
         quantity=objective.key,
         unit=QUANTITIES[objective.quantity],
-        sense="maximise" if isinstance(objective, Maximise) else "minimise",
+        sense=objective.sense,
         value=row.get(objective.key),
         error=result_error(row, objective.key),
         limits=limits,
@@ -256,7 +256,7 @@ def _agreement(
         return said
     values = [one.value for one in ends if one.is_feasible and one.value is not None]
     unit = QUANTITIES[problem.objective.quantity]
-    pick = min if isinstance(problem.objective, Maximise) else max
+    pick = min if problem.objective.sense == "maximise" else max
     worst = pick(values, default=None)
     far = "" if worst is None else f", the others at up to {format_quantity(worst, unit, digits=5)}"
     said.append(
@@ -327,7 +327,7 @@ def _sentences(
             f"with {quantity} = {value}; {missed}."
         ]
     else:
-        goal = "largest" if isinstance(problem.objective, Maximise) else "smallest"
+        goal = "largest" if problem.objective.sense == "maximise" else "smallest"
         said = [f"The {goal} {quantity} found is {value}, at {problem.said(values)}."]
         said += [
             f"The limit decides: {one.quantity} {one.sense} {_shown(one.limit, one)}."

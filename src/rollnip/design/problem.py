@@ -13,7 +13,6 @@ from rollnip._units import base_unit, format_quantity
 from rollnip.design.aims import (
     LeastChange,
     Limit,
-    Maximise,
     Objective,
     excess_over,
     require_consistent,
@@ -137,7 +136,7 @@ class Problem:
         if fault:
             beyond = (float("inf"),) * len(self.limits)
             return Trial(place, float("inf"), beyond, values, fault)
-        sign = -1.0 if isinstance(self.objective, Maximise) else 1.0
+        sign = -1.0 if self.objective.sense == "maximise" else 1.0
         excess = tuple(excess_over(limit, row[limit.quantity]) for limit in self.limits)
         return Trial(place, sign * row[self.objective.key], excess, values)
 

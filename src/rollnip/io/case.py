@@ -10,7 +10,7 @@ from typing import Any
 from rollnip._results.case import problem_hash
 from rollnip.cooling import HeatBalance
 from rollnip.io.build import Builder
-from rollnip.io.document import parse_document, read_document
+from rollnip.io.document import folder_of, parse_document, read_document
 from rollnip.io.messages import checked_form, refuse, wrong_controls
 from rollnip.io.tables import TABLES, CaseTable
 from rollnip.model import Model
@@ -57,8 +57,7 @@ def read_case(path: str | Path) -> Case:
         where the file cannot be read or does not describe a nip; one line for each error, with
         the name of the file and the path of the key.
     """
-    folder = Path() if str(path) == "-" else Path(path).parent
-    return built_case(read_document(path), str(path), folder)
+    return built_case(read_document(path), str(path), folder_of(path))
 
 
 def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:

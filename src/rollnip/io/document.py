@@ -31,6 +31,11 @@ def read_document(path: str | Path) -> dict[str, Any]:
     return parse_document(_text(_bytes(name), name), name)
 
 
+def folder_of(path: str | Path) -> Path:
+    """Return where the files that a file names are; those of the standard input, here."""
+    return Path() if str(path) == "-" else Path(path).parent
+
+
 def parse_document(text: str, name: str) -> dict[str, Any]:
     """Read TOML or JSON (a text that opens with a brace, or a name that ends in .json)."""
     is_json = name.lower().endswith(".json") or text.lstrip().startswith("{")

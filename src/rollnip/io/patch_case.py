@@ -11,7 +11,7 @@ from typing import Any
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.io.build import Builder
 from rollnip.io.case import Case, built_case
-from rollnip.io.document import parse_document, read_document
+from rollnip.io.document import folder_of, parse_document, read_document
 from rollnip.io.messages import checked_form, more_than_one, placed, refuse
 from rollnip.io.profile import read_profile
 from rollnip.io.tables import CaseTable, NipTable, RollerTable
@@ -69,8 +69,7 @@ def read_patch_case(path: str | Path) -> PatchCase:
         where the file cannot be read or does not describe a patch; one line for each error, with
         the name of the file and the path of the key.
     """
-    folder = Path() if str(path) == "-" else Path(path).parent
-    return _built(read_document(path), str(path), folder)
+    return _built(read_document(path), str(path), folder_of(path))
 
 
 def parse_patch_case(case: str | Mapping[str, Any], *, source: str = "case") -> PatchCase:
@@ -87,8 +86,7 @@ def read_any_case(path: str | Path) -> Case | PatchCase:
 
     Raises CaseFileError as `rollnip.io.read_case` and `read_patch_case`.
     """
-    folder = Path() if str(path) == "-" else Path(path).parent
-    return any_case(read_document(path), str(path), folder)
+    return any_case(read_document(path), str(path), folder_of(path))
 
 
 def any_case(tree: Mapping[str, Any], source: str, folder: Path | None = None) -> Case | PatchCase:

@@ -105,3 +105,31 @@ def test_the_ticks_of_the_strain_are_round(sheet):
     texts = designer.page.locator("#chart-sheet .y2tick").all_text_contents()
     assert len(texts) >= 3
     assert all(len(text.replace("0.", "").lstrip("\u22120")) <= 2 for text in texts), texts
+
+
+def test_bending_is_chosen_and_the_result_says_whether_it_was_counted(sheet):
+    designer, tree = sheet
+    page = designer.page
+    assert "bending" not in tree["sheet"]
+    assert page.input_value("#in-sheet-bending") == "auto"
+    page.click("#in-sheet-more > summary")
+    tree = designer.choose("in-sheet-kind", "board")
+    tree = designer.choose("in-sheet-bending", "on")
+    assert tree["sheet"]["bending"] is True
+    designer.tab("sheet")
+    foot = page.locator("#chart-sheet ~ .chart-foot .hint")
+    designer.trace("chart-sheet", "tension")
+    assert "is counted" in foot.inner_text()
+    case = parse_case(tree)
+    solution = rn.solve(case.nip, case.model)
+    assert solution.sheet.bends
+    designer.tab("pressure")
+    below = designer.trace("chart-pressure", "pressure, lower side")
+    np.testing.assert_allclose(below["y"], solution.sheet.profiles.pressure_lower, atol=1e-9)
+    tree = designer.choose("in-sheet-bending", "off")
+    assert tree["sheet"]["bending"] is False
+    designer.tab("sheet")
+    designer.trace("chart-sheet", "tension")
+    assert "bends freely" in foot.inner_text()
+    tree = designer.choose("in-sheet-bending", "auto")
+    assert "bending" not in tree["sheet"]

@@ -25,7 +25,7 @@ from rollnip.sheet.moves import Moves
 from rollnip.sheet.plate.attempt import PlateAttempt, carried, violation
 from rollnip.sheet.plate.factorised import FactorisedPlate
 from rollnip.sheet.plate.lagged import change_of, first_lagged, has_none, lagged_terms
-from rollnip.sheet.plate.settled import settled
+from rollnip.sheet.plate.settled import Edges, settled
 from rollnip.sheet.plate.sides import side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
@@ -34,7 +34,7 @@ from rollnip.sheet.search import SHORTEST_LAYER, sheet_layer, squeeze_layer
 Array = NDArray[np.float64]
 
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
-_FAIRLY_PLACED = 1e-2  # over the width: good enough to see what slips
+_FAIRLY_PLACED = 2e-3  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
 _CLOSELY = 0.1  # of the tolerance: what an end may be off, over the width
 _ROUGHLY = 1.0  # the same where a solution only begins another one
@@ -78,7 +78,8 @@ class PlateSearch:
         reach = _REACH * half_width
         for _ in range(_MOST_REACHES):
             problem = self._even(PlateZones.sticking(reach), 0.0)
-            state = self._settled(problem, first_lagged(problem), half_width)
+            around = (-half_width, half_width)
+            state = self._settled(problem, first_lagged(problem), (around, around))
             if all(one[0] == one[-1] == State.FREE for one in state.states):
                 break
             reach *= _WIDER
@@ -93,15 +94,14 @@ class PlateSearch:
         first = first_lagged(problem)
         if lagged is not None:
             first = replace(first, traction=lagged.traction, lean=lagged.lean)
-        half_width = 0.5 * max(side.width for side in zones.sides)
-        return PlateZones.around(problem, self._settled(problem, first, half_width))
+        return PlateZones.around(problem, self._settled(problem, first, zones.edges))
 
-    def _settled(self, problem: PlateProblem, lagged: LaggedPlate, half_width: float) -> PlateState:
+    def _settled(self, problem: PlateProblem, lagged: LaggedPlate, edges: Edges) -> PlateState:
         """Return a solution with contact, stick and slip; with a wanted torque on the way too."""
-        state, _ = settled(problem, lagged, half_width)
+        state, _ = settled(problem, lagged, edges)
         if isinstance(self.nip.tangential, Torque):
             wanted = lagged_terms(problem, "linear", state).traction
-            state, _ = settled(problem, replace(lagged, traction=wanted), half_width)
+            state, _ = settled(problem, replace(lagged, traction=wanted), edges)
         return state
 
     def _even(self, zones: PlateZones, margin: float) -> PlateProblem:
@@ -268,9 +268,8 @@ class PlateSearch:
 
     def _found(self, stand: PlateAttempt, edges: PlateZones) -> PlateZones | None:
         """Return the zones between known edges that suit a solution; None where there are none."""
-        half_width = 0.5 * max(side.width for side in stand.zones.sides)
         try:
-            state, _ = settled(stand.problem, stand.lagged, half_width)
+            state, _ = settled(stand.problem, stand.lagged, stand.zones.edges)
         except np.linalg.LinAlgError:
             return None
         found = edges.found(stand.problem, state)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from math import pi
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -10,19 +12,18 @@ from rollnip.sheet.plate.factorised import FURTHER, equations, given
 from rollnip.sheet.plate.system import LaggedPlate, Pair, PlateProblem, PlateState
 
 Array = NDArray[np.float64]
+Edges = tuple[tuple[float, float], tuple[float, float]]
 
 _LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
 
 
-def settled(
-    problem: PlateProblem, lagged: LaggedPlate, half_width: float
-) -> tuple[PlateState, int]:
+def settled(problem: PlateProblem, lagged: LaggedPlate, edges: Edges) -> tuple[PlateState, int]:
     """Return the solution on two meshes whose contact, stick and slip meet all conditions.
 
     Parameters
     ----------
     problem, lagged : on meshes that hold the contacts.
-    half_width : about that of the wider contact [mm].
+    edges : trailing and leading edge of either contact, about [mm].
 
     Returns
     -------
@@ -33,7 +34,7 @@ def settled(
     numpy.linalg.LinAlgError
         where none is found.
     """
-    found = interior_point(*_inequalities(problem, lagged, half_width))
+    found = interior_point(*_inequalities(problem, lagged, edges))
     end, n = problem.starts[-1], problem.meshes[0].inner.size
     p_u, q_u, p_l, q_l = np.split(found.unknowns[:end], problem.starts[1:-1])
     approach, upper, lower, height, rotation = found.unknowns[end:].tolist()
@@ -60,25 +61,26 @@ def settled(
 
 
 def _inequalities(
-    problem: PlateProblem, lagged: LaggedPlate, half_width: float
+    problem: PlateProblem, lagged: LaggedPlate, edges: Edges
 ) -> tuple[Inequalities, Array]:
     """Return gaps and creeps on two meshes and their bounds, and where to begin."""
     a, b, c, d, end = problem.starts
     matrix, right = equations(problem), given(problem, lagged)
     curvature = problem.nip.curvature
+    half_width = 0.5 * max(leading - trailing for trailing, leading in edges)
     depth, slope = 0.5 * curvature * half_width**2, curvature * half_width
-    guess, pressure = _guessed(problem, half_width, depth)
+    guess, force = _guessed(problem, edges, depth)
     scales, start = np.empty(end + FURTHER), np.zeros(end + FURTHER)
+    sizes = np.empty(end + FURTHER)
     for side, (first, middle, last) in enumerate(((a, b, c), (c, d, end))):
         scales[first:middle], scales[middle:last] = depth, slope * problem.meshes[side].dx
-        start[first:middle] = guess[side]
-    force = pressure * half_width
+        start[first:middle], sizes[first:last] = guess[side], float(guess[side].max())
     scales[end:] = force, force, force * half_width, force, force
+    sizes[end:] = depth, slope, slope, depth, slope
     for row in (0, FURTHER - 1):  # a given approach, and the creepage of geared rollers
         if not matrix[end + row, :end].any():
             scales[end + row] = depth if row == 0 else slope
     start[end] = depth
-    sizes = np.concatenate([np.full(end, pressure), [depth, slope, slope, depth, slope]])
     places = np.arange(end)
     whole = Inequalities(
         matrix=matrix,
@@ -93,19 +95,30 @@ def _inequalities(
     return whole, start
 
 
-def _guessed(problem: PlateProblem, half_width: float, depth: float) -> tuple[Pair, float]:
-    """Return pressures like ellipses that press the rollers as deep as they overlap."""
+def _guessed(problem: PlateProblem, edges: Edges, depth: float) -> tuple[Pair, float]:
+    """Return pressures like ellipses that press the rollers as deep as they overlap, and the load.
+
+    The forces of both are alike.
+    """
     a, b, c, d, _ = problem.starts
     x_u, x_l = (mesh.inner for mesh in problem.meshes)
-    ellipses = [np.sqrt(np.maximum(1.0 - (x / half_width) ** 2, 0.0)) for x in (x_u, x_l)]
-    under = np.concatenate(ellipses)
+    upper, lower = (
+        _ellipse(mesh.inner, *one) for mesh, one in zip(problem.meshes, edges, strict=True)
+    )
     matrix = problem.matrix[:, np.r_[a:b, c:d]]
-    pressed = matrix[a:b] @ under + np.interp(x_u, x_l, matrix[c:d] @ under)
-    inside = np.flatnonzero(ellipses[0])
+    under = matrix @ np.concatenate([upper, lower])
+    pressed = under[a:b] + np.interp(x_u, x_l, under[c:d])
+    inside = np.flatnonzero(upper)
     rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
-    highest = depth / (rise if rise > 0.0 else float(np.abs(pressed).max()))
-    first, second = (highest * np.maximum(one, _LEAST) for one in ellipses)
-    return (first, second), highest
+    force = depth / (rise if rise > 0.0 else float(np.abs(pressed).max()))
+    first, second = (force * np.maximum(one, _LEAST * one.max()) for one in (upper, lower))
+    return (first, second), force
+
+
+def _ellipse(x: Array, trailing: float, leading: float) -> Array:
+    """Return pressures between two edges whose force is 1 N/mm [MPa]."""
+    middle, half = 0.5 * (leading + trailing), 0.5 * (leading - trailing)
+    return 2.0 / (pi * half) * np.sqrt(np.maximum(1.0 - ((x - middle) / half) ** 2, 0.0))
 
 
 def _parted(states: States, shear: Array) -> States:

@@ -41,6 +41,11 @@ class PlateZones:
         return self.upper, self.lower
 
     @property
+    def edges(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Return trailing and leading edge of either contact [mm]."""
+        return self.upper.edges, self.lower.edges
+
+    @property
     def width(self) -> float:
         """Return the width of the upper interface [mm]."""
         return self.upper.width

@@ -36,7 +36,7 @@ export class CurveView {
     const foot = el(
       "div",
       { class: "chart-foot" },
-      el("p", { class: "hint", text: FEET[id] }),
+      (this.foot = el("p", { class: "hint", text: FEET[id] })),
       el("div", { class: "row" }, ...exports),
     );
     this.node = el("div", {}, place, this.none, foot);
@@ -48,10 +48,17 @@ export class CurveView {
     this.chart.node.hidden = !figure;
     this.none.hidden = Boolean(figure);
     if (figure) this.chart.show(figure);
+    if (this.id === "sheet") this.foot.textContent = sheetFoot(result);
   }
 
   /** The figure in light colours, for files. */
   figure({ tree, result }, palette) {
     return PLOTS[this.id](result, this.app.units(), palette, tree);
   }
+}
+
+/** What the chart of the sheet shows, and whether the sheet's stiffness against bending was counted. */
+function sheetFoot({ sheet }) {
+  if (!sheet) return FEET.sheet;
+  return `${FEET.sheet} ${say(sheet.bends ? "foot.sheet-bends" : "foot.sheet-free")}`;
 }

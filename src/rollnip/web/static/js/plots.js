@@ -31,8 +31,13 @@ function pressurePlot(result, units, palette, tree) {
     const style = { dash: "longdash", hovertemplate: `%{y:.4~g} ${name}` };
     data.push(line(say("curve.shear-lower"), x, lower, palette.lower, style));
   }
+  const below = result.sheet?.bends ? units.list(result.sheet.profiles.pressure_lower, "pressure") : [];
+  if (below.length) {
+    const style = { dash: "dashdot", hovertemplate: `%{y:.4~g} ${name}` };
+    data.push(line(say("curve.pressure-lower"), x, below, palette.pressure, style));
+  }
   data.push(...boundsOf(result, tree, units, x, palette));
-  const [low, high] = span(pressure, shear);
+  const [low, high] = span([...pressure, ...below], shear);
   const layout = layoutOf(palette, along(units), titled(say("axis.pressure"), name), {
     along: units.name("length"),
     xaxis: { range: reach(result, units) },

@@ -64,8 +64,34 @@ function sheetInputs(panel, put) {
       ...more.map((name) => panel.control(`sheet.${name}`)),
       checkbox("in-sheet-friction", say("sheet.own-friction"), hasOwn, own),
       ...frictions.map((name) => panel.control(`sheet.${name}`)),
+      bending(panel, put),
+      el("p", { class: "hint", id: "in-sheet-bending-hint", text: say("hint.sheet-bending") }),
     ]),
   ];
+}
+
+/** Whether the stiffness of the sheet against bending is counted: where it shows, always, never. */
+function bending(panel, put) {
+  const options = [
+    ["auto", say("sheet.bending-auto")],
+    ["on", say("sheet.bending-on")],
+    ["off", say("sheet.bending-off")],
+  ];
+  const valueOf = (sheet) => (sheet.bending === undefined ? "auto" : sheet.bending ? "on" : "off");
+  const act = (value) => {
+    const { bending: _before, ...rest } = panel.app.store.state.case.sheet;
+    put(value === "auto" ? rest : { ...rest, bending: value === "on" });
+  };
+  const { sheet } = panel.app.store.state.case;
+  const box = { id: "in-sheet-bending", label: say("sheet.bending"), options, value: valueOf(sheet), act };
+  const chosen = select(box);
+  chosen.querySelector("select").setAttribute("aria-describedby", "in-sheet-bending-hint");
+  panel.parts.push({
+    refresh: ({ sheet: now }) => {
+      if (now) chosen.querySelector("select").value = valueOf(now);
+    },
+  });
+  return chosen;
 }
 
 /** The choice of a usual sheet; a slider may make another one of it. */

@@ -21,6 +21,7 @@ export const SOLVER_DE = {
   "solver.settle": "Kontakt, Haften und Gleiten kamen nicht zur Ruhe: Verlangt ist eine Umfangskraft von etwa {wanted} N/mm, und Reibung mal Last trägt {limit} N/mm; verringern Sie sie, oder erhöhen Sie Last oder Reibung.",
   "solver.violated": "Die Kontaktbedingungen sind um {left} (relativ) verletzt, mehr als die Toleranz {tolerance}; mit einer größeren Toleranz gilt das Ergebnis.",
   "solver.error": "Der geschätzte Fehler ({figure}) ist {error} (relativ), {times}-mal so viel, wie die Toleranz {tolerance} erlaubt, auf dem feinsten Netz; mit einer größeren Toleranz gilt das Ergebnis.",
+  "solver.error-lower": "Auf der Unterseite: Der geschätzte Fehler ({figure}) ist {error} (relativ), {times}-mal so viel, wie die Toleranz {tolerance} erlaubt, auf dem feinsten Netz; mit einer größeren Toleranz gilt das Ergebnis.",
   "solver.pressed": "Nichts ist gepresst: Keine Größe hat einen Fehler, der sich angeben ließe.",
   "solver.scatter": "Die Breiten streuen um die Anpassung {times}-mal so stark wie angegeben; die Bereiche sind um ebenso viel erweitert.",
   "solver.untold": "Diese Breiten sagen nichts aus über: {figure}; der Bereich ist weiter als der Wert.",

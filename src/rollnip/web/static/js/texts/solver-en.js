@@ -21,6 +21,7 @@ export const SOLVER_EN = {
   "solver.settle": "Contact, stick and slip did not settle: a traction of about {wanted} N/mm may be asked for, and friction * load carries {limit} N/mm; lower it, or raise the load or the friction.",
   "solver.violated": "The contact conditions are violated by {left} (relative), more than the tolerance {tolerance}; accept it with a larger tolerance.",
   "solver.error": "The estimated error of the {figure} is {error} (relative), {times} times what the tolerance {tolerance} allows, on the finest mesh; accept it with a larger tolerance.",
+  "solver.error-lower": "On the lower side: The estimated error of the {figure} is {error} (relative), {times} times what the tolerance {tolerance} allows, on the finest mesh; accept it with a larger tolerance.",
   "solver.pressed": "Nothing is pressed: no figure has an error that could be claimed.",
   "solver.scatter": "The widths scatter about the fit by {times} times what `scatter` says; intervals are widened by as much.",
   "solver.untold": "These widths do not tell the {figure}: its interval is wider than itself.",

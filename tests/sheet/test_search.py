@@ -28,9 +28,10 @@ def test_paper_pulled_against_a_bare_roller_is_solved():
     assert solution.sheet.traction_upper == pytest.approx(0.2, abs=1e-9)
 
 
-@pytest.mark.parametrize("number", [8, 17, 22, 57, 284])
+@pytest.mark.parametrize("number", [8, 17, 22, 57, 284, 13021])
 def test_random_nips_whose_stick_and_slip_circled_are_solved(number):
-    # Geared rollers, all of one interface slipping, stiff sheets beside bare rollers.
+    # Geared rollers, all of one interface slipping, stiff sheets beside bare rollers; in the last
+    # a solution asks for an edge at twice its distance.
     case = random_case(number)
     solution = rn.solve(case.nip, rn.Model(geometry=case.geometry))
     assert solution.converged

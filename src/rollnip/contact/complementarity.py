@@ -136,8 +136,14 @@ class _Iterate:
 
     @property
     def left(self) -> float:
-        """Return what is left of the conditions: their mean product, or most of an equation."""
-        products = float(self._room(self.unknowns) @ self.creeps) / self.creeps.size
+        """Return what is left of the conditions: their mean product, or most of an equation.
+
+        Infinite where rounding has taken all the room of a shear.
+        """
+        room = self._room(self.unknowns)
+        if not float(room.min()) > 0.0:
+            return inf
+        products = float(room @ self.creeps) / self.creeps.size
         return max(products, float(np.abs(self._residual()).max()))
 
     def advance(self) -> None:

@@ -35,7 +35,6 @@ from rollnip.sheet.system import (
     SIGNS,
     Factorised,
     Lagged,
-    SheetMesh,
     SheetProblem,
     SheetState,
     next_slip,
@@ -98,7 +97,7 @@ class Search:
     kernels: PairKernels
 
     def begun(self, half_width: float, count: int) -> Standing:
-        """Find zones and terms that depend on the solution, on a mesh that reaches beyond it.
+        """Find zones on a mesh that reaches beyond the contact, in the linear geometry.
 
         ``half_width``: about that of the nip [mm]; ``count``: elements.
         """
@@ -107,24 +106,14 @@ class Search:
             problem = self._problem(Zones.sticking(reach), shape, None)
             lagged = first_lagged(problem)
             state, steps = settled(problem, lagged, half_width), 0
-            if not has_none(problem, self.model.geometry):
-                problem = self._with_own(problem, state)
-                lagged, steps = lagged_terms(problem, self.model.geometry, state), state.steps
+            if not has_none(problem, "linear"):
+                lagged, steps = lagged_terms(problem, "linear", state), state.steps
                 state = settled(problem, lagged, half_width)
             if state.states[0] == state.states[-1] == State.FREE:
                 break
             reach *= _WIDER
         zones = Zones.around(problem.mesh.inner, state, problem.frictions)
         return Standing(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
-
-    def _with_own(self, problem: SheetProblem, state: SheetState) -> SheetProblem:
-        """Return a problem with the second order of its solution."""
-        if self.kernels.is_linear:
-            return problem
-        held = problem.mesh.second_fields(state)
-        mesh = problem.mesh.holding(replace(self.kernels, held=held))
-        assert isinstance(mesh, SheetMesh)
-        return replace(problem, mesh=mesh)
 
     def placed(
         self, zones: Zones, count: int, before: Standing | None, closely: float = _PLACED
@@ -150,7 +139,7 @@ class Search:
                 elements, crowding = elements_of_zones(breaks, count, crowd), crowd
             problem = self._problem(zones, (elements, crowding), stand)
             start = first_lagged(problem) if stand is None else carried(stand, problem)
-            stand = self._solved(problem, zones, start, steps, off)
+            stand = self._solved(problem, zones, start, steps, (known, off))
             steps = stand.steps
             called = self._called_for(stand)
             asked = zones.moved(problem, stand.state, called or zones)
@@ -208,16 +197,28 @@ class Search:
         return replace(self.kernels, held=held)
 
     def _solved(
-        self, problem: SheetProblem, zones: Zones, lagged: Lagged, steps: int, off: float
+        self,
+        problem: SheetProblem,
+        zones: Zones,
+        lagged: Lagged,
+        steps: int,
+        off: tuple[float, float],
     ) -> Standing:
-        """Solve on one mesh with given zones, in turns of the lagged terms."""
+        """Solve on one mesh with given zones, in turns of the lagged terms.
+
+        ``off``: how far ends were off, the least and on the last mesh of this size. Ends that are
+        far off leave singular tractions, under which new terms mean nothing.
+        """
         system = Factorised.of(problem, zones.states_on(problem.mesh.inner))
         change, still = 0.0, _STILL * self.model.tolerance
-        most = 2 if off > _FAIRLY_PLACED else _MOST_TURNS
+        most = 2 if off[1] > _FAIRLY_PLACED else _MOST_TURNS
         for _ in range(most):
             state = system.solved(lagged)
             steps += 1
             if has_none(problem, self.model.geometry):
+                break
+            if off[0] > _NEARLY_PLACED:
+                change = 1.0
                 break
             updated = lagged_terms(problem, self.model.geometry, state)
             change, lagged = change_of(updated, lagged, problem, state), updated

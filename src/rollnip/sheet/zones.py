@@ -17,6 +17,7 @@ _TOGETHER = (
 )
 _COINCIDENT = 1e-8  # over the width: breaks so near leave elements of no length
 SLIVER = 1e-3  # over the width: zones that are left out
+LONGEST_MOVE = 0.04  # of an edge, over the width
 _OF_TRANSITIONS = 0.1  # of the distance of transitions, beside that of edges
 
 
@@ -122,6 +123,9 @@ class Zones:
         trailing, leading = float(asked[0][0]), float(asked[0][-1])
         if not (np.isfinite(trailing) and np.isfinite(leading) and trailing < leading):
             trailing, leading = edges
+        most = LONGEST_MOVE * self.width
+        trailing = float(np.clip(trailing, edges[0] - most, edges[0] + most))
+        leading = float(np.clip(leading, edges[1] - most, edges[1] + most))
         sides = []
         for side, wanted, other in zip(self.sides, asked, called.sides, strict=True):
             middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])

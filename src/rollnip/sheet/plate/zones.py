@@ -9,12 +9,11 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Layout, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
-from rollnip.sheet.zones import SLIVER, held, without_slivers_in
+from rollnip.sheet.zones import LONGEST_MOVE, SLIVER, held, without_slivers_in
 
 Array = NDArray[np.float64]
 
 _OF_TRANSITIONS = 0.1  # of the distance of transitions, beside that of edges
-_LONGEST_MOVE = 0.04  # of an edge, over the width
 
 
 @dataclass(frozen=True, slots=True)
@@ -116,7 +115,7 @@ class PlateZones:
             x, friction = problem.meshes[number].inner, problem.frictions[number]
             asked = side.moved(x, state.side(number), friction).breaks
             trailing, leading = side.edges
-            most = _LONGEST_MOVE * side.width
+            most = LONGEST_MOVE * side.width
             first, last = float(asked[0]), float(asked[-1])
             # an edge without pressure that rises from it lies in tension: it goes where that ends
             pressed = x[state.pressure[number] > 0.0]

@@ -68,7 +68,7 @@ def along_the_face(page: Page) -> None:
     page.click('[id="example-press-face"]')
     rested(page)
     page.click("#tab-face")
-    page.set_viewport_size({"width": DESKTOP["width"], "height": 2400})
+    page.set_viewport_size({"width": DESKTOP["width"], "height": 3000})
     page.wait_for_selector('html[data-face="rest"]', state="attached", timeout=60_000)
     rested(page)
 
@@ -79,7 +79,7 @@ def warm(page: Page) -> None:
     page.click('[id="example-heat-wheel"]')
     rested(page)
     page.click("#tab-heat")
-    page.set_viewport_size({"width": DESKTOP["width"], "height": 2400})
+    page.set_viewport_size({"width": DESKTOP["width"], "height": 3000})
     page.wait_for_selector('html[data-heat="rest"]', state="attached", timeout=60_000)
     page.click("#warm-up-go")
     page.wait_for_selector("#chart-warm-up .main-svg", timeout=60_000)
@@ -92,7 +92,7 @@ def with_a_patch(page: Page) -> None:
     page.click("#give-patch")
     page.fill("#in-patch-nip-traction", "100 N")
     page.press("#in-patch-nip-traction", "Enter")
-    page.set_viewport_size({"width": DESKTOP["width"], "height": 2400})
+    page.set_viewport_size({"width": DESKTOP["width"], "height": 3000})
     page.wait_for_timeout(1000)
     page.wait_for_selector('html[data-patch="rest"]', state="attached", timeout=60_000)
     rested(page)
@@ -108,7 +108,7 @@ def make_pictures() -> None:
         page = opened(browser, address, DESKTOP, "light")
         page.screenshot(path=FIGURES / "designer_light.png")
         compared(page)
-        page.set_viewport_size({"width": DESKTOP["width"], "height": 2400})
+        page.set_viewport_size({"width": DESKTOP["width"], "height": 3000})
         rested(page)
         page.locator("section.card:has(#charts-title)").screenshot(
             path=FIGURES / "designer_compare.png"

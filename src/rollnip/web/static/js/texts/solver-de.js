@@ -66,6 +66,8 @@ export const SOLVER_DE = {
   "solver.no-sheet-finite": "Mit dieser Bahn ließ sich bei endlicher Dehnung keine Lösung finden: Ihre Zonen oder die Glieder zweiter Ordnung kamen nicht zur Ruhe. Alle Zahlen sind die des Modells „Gekrümmte Schichten“.",
   "solver.sheet-settle": "Haften und Gleiten auf beiden Seiten der Bahn kamen nicht zur Ruhe (Bedingungen um {left} verletzt); versuchen Sie eine andere Toleranz, eine kleinere Last oder Züge, die weiter von dem entfernt sind, was die Reibung trägt.",
   "solver.sheet-violated": "Die Kontaktbedingungen sind um {left} (relativ) verletzt, mehr als die Toleranz {tolerance}; versuchen Sie eine andere Toleranz oder eine kleinere Last.",
+  "solver.sheet-error": "Der geschätzte Fehler des Schlupfs an der {side} Walze ist {error} (relativ), {times}-mal so viel, wie die Toleranz {tolerance} erlaubt, auf dem feinsten Netz; mit einer größeren Toleranz gilt das Ergebnis.",
+  "solver.lower-side": "Auf der unteren Seite: {why}",
   "solver.sheet-torque": "verlangt von der Bahn etwa {wanted} N/mm, aber ihre Reibung auf der unteren Walze trägt {limit} N/mm; verringern Sie es, oder erhöhen Sie Last oder Reibung.",
   "solver.sheet-pull": "und die Züge verlangen von der {side} Walze {pull} N/mm, aber ihre Reibung an der Bahn trägt weniger als {limit} N/mm: Die Bahn rutscht durch. Verringern Sie sie, oder erhöhen Sie Last oder Reibung.",
   "solver.sheet-thin": "der Bahn muss kleiner sein als die Bezüge dick sind, zusammen {limit} mm, gegeben ist {got}: Die Bahn gilt als dünn.",

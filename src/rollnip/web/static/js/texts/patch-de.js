@@ -24,7 +24,7 @@ export const PATCH_DE = {
   "patch.creepage-hint": "Wie viel schneller die obere Oberfläche läuft als die untere.",
   "patch.lateral_traction": "Kraft quer",
   "patch.lateral_creepage": "Schlupf quer",
-  "patch.lateral_creepage-hint": "Wie bei Achsen, die sich um so viele Hundertstel Radiant kreuzen.",
+  "patch.lateral_creepage-hint": "Achsen, die sich um ein Hundertstel Radiant kreuzen, ergeben 1 %.",
   "patch.spin": "Bohrschlupf",
   "patch.spin-hint": "Drehung um die Normale des Flecks je abgerollter Länge.",
   "patch.accuracy": "Genauigkeit in Ruhe",

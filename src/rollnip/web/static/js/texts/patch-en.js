@@ -24,7 +24,7 @@ export const PATCH_EN = {
   "patch.creepage-hint": "Surface speed of the upper roller over the lower one's.",
   "patch.lateral_traction": "Force across",
   "patch.lateral_creepage": "Creepage across",
-  "patch.lateral_creepage-hint": "That of axes which cross by as many hundredths of a radian.",
+  "patch.lateral_creepage-hint": "Axes that cross by one hundredth of a radian give 1 %.",
   "patch.spin": "Spin",
   "patch.spin-hint": "Turn about the normal of the patch per length rolled.",
   "patch.accuracy": "Accuracy at rest",

@@ -91,7 +91,7 @@ export const SOLVER_DE = {
   "solver.pole": "muss über dem Pol des WLF-Gesetzes liegen, Bezugstemperatur minus c2 = {pole} °C, gegeben ist {got}.",
   "solver.table-span": "muss innerhalb der Tabelle der Verschiebungen liegen, {low} bis {high} °C, gegeben ist {got}.",
   "solver.cold": "muss über dem absoluten Nullpunkt liegen, -273.15 °C, gegeben ist {got}.",
-  "solver.shift-size": "muss den Verschiebungsfaktor zwischen 1e-100 und 1e100 halten, gegeben ist {got} mit einem Faktor von {factor}.",
+  "solver.shift-size": "muss den Verschiebungsfaktor zwischen 1e-100 und 1e100 halten, gegeben ist {got} mit einem Faktor von 10^{factor}.",
   "solver.shift-falls": "müssen Faktoren enthalten, die mit der Temperatur fallen, gegeben sind {slow} bei {cold} °C und {fast} bei {warm} °C.",
   "solver.shift-twice": "müssen jede Temperatur einmal enthalten, {got} kommt zweimal vor.",
   "solver.energy-sum": "müssen eine positive Summe aus Gewicht mal Exponent haben (den doppelten Schubmodul), gegeben ist {got}.",

@@ -91,7 +91,7 @@ export const SOLVER_EN = {
   "solver.pole": "must be above the pole of the WLF law, reference - c2 = {pole} degC, got {got}.",
   "solver.table-span": "must lie within the table of shifts, {low} to {high} degC, got {got}.",
   "solver.cold": "must be above absolute zero, -273.15 degC, got {got}.",
-  "solver.shift-size": "must keep the shift factor between 1e-100 and 1e100, got {got} with a factor of {factor}.",
+  "solver.shift-size": "must keep the shift factor between 1e-100 and 1e100, got {got} with a factor of 10^{factor}.",
   "solver.shift-falls": "must hold factors that fall with temperature, got {slow} at {cold} degC and {fast} at {warm} degC.",
   "solver.shift-twice": "must hold each temperature once, got {got} twice.",
   "solver.energy-sum": "must have a positive sum of weights times exponents (twice the shear modulus), got {got}.",

@@ -13,6 +13,7 @@ import sys
 import time
 import zlib
 from collections.abc import Callable, Iterator
+from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
@@ -320,15 +321,41 @@ def base(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
         process.wait(timeout=_HANGS)
 
 
+class _Chromium:
+    """One Chromium for all tests of this folder, started by the first that asks for it."""
+
+    def __init__(self) -> None:
+        self._open = ExitStack()
+        self._browser: Browser | None = None
+
+    def get(self) -> Browser:
+        if self._browser is None:
+            path = _chromium()
+            arguments = ["--no-sandbox"] if os.geteuid() == 0 else []
+            playwright = self._open.enter_context(sync_playwright())
+            self._browser = playwright.chromium.launch(executable_path=path, args=arguments)
+            self._open.callback(self._browser.close)
+        return self._browser
+
+    def close(self) -> None:
+        self._open.close()
+        self._browser = None
+
+
+_ONE = _Chromium()
+
+
+@pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown(nextitem: pytest.Item | None) -> None:
+    """Close Chromium behind the last test here: while it is there, no other can run a loop."""
+    if nextitem is None or not nextitem.path.is_relative_to(Path(__file__).parent):
+        _ONE.close()
+
+
 @pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    """Chromium. One for each module: while it is there, no other test can run an event loop."""
-    path = _chromium()
-    arguments = ["--no-sandbox"] if os.geteuid() == 0 else []
-    with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(executable_path=path, args=arguments)
-        yield browser
-        browser.close()
+def browser() -> Browser:
+    """Chromium; its windows share nothing."""
+    return _ONE.get()
 
 
 def new_context(browser: Browser, **changes: object) -> BrowserContext:
@@ -396,8 +423,9 @@ class Watch:
             self.foreign.append(request.url)
 
     def _said(self, message: object) -> None:
-        # A refused case is an answer of the server; the browser reports every 4xx.
-        refused = any(f"status of {status}" in message.text for status in (400, 422))
+        # A refused case is an answer of the server, and so is that it is busy, after which the page
+        # asks again; the browser reports every 4xx.
+        refused = any(f"status of {status}" in message.text for status in (400, 422, 429))
         if message.type == "error" and not refused:
             self.errors.append(message.text)
 

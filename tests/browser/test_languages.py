@@ -8,38 +8,39 @@ from tests.browser.conftest import Designer, Watch, new_context
 pytestmark = pytest.mark.slow
 
 
-@pytest.fixture
-def german(browser, base):
-    context = new_context(browser)
+@pytest.fixture(scope="module")
+def german_page(browser, base):
+    """One page of a German browser for all tests here."""
+    context = new_context(browser, locale="de-DE")
     page = context.new_page()
     watch = Watch(page, base)
-    designer = Designer(page, base).open()
-    page.click("#language")
-    page.wait_for_selector('html[lang="de"][data-ready]')
-    designer.rest()
-    yield designer
-    watch.check()
+    yield Designer(page, base).open(), watch
     context.close()
 
 
-def test_german_is_chosen_remembered_and_given_back(german):
-    page = german.page
+@pytest.fixture
+def german(german_page):
+    """The German page with the default nip; afterwards: no error, no other host."""
+    designer, watch = german_page
+    designer.reset()
+    yield designer
+    watch.check()
+
+
+def test_german_is_chosen_remembered_and_given_back(fresh):
+    page = fresh.page
+    page.click("#language")
+    page.wait_for_selector('html[lang="de"][data-ready]')
+    fresh.rest()
     assert page.inner_text("#hero-title") == "Spaltbreite"
     assert page.inner_text("h1") == "Walzenspalt-Rechner"
     assert "Linienlast" in page.inner_text("#inputs")
     page.goto("about:blank")
-    german.open()
+    fresh.open()
     assert page.inner_text("#hero-title") == "Spaltbreite"
     page.click("#language")
     page.wait_for_selector('html[lang="en"][data-ready]')
     assert page.inner_text("#hero-title") == "Nip width"
-
-
-def test_a_german_browser_is_answered_in_german(browser, base):
-    context = new_context(browser, locale="de-DE")
-    designer = Designer(context.new_page(), base).open()
-    assert designer.page.inner_text("#hero-title") == "Spaltbreite"
-    context.close()
 
 
 def test_every_view_and_menu_is_there_in_german(german):
@@ -61,6 +62,7 @@ def test_every_view_and_menu_is_there_in_german(german):
 
 
 def test_what_is_known_is_said_in_german(german):
+    assert german.page.inner_text("#hero-title") == "Spaltbreite"  # as the browser is German
     german.quiet()
     assert "innerhalb der Spanne des Werkstoffs" in german.page.inner_text("#big")
     german.enter("in-upper-layers-0-thickness", "0,5 in")

@@ -19,7 +19,6 @@ from rollnip.contact.mesh import (
     subdivided,
 )
 from rollnip.contact.methods import Safeguarded
-from rollnip.contact.path import CreepagePath
 from rollnip.contact.problem import (
     ContactProblem,
     ContactState,
@@ -40,7 +39,6 @@ __all__ = [
     "Control",
     "Convolution",
     "CoupledActiveSet",
-    "CreepagePath",
     "Demand",
     "GivenStates",
     "GridActiveSet",

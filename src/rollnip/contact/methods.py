@@ -1,4 +1,4 @@
-"""The solver of a whole contact problem: the coupled active set and the slower ways behind it."""
+"""The solver of a whole contact problem: a coupled active set, and an interior point behind it."""
 
 from __future__ import annotations
 
@@ -6,30 +6,28 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from rollnip.contact.complementarity import Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_states, solve_states
-from rollnip.contact.path import CreepagePath
-from rollnip.contact.problem import ContactProblem, ContactState, State, States, unsolved
-
-_MOST_STEPS_PER_NODE = 10  # linear systems at most, where one node changes at a time
+from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, States, unsolved
 
 
 @dataclass(frozen=True, slots=True)
 class Safeguarded:
-    """The coupled active set; where it cycles, a slower way that does not (the default).
-
-    With friction that is path following in the creepage, without it one node at a time by Murty's
-    rule, which ends on the matrices of elastic contact.
+    """The coupled active set; where it cycles, states by an interior point (the default).
 
     Parameters
     ----------
     fast :
         the coupled active set and its limit of steps.
     rounding :
-        violations smaller than this, relative, count as met in the slower way's result.
+        violations smaller than this, relative, count as met by the states of the interior point.
+    most_nodes :
+        larger problems are left to the active set: some twenty systems of them take seconds.
     """
 
     fast: CoupledActiveSet = field(default_factory=CoupledActiveSet)
     rounding: float = 1e-7
+    most_nodes: int = 160
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
         """Solve from ``states``; ``settled`` says whether the conditions hold at the nodes."""
@@ -37,36 +35,81 @@ class Safeguarded:
             solution = self.fast.solve(problem, states)
         except np.linalg.LinAlgError:
             solution = unsolved(problem)
-        if solution.settled:
+        if solution.settled or problem.x.size > self.most_nodes:
             return solution
         try:
-            slow = self._slow(problem, states)
+            slow = self._at_once(problem)
         except np.linalg.LinAlgError:
             slow = unsolved(problem)
         if not slow.settled and np.any(solution.pressure):
             slow = solution
         return replace(slow, steps=solution.steps + slow.steps)
 
-    def _slow(self, problem: ContactProblem, states: States) -> ContactState:
-        """Solve one node at a time, or along the creepage, and check the result afterwards."""
-        if problem.friction == 0.0:
-            return self._one_at_a_time(problem, states)
-        slow = CreepagePath().solve(problem, states)
-        if not slow.settled:
-            return slow
-        consistent = np.array_equal(next_states(problem, slow, self.rounding), slow.states)
-        return replace(slow, settled=consistent)
+    def _at_once(self, problem: ContactProblem) -> ContactState:
+        """Solve for the states of all nodes at once, and check the result afterwards."""
+        found = interior_point(*inequalities_of(problem))
+        states = found.touches.astype(np.int8)  # 1: STICK
+        if found.states.size:
+            states = np.where(found.touches, found.states, np.int8(FREE))
+        solution = solve_states(problem, states, steps=found.steps + 1)
+        consistent = np.array_equal(next_states(problem, solution, self.rounding), states)
+        return replace(solution, settled=consistent)
 
-    def _one_at_a_time(self, problem: ContactProblem, states: States) -> ContactState:
-        """Solve without friction, changing only the first wrong node in each step (Murty 1974)."""
-        states = np.minimum(states, State.STICK)
-        if not np.any(states):
-            states[np.argmin(problem.clearance)] = State.STICK
-        for step in range(1, _MOST_STEPS_PER_NODE * states.size + 1):
-            solution = solve_states(problem, states, steps=step)
-            wrong = np.flatnonzero(next_states(problem, solution, self.fast.rounding) != states)
-            if wrong.size == 0:
-                return replace(solution, settled=True)
-            states = states.copy()
-            states[wrong[0]] = State.STICK - states[wrong[0]]
-        return solution
+
+def inequalities_of(problem: ContactProblem) -> tuple[Inequalities, Array]:
+    """Return the conditions of a contact problem, and unknowns to begin with.
+
+    Unknowns are the pressures, the shears where there is friction, the approach and the creepage.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        where nothing is pressed.
+    """
+    n, control = problem.x.size, problem.control
+    shears = n + np.arange(n if problem.friction > 0.0 else 0)
+    rows = np.arange(n + shears.size)
+    m = rows.size + 2
+    matrix, right = np.zeros((m, m)), np.zeros(m)
+    matrix[: m - 2, : m - 2] = problem.influence[np.ix_(rows, rows)]
+    matrix[:n, -2], matrix[shears, -1] = -1.0, problem.creep_length[: shears.size]
+    right[:n], right[shears] = problem.clearance, problem.creep_offset[: shears.size]
+    if control.load is not None:
+        matrix[-2, :n], right[-2] = problem.weights, -control.load
+    else:
+        matrix[-2, -2], right[-2] = 1.0, -(control.approach or 0.0)
+    if control.traction is not None and shears.size:
+        matrix[-1, shears], right[-1] = problem.weights, -control.traction
+    else:
+        matrix[-1, -1], right[-1] = 1.0, -(control.creepage or 0.0)
+
+    # Sizes follow from a pressure that is the same everywhere.
+    depth = float(np.abs(problem.normal_pressure).sum(axis=1).max())
+    weight = float(problem.weights.sum())
+    if control.load is not None:
+        peak = control.load / weight
+    else:
+        peak = ((control.approach or 0.0) - float(problem.clearance.min())) / depth
+    if not peak > 0.0:
+        raise np.linalg.LinAlgError("nothing is pressed")
+    made = np.abs(problem.creep_pressure) + problem.friction * np.abs(problem.creep_shear)
+    creepage = float(made.sum(axis=1).max() / problem.creep_length.max()) * peak or 1.0
+    approach = depth * peak
+    sizes = np.concatenate([np.full(m - 2, peak), [approach, creepage]])
+    scales = np.concatenate(
+        [
+            np.full(n, approach),
+            creepage * problem.creep_length[: shears.size],
+            [
+                weight * peak if control.load is not None else approach,
+                problem.friction * weight * peak
+                if control.traction is not None and shears.size
+                else creepage,
+            ],
+        ]
+    )
+    start = np.concatenate([np.full(n, peak), np.zeros(shears.size), [approach, 0.0]])
+    frictions = np.full(shears.size, problem.friction)
+    return Inequalities(
+        matrix, right, np.arange(n), shears, shears - n, frictions, sizes, scales
+    ), start

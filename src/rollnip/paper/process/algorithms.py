@@ -17,7 +17,7 @@ from rollnip.contact import (
     ContactProblem,
     ContactState,
     Control,
-    CreepagePath,
+    Safeguarded,
     State,
     States,
     creep,
@@ -102,7 +102,7 @@ class Tang:
     Parameters
     ----------
     max_steps :
-        linear systems to solve at most before the creepage is followed instead.
+        linear systems to solve at most before all states are sought at once instead.
     """
 
     max_steps: int = 40
@@ -123,8 +123,8 @@ class Tang:
             if np.array_equal(wanted, states):
                 return replace(solution, pressure=pressure, settled=True)
             states = wanted
-        followed = CreepagePath().solve(tangential, start)
-        return replace(followed, pressure=pressure)
+        at_once = Safeguarded().solve(tangential, start)
+        return replace(at_once, pressure=pressure)
 
 
 @dataclass(frozen=True, slots=True)

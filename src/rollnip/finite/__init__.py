@@ -1,7 +1,8 @@
 """Finite strain of all orders: equilibrium of a covering under given tractions."""
 
 from rollnip.finite._spline import Spline
-from rollnip.finite.equilibrium import Body, Tractions
+from rollnip.finite.equilibrium import Body
+from rollnip.finite.pull import Tractions
 from rollnip.finite.response import (
     CUT,
     DeformedSurface,

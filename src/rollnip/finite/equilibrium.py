@@ -16,7 +16,6 @@ and shear at the *present* place x(s); its derivative by the displacements is ke
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
@@ -25,23 +24,23 @@ import numpy as np
 from scipy.linalg import lapack
 
 from rollnip.finite.memory import Memory
-from rollnip.finite.state import NoEquilibriumError, State, Tangent
-from rollnip.finite.strip import LINEAR, Array, Indices, Strip, on_circle
+from rollnip.finite.pull import Pull, Tractions, summed
+from rollnip.finite.state import LEFT, NoEquilibriumError, State, Tangent
+from rollnip.finite.strip import LINEAR, Array, Indices, Strip
 from rollnip.finite.viscous import Relaxing, Viscous
 from rollnip.materials import Energy, NeoHookean, Slopes
-
-Tractions = Callable[[Array], tuple[Array, Array, Array, Array]]
-"""Pressure, shear and their derivatives as functions of the present place [MPa], [MPa/mm]."""
 
 # An incompressible layer yields to its pressure by this over G while a step is computed, not in
 # the result: every step reduces what is left of J - 1 by about this factor.
 _YIELD = 1e-6
 _SOFT = NeoHookean()
-_STILL = 1e-5  # what a result may still be off, over the displacement
+STILL = 1e-5  # what a result may still be off, over the displacement
 _MOST_STEPS = 40
 _LEAST_VOLUME = 0.1  # J that a step may reach
+_AT_REST = np.array([1.0, 0.0, 0.0, 1.0])[:, None, None]
+_LEFT_BY_A_STEP = 1e-3  # of the loads of a step, by an iterative solution
 _SHORTEST = 1e-2  # part of a step that is worth while
-_CONTRACTION = 0.1  # of steps, up to which a derivative is kept
+_CONTRACTION = 0.3  # of steps, up to which a derivative is kept
 _CURVED = 3.0  # contraction expected of a derivative that is a step old, over the step
 
 
@@ -130,12 +129,13 @@ class Body:
 
     def deformation(self, displacement: Array) -> Array:
         """Return F_xx, F_xy, F_yx and F_yy at the points of Gauss, (4, elements, 9)."""
+        return np.asarray(self._gradient(displacement) + _AT_REST)
+
+    def _gradient(self, displacement: Array) -> Array:
+        """Return the same less that at rest."""
         local = np.append(displacement, 0.0)[self.strip.unknowns].reshape(-1, 9, 2)
         by = self.strip.shapes[0] @ local
-        out = np.empty((4, by.shape[0], 9))
-        out[0], out[1], out[2], out[3] = by[:, :9, 0], by[:, 9:, 0], by[:, :9, 1], by[:, 9:, 1]
-        out[[0, 3]] += 1.0
-        return out
+        return np.asarray(by.reshape(-1, 2, 9, 2).transpose(3, 1, 0, 2).reshape(4, -1, 9))
 
     def _law(self, volume: Array) -> tuple[Array, Array]:
         """Return c and dc/dJ of compressible elements; what incompressible ones get is not used."""
@@ -179,8 +179,11 @@ class Body:
         """Return whether all layers are neo-Hookean."""
         return all(isinstance(energy, NeoHookean) for energy, _ in self._energies)
 
-    def _fields(self, state: State) -> _Fields:
-        f_xx, f_xy, f_yx, f_yy = deformation = self.deformation(state.displacement)
+    def _fields(self, state: State, deformation: Array | None = None) -> _Fields:
+        """Return the fields of a state; ``deformation`` is what `deformation` gives of it."""
+        if deformation is None:
+            deformation = self.deformation(state.displacement)
+        f_xx, f_xy, f_yx, f_yy = deformation
         ratio, shear = f_xx * f_yy - f_xy * f_yx, self._constants[0]
         straight, second = np.broadcast_to(shear, ratio.shape), None
         slopes: tuple[Array | float, ...] = (0.5, 0.0, 0.0, 0.0, 0.0)
@@ -224,7 +227,7 @@ class Body:
         if fields.viscous is not None:
             force += fields.viscous.force
         # The core, at unknown -1, takes what is left over.
-        return _summed(self.strip.unknowns.ravel() + 1, force.ravel(), self.strip.size + 1)[1:]
+        return summed(self.strip.unknowns.ravel() + 1, force.ravel(), self.strip.size + 1)[1:]
 
     @cached_property
     def _soft(self) -> Array:
@@ -243,6 +246,14 @@ class Body:
 
         Without the memory of other columns.
         """
+        stiff = self._element_stiffness(fields, means, rate, relaxing)
+        stored = self.strip.stored
+        return summed(self.strip.slots, stiff.ravel(), stored + 1)[:stored]
+
+    def _element_stiffness(
+        self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
+    ) -> Array:
+        """Return the same of every element by itself, (elements, 9, 2, 9, 2)."""
         shapes, volume = self.strip.shapes
         straight = self._soft if self._is_soft else self._isotropic(fields.straight)
         turn = shapes[:, :9].transpose(0, 2, 1) @ (shapes[:, 9:] * (fields.c * volume)[..., None])
@@ -258,8 +269,7 @@ class Body:
         stiff[:, :, 1, :, 0] -= turn
         if fields.second is not None:
             stiff += self._stiffening(fields.deformation, fields.second).reshape(stiff.shape)
-        stored = self.strip.stored
-        return _summed(self.strip.slots, stiff.ravel(), stored + 1)[:stored]
+        return np.asarray(stiff)
 
     def _stiffening(self, deformation: Array, second: Slopes) -> Array:
         """Return what second derivatives of w add: dI = 2 F : dF, dJ = cof F : dF."""
@@ -290,61 +300,50 @@ class Body:
             raise NoEquilibriumError
         return Tangent(band, factors, pivots, means, rate, relaxing)
 
-    def _loads(self, displacement: Array, tractions: Tractions) -> tuple[Array, Indices, Array]:
-        """Return the forces of the tractions, and the entries of their derivative."""
-        surface, curvature = self.strip.surface, self.strip.depths.roller.curvature
-        local = displacement[surface.unknowns]
-        x, _ = on_circle(surface.arcs, curvature)
-        along, up = np.cos(curvature * surface.arcs), np.sin(curvature * surface.arcs)
-        x = x + (surface.values @ local[..., :1])[..., 0]
-        along = along + (surface.slopes @ local[..., :1])[..., 0]
-        up = up + (surface.slopes @ local[..., 1:])[..., 0]
-        p, q, p_slope, q_slope = (surface.weights * values for values in tractions(x))
-        n, d = surface.values, surface.slopes
-        loads = _summed(surface.unknowns[..., 0].ravel(), _on(n, q * along - p * up), displacement)
-        loads += _summed(surface.unknowns[..., 1].ravel(), _on(n, p * along + q * up), displacement)
-        turned, sheared = _between(n, p, d), _between(n, q, d)
-        entries = np.empty((self.strip.columns, 3, 2, 3, 2))
-        entries[:, :, 0, :, 0] = sheared + _between(n, q_slope * along - p_slope * up, n)
-        entries[:, :, 1, :, 0] = turned + _between(n, p_slope * along + q_slope * up, n)
-        entries[:, :, 0, :, 1], entries[:, :, 1, :, 1] = -turned, sheared
-        row = np.broadcast_to(surface.unknowns[:, :, :, None, None], entries.shape)
-        column = np.broadcast_to(surface.unknowns[:, None, None], entries.shape)
-        return loads, self.strip.place(row, column).ravel(), entries.ravel()
-
     @cached_property
     def at_first(self) -> Tangent:
-        """The derivative of the undeformed state."""
-        return self._tangent(self._fields(self.at_rest()), None)
+        """The derivative of the undeformed state, symmetric where all layers are elastic."""
+        fields = self._fields(self.at_rest())
+        if self.memory is not None:
+            return self._tangent(fields, None)
+        means, band = self._means(fields), self.strip.band
+        rate = fields.rate @ means
+        entries, places = self.strip.lower_slots
+        stiffness = self._element_stiffness(fields, means, rate, None).ravel()[entries]
+        lower = summed(places, stiffness, (band + 1) * self.strip.size)
+        matrix = lower.reshape(self.strip.size, band + 1).T
+        factors, info = lapack.dpbtrf(matrix, lower=1, overwrite_ab=1)
+        if info != 0:
+            raise NoEquilibriumError
+        return Tangent(band, factors, None, means, rate)
 
-    def linear_displacements(self, tractions: Tractions) -> Array:
+    def linear_displacements(self, tractions: Tractions, left: float = LEFT) -> Array:
         """Return the displacements (unknowns,) of linear theory, the tractions per undeformed arc.
 
-        They act along the tangent and the normal of the undeformed surface.
+        They act along the tangent and the normal of the undeformed surface. ``left``: the share of
+        the loads that an iterative solution may leave over.
         """
-        surface, curvature = self.strip.surface, self.strip.depths.roller.curvature
-        p, q, _, _ = (surface.weights * values for values in tractions(surface.arcs))
-        cos, sin = np.cos(curvature * surface.arcs), np.sin(curvature * surface.arcs)
-        x, y = surface.unknowns[..., 0].ravel(), surface.unknowns[..., 1].ravel()
-        loads = _summed(x, _on(surface.values, q * cos - p * sin), self.strip.size)
-        loads += _summed(y, _on(surface.values, p * cos + q * sin), self.strip.size)
-        return self.at_first.solved(loads)
+        return self.at_first.solved(Pull.undeformed(self.strip, tractions).loads, left)
 
-    def equilibrium(self, tractions: Tractions, start: State, still: float = _STILL) -> State:
+    def equilibrium(
+        self, tractions: Tractions, start: State, still: float = STILL, share: float = 0.0
+    ) -> State:
         """Solve by Newton's method, until ``still`` times the displacement or less is left.
 
-        A derivative is kept as long as steps shrink tenfold with it. Raises `NoEquilibriumError`
-        where steps do not come to rest.
+        Or until no more is left than a ``share`` of the first step. A derivative is kept as long as
+        steps shrink to 0.3 with it. Raises `NoEquilibriumError` where steps do not come to rest.
         """
-        state, tangent, before = start, start.tangent, inf
+        state, tangent, before, first = start, start.tangent, inf, 0.0
+        deformation = self.deformation(state.displacement)
         for _ in range(_MOST_STEPS):
-            fields = self._fields(state)
-            loads, places, entries = self._loads(state.displacement, tractions)
+            fields = self._fields(state, deformation)
+            pulled = Pull.of(self.strip, state.displacement, tractions)
             is_new = tangent is None
             if tangent is None:
-                tangent = self._tangent(fields, (places, entries))
-            step = tangent.solved(loads - self._force(fields, tangent.means))
-            part = self._part(state.displacement, step)
+                tangent = self._tangent(fields, pulled.turning)
+            left_over = pulled.loads - self._force(fields, tangent.means)
+            step = tangent.solved(left_over, _LEFT_BY_A_STEP)
+            part, deformation = self._part(deformation, step)
             local = np.append(part * step, 0.0)[self.strip.unknowns]
             change = part * fields.step + (tangent.rate @ local[..., None])[..., 0]
             if tangent.relaxing is not None:
@@ -352,38 +351,24 @@ class Body:
             moved, pressed = state.displacement + part * step, state.pressure + change
             state = State(moved, pressed, tangent)
             size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
+            first = max(first, size)
             is_first = before == inf
             shrinks = _CURVED * size if is_first else size / before
             left = size if is_first and not is_new else size * min(shrinks, 1.0)
-            if part == 1.0 and left <= still:
+            if part == 1.0 and left <= max(still, share * first):
                 return state
             before = size
             if part < 1.0 or not shrinks <= _CONTRACTION:
                 tangent, before = None, inf
         raise NoEquilibriumError
 
-    def _part(self, displacement: Array, step: Array) -> float:
-        """Return how much of a step leaves every element the right side out."""
-        part = 1.0
+    def _part(self, deformation: Array, step: Array) -> tuple[float, Array]:
+        """Return how much of a step leaves every element the right side out, and F after it."""
+        change, part = self._gradient(step), 1.0
         while part >= _SHORTEST:
-            f_xx, f_xy, f_yx, f_yy = self.deformation(displacement + part * step)
+            moved = deformation + part * change
+            f_xx, f_xy, f_yx, f_yy = moved
             if float((f_xx * f_yy - f_xy * f_yx).min()) > _LEAST_VOLUME:
-                return part
+                return part, moved
             part *= 0.5
         raise NoEquilibriumError
-
-
-def _summed(places: Indices, values: Array, like: Array | int) -> Array:
-    """Return sums of values by place, as many as ``like`` has entries or says."""
-    count = like if isinstance(like, int) else like.size
-    return np.asarray(np.bincount(places, values, minlength=count), dtype=float)
-
-
-def _on(shape: Array, values: Array) -> Array:
-    """Return the sums of values at points times shape functions, flat, as places of nodes are."""
-    return np.asarray((values[:, None] @ shape).ravel())
-
-
-def _between(shape: Array, values: Array, other: Array) -> Array:
-    """Return the sums of values at points times products of shape functions, (columns, 3, 3)."""
-    return np.asarray((shape * values[..., None]).transpose(0, 2, 1) @ other)

@@ -13,7 +13,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from rollnip.finite.equilibrium import Body, Tractions
+from rollnip.finite.equilibrium import Body
+from rollnip.finite.pull import Tractions
 from rollnip.finite.strip import Array, on_circle
 
 

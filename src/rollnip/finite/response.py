@@ -8,7 +8,6 @@ tractions. Their errors are alike and cancel, so that few elements do.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from math import inf
 
@@ -16,28 +15,32 @@ import numpy as np
 
 from rollnip.finite._smooth import smoothed
 from rollnip.finite._spline import Spline
-from rollnip.finite.equilibrium import Body, Tractions
+from rollnip.finite.equilibrium import STILL, Body
 from rollnip.finite.power import heat_inside, linear_heat_inside
-from rollnip.finite.state import NoEquilibriumError, State
+from rollnip.finite.pull import Tractions
+from rollnip.finite.state import LEFT, NoEquilibriumError, State
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
-Field = Callable[[Array], Array]
 CUT = 150.0
 """Wave number over the half-width from which displacements are left out at small strains."""
 _COLUMNS = 32  # elements under the tractions
 _GROWTH = 2.0  # of elements beside them
 _LONGEST = 0.8  # element, over the thickness that counts
-_REACH = 4.0  # of the mesh beyond the tractions, likewise
+_REACH = 5.0  # of the mesh beyond the tractions, likewise
 _REACH_OF_MEMORY = 8.0  # the same where a layer is viscoelastic
 _TURN = 2.5  # of the radius: how far arcs reach at most
 _MOST_REACH = 2.0  # times more at most, where a stiff layer bends on a soft one
 _LEAST_THICKNESS = 0.5  # that counts, over the half-width
 _NEAR = 4.0  # half-widths beyond which the surface is of no interest
 _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
-_ALIGNED = 2e-3  # distance of columns from their places, over the width of the contact
+_ALIGNED = 2e-4  # distance of columns from their places, over the width of the contact
 _SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
 _STAYS = 0.005  # by which places may move and keep their mesh, likewise
+_ROUGHLY = 1e-4  # what equilibria may be off, over the displacement, while tractions change
+_SHARE = 0.03  # the same over the change since the last one
+_LOOSELY_WITH_MEMORY = 20.0
+_LOOSELY = 5.0  # times these three, while tractions are far from their solution
 _LEAST_SHARE = 0.1  # of a step between tractions
 _MOST_MESHES = 6
 
@@ -83,13 +86,16 @@ def nodal(nodes: Array, pressure: Array, shear: Array) -> Tractions:
     values = np.zeros((2, nodes.size))
     values[0, 1:-1], values[1, 1:-1] = pressure, shear
     slopes = np.diff(values) / np.diff(nodes)
+    # p, q and their slopes in every interval, and zero on either side
+    pieces = np.zeros((4, nodes.size + 1))
+    pieces[:2, 1:-1], pieces[2:, 1:-1] = values[:, :-1], slopes
+    starts = np.concatenate([nodes[:1], nodes])
 
-    def at(x: Array) -> tuple[Array, Array, Array, Array]:
-        cell = np.clip(np.searchsorted(nodes, x) - 1, 0, nodes.size - 2)
-        inside = (x > nodes[0]) & (x < nodes[-1])
-        rate = slopes[:, cell] * inside
-        p, q = (values[:, cell] * inside) + rate * (x - nodes[cell])
-        return p, q, rate[0], rate[1]
+    def at(x: Array) -> Array:
+        piece = np.searchsorted(nodes, x)
+        out = pieces.take(piece, axis=1)
+        out[:2] += out[2:] * (x - starts[piece])
+        return out
 
     return at
 
@@ -97,10 +103,8 @@ def nodal(nodes: Array, pressure: Array, shear: Array) -> Tractions:
 def between(last: Tractions, new: Tractions, share: float) -> Tractions:
     """Return tractions that are a share of the way from others to new ones."""
 
-    def at(x: Array) -> tuple[Array, Array, Array, Array]:
-        pairs = zip(last(x), new(x), strict=True)
-        p, q, p_slope, q_slope = ((1.0 - share) * one + share * other for one, other in pairs)
-        return p, q, p_slope, q_slope
+    def at(x: Array) -> Array:
+        return np.asarray((1.0 - share) * last(x) + share * new(x))
 
     return at
 
@@ -146,6 +150,8 @@ class FiniteResponse:
             self._reach = min(self._reach, _TURN * roller.radius - half_width)
             self._near = min(self._near, _FRONT * roller.radius)
         self._meshes: _Meshes | None = None
+        self._loosely, self._accuracy, self._left = 1.0, (STILL, 0.0), LEFT
+        self._most_loosely = _LOOSELY_WITH_MEMORY if roller.is_viscoelastic else _LOOSELY
         self._made: tuple[Spline, ...] | None = None
         self.rough: tuple[Spline, ...] = ()
         self.is_found = True
@@ -162,8 +168,9 @@ class FiniteResponse:
         nodes: Array,
         pressure: Array,
         shear: Array,
-        along: Field | None = None,
         rate: float = 1.0,
+        *,
+        roughly: bool = False,
     ) -> tuple[Spline, ...]:
         """Return u_x and u_z beyond the linear ones as functions of the present place x.
 
@@ -171,9 +178,12 @@ class FiniteResponse:
         ----------
         nodes : (N+1,) increasing places [mm].
         pressure, shear : (N-1,) t_z and t_x at nodes[1:-1], per deformed length [MPa].
-        along : about the u_x to be found, from which the first mesh is placed.
         rate : speed of the undeformed surface over that of linear theory.
+        roughly : whether the meshes of before are good enough if the contact has not moved far.
         """
+        self._accuracy = (_ROUGHLY, _SHARE) if roughly else (STILL, 0.0)
+        self._left = _ROUGHLY if roughly else LEFT
+        self._loosely = self._most_loosely if roughly else 1.0
         self._speed_now = None if self._speed is None else rate * self._speed
         if not np.any(pressure > 0.0):
             self.rough, self.lost = _nothing(nodes), 0.0
@@ -182,7 +192,7 @@ class FiniteResponse:
         tractions = nodal(nodes, pressure, shear)
         try:
             self.share = 1.0
-            meshes = self._solved(places, loaded, tractions, along) or self._partly(tractions)
+            meshes = self._solved(places, loaded, tractions) or self._partly(tractions)
         except NoEquilibriumError:
             self.is_found = False
             self._meshes = None
@@ -224,15 +234,13 @@ class FiniteResponse:
             step = min(_GROWTH * step, self._longest)
         return np.array(ends[1:]) * (self._reach / ends[-1])
 
-    def _solved(
-        self, places: Array, loaded: slice, tractions: Tractions, along: Field | None
-    ) -> _Meshes | None:
+    def _solved(self, places: Array, loaded: slice, tractions: Tractions) -> _Meshes | None:
         """Return both solutions, on the meshes of the last tractions if these were about here.
 
         None where there is no equilibrium but there was one under the last tractions.
         """
         try:
-            return self._solved_now(places, loaded, tractions, along)
+            return self._solved_now(places, loaded, tractions)
         except NoEquilibriumError:
             if self._meshes is None:
                 raise
@@ -254,32 +262,43 @@ class FiniteResponse:
             return replace(last, linear=linear, state=state, tractions=mixed)
         raise NoEquilibriumError
 
-    def _solved_now(
-        self, places: Array, loaded: slice, tractions: Tractions, along: Field | None
-    ) -> _Meshes:
+    def _solved_now(self, places: Array, loaded: slice, tractions: Tractions) -> _Meshes:
         """Return both solutions under these tractions."""
         last = self._meshes
-        if last is not None and last.is_near(places[loaded], self._speed_now):
-            linear = last.flat.linear_displacements(tractions)
-            state = last.body.equilibrium(tractions, last.state)
-            return replace(last, linear=linear, state=state, tractions=tractions)
-        flat = Body(Strip(self._depths, places), self._speed)
-        linear = flat.linear_displacements(tractions)
-        if last is not None:
-            body, state = self._moved(last.body, last.state, places, loaded)
+        stays = self._loosely * _STAYS * float(np.ptp(places[loaded]))
+        if last is not None and last.is_near(places[loaded], self._speed_now, stays):
+            body, state = last.body, last.body.equilibrium(tractions, last.state, *self._accuracy)
         else:
-            state = State(linear, flat.at_rest().pressure)
-            body = Body(flat.strip, self._speed_now)
-            if along is not None:
-                guess = linear_surface(flat, linear)[0] + along(places)
-                body = self._on(places, loaded, places[loaded] - guess[loaded])
-        for _ in range(_MOST_MESHES):
-            state = body.equilibrium(tractions, state)
-            off = deformed_surface(body, state).x[loaded] - places[loaded]
-            if float(np.abs(off).max()) <= _ALIGNED * float(np.ptp(places[loaded])):
-                break
-            body, state = self._moved(body, state, places, loaded)
+            if last is not None:
+                body, state = self._moved(last.body, last.state, places, loaded)
+            else:
+                flat = Body(Strip(self._depths, places), self._speed)
+                linear = flat.linear_displacements(tractions, self._left)
+                state = State(linear, flat.at_rest().pressure)
+                moved = linear_surface(flat, linear)[0][loaded]
+                body = self._on(places, loaded, places[loaded] - moved)
+            for _ in range(_MOST_MESHES):
+                state = body.equilibrium(tractions, state, *self._accuracy)
+                off = deformed_surface(body, state).x[loaded] - places[loaded]
+                if float(np.abs(off).max()) <= stays:
+                    break
+                body, state = self._moved(body, state, places, loaded)
+        flat = self._flat(body, state, loaded)
+        linear = flat.linear_displacements(tractions, self._left)
         return _Meshes(flat, linear, body, state, loaded, tractions)
+
+    def _flat(self, body: Body, state: State, loaded: slice) -> Body:
+        """Return the mesh of linear theory, its loaded columns where those of a state are now."""
+        x, last = deformed_surface(body, state).x[loaded], self._meshes
+        if last is not None and last.flat.strip.columns == body.strip.columns:
+            off = float(np.abs(last.flat.strip.ends[last.loaded] - x).max())
+            if last.loaded == loaded and off <= self._loosely * _ALIGNED * float(np.ptp(x)):
+                return last.flat
+        places = body.strip.ends.copy()
+        places[: loaded.start] += x[0] - places[loaded.start]
+        places[loaded.stop :] += x[-1] - places[loaded.stop - 1]
+        places[loaded] = x
+        return Body(Strip(self._depths, places), self._speed)
 
     def _moved(self, body: Body, state: State, places: Array, loaded: slice) -> tuple[Body, State]:
         """Return a mesh whose loaded columns come to lie at their places, with a state."""
@@ -312,13 +331,13 @@ class _Meshes:
     loaded: slice
     tractions: Tractions
 
-    def is_near(self, places: Array, speed: float | None) -> bool:
+    def is_near(self, places: Array, speed: float | None, stays: float) -> bool:
         """Return whether the loaded columns are about at some places and pass about as fast."""
         own = self.body.speed
         if own is not None and speed is not None and abs(speed - own) > _SAME_SPEED * own:
             return False
         here = self.flat.strip.ends[self.loaded]
-        return float(np.abs(here - places).max()) <= _STAYS * float(np.ptp(places))
+        return float(np.abs(here - places).max()) <= stays
 
     @property
     def heat_beyond(self) -> float:

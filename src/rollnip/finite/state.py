@@ -10,7 +10,7 @@ from scipy.linalg import lapack
 from rollnip.finite.strip import Array, Indices
 from rollnip.finite.viscous import Relaxing
 
-_LEFT = 1e-9  # of the loads by an iterative solution
+LEFT = 1e-7  # of the loads by an iterative solution
 _KEPT = 60  # directions of the iterative solution before it starts anew
 _MOST_STARTS = 20
 
@@ -26,7 +26,7 @@ class Tangent:
     Attributes
     ----------
     band : diagonals on either side.
-    factors, pivots : as LAPACK's dgbtrf leaves them.
+    factors, pivots : as LAPACK's dgbtrf leaves them; without pivots, as dpbtrf does.
     means : (elements, 3, 18) derivatives of the volumes, weighted with the basis `LINEAR`.
     rate : (elements, 3, 18) derivatives of the pressures.
     relaxing : what the factors leave out, the memory of other columns; None: nothing.
@@ -34,13 +34,16 @@ class Tangent:
 
     band: int
     factors: Array
-    pivots: Indices
+    pivots: Indices | None
     means: Array
     rate: Array
     relaxing: Relaxing | None = None
 
-    def solved(self, loads: Array) -> Array:
-        """Return the displacements that balance some loads, (unknowns,)."""
+    def solved(self, loads: Array, left: float = LEFT) -> Array:
+        """Return the displacements that balance some loads, (unknowns,).
+
+        ``left``: the share of the loads that an iterative solution may leave over.
+        """
         first = self._near(loads)
         if self.relaxing is None:
             return first
@@ -52,16 +55,19 @@ class Tangent:
             return displacement + self._near(relaxing.elsewhere(displacement))
 
         whole = LinearOperator((size, size), matvec=applied, dtype=np.float64)
-        out, left = gmres(
-            whole, first, x0=first, rtol=_LEFT, atol=0.0, restart=_KEPT, maxiter=_MOST_STARTS
+        out, failed = gmres(
+            whole, first, x0=first, rtol=left, atol=0.0, restart=_KEPT, maxiter=_MOST_STARTS
         )
-        if left != 0 or not np.all(np.isfinite(out)):
+        if failed != 0 or not np.all(np.isfinite(out)):
             raise NoEquilibriumError
         return np.asarray(out)
 
     def _near(self, loads: Array) -> Array:
         """Return the displacements without the memory of other columns."""
-        out, info = lapack.dgbtrs(self.factors, self.band, self.band, loads, self.pivots)
+        if self.pivots is None:
+            out, info = lapack.dpbtrs(self.factors, loads, lower=1)
+        else:
+            out, info = lapack.dgbtrs(self.factors, self.band, self.band, loads, self.pivots)
         if info != 0 or not np.all(np.isfinite(out)):
             raise NoEquilibriumError
         return np.asarray(out)

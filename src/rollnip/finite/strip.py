@@ -7,7 +7,7 @@ material point is known by its undeformed arc s along the surface and its depth 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -26,6 +26,7 @@ LINEAR = np.stack((np.ones(9), _ALONG, _DOWN), axis=-1)
 """Basis of volume and pressure in an element, at its nine points of Gauss, (9, 3)."""
 _FOLDS = 3.0  # of e in depth, from the surface to the nip width or the core
 _PER_FOLD = 1.2  # elements
+_MESHES_KEPT = 16  # whose places of matrix entries are kept
 
 
 def quadratics(at: Array) -> tuple[Array, Array]:
@@ -94,12 +95,12 @@ class Strip:
     @property
     def size(self) -> int:
         """Number of unknown displacements."""
-        return 2 * self.rows * (2 * self.columns + 1)
+        return _size_and_band(self.columns, self.depths.owner.size)[0]
 
     @property
     def band(self) -> int:
         """Diagonals of a stiffness matrix on either side of the main one."""
-        return 4 * self.rows + 5
+        return _size_and_band(self.columns, self.depths.owner.size)[1]
 
     @cached_property
     def arcs(self) -> Array:
@@ -155,24 +156,23 @@ class Strip:
         weighted = LINEAR.T * self.shapes[1][:, None, :]
         return weighted, np.asarray(np.linalg.inv(weighted @ LINEAR))
 
-    @cached_property
+    @property
     def unknowns(self) -> Indices:
         """Unknowns of every element, (elements, 18), x and y of each node; -1 on the core."""
-        column = 2 * np.arange(self.columns)[:, None, None, None] + np.arange(3)[:, None]
-        row = 2 * np.arange(self.depths.owner.size)[:, None, None] + np.arange(3)
-        node = np.where(row < self.rows, column * self.rows + row, -1).reshape(-1, 9)
-        pair = np.stack((2 * node, 2 * node + 1), axis=-1)
-        pair[node < 0] = -1
-        return pair.reshape(-1, 18)
+        return _unknowns(self.columns, self.depths.owner.size)
 
-    @cached_property
+    @property
     def slots(self) -> Indices:
         """Places of the entries of the element matrices in banded storage; beyond it if fixed."""
-        unknowns = self.unknowns
-        row, column = unknowns[:, :, None], unknowns[:, None, :]
-        places = self.place(row, column)
-        places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = self.stored
-        return places.ravel()
+        return _slots(self.columns, self.depths.owner.size)
+
+    @property
+    def lower_slots(self) -> tuple[Indices, Indices]:
+        """Entries of the element matrices on and below the diagonal, and their places.
+
+        In banded storage of a symmetric matrix, columns one after the other.
+        """
+        return _lower_slots(self.columns, self.depths.owner.size)
 
     @property
     def stored(self) -> int:
@@ -181,7 +181,7 @@ class Strip:
 
     def place(self, row: Indices, column: Indices) -> Indices:
         """Return places in banded storage, columns one after the other, of matrix entries."""
-        return column * (3 * self.band + 1) + 2 * self.band + row - column
+        return _place(row, column, self.band)
 
     @cached_property
     def layer(self) -> Indices:
@@ -206,6 +206,54 @@ class Strip:
         return np.asarray(((1.0 - share) * old[at] + share * old[at + 1]).ravel())
 
 
+@lru_cache(maxsize=_MESHES_KEPT)
+def _unknowns(columns: int, elements: int) -> Indices:
+    """Return `Strip.unknowns` of a mesh of so many columns, each of so many elements."""
+    column = 2 * np.arange(columns)[:, None, None, None] + np.arange(3)[:, None]
+    row = 2 * np.arange(elements)[:, None, None] + np.arange(3)
+    node = np.where(row < 2 * elements, column * 2 * elements + row, -1).reshape(-1, 9)
+    pair = np.stack((2 * node, 2 * node + 1), axis=-1)
+    pair[node < 0] = -1
+    unknowns = pair.reshape(-1, 18)
+    unknowns.setflags(write=False)
+    return unknowns
+
+
+def _size_and_band(columns: int, elements: int) -> tuple[int, int]:
+    """Return the number of unknowns of such a mesh, and of diagonals on either side."""
+    return 4 * elements * (2 * columns + 1), 8 * elements + 5
+
+
+def _place(row: Indices, column: Indices, band: int) -> Indices:
+    return column * (3 * band + 1) + 2 * band + row - column
+
+
+@lru_cache(maxsize=_MESHES_KEPT)
+def _slots(columns: int, elements: int) -> Indices:
+    """Return `Strip.slots` of such a mesh."""
+    unknowns = _unknowns(columns, elements)
+    size, band = _size_and_band(columns, elements)
+    row, column = unknowns[:, :, None], unknowns[:, None, :]
+    places = _place(row, column, band)
+    places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = (3 * band + 1) * size
+    slots = places.ravel()
+    slots.setflags(write=False)
+    return slots
+
+
+@lru_cache(maxsize=_MESHES_KEPT)
+def _lower_slots(columns: int, elements: int) -> tuple[Indices, Indices]:
+    """Return `Strip.lower_slots` of such a mesh."""
+    unknowns = _unknowns(columns, elements)
+    band = _size_and_band(columns, elements)[1]
+    row, column = np.broadcast_arrays(unknowns[:, :, None], unknowns[:, None, :])
+    entries = np.flatnonzero(((column >= 0) & (row >= column)).ravel())
+    places = (column * band + row).ravel()[entries]  # the diagonal and so many below it
+    entries.setflags(write=False)
+    places.setflags(write=False)
+    return entries, places
+
+
 @dataclass(frozen=True)
 class Surface:
     """Points of Gauss on the outer surface, of every element four.
@@ -216,6 +264,7 @@ class Surface:
     weights : (columns, 4) lengths [mm].
     values, slopes : (columns, 4, 3) shape functions and their derivatives by the arc.
     unknowns : (columns, 3, 2) of the three nodes.
+    undeformed : (3, columns, 4) x, and the derivatives of x and y by the arc.
     """
 
     arcs: Array
@@ -223,6 +272,7 @@ class Surface:
     values: Array
     slopes: Array
     unknowns: Indices
+    undeformed: Array
 
     @classmethod
     def of(cls, strip: Strip) -> Surface:
@@ -231,12 +281,15 @@ class Surface:
         values, slopes = quadratics(at)
         half = 0.5 * np.diff(strip.ends)[:, None]
         node = 2 * np.arange(strip.columns)[:, None] + np.arange(3)
+        arcs, curvature = strip.arcs[1::2, None] + half * at, strip.depths.roller.curvature
+        turned = np.cos(curvature * arcs), np.sin(curvature * arcs)
         return cls(
-            arcs=strip.arcs[1::2, None] + half * at,
+            arcs=arcs,
             weights=weight * half,
             values=np.broadcast_to(values, (strip.columns, *values.shape)),
             slopes=slopes / half[:, :, None],
             unknowns=2 * strip.rows * node[:, :, None] + np.arange(2),
+            undeformed=np.stack([on_circle(arcs, curvature)[0], *turned]),
         )
 
 

@@ -188,11 +188,11 @@ def _sampled(fields: tuple[Array, Array]) -> tuple[Array, Array]:
 def _weak(acting: Tractions, curvature: float) -> Tractions:
     """Return the tractions of linear theory, small: at arcs, which do not move."""
 
-    def at(x: Array) -> tuple[Array, Array, Array, Array]:
+    def at(x: Array) -> Array:
         arcs = x if curvature == 0.0 else np.arcsin(curvature * x) / curvature
-        p, q, _, _ = acting(arcs)
-        still = np.zeros_like(x)
-        return _SMALL * p, _SMALL * q, still, still
+        made = _SMALL * acting(arcs)
+        made[2:] = 0.0
+        return made
 
     return at
 
@@ -233,9 +233,8 @@ def _reached(body: Body, linear: State, acting: Tractions) -> State:
 
 
 def _share(acting: Tractions, share: float) -> Tractions:
-    def at(x: Array) -> tuple[Array, Array, Array, Array]:
-        p, q, p_slope, q_slope = acting(x)
-        return share * p, share * q, share * p_slope, share * q_slope
+    def at(x: Array) -> Array:
+        return share * acting(x)
 
     return at
 

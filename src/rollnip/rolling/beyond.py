@@ -15,32 +15,39 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import Layout, Safeguarded
-from rollnip.finite import CUT, FiniteResponse
+from rollnip.finite import CUT, FiniteResponse, NoEquilibriumError
 from rollnip.influence import KernelCache, SecondResponse
-from rollnip.model import FINITE, Geometry, Model
+from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields
-from rollnip.rolling.free_ends import as_cosines
+from rollnip.rolling.free_ends import as_cosines, with_free_ends
+from rollnip.rolling.largest import largest
 from rollnip.rolling.placing import Placing, SearchState
 from rollnip.rolling.powers import rates_of
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import STILL, change_of, held_from, solve_on_mesh, with_residual
+from rollnip.rolling.turns import STILL, change_of, solve_on_mesh, with_residual
 
 Array = NDArray[np.float64]
 _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
 _MOST_TURNS = 20  # of the correction and the contact
-_ENOUGH = 0.5  # violation of the contact conditions, or change to come, over the tolerance
+_ENOUGH = 0.3  # violation of the contact conditions, or change to come, over the tolerance
+_SLOWLY = 0.8  # share of a violation that a turn leaves, from which no further one is worth while
 _SMALL = 0.1  # change of a turn from which it may be the last one
 _LARGEST_RATIO = 0.9  # of changes
 _FAR = 0.1  # change from which a mesh of linear elements is graded anew
-_MOST_AFRESH = 6  # turns that are solved from the beginning
+_MOST_AFRESH = 10  # turns that are solved from the beginning
 _STRAIN = 0.6  # of a surface at which waves up to half the number are kept
+_COARSE = 24  # elements of the contact while its correction still changes
+_NEARLY = 6.0  # changes to come, over the tolerance, from which the mesh is refined
+_COARSELY = 10.0  # times the tolerance
+_COARSEST = 1e-2  # at most
+_EVERYWHERE = ((-inf, inf),) * 4
 _OFF = 0.01  # of the width of the contact: how far a correction moves the ends of zones, about
 
 
@@ -48,7 +55,7 @@ def with_second_order(
     kernels: PairKernels, nip: Nip, geometry: Geometry, half_width: float, cache: KernelCache
 ) -> PairKernels:
     """Add the second order of finite strain, on grids fit for a contact of that size."""
-    if geometry not in FINITE:
+    if geometry != "second":
         return kernels
 
     def response(roller: Roller) -> SecondResponse | None:
@@ -81,66 +88,76 @@ class _AllOrders:
         """Return whether the last tractions had an equilibrium."""
         return all(one.is_found for one in (self.upper, self.lower) if one is not None)
 
-    def beyond(
-        self, kernels: PairKernels, latest: Round
-    ) -> tuple[SecondFields, SecondFields, bool] | None:
-        """Return what all orders add to the second one, under the tractions of a solution.
+    def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, SecondFields, bool]:
+        """Return what all orders add to the linear displacements under a solution's tractions.
+
+        ``roughly``: on a mesh of before as long as the contact has not moved far. Raises
+        `NoEquilibriumError` where there is no equilibrium.
 
         Returns
         -------
         The correction, the same before it was smoothed, and whether it is that of the tractions
-        themselves, not of some on the way to them; None where there is no equilibrium.
+        themselves, not of some on the way to them.
         """
         nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
-        second = replace(kernels, beyond=None).second_fields(nodes, pressure, shear)
         functions: list[Field | None] = []
         rough: list[Field | None] = []
+        lost, is_whole = [0.0, 0.0], True
         rates = rates_of("finite", latest.state.creepage)
-        sides = (self.upper, 1.0, second.functions[0]), (self.lower, -1.0, second.functions[2])
-        for (response, sign, along), rate in zip(sides, rates, strict=True):
+        for side, (response, sign) in enumerate(((self.upper, 1.0), (self.lower, -1.0))):
             if response is None:
                 functions += [None, None]
                 rough += [None, None]
                 continue
-            functions += response.displacement(nodes, pressure, sign * shear, along, rate)
+            tractions = nodes, pressure, sign * shear
+            functions += response.displacement(*tractions, rates[side], roughly=roughly)
             rough += response.rough
+            lost[side] = response.lost
+            is_whole = is_whole and response.share == 1.0
             if not response.is_found:
-                return None
-        everywhere, others = ((-inf, inf),) * 4, ((-1.0, second),)
-        lost = tuple(0.0 if one is None else one.lost for one in (self.upper, self.lower))
-        smooth = SecondFields(tuple(functions), everywhere, others, (lost[0], lost[1]))
-        responses = [one for one in (self.upper, self.lower) if one is not None]
-        is_whole = all(one.share == 1.0 for one in responses)
+                raise NoEquilibriumError
+        smooth = SecondFields(tuple(functions), _EVERYWHERE, (), (lost[0], lost[1]))
         return smooth, replace(smooth, functions=tuple(rough)), is_whole
 
 
 def refine_all_orders(
     nip: Nip, model: Model, kernels: PairKernels, half_width: float
 ) -> tuple[PairKernels, Round]:
-    """Refine with the second order, then solve in turns with the correction of all orders.
-
-    Under very stiff skins the second order says little, or has no solution. There turns go on from
-    the solution without it, and the correction is all that is beyond the linear displacements.
+    """Solve a coarse contact in turns with the correction of all orders, then refine it.
 
     Returns
     -------
     The influence functions with the last correction, and the solution with it. Where no equilibrium
     is found, or no contact, it does not stand still; ``is_balanced`` tells which.
     """
-    without = replace(kernels, second_upper=None, second_lower=None)
-    for base in (kernels, without):
-        base = replace(base, beyond=NO_SECOND_ORDER)
-        latest = refine(nip, model, base, half_width)
-        is_balanced = True
-        if not latest.stands_still or not latest.figures.peak_pressure > 0.0:
-            continue
+    latest = _coarse(nip, model, kernels, half_width)
+    is_refined = latest is None
+    if latest is None:
+        latest = refine(nip, model, kernels, half_width)
+        is_refined = latest.mesh.fine.values is not None
+    is_balanced = True
+    if latest.stands_still and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
         orders = _AllOrders.of(nip, half_width, strain)
-        found = _turns(nip, model, base, latest, orders)
+        try:
+            found = _turns(nip, model, kernels, latest, orders, is_refined=is_refined)
+        except NoEquilibriumError:
+            found = None
         if found is not None:
             return found
         is_balanced = orders.is_balanced
     return kernels, replace(latest, stands_still=False, is_balanced=is_balanced)
+
+
+def _coarse(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round | None:
+    """Return a contact on a coarse mesh with free ends; None where there is none."""
+    placing = Placing(nip, _coarsely(model), kernels)
+    try:
+        stand = placing.guessed(Layout.sticking(half_width), _COARSE)
+        placed = None if stand is None else placing.placed(stand, _COARSE, known=False)
+    except np.linalg.LinAlgError:
+        return None
+    return None if placed is None else placed.before
 
 
 @dataclass
@@ -169,63 +186,115 @@ class _Past:
         return replace(NO_SECOND_ORDER, others=others, lost=(float(lost[0]), float(lost[1])))
 
 
+@dataclass
+class _Least:
+    """The solution that violates the contact conditions least, with the correction of its own.
+
+    Attributes
+    ----------
+    found : influence functions with that correction, the solution, the correction as it was before
+        it was smoothed; None as long as all violate them by more than the tolerance.
+    left : violation by the last solution, over the tolerance.
+    """
+
+    found: tuple[PairKernels, Round, SecondFields] | None = None
+    left: float = inf
+
+    def is_enough(
+        self,
+        model: Model,
+        found: tuple[PairKernels, Round, SecondFields],
+        to_come: float,
+    ) -> bool:
+        """Take in a further solution; return whether there is one from which turns need not go on.
+
+        ``to_come``: sum of the changes to come, over the tolerance.
+        """
+        left, before = found[1].residual / model.tolerance, self.left
+        self.left = left
+        if left <= min(1.0, before):
+            self.found = found
+        is_slow = left > _SLOWLY * before
+        return self.found is not None and (left <= _ENOUGH or to_come <= _ENOUGH or is_slow)
+
+
 def _turns(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, orders: _AllOrders
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    latest: Round,
+    orders: _AllOrders,
+    *,
+    is_refined: bool,
 ) -> tuple[PairKernels, Round] | None:
     """Solve the contact and evaluate its correction in turns.
 
-    They end when the contact conditions are met with the correction that belongs to the solution
-    itself, on a mesh that was graded for it: on one that was kept, the edges have moved away from
-    where it is fine, and the pressure rises towards them.
+    First on a coarse mesh, until the changes to come are small. Then the mesh is refined, and turns
+    go on until the contact conditions are met with the correction that belongs to the solution
+    itself.
     """
-    change, afresh, past = inf, 0, _Past(_places(latest))
-    is_graded = False
+    change, afresh, past, least = inf, 0, _Past(_places(latest)), _Least()
     for _ in range(_MOST_TURNS):
-        made = orders.beyond(kernels, latest)
-        if made is None:
-            return None
-        smooth = replace(kernels, beyond=made[0])
+        is_coarse = not is_refined and latest.mesh.fine.values is not None
+        made, rough, is_whole = orders.beyond(latest, roughly=is_coarse)
+        smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
-        if change < _SMALL and made[2]:
+        to_come = _to_come(change, before) / model.tolerance
+        if is_refined and change < _SMALL and is_whole:
             checked = with_residual(nip, model, smooth, _with(latest, smooth))
-            is_near = _to_come(change, before) <= _ENOUGH * model.tolerance
-            if checked.residual <= (1.0 if is_near else _ENOUGH) * model.tolerance:
-                if is_graded or latest.mesh.fine.values is not None:
-                    return smooth, _with_cut(nip, model, kernels, checked, made[1])
-                is_graded = True
-                latest = refine(nip, model, smooth, 0.5 * latest.figures.nip_width)
-                if not latest.stands_still:
-                    return None
-                kernels = smooth
-                continue
-        assert kernels.beyond is not None
-        mixed = replace(kernels, beyond=past.next(kernels.beyond, made[0]))
-        found = _solved_again(nip, model, mixed, _with(latest, mixed), change)
-        if found is not None and found.stands_still:
-            found = replace(found, error=latest.error, further_error=latest.further_error)
-        elif afresh < _MOST_AFRESH:
+            checked = replace(checked, geometry_change=largest(change, latest.geometry_change))
+            if least.is_enough(model, (smooth, checked, rough), to_come):
+                break
+        mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
+        kernels, latest = mixed, _with(latest, mixed)
+        if not is_refined and is_whole and to_come <= (_NEARLY if is_coarse else 1.0):
+            found, is_refined = _refined(nip, model, mixed, latest), True
+        elif is_coarse:
+            found = _solved_again(nip, _coarsely(model), mixed, latest, change, _COARSE)
+        else:
+            found = _solved_again(nip, model, mixed, latest, change, as_cosines(latest))
+        if not found.stands_still and afresh < _MOST_AFRESH:
             afresh += 1
-            found = refine(nip, model, mixed, 0.5 * latest.figures.nip_width)
-        if found is None or not found.stands_still:
-            return None
-        kernels, latest = mixed, found
-    return None
+            half_width = 0.5 * latest.figures.nip_width
+            again = _coarse(nip, model, mixed, half_width) if is_coarse else None
+            found = again or refine(nip, model, mixed, half_width)
+        if not found.stands_still:
+            break
+        latest = found
+    return None if least.found is None else _with_cut(nip, model, *least.found)
+
+
+def _coarsely(model: Model) -> Model:
+    """Return the model of contacts whose correction still changes."""
+    tolerance = max(model.tolerance, min(_COARSELY * model.tolerance, _COARSEST))
+    return replace(model, tolerance=tolerance)
+
+
+def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
+    """Refine a solution with a correction that is held."""
+    layout = Layout.of(latest.zones)
+    if layout is not None and latest.mesh.fine.values is not None:
+        found = with_free_ends(nip, model, kernels, layout, latest, _OFF).found
+        if found is not None:
+            return found
+    return refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
 
 
 def _places(latest: Round) -> Array:
-    """Return places at which corrections are compared, dense beside the edges."""
-    start, stop = latest.zones[0].start, latest.zones[-1].stop
-    angles = np.linspace(0.0, np.pi, _COMPARED)
-    return np.asarray(0.5 * (start + stop) - 0.5 * (stop - start) * np.cos(angles))
+    """Return places at which corrections are compared, at even distances.
+
+    Dense beside the edges, the short waves there would hide what is slow to come to rest.
+    """
+    return np.linspace(latest.zones[0].start, latest.zones[-1].stop, _COMPARED)
 
 
 def _with_cut(
     nip: Nip, model: Model, kernels: PairKernels, checked: Round, rough: SecondFields
-) -> Round:
+) -> tuple[PairKernels, Round]:
     """Add to a solution the violation of the contact conditions by what was cut."""
-    kernels = replace(kernels, beyond=rough)
-    cut = with_residual(nip, model, kernels, _with(checked, kernels)).residual
-    return replace(checked, cut=cut)
+    uncut = replace(kernels, held=rough)
+    cut = with_residual(nip, model, uncut, _with(checked, uncut)).residual
+    return kernels, replace(checked, cut=cut)
 
 
 def _to_come(change: float, before: float) -> float:
@@ -238,7 +307,7 @@ def _to_come(change: float, before: float) -> float:
 
 def _with(latest: Round, kernels: PairKernels) -> Round:
     """Return a solution whose mesh has the correction of some influence functions."""
-    return replace(latest, mesh=latest.mesh.holding(replace(kernels, held=None)))
+    return replace(latest, mesh=latest.mesh.holding(kernels))
 
 
 def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> float:
@@ -249,25 +318,30 @@ def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> floa
 
 
 def _solved_again(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float
-) -> Round | None:
-    """Solve with another correction on a mesh of the same size; None where that is not possible.
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float, count: int
+) -> Round:
+    """Solve with another correction; where that fails the round does not stand still.
 
-    Ends of zones are placed anew if they are free. Otherwise the mesh stays, if the correction
-    changed little: what meshes of linear elements differ in would keep turns going.
+    Ends of zones are placed anew if they are free, on about ``count`` elements. Otherwise the mesh
+    stays, if the correction changed little: what meshes of linear elements differ in would keep
+    turns going.
     """
+    failed = replace(latest, stands_still=False)
     if latest.mesh.fine.values is None:
         if change > _FAR:
-            return None
-        held = held_from(kernels, latest)
+            return failed
         start = latest.state.states, latest.second, latest.steps
-        return solve_on_mesh(nip, model, latest.mesh.holding(held), start, Safeguarded(), STILL)
-    layout = Layout.of(latest.zones)
-    if layout is None:
-        return None
-    search = SearchState(layout, latest, off=_OFF)
-    try:
-        placed = Placing(nip, model, kernels).placed(search, as_cosines(latest), known=True)
-    except np.linalg.LinAlgError:
-        return None
-    return None if placed is None else placed.before
+        found = solve_on_mesh(nip, model, latest.mesh, start, Safeguarded(), STILL)
+    else:
+        layout = Layout.of(latest.zones)
+        if layout is None:
+            return failed
+        search = SearchState(layout, latest, off=_OFF)
+        try:
+            placed = Placing(nip, model, kernels).placed(search, count, known=True)
+        except np.linalg.LinAlgError:
+            return failed
+        if placed is None:
+            return failed
+        found = placed.before
+    return replace(found, error=latest.error, further_error=latest.further_error)

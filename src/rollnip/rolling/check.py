@@ -206,9 +206,12 @@ def surface_strain(
         return strain
     hoop = hoop_curvature(roller, geometry)
     u_x, u_z = _of_surface(displacement_matrix(surface.together, x, final.nodes), p, q)
-    if (kernels.second_upper if upper else kernels.second_lower) is None:
+    held, second = kernels.held, kernels.second_upper if upper else kernels.second_lower
+    if held is None and second is None:
         return strain - hoop * u_z + 0.5 * (slope + hoop * u_x) ** 2
-    beyond = kernels.second_fields(final.nodes, final.pressure, final.shear).slopes_at(x).four
+    if held is None:
+        held = kernels.second_fields(final.nodes, final.pressure, final.shear)
+    beyond = held.slopes_at(x).four
     along, inward = beyond[:2] if upper else beyond[2:]
     present = np.hypot(1.0, hoop * x + slope + inward)
     return np.asarray(present / (1.0 - strain - along) - 1.0)

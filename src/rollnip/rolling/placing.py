@@ -130,7 +130,7 @@ class Placing:
         wanted = self._wanted(latest, layout, whole=False) if is_near else None
         if wanted is not None or not asked.is_proper:
             return self._other(latest, wanted, _proper(asked, layout), "linear")
-        if self.kernels.is_linear and not has_no_second_order(self.nip, self.model.geometry):
+        if self.kernels.is_fixed and not has_no_second_order(self.nip, self.model.geometry):
             second = second_order(self.nip, self.model.geometry, mesh, latest.state)
             latest = self._solve_on_mesh(self.model, mesh, (states, second, latest.steps), zones, 1)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
@@ -151,7 +151,7 @@ class Placing:
         """
         # The second order held so far is that of a coarser mesh: each size evaluates it anew.
         stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
-        loosely = self.kernels.is_linear and not known
+        loosely = self.kernels.is_fixed and not known
         placed = (
             _PLACEMENT_TOLERANCE
             * self.model.tolerance
@@ -181,7 +181,7 @@ class Placing:
             ):
                 return None
             is_fine = crowd == crowding_of(layout.breaks, self.boundary)
-            is_placed = off <= placed and (self.kernels.is_linear or stand.is_quiet)
+            is_placed = off <= placed and (self.kernels.is_fixed or stand.is_quiet)
             is_placed = is_placed and is_fine
             doubted = is_placed or (not known and off < _NEAR_ENOUGH_FOR_SLIP)
             known = known or (doubted and not hasty)
@@ -227,7 +227,7 @@ class Placing:
     def _renewed(self, stand: SearchState) -> SearchState:
         """Evaluate the second order of the last solution and what follows, if it still moves."""
         before = stand.before
-        if self.kernels.is_linear or stand.is_quiet:
+        if self.kernels.is_fixed or stand.is_quiet:
             return stand
         mesh = before.mesh.holding(held_from(self.kernels, before))
         second = second_order(self.nip, self.model.geometry, mesh, before.state)

@@ -9,7 +9,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE, ContactState, Subdivision
-from rollnip.finite import FiniteResponse
 from rollnip.influence import (
     Ellipses,
     Kernel,
@@ -37,8 +36,7 @@ class PairKernels:
     Attributes
     ----------
     upper, lower : linear.
-    second_upper, second_lower : beyond the linear order; None also where the model leaves it out.
-    beyond : displacements of the third order and above, whatever the tractions; None: zero.
+    second_upper, second_lower : of second order; None also where the model leaves it out.
     held : all displacements beyond the linear ones to use whatever the tractions; None: always
         those of the tractions at hand.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
@@ -52,9 +50,8 @@ class PairKernels:
     lower: SurfaceKernels | None
     together: Kernel
     pressed: Ellipses
-    second_upper: SecondResponse | FiniteResponse | None = None
-    second_lower: SecondResponse | FiniteResponse | None = None
-    beyond: SecondFields | None = None
+    second_upper: SecondResponse | None = None
+    second_lower: SecondResponse | None = None
     held: SecondFields | None = None
     hoops: tuple[float, float] = (0.0, 0.0)
 
@@ -66,12 +63,17 @@ class PairKernels:
     @property
     def heat_beyond(self) -> tuple[float, float]:
         """Heat inside the upper and the lower roller beyond the linear one [N/mm]."""
-        return (0.0, 0.0) if self.beyond is None else self.beyond.lost
+        return (0.0, 0.0) if self.held is None else self.held.lost
 
     @property
     def is_linear(self) -> bool:
         """Return whether neither surface has a displacement beyond the linear one."""
-        return self.second_upper is None and self.second_lower is None and self.beyond is None
+        return self.is_fixed and self.held is None
+
+    @property
+    def is_fixed(self) -> bool:
+        """Return whether no displacement beyond the linear ones follows the tractions."""
+        return self.second_upper is None and self.second_lower is None
 
     def second_fields(self, nodes: Array, pressure: Array, shear: Array) -> SecondFields:
         """Displacements beyond the linear ones under tractions at nodes[1:-1], as functions."""
@@ -84,13 +86,12 @@ class PairKernels:
                 ends += [(0.0, 0.0)] * 2
                 continue
             own = nodes, pressure, sign * shear
-            if isinstance(response, SecondResponse) and response.is_short:
+            if response.is_short:
                 functions += response.displacement(*own, surface.inward_at(0.0, *own))
             else:
                 functions += response.displacement(*own)
             ends += [(float(response.x[0]), float(response.x[-1]))] * 2
-        others = () if self.beyond is None else ((1.0, self.beyond),)
-        return SecondFields(tuple(functions), tuple(ends), others)
+        return SecondFields(tuple(functions), tuple(ends))
 
 
 def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None) -> PairKernels:

@@ -43,7 +43,7 @@ def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
 
 def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
     """Return influence functions with the second order of a solution, if they model it."""
-    if kernels.is_linear:
+    if kernels.is_fixed:
         return kernels
     if before is None:
         return replace(kernels, held=NO_SECOND_ORDER)
@@ -138,7 +138,7 @@ def with_residual(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
     From here on the mesh holds the second order of its own tractions. The change of the
     second-order terms by that is recorded as the last change.
     """
-    if not kernels.is_linear:
+    if not kernels.is_fixed:
         kernels = replace(kernels, held=latest.mesh.second_fields(latest.state))
         mesh, state = latest.mesh.holding(kernels), latest.state
         own = second_order(nip, model.geometry, mesh, state)

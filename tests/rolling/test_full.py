@@ -10,6 +10,7 @@ import rollnip as rn
 from rollnip.rolling import beyond
 
 DATA = Path(__file__).parents[1] / "data"
+EXAMPLES = Path(__file__).parents[2] / "examples"
 CASES = [
     case
     for name in ("", "_own", "_driven")
@@ -311,3 +312,19 @@ def test_a_memory_against_a_calculation_in_time(stored):
     middle = np.trapezoid(p * x, x) / np.trapezoid(p, x)
     spread = np.sqrt(np.trapezoid(p * (x - middle) ** 2, x) / np.trapezoid(p, x))
     assert spread == pytest.approx(stored["spread"], rel=5e-3)
+
+
+def test_a_skin_takes_few_turns(monkeypatch):
+    """Turns begin from the linear displacements: under a skin the second order misleads them."""
+    turns = []
+    beyond_of = beyond._AllOrders.beyond
+
+    def counted(self, *given, **named):
+        turns.append(1)
+        return beyond_of(self, *given, **named)
+
+    monkeypatch.setattr(beyond._AllOrders, "beyond", counted)
+    solution = rn.solve(rn.read_case(EXAMPLES / "figure-4-top-layer-0.1mm.toml").nip, FULL)
+    assert solution.converged
+    assert solution.model.geometry == "finite"
+    assert len(turns) <= 6  # 10, from the second order

@@ -331,8 +331,19 @@ class Body:
         """Solve by Newton's method, until ``still`` times the displacement or less is left.
 
         Or until no more is left than a ``share`` of the first step. A derivative is kept as long as
-        steps shrink to 0.3 with it. Raises `NoEquilibriumError` where steps do not come to rest.
+        steps shrink to 0.3 with it. Raises `NoEquilibriumError` where steps do not come to rest
+        from ``start``, not even with the derivative there.
         """
+        if start.tangent is None:
+            return self._by_steps(tractions, start, still, share)
+        try:
+            return self._by_steps(tractions, start, still, share)
+        except NoEquilibriumError:
+            afresh = State(start.displacement, start.pressure)
+            return self._by_steps(tractions, afresh, still, share)
+
+    def _by_steps(self, tractions: Tractions, start: State, still: float, share: float) -> State:
+        """Solve from a state, the first steps with its derivative if that is known."""
         state, tangent, before, first = start, start.tangent, inf, 0.0
         deformation = self.deformation(state.displacement)
         for _ in range(_MOST_STEPS):

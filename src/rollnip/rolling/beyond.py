@@ -44,7 +44,7 @@ _FAR = 0.1  # change from which a mesh of linear elements is graded anew
 _MOST_AFRESH = 10  # turns that are solved from the beginning
 _STRAIN = 0.6  # of a surface at which waves up to half the number are kept
 _COARSE = 24  # elements of the contact while its correction still changes
-_NEARLY = 6.0  # changes to come, over the tolerance, from which the mesh is refined
+_NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
 _COARSELY = 10.0  # times the tolerance
 _COARSEST = 1e-2  # at most
 _EVERYWHERE = ((-inf, inf),) * 4
@@ -247,7 +247,8 @@ def _turns(
                 break
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
-        if not is_refined and is_whole and to_come <= (_NEARLY if is_coarse else 1.0):
+        near = min(to_come, change / model.tolerance)
+        if not is_refined and is_whole and near <= (_NEARLY if is_coarse else 1.0):
             found, is_refined = _refined(nip, model, mixed, latest), True
         elif is_coarse:
             found = _solved_again(nip, _coarsely(model), mixed, latest, change, _COARSE)

@@ -80,12 +80,14 @@ def test_a_stiff_sheet_is_warned_of():
     assert not any("bending stiffness" in line for line in thin.warnings)
 
 
-def test_stiffness_that_shows_and_cannot_be_counted_is_warned_of(monkeypatch):
+def test_stiffness_that_shows_and_cannot_be_counted_leaves_a_nip_unverified(monkeypatch):
     monkeypatch.setattr("rollnip.sheet.solved.solve_plate", lambda *_: None)
     nip = nip_with(replace(rn.Sheet.usual("board"), tension_in=0.05))
     solution = rn.solve(nip, rn.Model(geometry="linear"))
     said = "No solution with the sheet's bending stiffness could be verified."
     assert said in solution.warnings
+    assert not solution.converged
+    assert solution.status == said
     freely = replace(nip, sheet=replace(nip.sheet, bending=False))
     assert said not in rn.solve(freely, rn.Model(geometry="linear")).warnings
 

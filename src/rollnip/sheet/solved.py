@@ -76,7 +76,10 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
 def _bending_freely(
     nip: Nip, model: Model, cache: KernelCache, record: tuple[str, tuple[str, ...]], start: float
 ) -> SheetSolution:
-    """Return the solution of a sheet without stiffness; ``record``: version and what was said."""
+    """Return the solution of a sheet without stiffness.
+
+    ``record``: version, and why stiffness that shows was left out; such a solution is not verified.
+    """
     version, simpler = record
     kernels, refined, left = _refined(nip, model, cache)
     if left:
@@ -84,7 +87,9 @@ def _bending_freely(
     left = simpler + left
     require_grip(nip, refined)
     final = as_round(nip, refined)
-    converged, status = sheet_verdict(nip, model, refined, final)
+    converged, status = (
+        (False, simpler[0]) if simpler else sheet_verdict(nip, model, refined, final)
+    )
     strains = Strains.of(nip, model, final)
     return SheetSolution(
         nip=nip,

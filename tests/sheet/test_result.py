@@ -1,6 +1,7 @@
 """What a solution says of its sheet, as figures, texts and files."""
 
 import json
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,6 +10,8 @@ from sheet_nips import nip_with, paper
 import rollnip as rn
 from rollnip._results.tree import result_dict
 from rollnip.io import base_tree, case_python, case_toml, parse_case
+from rollnip.sheet.common import sheet_verdict
+from rollnip.sheet.refine import SheetFigures, scales
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps.row import SCALARS, evaluate
 
@@ -180,3 +183,16 @@ def test_the_picture_of_the_path_reads_its_height_on_the_right(pulled):
     bottom, top = right.get_ylim()
     drawn = bottom + (lines["path of the sheet (right)"] - low) * (top - bottom) / (high - low)
     assert drawn == pytest.approx(sheet.height, abs=1e-9)
+
+
+@pytest.mark.parametrize(("place", "side"), [(5, "upper"), (6, "lower")])
+def test_the_verdict_asks_for_the_creepage_on_either_side(pulled, place, side):
+    # Their sum may be known better than either: the tolerance is for the feed, too.
+    refined = pulled.refined
+    values = refined.errors.values.copy()
+    values[place] = 3.0 * pulled.model.tolerance * scales(pulled.nip, refined.figures)[place]
+    worse = replace(refined, errors=SheetFigures(values))
+    assert sheet_verdict(pulled.nip, pulled.model, refined, pulled.final)[0]
+    is_met, status = sheet_verdict(pulled.nip, pulled.model, worse, pulled.final)
+    assert not is_met
+    assert f"creepage on the {side} roller is 3.0e-03 (relative), 3.0 times" in status

@@ -1,5 +1,9 @@
 """Nips with a sheet, shared by the tests of `rollnip.sheet`."""
 
+import importlib.util
+import sys
+from pathlib import Path
+
 import rollnip as rn
 
 SOFT = rn.Roller(radius=50, layers=[rn.Layer(2.0, rn.Elastic(modulus=0.91, poisson=0.5))])
@@ -16,3 +20,41 @@ def nip_with(sheet, **more):
     """The nip of configuration II with a sheet, or another one."""
     given = {"upper": SOFT, "lower": HARD, "normal": rn.LineLoad(1.78), "friction": 0.5}
     return rn.Nip(sheet=sheet, **{**given, **more})
+
+
+def judge(name):
+    """The program tests/judges/NAME.py, which imports nothing of rollnip."""
+    path = Path(__file__).parents[1] / "judges" / f"{name}.py"
+    spec = importlib.util.spec_from_file_location(f"judge_{name}", path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = module
+    spec.loader.exec_module(module)
+    return module
+
+
+def judged_nip(case, **sheet):
+    """The nip of a case of a judge; ``sheet``: what its sheet has besides tensions and friction."""
+    inlet, outlet = case.tensions
+    upper, lower = case.friction
+    driven = case.traction is None
+    return rn.Nip(
+        upper=_roller(case.radii[0], case.coverings[0]),
+        lower=_roller(case.radii[1], case.coverings[1]),
+        normal=rn.LineLoad(case.load),
+        friction=0.5,
+        tangential=rn.Creepage(case.creepage) if driven else rn.Traction(case.traction),
+        sheet=rn.Sheet(
+            tension_in=inlet,
+            tension_out=outlet,
+            friction_upper=upper,
+            friction_lower=lower,
+            **sheet,
+        ),
+    )
+
+
+def _roller(radius, covering):
+    if covering is None:
+        return rn.Roller(radius=radius)
+    rubber = rn.Elastic(modulus=covering.modulus, poisson=covering.poisson)
+    return rn.Roller(radius=radius, layers=[rn.Layer(covering.thickness, rubber)])

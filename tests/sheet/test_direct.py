@@ -1,10 +1,10 @@
 """Sheets against a direct calculation with uniform elements (tests/judges/sheet.py)."""
 
-import importlib.util
 import json
 from pathlib import Path
 
 import pytest
+from sheet_nips import judge, judged_nip
 
 import rollnip as rn
 
@@ -12,57 +12,28 @@ HERE = Path(__file__).parents[1]
 STORED = json.loads((HERE / "data" / "sheet_direct.json").read_text(encoding="utf-8"))
 
 
-def _judge():
-    spec = importlib.util.spec_from_file_location("judge_of_sheets", HERE / "judges" / "sheet.py")
-    module = importlib.util.module_from_spec(spec)
-    import sys
-
-    sys.modules["judge_of_sheets"] = module
-    spec.loader.exec_module(module)
-    return module
+JUDGE = judge("sheet")
 
 
-JUDGE = _judge()
-
-
-def _roller(radius, covering):
-    if covering is None:
-        return rn.Roller(radius=radius)
-    rubber = rn.Elastic(modulus=covering.modulus, poisson=covering.poisson)
-    return rn.Roller(radius=radius, layers=[rn.Layer(covering.thickness, rubber)])
-
-
-def _sheet(case):
-    """The sheet with the stretch, the strain by pressure and the squeeze of a case."""
+def _stuff(case):
+    """Return the sheet with the stretch, the strain by pressure and the squeeze of a case."""
     # a = (1 - nu^2)/(E h), b = nu (1 + nu)/E; the modulus across gives the squeeze.
     poisson = 0.3
     modulus = poisson * (1.0 + poisson) / case.by_pressure
     thickness = (1.0 - poisson**2) / (modulus * case.stretch)
     across = thickness * (1.0 - poisson**2) / case.squeeze if case.squeeze else 1e9
-    return rn.Sheet(
-        thickness=thickness,
-        modulus=modulus,
-        poisson=poisson,
-        modulus_thickness=across,
-        tension_in=case.tensions[0],
-        tension_out=case.tensions[1],
-        friction_upper=case.friction[0],
-        friction_lower=case.friction[1],
-    )
+    return {
+        "thickness": thickness,
+        "modulus": modulus,
+        "poisson": poisson,
+        "modulus_thickness": across,
+    }
 
 
 @pytest.mark.parametrize("name", STORED)
 def test_agrees_with_uniform_elements(name):
     case, wanted = JUDGE.CASES[name], STORED[name]
-    driven = case.traction is None
-    nip = rn.Nip(
-        upper=_roller(case.radii[0], case.coverings[0]),
-        lower=_roller(case.radii[1], case.coverings[1]),
-        normal=rn.LineLoad(case.load),
-        friction=0.5,
-        tangential=rn.Creepage(case.creepage) if driven else rn.Traction(case.traction),
-        sheet=_sheet(case),
-    )
+    nip = judged_nip(case, **_stuff(case))
     solution = rn.solve(nip, rn.Model(geometry="linear", tolerance=5e-3))
     assert solution.converged
     sheet = solution.sheet

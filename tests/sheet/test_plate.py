@@ -1,15 +1,13 @@
 """A sheet that resists bending: limits, equilibrium, energy, and an independent calculation."""
 
-import importlib.util
 import json
-import sys
 from dataclasses import replace
 from math import inf
 from pathlib import Path
 
 import numpy as np
 import pytest
-from sheet_nips import HARD, RIGID, SOFT, nip_with, paper
+from sheet_nips import HARD, RIGID, SOFT, judge, judged_nip, nip_with, paper
 
 import rollnip as rn
 
@@ -19,22 +17,7 @@ LINEAR = rn.Model(geometry="linear")
 BOARD = replace(rn.Sheet.usual("board"), bending=True)
 
 
-def _judge():
-    spec = importlib.util.spec_from_file_location("judge_of_plates", HERE / "judges" / "plate.py")
-    module = importlib.util.module_from_spec(spec)
-    sys.modules["judge_of_plates"] = module
-    spec.loader.exec_module(module)
-    return module
-
-
-JUDGE = _judge()
-
-
-def _roller(radius, covering):
-    if covering is None:
-        return rn.Roller(radius=radius)
-    rubber = rn.Elastic(modulus=covering.modulus, poisson=covering.poisson)
-    return rn.Roller(radius=radius, layers=[rn.Layer(covering.thickness, rubber)])
+JUDGE = judge("plate")
 
 
 @pytest.mark.parametrize(
@@ -43,24 +26,13 @@ def _roller(radius, covering):
 )
 def test_agrees_with_a_beam_of_finite_elements(name):
     case, wanted = JUDGE.CASES[name], STORED[name]
-    sheet = rn.Sheet(
+    nip = judged_nip(
+        case,
         thickness=case.thickness,
         modulus=case.modulus,
         poisson=case.poisson,
         modulus_thickness=case.across,
-        tension_in=case.tensions[0],
-        tension_out=case.tensions[1],
-        friction_upper=case.friction[0],
-        friction_lower=case.friction[1],
         bending=True,
-    )
-    nip = rn.Nip(
-        upper=_roller(case.radii[0], case.coverings[0]),
-        lower=_roller(case.radii[1], case.coverings[1]),
-        normal=rn.LineLoad(case.load),
-        friction=0.5,
-        tangential=rn.Traction(case.traction),
-        sheet=sheet,
     )
     solution = rn.solve(nip, LINEAR)
     assert solution.converged

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from sheet_nips import HARD, RIGID, SOFT, judge, judged_nip, nip_with, paper
+from sheet_population import random_case
 
 import rollnip as rn
 
@@ -170,3 +171,36 @@ def test_peaks_opposite_the_edges_of_a_narrow_contact_are_resolved():
 def test_bending_is_true_or_false():
     with pytest.raises(rn.InvalidInputError, match="`bending` must be true or false"):
         paper(bending=1)
+
+
+@pytest.mark.slow
+def test_the_pressure_under_a_thin_plate_does_not_waver_from_mesh_to_mesh():
+    # It is a small difference of large deflections: what tractions on the other mesh do must be
+    # integrated to more digits than Gauss points give at the kinks.
+    case = random_case(9300, bending=True)
+    coarse, fine = (
+        rn.solve(case.nip, rn.Model(geometry="linear", tolerance=tolerance)).sheet
+        for tolerance in (1e-3, 3e-4)
+    )
+    assert coarse.peak_pressure_lower == pytest.approx(fine.peak_pressure_lower, rel=4e-4)
+
+
+@pytest.mark.slow
+def test_slip_both_ways_below_a_stiff_sheet_is_found():
+    # four zones below thin steel-like paper; stick and slip node by node turned in a circle here
+    case = random_case(9306, bending=True)
+    solution = rn.solve(case.nip, rn.Model(geometry=case.geometry))
+    assert solution.converged
+    assert len({zone.direction for zone in solution.sheet.zones_lower} - {None}) == 2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("number", "reason"),
+    [(9329, "did not come to rest"), (9413, "came to rest on one size of mesh only")],
+)
+def test_a_plate_that_is_not_verified_says_why(number, reason):
+    case = random_case(number, bending=True)
+    solution = rn.solve(case.nip, rn.Model(geometry=case.geometry))
+    assert not solution.converged
+    assert reason in solution.status

@@ -31,6 +31,7 @@ from rollnip.sheet.plate.refine import PlateRefined, refine_plate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.validity import Strains, validity_warnings
 
+_HARDLY = 0.01  # violation of the conditions that moves of the ends make
 COUNTED = 0.2
 """Bending length over the nip width from which stiffness is counted where nothing is said."""
 
@@ -124,10 +125,7 @@ def _solution(
     said, seconds, version = record
     final, stand = plate_round(refined), refined.stand
     both = final, lower_round(refined, final)
-    converged, status = sheet_verdict(nip, model, refined, final)
-    if converged:
-        below, reason = sheet_verdict(nip, model, refined, both[1])
-        converged, status = (True, status) if below else (False, f"On the lower side: {reason}")
+    converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
     warned = said + _pushed(refined) + validity_warnings(nip, model, final, strains)
     plain: Any = refined
@@ -150,6 +148,30 @@ def _solution(
         max_surface_strain=strains.surface,
         refined=plain,
     )
+
+
+def _verdict(
+    nip: Nip, model: Model, refined: PlateRefined, rounds: tuple[Round, Round]
+) -> tuple[bool, str]:
+    """Return whether the solution is valid on both sides, and a sentence that says why."""
+    stand = refined.stand
+    if not stand.stands_still and refined.residual <= _HARDLY:
+        return False, (
+            "Edges, or ends of stick and slip, on the sides of the sheet did not come to rest "
+            f"(they still moved by {100.0 * stand.off:.1g} % of the width); try another tolerance, "
+            "another load or other tensions, or `bending = false`."
+        )
+    if stand.stands_still and not np.isfinite(refined.errors.values).all():
+        return False, (
+            "Contact, stick and slip came to rest on one size of mesh only, so no error can be "
+            "estimated; try another tolerance, another load or other tensions, or "
+            "`bending = false`."
+        )
+    converged, status = sheet_verdict(nip, model, refined, rounds[0])
+    if converged:
+        below, reason = sheet_verdict(nip, model, refined, rounds[1])
+        converged, status = (True, status) if below else (False, f"On the lower side: {reason}")
+    return converged, status
 
 
 def _strains(nip: Nip, model: Model, rounds: tuple[Round, Round]) -> Strains:

@@ -65,6 +65,8 @@ export const SOLVER_DE = {
   "solver.no-sheet-second": "Mit dieser Bahn ließ sich im Modell „Endliche Dehnung, zweite Ordnung“ keine Lösung finden: Seine Zonen oder seine Glieder zweiter Ordnung kamen nicht zur Ruhe. Alle Zahlen sind die des Modells „Gekrümmte Schichten“.",
   "solver.no-sheet-finite": "Mit dieser Bahn ließ sich bei endlicher Dehnung keine Lösung finden: Ihre Zonen oder die Glieder zweiter Ordnung kamen nicht zur Ruhe. Alle Zahlen sind die des Modells „Gekrümmte Schichten“.",
   "solver.sheet-settle": "Haften und Gleiten auf beiden Seiten der Bahn kamen nicht zur Ruhe (Bedingungen um {left} verletzt); versuchen Sie eine andere Toleranz, eine kleinere Last oder Züge, die weiter von dem entfernt sind, was die Reibung trägt.",
+  "solver.plate-edges": "Ränder oder Enden von Haften und Gleiten auf den Seiten der Bahn kamen nicht zur Ruhe (sie wanderten noch um {share} % der Breite); eine andere Toleranz, eine andere Last oder andere Züge versuchen, oder die Biegesteifigkeit weglassen.",
+  "solver.plate-one-size": "Kontakt, Haften und Gleiten kamen nur auf einer Netzgröße zur Ruhe, also lässt sich kein Fehler schätzen; eine andere Toleranz, eine andere Last oder andere Züge versuchen, oder die Biegesteifigkeit weglassen.",
   "solver.sheet-violated": "Die Kontaktbedingungen sind um {left} (relativ) verletzt, mehr als die Toleranz {tolerance}; versuchen Sie eine andere Toleranz oder eine kleinere Last.",
   "solver.sheet-error": "Der geschätzte Fehler des Schlupfs an der {side} Walze ist {error} (relativ), {times}-mal so viel, wie die Toleranz {tolerance} erlaubt, auf dem feinsten Netz; mit einer größeren Toleranz gilt das Ergebnis.",
   "solver.lower-side": "Auf der unteren Seite: {why}",

@@ -65,6 +65,8 @@ export const SOLVER_EN = {
   "solver.no-sheet-second": `No solution of geometry "second" was found with this sheet: its zones or its second-order terms did not come to rest. All figures are those of geometry "curved".`,
   "solver.no-sheet-finite": `No solution at finite strain was found with this sheet: its zones or its second-order terms did not come to rest. All figures are those of "curved".`,
   "solver.sheet-settle": "Stick and slip on both sides of the sheet did not settle (conditions violated by {left}); try another tolerance, a smaller load, or tensions further from what friction carries.",
+  "solver.plate-edges": "Edges, or ends of stick and slip, on the sides of the sheet did not come to rest (they still moved by {share} % of the width); try another tolerance, another load or other tensions, or `bending = false`.",
+  "solver.plate-one-size": "Contact, stick and slip came to rest on one size of mesh only, so no error can be estimated; try another tolerance, another load or other tensions, or `bending = false`.",
   "solver.sheet-violated": "The contact conditions are violated by {left} (relative), more than the tolerance {tolerance}; try another tolerance or a smaller load.",
   "solver.sheet-error": "The estimated error of the creepage on the {side} roller is {error} (relative), {times} times what the tolerance {tolerance} allows, on the finest mesh; accept it with a larger tolerance.",
   "solver.lower-side": "On the lower side: {why}",

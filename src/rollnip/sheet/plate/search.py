@@ -1,9 +1,9 @@
 """The search for the zones of both interfaces of a plate and their ends, on meshes of one size.
 
-Edges and transitions lie at nodes of the interface that they belong to, and the tractions at the
-first nodes beside them say where they move (`contact.Layout.moved`). A solution tells whether its
-zones are right; where they are not, stick and slip are sought between the edges, and where this
-does not settle, contact, stick and slip are sought together (`nodewise`).
+Zones begin on meshes that reach beyond the contacts, with the states of all nodes found at once
+(`settled`). Edges and transitions then lie at nodes of the interface that they belong to, and the
+tractions at the first nodes beside them say where they move (`contact.Layout.moved`). Where a
+solution violates its conditions, the states of its nodes are found once more.
 """
 
 from __future__ import annotations

@@ -98,7 +98,7 @@ class Designer:
         while not self.page.evaluate(expression, arg):
             assert time.monotonic() < end, f"never came true: {expression} {arg or ''}"
             self.page.wait_for_timeout(pause)
-            pause = min(1.5 * pause, 60.0)
+            pause = min(1.5 * pause, 30.0)
 
     def reset(self) -> Designer:
         """The default nip by way of a link, which leaves nothing to undo."""

@@ -11,6 +11,8 @@ from rollnip.sheets import SHEETS
 
 pytestmark = pytest.mark.slow
 
+SIDES = ("upper", "lower")
+
 
 @pytest.fixture
 def sheet(designer):
@@ -96,6 +98,20 @@ def test_the_bound_of_the_shear_is_that_of_the_friction_of_each_side(sheet):
     for side, friction in (("upper", 0.4), ("lower", 0.3)):
         bound = designer.trace("chart-pressure", f"traction bound, {side} side")["y"]
         np.testing.assert_allclose(bound, friction * pressure, atol=1e-9)
+
+
+def test_the_chart_shows_the_shear_of_both_sides_of_a_board_whole(sheet):
+    """Under a sheet that bends the lower shear is the larger one."""
+    designer, _tree = sheet
+    designer.enter("in-sheet-thickness", "0.5 mm")
+    designer.tab("pressure")
+    shears = [designer.trace("chart-pressure", f"shear, {side} side")["y"] for side in SIDES]
+    low, high = designer.page.evaluate(
+        "document.getElementById('chart-pressure').layout.yaxis.range"
+    )
+    assert min(shears[1]) < min(shears[0])
+    assert low < min(map(min, shears))
+    assert max(map(max, shears)) < high
 
 
 def test_the_ticks_of_the_strain_are_round(sheet):

@@ -90,7 +90,7 @@ function put(app, patch) {
 }
 
 function group(title, ...children) {
-  const isLong = children.length > 5;
+  const isLong = children.length > 4;
   return el("div", { class: isLong ? "patch-group long" : "patch-group", role: "group", "aria-label": title }, el("h3", { text: title }), ...children);
 }
 

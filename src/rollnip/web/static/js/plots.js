@@ -26,8 +26,8 @@ function pressurePlot(result, units, palette, tree) {
     }),
   );
   data.push(line(say(result.sheet ? "curve.shear-upper" : "curve.shear"), x, shear, palette.shear, { hovertemplate: `%{y:.4~g} ${name}` }));
-  if (result.sheet) {
-    const lower = units.list(result.sheet.profiles.shear_lower, "pressure");
+  const lower = result.sheet ? units.list(result.sheet.profiles.shear_lower, "pressure") : [];
+  if (lower.length) {
     const style = { dash: "longdash", hovertemplate: `%{y:.4~g} ${name}` };
     data.push(line(say("curve.shear-lower"), x, lower, palette.lower, style));
   }
@@ -37,7 +37,7 @@ function pressurePlot(result, units, palette, tree) {
     data.push(line(say("curve.pressure-lower"), x, below, palette.pressure, style));
   }
   data.push(...boundsOf(result, tree, units, x, palette));
-  const [low, high] = span([...pressure, ...below], shear);
+  const [low, high] = span([...pressure, ...below], [...shear, ...lower]);
   const layout = layoutOf(palette, along(units), titled(say("axis.pressure"), name), {
     along: units.name("length"),
     xaxis: { range: reach(result, units) },

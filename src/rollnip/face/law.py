@@ -75,7 +75,7 @@ class Places:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class CrossSections:
     """Cross-sections of the nip at some approaches and creepages, each (n,).
 
     Attributes
@@ -170,7 +170,7 @@ class NipLaw:
         corners = [self.unsolved[i + a, j + b] for a in (0, 1) for b in (0, 1)]
         return np.asarray(np.any(corners, axis=0))
 
-    def slopes(self, name: str, section: Section, places: Places) -> tuple[Array, Array]:
+    def slopes(self, name: str, section: CrossSections, places: Places) -> tuple[Array, Array]:
         """Return the derivatives of a figure by the approach and by the creepage, each (n,)."""
         value, by_load, by_s = self._surface(name, section.log_load, section.s, places)
         if name in _PER_LOAD:
@@ -192,7 +192,7 @@ class NipLaw:
         """Return the approach at one place under a load and a traction T/(mu F) [mm]."""
         return float(self.figure("approach", *_place(load, share, places), places)[0])
 
-    def at(self, approach: Array, creepage: Array, places: Places) -> Section:
+    def at(self, approach: Array, creepage: Array, places: Places) -> CrossSections:
         """Return load and traction of cross-sections, with their derivatives.
 
         Where the approach is not positive the nip is open, and all is 0. Below the smallest load of
@@ -226,7 +226,7 @@ class NipLaw:
             np.where(slides | ~touching, 0.0, part / determinant) for part in (-a_s, -x_f, a_f)
         )
         s_d = np.asarray(s_d * by_approach)
-        return Section(
+        return CrossSections(
             load=load,
             traction=share * bound,
             load_slope=load * load_d,

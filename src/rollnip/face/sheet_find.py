@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.face.law import Places, Section
+from rollnip.face.law import CrossSections, Places
 from rollnip.face.problem import FaceProblem, face_problem
 from rollnip.face.sheet_balance import SheetBalance, sheet_balance
 from rollnip.face.sheet_law import (
@@ -192,10 +192,10 @@ class SheetFaceMaker:
         return replace(solution, warnings=solution.reservations)
 
 
-def _section(load: Array, traction: Array) -> Section:
+def _section(load: Array, traction: Array) -> CrossSections:
     """Return load and traction as a face holds them; nothing else of them is asked for."""
     nothing = np.zeros_like(load)
-    return Section(
+    return CrossSections(
         load, traction, nothing, nothing, nothing, nothing, np.log(load), nothing, (nothing,) * 4
     )
 

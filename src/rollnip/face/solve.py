@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError
-from rollnip.face.law import NipLaw, Places, Section
+from rollnip.face.law import CrossSections, NipLaw, Places
 from rollnip.face.problem import FaceProblem
 from rollnip.nip import Approach, Creepage, Torque, Traction
 
@@ -41,7 +41,7 @@ class Balance:
     """
 
     approach: Array
-    section: Section
+    section: CrossSections
     places: Places
     middle: float
     tilt: float
@@ -164,7 +164,7 @@ def _start_at(system: _System, start: Balance) -> Array:
     return np.array([*start.approach[::every], start.middle, start.tilt, start.creepage])
 
 
-def _residual(system: _System, unknowns: Array) -> tuple[Array, Array, Section]:
+def _residual(system: _System, unknowns: Array) -> tuple[Array, Array, CrossSections]:
     """Return what is left of the equations, their derivatives, and the cross-sections."""
     problem, grid, y = system.problem, system.problem.grid, system.problem.grid.y
     n = y.size
@@ -199,7 +199,9 @@ def _residual(system: _System, unknowns: Array) -> tuple[Array, Array, Section]:
     return wrong, slopes, section
 
 
-def _drive(system: _System, section: Section, creepage: float, wrong: Array, slopes: Array) -> None:
+def _drive(
+    system: _System, section: CrossSections, creepage: float, wrong: Array, slopes: Array
+) -> None:
     """Write the equation of traction, torque or creepage into the last row."""
     problem, scale = system.problem, system.scale
     nip, weights = problem.nip, problem.grid.weights
@@ -236,7 +238,7 @@ def plane_load(problem: FaceProblem, found: Balance) -> Array:
 
 
 def torque(
-    problem: FaceProblem, law: NipLaw, section: Section, places: Places, roller: str
+    problem: FaceProblem, law: NipLaw, section: CrossSections, places: Places, roller: str
 ) -> Array:
     """Return the driving torque on one axle per length, (n,) [N]: forces at the local radius."""
     values = law.figure(f"torque_{roller}", section.log_load, section.s, places)

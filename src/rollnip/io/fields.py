@@ -94,7 +94,7 @@ def check_fields_target(path: Path) -> None:
 
 
 @dataclass(frozen=True, slots=True)
-class Section:
+class RollerSection:
     """The fields of one roller at rows of depths, two where layers meet.
 
     Attributes
@@ -115,14 +115,14 @@ class Section:
     loss_per_depth: Array
 
 
-def _sections(solution: Solution) -> list[Section]:
+def _sections(solution: Solution) -> list[RollerSection]:
     """Sections of the rollers that deform, the upper first."""
     names: tuple[Name, Name] = ("upper", "lower")
     rollers = {"upper": solution.nip.upper, "lower": solution.nip.lower}
     return [_section(solution, name) for name in names if not rollers[name].is_rigid]
 
 
-def _section(solution: Solution, name: Name) -> Section:
+def _section(solution: Solution, name: Name) -> RollerSection:
     roller = solution.nip.upper if name == "upper" else solution.nip.lower
     z, is_top = _depths(roller, solution.nip_width)
     above = solution.interior(name, z[~is_top])
@@ -137,7 +137,7 @@ def _section(solution: Solution, name: Name) -> Section:
             out[rows] = getattr(field, attribute)
         return out
 
-    return Section(
+    return RollerSection(
         name=name,
         x=above.x,
         z=z,
@@ -165,7 +165,7 @@ def _depths(roller: Roller, width: float) -> tuple[Array, NDArray[np.bool_]]:
     return np.concatenate(pieces), np.concatenate(tops)
 
 
-def _dataset(solution: Solution, section: Section) -> Any:
+def _dataset(solution: Solution, section: RollerSection) -> Any:
     """Return the fields of one roller as an xarray dataset."""
     import xarray as xr
 
@@ -192,7 +192,7 @@ def _dataset(solution: Solution, section: Section) -> Any:
     )
 
 
-def _vtr(title: str, sections: list[Section]) -> str:
+def _vtr(title: str, sections: list[RollerSection]) -> str:
     """The text of a .vtr file: rows from the bottom of the lower roller upwards."""
     heights = np.concatenate([_upwards(s, _sign(s) * s.z) for s in reversed(sections)])
     x = sections[0].x
@@ -209,17 +209,17 @@ def _vtr(title: str, sections: list[Section]) -> str:
     return rectilinear(title, places, data, scalars="von_mises", vectors="displacement")
 
 
-def _sign(section: Section) -> float:
+def _sign(section: RollerSection) -> float:
     """Direction of the roller's own z in the global frame, where z points upwards."""
     return 1.0 if section.name == "upper" else -1.0
 
 
-def _upwards(section: Section, rows: NDArray[Any]) -> NDArray[Any]:
+def _upwards(section: RollerSection, rows: NDArray[Any]) -> NDArray[Any]:
     """Rows in the order of the global z."""
     return rows if section.name == "upper" else rows[::-1]
 
 
-def _stacked(sections: list[Section], name: str) -> Array:
+def _stacked(sections: list[RollerSection], name: str) -> Array:
     """One quantity of all rollers in the global frame: z alone is mirrored in the lower one."""
     odd = name in ("u_z", "s_xz")
     return np.concatenate(

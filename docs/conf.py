@@ -75,7 +75,7 @@ myst_substitutions = {
         f"share_{name}": f"{100 * MODEL_SHARES['finite'][name]:g} %"
         for name in ("load", "creepage", "nip_width", "peak_pressure")
     },
-    "share_edge_peak": f"{100 * SHARE_OF_EDGE_PEAK:g} %",
+    "share_edge_peak": f"{100 * SHARE_OF_EDGE_PEAK['finite']:g} %",
 }
 myst_heading_anchors = 3
 myst_dmath_double_inline = True

@@ -94,26 +94,47 @@ def test_every_second_one_of_the_others(case):
 @pytest.mark.slow
 @pytest.mark.parametrize("case", SKINS, ids=name_of)
 def test_stiff_skins(case):
-    """Top layers up to 900 times stiffer than what they cover: their peaks are held by the claim.
+    """Top layers up to 1000 times stiffer than what they cover: peaks beside an edge, too.
 
-    Beside the edge of a foil the elements knew the peak to 2 %. On a mesh that was not graded anew
-    for the last correction the one under the heavy load was 470 % off.
+    With columns of elements as dense as the nodes alone these peaks were up to 9 % off, and on
+    meshes that ended before the skin had given its forces to the core edges were 0.4 % off.
     """
     solution = solved(case)
     assert solution.model.geometry == "finite"
-    off = abs(solution.peak_pressure - case["peak_pressure"])
-    assert off <= solution.error["peak_pressure"] + 2e-3 * case["peak_pressure"]
+    known, near = case["uncertainty"], 5e-3 if case["case"] == "thick top" else 2e-3
+    peak = case["peak_pressure"]
+    off = abs(solution.peak_pressure - peak)
+    assert off <= 1e-2 * peak + known["peak_pressure"]
+    assert off <= solution.error["peak_pressure"] + known["peak_pressure"]
     assert solution.converged
     trailing, leading = solution.contact[0]
-    assert solution.approach == pytest.approx(case["approach"], rel=2e-3)
-    assert trailing == pytest.approx(case["contact_x"][0], rel=6e-3)
-    assert leading == pytest.approx(case["contact_x"][1], rel=6e-3)
+    assert solution.approach == pytest.approx(case["approach"], rel=near)
+    assert trailing == pytest.approx(case["contact_x"][0], rel=near)
+    assert leading == pytest.approx(case["contact_x"][1], rel=near)
     if "creepage" in case:
-        assert solution.creepage == pytest.approx(case["creepage"], abs=3e-4)
+        assert solution.creepage == pytest.approx(case["creepage"], abs=1.5e-4)
 
 
 def rolling(upper, lower, **others):
     return rn.Nip(upper=upper, lower=lower, **others)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("tolerance", [1e-3, 0.02, 0.05])
+def test_a_loose_tolerance_has_no_wrong_peak_under_a_skin(tolerance):
+    """Figure 4 with 0.1 mm, by tests/judges/finite_elements: 2.299 MPa, 6.345 mm.
+
+    With 0.02 it once was 3.55 MPa beside the edge, verified to 2 %.
+    """
+    skin = rn.Layer(0.1, rn.Elastic(modulus=5500.0, poisson=0.3))
+    soft = rn.Layer(4.0, rn.Elastic(modulus=2.0, poisson=0.5))
+    upper = rn.Roller(radius=50.0, layers=(skin, soft))
+    nip = rolling(upper, BARE, normal=rn.LineLoad(5.0), friction=0.0)
+    solution = rn.solve(nip, rn.Model(tolerance=tolerance))
+    assert solution.model.geometry == "finite"
+    assert solution.converged
+    assert solution.peak_pressure == pytest.approx(2.299, rel=2e-2)
+    assert solution.nip_width == pytest.approx(6.345, rel=3e-3)
 
 
 BARE = rn.Roller(radius=25.0)

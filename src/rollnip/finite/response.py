@@ -15,6 +15,7 @@ import numpy as np
 
 from rollnip.finite._smooth import smoothed
 from rollnip.finite._spline import Spline
+from rollnip.finite.columns import Columns
 from rollnip.finite.equilibrium import STILL, Body
 from rollnip.finite.power import heat_inside, linear_heat_inside
 from rollnip.finite.pull import Tractions
@@ -24,14 +25,7 @@ from rollnip.rollers import Roller
 
 CUT = 150.0
 """Wave number over the half-width from which displacements are left out at small strains."""
-_COLUMNS = 32  # elements under the tractions
-_GROWTH = 2.0  # of elements beside them
-_LONGEST = 0.8  # element, over the thickness that counts
-_REACH = 5.0  # of the mesh beyond the tractions, likewise
-_REACH_OF_MEMORY = 8.0  # the same where a layer is viscoelastic
-_TURN = 2.5  # of the radius: how far arcs reach at most
-_MOST_REACH = 2.0  # times more at most, where a stiff layer bends on a soft one
-_LEAST_THICKNESS = 0.5  # that counts, over the half-width
+_CUT_OF_SKIN = 8.0  # the same over the length in which pressures change under a stiff skin
 _NEAR = 4.0  # half-widths beyond which the surface is of no interest
 _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
 _ALIGNED = 2e-4  # distance of columns from their places, over the width of the contact
@@ -129,7 +123,8 @@ class FiniteResponse:
     half_width :
         of the contact, roughly [mm]: it sets the elements over the depth.
     cut :
-        wave number, over the half-width of the tractions, of which half is left.
+        wave number, over the half-width of the tractions, of which half is left; more under a thin
+        skin.
     speed :
         V at which the covering passes [mm/s]; needed for viscoelastic layers alone.
     """
@@ -140,14 +135,9 @@ class FiniteResponse:
         self._speed = self._speed_now = speed
         self._depths = Depths.of(roller, half_width)
         self._cut = cut
-        thick = max(roller.coating_thickness, _LEAST_THICKNESS * half_width)
-        young = [layer.material.relaxed_modulus for layer in roller.layers]
-        stiffer = min(float(np.cbrt(max(young) / min(young))), _MOST_REACH)
-        self._longest = _LONGEST * thick
-        self._reach = (_REACH_OF_MEMORY if roller.is_viscoelastic else _REACH) * stiffer * thick
+        self._columns = Columns.of(roller, half_width)
         self._near = _NEAR * half_width
         if roller.curvature > 0.0:
-            self._reach = min(self._reach, _TURN * roller.radius - half_width)
             self._near = min(self._near, _FRONT * roller.radius)
         self._meshes: _Meshes | None = None
         self._loosely, self._accuracy, self._left = 1.0, (STILL, 0.0), LEFT
@@ -188,7 +178,7 @@ class FiniteResponse:
         if not np.any(pressure > 0.0):
             self.rough, self.lost = _nothing(nodes), 0.0
             return self.rough
-        places, loaded = self._places(nodes, pressure)
+        places, loaded = self._columns.places(nodes, pressure)
         tractions = nodal(nodes, pressure, shear)
         try:
             self.share = 1.0
@@ -212,27 +202,9 @@ class FiniteResponse:
         start, stop = places[loaded][[0, -1]]
         half = 0.5 * float(stop - start)
         middle, ends = 0.5 * float(start + stop), min(_NEAR * half, self._near)
-        self._made = smoothed(self.rough, middle, ends, self._cut / half)
+        cut = max(self._cut / half, _CUT_OF_SKIN / self._columns.skin)
+        self._made = smoothed(self.rough, middle, ends, cut)
         return self._made
-
-    def _places(self, nodes: Array, pressure: Array) -> tuple[Array, slice]:
-        """Return where the columns are to be when deformed, and which of them are loaded."""
-        on = np.flatnonzero(pressure > 0.0)
-        inner = nodes[on[0] : on[-1] + 3]
-        number = np.linspace(0.0, inner.size - 1.0, _COLUMNS + 1)
-        under = np.interp(number, np.arange(inner.size), inner)
-        before = self._beside(under[1] - under[0])[::-1]
-        after = self._beside(under[-1] - under[-2])
-        places = np.concatenate([under[0] - before, under, under[-1] + after])
-        return places, slice(before.size, before.size + under.size)
-
-    def _beside(self, first: float) -> Array:
-        """Return distances from an edge: growing from the first element, then even."""
-        step, ends = min(first, self._longest), [0.0]
-        while ends[-1] < self._reach:
-            ends.append(ends[-1] + step)
-            step = min(_GROWTH * step, self._longest)
-        return np.array(ends[1:]) * (self._reach / ends[-1])
 
     def _solved(self, places: Array, loaded: slice, tractions: Tractions) -> _Meshes | None:
         """Return both solutions, on the meshes of the last tractions if these were about here.
@@ -267,7 +239,8 @@ class FiniteResponse:
         last = self._meshes
         stays = self._loosely * _STAYS * float(np.ptp(places[loaded]))
         if last is not None and last.is_near(places[loaded], self._speed_now, stays):
-            body, state = last.body, last.body.equilibrium(tractions, last.state, *self._accuracy)
+            body, loaded = last.body, last.loaded
+            state = body.equilibrium(tractions, last.state, *self._accuracy)
         else:
             if last is not None:
                 body, state = self._moved(last.body, last.state, places, loaded)
@@ -290,9 +263,10 @@ class FiniteResponse:
     def _flat(self, body: Body, state: State, loaded: slice) -> Body:
         """Return the mesh of linear theory, its loaded columns where those of a state are now."""
         x, last = deformed_surface(body, state).x[loaded], self._meshes
-        if last is not None and last.flat.strip.columns == body.strip.columns:
-            off = float(np.abs(last.flat.strip.ends[last.loaded] - x).max())
-            if last.loaded == loaded and off <= self._loosely * _ALIGNED * float(np.ptp(x)):
+        is_alike = last is not None and last.flat.strip.columns == body.strip.columns
+        if last is not None and is_alike and last.loaded == loaded:
+            off = float(np.abs(last.flat.strip.ends[loaded] - x).max())
+            if off <= self._loosely * _ALIGNED * float(np.ptp(x)):
                 return last.flat
         places = body.strip.ends.copy()
         places[: loaded.start] += x[0] - places[loaded.start]
@@ -337,6 +311,8 @@ class _Meshes:
         if own is not None and speed is not None and abs(speed - own) > _SAME_SPEED * own:
             return False
         here = self.flat.strip.ends[self.loaded]
+        if here.size != places.size:
+            return False
         return float(np.abs(here - places).max()) <= stays
 
     @property

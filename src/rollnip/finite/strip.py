@@ -261,7 +261,8 @@ class Surface:
     Attributes
     ----------
     arcs : (columns, 4) [mm].
-    weights : (columns, 4) lengths [mm].
+    weights : (columns, 4) lengths that tractions act on [mm]; 0 on the far side of the roller,
+        whose places x are those of the contact again.
     values, slopes : (columns, 4, 3) shape functions and their derivatives by the arc.
     unknowns : (columns, 3, 2) of the three nodes.
     undeformed : (3, columns, 4) x, and the derivatives of x and y by the arc.
@@ -283,9 +284,10 @@ class Surface:
         node = 2 * np.arange(strip.columns)[:, None] + np.arange(3)
         arcs, curvature = strip.arcs[1::2, None] + half * at, strip.depths.roller.curvature
         turned = np.cos(curvature * arcs), np.sin(curvature * arcs)
+        is_near = curvature * np.abs(arcs) < 0.5 * np.pi
         return cls(
             arcs=arcs,
-            weights=weight * half,
+            weights=weight * half * is_near,
             values=np.broadcast_to(values, (strip.columns, *values.shape)),
             slopes=slopes / half[:, :, None],
             unknowns=2 * strip.rows * node[:, :, None] + np.arange(2),

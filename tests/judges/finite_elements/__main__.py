@@ -62,10 +62,15 @@ def main() -> None:
     parser.add_argument("file", type=Path)
     parser.add_argument("--only", help="run the cases of this name")
     parser.add_argument("--refine", type=float, default=1.0, help="smaller elements by a factor")
+    parser.add_argument("--edge", type=float, help="elements at the edges, over the half-width")
+    parser.add_argument("--growth", type=float, help="of elements by the distance from an edge")
+    parser.add_argument("--plies", type=int, help="elements through each layer, at least")
     parser.add_argument("--write", type=Path, help="write the results to this file")
     options = parser.parse_args()
     stored = json.loads(options.file.read_text(encoding="utf-8"))
-    grading = GRADING.refined(options.refine)
+    names = ("edge", "growth", "plies")
+    given = {name: getattr(options, name) for name in names if getattr(options, name)}
+    grading = replace(GRADING.refined(options.refine), **given)
     coarse, fine = Chain(grading), Chain(grading.refined(FACTOR))
     results = []
     for case in stored["results"]:

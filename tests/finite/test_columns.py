@@ -1,0 +1,90 @@
+"""Columns of elements: as dense as the nodes, and dense and far enough under a stiff skin."""
+
+import numpy as np
+import pytest
+
+import rollnip as rn
+from rollnip.finite import Body, Depths, FiniteResponse, Strip, nodal
+from rollnip.finite.columns import Columns
+
+RUBBER = rn.Elastic(modulus=0.5, poisson=0.5)
+HALF = 1.5
+
+
+def coated(*layers, radius=15.0):
+    return rn.Roller(radius=radius, layers=layers)
+
+
+def skinned(stiffer, thickness=0.05):
+    skin = rn.Elastic(modulus=0.5 * stiffer, poisson=0.4)
+    return coated(rn.Layer(thickness, skin), rn.Layer(3.0, RUBBER))
+
+
+PLAIN, FOIL = coated(rn.Layer(3.0, RUBBER)), skinned(900.0)
+NODES = HALF * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 97))
+
+
+def test_without_a_skin_columns_follow_the_nodes():
+    under = Columns.of(PLAIN, HALF).under(NODES)
+    assert under == pytest.approx(NODES[::3])
+
+
+def test_under_a_skin_columns_resolve_its_thickness_beside_the_edges():
+    """Also on nodes that do not: the first elements there are a few."""
+    for nodes in (NODES, NODES[::16]):
+        under = Columns.of(FOIL, HALF).under(nodes)
+        assert (under[0], under[-1]) == (nodes[0], nodes[-1])
+        lengths = np.diff(under)
+        assert np.all(lengths > 0.0)
+        assert max(lengths[0], lengths[-1]) < 0.3 * 0.05
+        assert lengths.max() < 5.0 * 0.05
+
+
+def test_a_layer_that_is_hardly_stiffer_is_no_skin():
+    """Between a skin and none there is no step."""
+    columns = [Columns.of(skinned(stiffer), HALF) for stiffer in (0.999, 1.001)]
+    assert columns[0].skin == np.inf
+    assert columns[1].under(NODES) == pytest.approx(columns[0].under(NODES))
+    assert columns[1].reach == pytest.approx(columns[0].reach, rel=1e-2)
+
+
+def test_a_mesh_reaches_as_far_as_a_skin_carries_forces():
+    """Twice as far changes the approach of a foil under a pull by 1e-3: it slid where it ended.
+
+    A foil pulled on an infinite layer is displaced by T/(E h) times the length sqrt(E h t/G).
+    """
+    pressure, shear = np.zeros(NODES.size - 2), 1e-3 * np.ones(NODES.size - 2)
+    moved = []
+    for further in (1.0, 1.5):
+        columns = Columns.of(FOIL, HALF)
+        columns = Columns(columns.longest, further * columns.reach, columns.skin)
+        places, loaded = columns.places(NODES, pressure + 1e-9)
+        body = Body(Strip(Depths.of(FOIL, HALF), places))
+        found = body.linear_displacements(nodal(NODES, pressure, shear))
+        moved.append(body.strip.on_surface(found)[::2, 0][loaded][NODES.size // 6])
+    assert moved[0] == pytest.approx(moved[1], rel=2e-3)
+
+
+def test_no_traction_acts_on_the_far_side():
+    """A mesh that goes around the roller comes back to the places x of the contact."""
+    ends = np.linspace(-1.9 * np.pi, 1.9 * np.pi, 200) * FOIL.radius
+    surface = Strip(Depths.of(FOIL, HALF), ends).surface
+    far = np.abs(surface.arcs) > 0.5 * np.pi * FOIL.radius
+    assert np.all(surface.weights[far] == 0.0)
+    assert surface.weights.sum() == pytest.approx(np.pi * FOIL.radius, rel=1e-2)
+
+
+def test_contacts_of_other_nodes_one_after_the_other():
+    """Their columns differ in number; the last response is that of a fresh calculation."""
+
+    def response(used, half, count):
+        nodes = half * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, count))
+        pressure = 0.05 * np.sqrt(1.0 - (nodes[1:-1] / half) ** 2)
+        return used.displacement(nodes, pressure, 0.2 * pressure)
+
+    used, x = FiniteResponse(FOIL, HALF), np.linspace(-HALF, HALF, 9)
+    for half, count in ((1.5, 41), (1.4, 31)):
+        found = response(used, half, count)
+    fresh = response(FiniteResponse(FOIL, HALF), half, count)
+    for one, other in zip(found, fresh, strict=True):
+        np.testing.assert_allclose(one(x), other(x), atol=2e-2 * np.abs(other(x)).max())

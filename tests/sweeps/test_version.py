@@ -39,7 +39,7 @@ def test_it_is_the_same_in_every_place_and_however_lines_end(copy: Path) -> None
 
 
 @pytest.mark.parametrize(
-    "name", ["solver.py", "contact/path.py", "io/build.py", "sweeps/row.py", "_units.py"]
+    "name", ["solver.py", "contact/complementarity.py", "io/build.py", "sweeps/row.py", "_units.py"]
 )
 def test_any_change_of_what_decides_the_numbers_is_seen(copy: Path, name: str) -> None:
     file = copy / name

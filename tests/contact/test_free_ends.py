@@ -146,6 +146,28 @@ def test_where_slip_turns_to_stick_slack_goes_as_a_power_of_three_halves(short):
     assert moved.breaks[1] - 1.0 == pytest.approx(short, rel=0.05)
 
 
+def test_ends_of_a_short_zone_of_stick_between_slip_both_ways():
+    """The shear goes from one bound to the other; from exact values the ends stay where they are.
+
+    From the trailing end mu p + q goes as the root of the distance, from the leading end mu p - q
+    as its power 3/2. The absolute value of the shear has a kink between the two.
+    """
+    friction, breaks = 0.5, np.array([-1.0, -0.02, 0.02, 1.0])
+    x = cosine_nodes(breaks, np.array([8, 6, 8]))[1:-1]
+    from_trailing = np.sqrt(np.clip(x + 0.02, 0.0, None))
+    to_leading = np.clip(0.02 - x, 0.0, None) ** 1.5
+    sticks = (x > -0.02) & (x < 0.02)
+    pressure = np.where(
+        sticks, from_trailing + to_leading, np.sqrt(np.clip(1.0 - x * x, 0.0, None))
+    )
+    shear = friction * np.where(x < 0.0, -pressure, pressure)
+    shear[sticks] = (friction * (from_trailing - to_leading))[sticks]
+    layout = Layout(breaks, np.array([MINUS, STICK, PLUS], dtype=np.int8))
+    state = ContactState(layout.states_on(x), pressure, shear, 0.0, 0.0, 1, True)
+    moved = layout.moved(x, state, friction)
+    np.testing.assert_allclose(moved.breaks[1:-1], breaks[1:-1], atol=1e-9)
+
+
 def test_layouts_are_of_zones_that_touch_with_stick_between_slip():
     zones = (ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, STICK))
     layout = Layout.of(zones)

@@ -28,6 +28,7 @@ from rollnip.contact.problem import (
     Indices,
     State,
     States,
+    shear_signs,
 )
 
 # Of the first three nodes beside the end of a zone of many cubic elements (see `subdivided`): the
@@ -174,6 +175,7 @@ class Layout:
         """
         # Plain numbers: there are three of each at a handful of breaks.
         nodes, pressure, shear = x.tolist(), state.pressure.tolist(), state.shear.tolist()
+        signs = shear_signs(self.states).tolist()
         last = self.states.size
         breaks = []
         for number, (place, end) in enumerate(
@@ -184,8 +186,11 @@ class Layout:
             inwards = -1 if smooth or number == last else 1
             beside = [end + inwards * i for i in (1, 2, 3)]
             distance = [abs(nodes[i] - place) for i in beside]
-            bound = 1.0 if is_edge else friction
-            values = [bound * pressure[i] - (0.0 if is_edge else abs(shear[i])) for i in beside]
+            if is_edge:
+                values = [pressure[i] for i in beside]
+            else:  # in a short zone of stick the shear may change its sign
+                sign = signs[number if smooth else number - 1]
+                values = [friction * pressure[i] - sign * shear[i] for i in beside]
             breaks.append(place - inwards * _outwards(distance, values, smooth=smooth))
         return Layout(np.array(breaks), self.states)
 

@@ -32,6 +32,7 @@ _ALIGNED = 2e-4  # distance of columns from their places, over the width of the 
 _SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
 _STAYS = 0.005  # by which places may move and keep their mesh, likewise
 _ROUGHLY = 1e-4  # what equilibria may be off, over the displacement, while tractions change
+_KEPT_ROUGHLY = 0.5  # of the wave numbers
 _SHARE = 0.03  # the same over the change since the last one
 _LOOSELY_WITH_MEMORY = 20.0
 _LOOSELY = 5.0  # times these three, while tractions are far from their solution
@@ -140,6 +141,7 @@ class FiniteResponse:
         if roller.curvature > 0.0:
             self._near = min(self._near, _FRONT * roller.radius)
         self._meshes: _Meshes | None = None
+        self._share_kept = 1.0
         self._loosely, self._accuracy, self._left = 1.0, (STILL, 0.0), LEFT
         self._most_loosely = _LOOSELY_WITH_MEMORY if roller.is_viscoelastic else _LOOSELY
         self._made: tuple[Spline, ...] | None = None
@@ -173,6 +175,7 @@ class FiniteResponse:
         """
         self._accuracy = (_ROUGHLY, _SHARE) if roughly else (STILL, 0.0)
         self._left = _ROUGHLY if roughly else LEFT
+        self._share_kept = _KEPT_ROUGHLY if roughly else 1.0
         self._loosely = self._most_loosely if roughly else 1.0
         self._speed_now = None if self._speed is None else rate * self._speed
         if not np.any(pressure > 0.0):
@@ -202,7 +205,7 @@ class FiniteResponse:
         start, stop = places[loaded][[0, -1]]
         half = 0.5 * float(stop - start)
         middle, ends = 0.5 * float(start + stop), min(_NEAR * half, self._near)
-        cut = max(self._cut / half, _CUT_OF_SKIN / self._columns.skin)
+        cut = self._share_kept * max(self._cut / half, _CUT_OF_SKIN / self._columns.skin)
         self._made = smoothed(self.rough, middle, ends, cut)
         return self._made
 

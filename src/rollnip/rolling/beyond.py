@@ -38,7 +38,6 @@ _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
 _MOST_TURNS = 20  # of the correction and the contact
 _ENOUGH = 0.3  # violation of the contact conditions, or change to come, over the tolerance
-_SLOWLY = 0.8  # share of a violation that a turn leaves, from which no further one is worth while
 _SMALL = 0.1  # change of a turn from which it may be the last one
 _LARGEST_RATIO = 0.9  # of changes
 _FAR = 0.1  # change from which a mesh of linear elements is graded anew
@@ -220,8 +219,7 @@ class _Least:
         self.left = left
         if left <= min(1.0, before):
             self.found = found
-        is_slow = left > _SLOWLY * before
-        return self.found is not None and (left <= _ENOUGH or to_come <= _ENOUGH or is_slow)
+        return self.found is not None and (min(left, to_come) <= _ENOUGH or left > before)
 
 
 def _turns(
@@ -256,6 +254,7 @@ def _turns(
         near = min(to_come, change / model.tolerance)
         if not is_refined and is_whole and near <= (_NEARLY if is_coarse else 1.0):
             found, is_refined = _refined(nip, model, mixed, latest), True
+            past = _Past(_places_by_the_edges(latest))
         elif is_coarse:
             found = _solved_again(nip, _coarsely(model), mixed, latest, change, _COARSE)
         else:
@@ -265,6 +264,7 @@ def _turns(
             half_width = 0.5 * latest.figures.nip_width
             again = _coarse(nip, model, mixed, half_width) if is_coarse else None
             found = again or refine(nip, model, mixed, half_width)
+            is_refined = is_refined or (again is None and found.mesh.fine.values is not None)
         if not found.stands_still:
             break
         latest = found
@@ -293,6 +293,13 @@ def _places(latest: Round) -> Array:
     Dense beside the edges, the short waves there would hide what is slow to come to rest.
     """
     return np.linspace(latest.zones[0].start, latest.zones[-1].stop, _COMPARED)
+
+
+def _places_by_the_edges(latest: Round) -> Array:
+    """Return places dense beside the edges, where last changes are."""
+    start, stop = latest.zones[0].start, latest.zones[-1].stop
+    shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _COMPARED))
+    return np.asarray(start + (stop - start) * shares)
 
 
 def _with_cut(

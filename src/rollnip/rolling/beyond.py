@@ -1,9 +1,9 @@
 """What a geometry of finite strain adds to the influence functions of both rollers.
 
-"second" adds the second order, which every mesh evaluates anew. "finite" adds to that a correction,
-the difference of all orders by finite elements and the second one, held while a contact is solved
-and evaluated anew from its solution. In free rolling the correction is a few hundredths of the
-first-order terms, and a turn leaves a twentieth of its error.
+"second" adds the second order, which every mesh evaluates anew. "finite" adds all orders by finite
+elements instead: what they give beyond the linear displacements is a correction, which is held
+while a contact is solved and evaluated anew from its solution. In free rolling the correction is a
+few hundredths of the first-order terms, and a turn leaves a twentieth of its error.
 """
 
 from __future__ import annotations

@@ -115,14 +115,11 @@ def test_the_command_says_that_a_strain_energy_is_left_out(feed_nip):
 
 @pytest.mark.slow
 def test_the_feed_of_a_sheet_that_bends():
-    """The example as it is: the exit code tells whether every changed nip was verified."""
+    """The example as it is: every changed nip is verified with the stiffness counted."""
     given = ["feed", str(EXAMPLES / "sheet-feed-nip.toml"), "--geometry", "linear", "--json"]
     found = CliRunner().invoke(app, given)
-    rows = {row["path"]: row for row in json.loads(found.stdout)}
-    verified = {path for path, row in rows.items() if row["converged"]}
-    assert found.exit_code == (0 if verified == set(rows) else 1)
-    assert verified >= {"upper.layers[0].thickness", "upper.layers[0].material.modulus"}
-    assert all(rows[path]["error"] is not None for path in verified)
+    assert found.exit_code == 0
+    assert all(row["converged"] for row in json.loads(found.stdout))
 
 
 def test_bending_is_counted_in_all_changed_nips_or_in_none(monkeypatch):

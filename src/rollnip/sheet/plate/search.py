@@ -174,7 +174,7 @@ class PlateSearch:
             rough_ones = rough_ones + 1 if rough else 0
             if not (rough or is_met):
                 found = self._found(stand, asked)
-                if found is None or (found.is_like(zones) and is_placed):
+                if found is None:
                     break
                 if not found.is_like(zones):
                     changes += 1
@@ -183,6 +183,9 @@ class PlateSearch:
                     zones = found
                     shapes.clear()
                     continue
+                asked = zones.moved(problem, stand.state, found)
+                if is_placed and asked.distance(zones) <= placed:
+                    break
             zones = asked if off > _NEARLY_PLACED else moves.next(zones, asked)
         if stand is None:
             raise np.linalg.LinAlgError("zones without length")

@@ -104,16 +104,26 @@ class PlateZones:
         """Return the states of the nodes on both interfaces."""
         return self.upper.states_on(x[0]), self.lower.states_on(x[1])
 
-    def moved(self, problem: PlateProblem, state: PlateState) -> PlateZones:
+    def moved(
+        self, problem: PlateProblem, state: PlateState, called: PlateZones | None = None
+    ) -> PlateZones:
         """Return the zones with their breaks moved to where a solution with them puts them.
 
         A transition moves at most half way to its neighbours, an edge by a 25th of the width; it
-        stays where the solution does not say where it belongs.
+        stays where nothing says where it belongs.
+
+        Parameters
+        ----------
+        problem, state : a solution with nodes at the breaks.
+        called : like zones, of the states that meet all conditions on these meshes. They say where
+            a transition belongs that the nearest shears do not place: all beyond their bounds.
         """
         sides = []
         for number, side in enumerate(self.sides):
             x, friction = problem.meshes[number].inner, problem.frictions[number]
             asked = side.moved(x, state.side(number), friction).breaks
+            if called is not None:
+                asked = np.where(np.isfinite(asked), asked, called.sides[number].breaks)
             trailing, leading = side.edges
             most = LONGEST_MOVE * side.width
             first, last = float(asked[0]), float(asked[-1])

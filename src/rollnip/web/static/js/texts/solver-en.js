@@ -65,6 +65,7 @@ export const SOLVER_EN = {
   "solver.no-sheet-second": `No solution of geometry "second" was found with this sheet: its zones or its second-order terms did not come to rest. All figures are those of geometry "curved".`,
   "solver.no-sheet-finite": `No solution at finite strain was found with this sheet: its zones or its second-order terms did not come to rest. All figures are those of "curved".`,
   "solver.sheet-settle": "Stick and slip on both sides of the sheet did not settle (conditions violated by {left}); try another tolerance, a smaller load, or tensions further from what friction carries.",
+  "solver.sheet-no-pressure": "Stick and slip on both sides of the sheet did not settle (no pressure was found on one of them); try another tolerance, a smaller load, or tensions further from what friction carries.",
   "solver.plate-edges": "Edges, or ends of stick and slip, on the sides of the sheet did not come to rest (they still moved by {share} % of the width); try another tolerance, another load or other tensions, or `bending = false`.",
   "solver.plate-one-size": "Contact, stick and slip came to rest on one size of mesh only, so no error can be estimated; try another tolerance, another load or other tensions, or `bending = false`.",
   "solver.sheet-violated": "The contact conditions are violated by {left} (relative), more than the tolerance {tolerance}; try another tolerance or a smaller load.",

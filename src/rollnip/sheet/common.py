@@ -108,12 +108,16 @@ def require_grip(nip: Nip, refined: Refined) -> None:
 def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:
     """Return whether the solution is valid, and a sentence that says so or what to do."""
     if not refined.stand.stands_still:
-        left = f"conditions violated by {refined.residual:.1e}"
         if not isfinite(refined.residual):
-            left = "no pressure was found on one of them"
+            return False, (
+                "Stick and slip on both sides of the sheet did not settle (no pressure was found "
+                "on one of them); try another tolerance, a smaller load, or tensions further from "
+                "what friction carries."
+            )
         return False, (
-            f"Stick and slip on both sides of the sheet did not settle ({left}); try another "
-            "tolerance, a smaller load, or tensions further from what friction carries."
+            "Stick and slip on both sides of the sheet did not settle "
+            f"(conditions violated by {refined.residual:.1e}); try another tolerance, a smaller "
+            "load, or tensions further from what friction carries."
         )
     if reason := impossible(nip, model.geometry, final):
         return False, reason

@@ -309,15 +309,24 @@ def test_a_covering_that_is_nearly_incompressible(stiffening):
 
 
 TRANSIENT = json.loads((DATA / "finite_strain_transient.json").read_text("utf-8"))["cases"]
+KNOWN_TO = {"load": 3e-3, "peak_pressure": 3e-3, "heat": 1e-2, "spread": 5e-3}
 
 
-@pytest.mark.parametrize("stored", TRANSIENT, ids=lambda stored: stored["case"]["name"])
+@pytest.mark.parametrize(
+    "stored",
+    [
+        pytest.param(one, id=one["case"]["name"], marks=[pytest.mark.slow] * ("known_to" in one))
+        for one in TRANSIENT
+    ],
+)
 def test_a_memory_against_a_calculation_in_time(stored):
     """A cylinder that runs around the covering: load and peak 0.3 %, heat 1 %, spread 0.5 %.
 
+    Where the glassy modulus is 10 or 30 times the relaxed one: what the calculation is known to.
     The load at a given approach is 1.5 times as sensitive as the approach.
     """
     case = stored["case"]
+    known_to = stored.get("known_to", KNOWN_TO)
     names = ("modulus", "stiffening", "relaxation_time", "poisson")
     rubber = rn.StandardLinearSolid(**{name: case[name] for name in names})
     nip = rolling(
@@ -329,14 +338,16 @@ def test_a_memory_against_a_calculation_in_time(stored):
     )
     solution = rn.solve(nip, FULL)
     assert solution.model.geometry == "finite"
-    assert solution.load == pytest.approx(stored["load"], rel=3e-3)
-    assert solution.peak_pressure == pytest.approx(stored["peak_pressure"], rel=3e-3)
-    lost = case["speed"] * stored["heat"]
-    assert solution.dissipation_viscous == pytest.approx(lost, rel=1e-2)
     x, p = solution.nodes, solution.pressure
     middle = np.trapezoid(p * x, x) / np.trapezoid(p, x)
-    spread = np.sqrt(np.trapezoid(p * (x - middle) ** 2, x) / np.trapezoid(p, x))
-    assert spread == pytest.approx(stored["spread"], rel=5e-3)
+    found = {
+        "load": solution.load,
+        "peak_pressure": solution.peak_pressure,
+        "heat": solution.dissipation_viscous / case["speed"],
+        "spread": np.sqrt(np.trapezoid(p * (x - middle) ** 2, x) / np.trapezoid(p, x)),
+    }
+    for name, value in found.items():
+        assert value == pytest.approx(stored[name], rel=known_to[name]), name
 
 
 def test_a_skin_takes_few_turns(monkeypatch):

@@ -71,8 +71,6 @@ export const SOLVER_DE = {
   "solver.sheet-violated": "Die Kontaktbedingungen sind um {left} (relativ) verletzt, mehr als die Toleranz {tolerance}; versuchen Sie eine andere Toleranz oder eine kleinere Last.",
   "solver.sheet-error": "Der geschätzte Fehler des Schlupfs an der {side} Walze ist {error} (relativ), {times}-mal so viel, wie die Toleranz {tolerance} erlaubt, auf dem feinsten Netz; mit einer größeren Toleranz gilt das Ergebnis.",
   "solver.lower-side": "Auf der unteren Seite: {why}",
-  "solver.plate-moves": "Ränder oder Enden von Haften und Gleiten an den Seiten der Bahn kamen nicht zur Ruhe (sie bewegten sich noch um {share} % der Breite); versuchen Sie eine andere Toleranz, eine andere Last, andere Züge oder `bending = false`.",
-  "solver.plate-one-mesh": "Kontakt, Haften und Gleiten kamen nur auf einem Netz zur Ruhe, so dass sich kein Fehler schätzen lässt; versuchen Sie eine andere Toleranz, eine andere Last, andere Züge oder `bending = false`.",
   "solver.sheet-torque": "verlangt von der Bahn etwa {wanted} N/mm, aber ihre Reibung auf der unteren Walze trägt {limit} N/mm; verringern Sie es, oder erhöhen Sie Last oder Reibung.",
   "solver.sheet-pull": "und die Züge verlangen von der {side} Walze {pull} N/mm, aber ihre Reibung an der Bahn trägt weniger als {limit} N/mm: Die Bahn rutscht durch. Verringern Sie sie, oder erhöhen Sie Last oder Reibung.",
   "solver.sheet-thin": "der Bahn muss kleiner sein als die Bezüge dick sind, zusammen {limit} mm, gegeben ist {got}: Die Bahn gilt als dünn.",

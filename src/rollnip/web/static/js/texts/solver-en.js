@@ -71,8 +71,6 @@ export const SOLVER_EN = {
   "solver.sheet-violated": "The contact conditions are violated by {left} (relative), more than the tolerance {tolerance}; try another tolerance or a smaller load.",
   "solver.sheet-error": "The estimated error of the creepage on the {side} roller is {error} (relative), {times} times what the tolerance {tolerance} allows, on the finest mesh; accept it with a larger tolerance.",
   "solver.lower-side": "On the lower side: {why}",
-  "solver.plate-moves": "Edges, or ends of stick and slip, on the sides of the sheet did not come to rest (they still moved by {share} % of the width); try another tolerance, another load or other tensions, or `bending = false`.",
-  "solver.plate-one-mesh": "Contact, stick and slip came to rest on one size of mesh only, so no error can be estimated; try another tolerance, another load or other tensions, or `bending = false`.",
   "solver.sheet-torque": "asks the sheet for some {wanted} N/mm, but its friction on the lower roller carries {limit} N/mm; lower it, or raise the load or the friction.",
   "solver.sheet-pull": "and the tensions ask the {side} roller for {pull} N/mm, but its friction on the sheet carries less than {limit} N/mm: the sheet slips through; lower them, or raise the load or the friction.",
   "solver.sheet-thin": "of the sheet must be smaller than the coverings are thick, {limit} mm in all, got {got}: the sheet is taken as thin.",

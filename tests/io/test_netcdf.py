@@ -1,6 +1,7 @@
 """netCDF files are made in memory: a disk without room is an error of one line, no crash."""
 
 from collections.abc import Iterator
+from contextlib import contextmanager
 
 import numpy as np
 import pytest
@@ -13,18 +14,20 @@ resource = pytest.importorskip("resource")  # POSIX only
 xr = pytest.importorskip("xarray")
 pytest.importorskip("h5netcdf")
 
-# Writing beyond the limit fails as on a full disk, in the middle of a file. HDF5 ended the process
+# Writing beyond a limit fails as on a full disk, in the middle of a file. HDF5 ended the process
 # at the two larger ones.
 ROOMS = (0, 4096, 9216)
 
 
-@pytest.fixture(params=ROOMS)
-def room(request) -> Iterator[int]:
-    """Bytes that a file may have."""
+@contextmanager
+def largest_file(size: int) -> Iterator[None]:
+    """Let no file grow beyond a size in bytes; pytest writes its own report to one, too."""
     soft, hard = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (request.param, hard))
-    yield request.param
-    resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
+    resource.setrlimit(resource.RLIMIT_FSIZE, (size, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 
 
 def datasets():
@@ -33,17 +36,20 @@ def datasets():
     return {"/": root, "upper": root.assign_attrs(title="upper"), "lower": root * 2.0}
 
 
+@pytest.mark.parametrize("room", ROOMS)
 def test_no_room_leaves_the_old_file(tmp_path, room):
     path = tmp_path / "a.nc"
     path.touch()
-    with pytest.raises(RollnipError, match=r"a\.nc: cannot write: File too large\.$"):
+    cannot = pytest.raises(RollnipError, match=r"a\.nc: cannot write: File too large\.$")
+    with cannot, largest_file(room):
         write_netcdf(datasets(), path)
     assert path.stat().st_size == 0
     assert list(tmp_path.iterdir()) == [path]
 
 
+@pytest.mark.parametrize("room", ROOMS)
 def test_no_room_for_a_result(solution, tmp_path, room):
-    with pytest.raises(RollnipError, match="File too large"):
+    with pytest.raises(RollnipError, match="File too large"), largest_file(room):
         write_result(solution, tmp_path / "a.nc")
     assert list(tmp_path.iterdir()) == []
 

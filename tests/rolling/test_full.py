@@ -60,15 +60,16 @@ def solved(case):
 
 
 def is_as_the_elements(case):
-    """Approach 0.1 %; edges 0.2 %, driven 0.8 % in one file that knows them so; peak 0.2 %.
+    """Approach 0.1 %; edges 0.2 %, driven 0.6 % where meshes were coarse there; peak 0.2 %.
 
-    Creepage 0.3 %, and in that file, which knows it to 0.3 to 0.5 %, 0.9 %.
+    Creepage 0.3 %, and 0.9 % in the file that knows it to 0.3 to 0.5 %. Its results that have an
+    uncertainty were computed again on meshes graded into the edges, and are held as the others.
     """
     solution = solved(case)
     assert solution.model.geometry == "finite"
-    own = "mu ." not in case["case"]
-    creep = 9e-3 if own else 3e-3
-    (trailing, leading), near = solution.contact[0], 8e-3 if own and share(case) else 2e-3
+    coarse = "mu ." not in case["case"] and "uncertainty" not in case
+    creep = 9e-3 if coarse else 3e-3
+    (trailing, leading), near = solution.contact[0], 6e-3 if coarse and share(case) else 2e-3
     assert solution.approach == pytest.approx(case["approach"], rel=1e-3)
     assert trailing == pytest.approx(case["contact_x"][0], rel=near)
     assert leading == pytest.approx(case["contact_x"][1], rel=near)

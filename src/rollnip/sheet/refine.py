@@ -15,7 +15,7 @@ from rollnip.nip import LineLoad, Nip
 from rollnip.rolling import Figures, PairKernels
 from rollnip.rolling.round import peak_pressure, scale_of_creepage
 from rollnip.sheet.powers import SheetPowers, sheet_powers
-from rollnip.sheet.search import Search, Standing, overlap, violation
+from rollnip.sheet.search import Search, SheetAttempt, overlap, violation
 from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
@@ -57,7 +57,7 @@ class SheetFigures:
     values: Array
 
     @classmethod
-    def of(cls, stand: Standing, geometry: str) -> SheetFigures:
+    def of(cls, stand: SheetAttempt, geometry: str) -> SheetFigures:
         """Return the figures of a solution."""
         problem, state = stand.problem, stand.state
         mesh = problem.mesh
@@ -107,7 +107,7 @@ NAMES = (
 )  # fmt: skip
 
 
-def strain_at(stand: Standing) -> Array:
+def strain_at(stand: SheetAttempt) -> Array:
     """Return the strain of the sheet at the nodes, (n,)."""
     problem, state = stand.problem, stand.state
     sheet = problem.sheet
@@ -126,7 +126,7 @@ class Refined:
     residual : how badly it violates the conditions, see `violation` and `overlap`.
     """
 
-    stand: Standing
+    stand: SheetAttempt
     figures: SheetFigures
     errors: SheetFigures
     residual: float

@@ -27,6 +27,7 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
+from rollnip.sheet.attempt import Attempt
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.settled import settled, slipping
@@ -59,33 +60,7 @@ _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where over
 SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
 
 
-@dataclass(frozen=True, slots=True)
-class Standing:
-    """A solution on a mesh, and where it stands in the search.
-
-    Attributes
-    ----------
-    zones : where it puts the zones.
-    problem, state, lagged : the solved problem.
-    change : last change of the lagged terms, relative.
-    off : how far ends were off, over the width.
-    steps : linear systems solved so far.
-    stands_still : whether zones and terms stand still.
-    """
-
-    zones: Zones
-    problem: SheetProblem
-    state: SheetState
-    lagged: Lagged
-    change: float
-    off: float
-    steps: int
-    stands_still: bool
-
-    @property
-    def wanted_traction(self) -> float | None:
-        """T_l that is asked for [N/mm]; None where none is."""
-        return self.lagged.traction
+SheetAttempt = Attempt[Zones, SheetProblem, SheetState, Lagged]
 
 
 @dataclass(frozen=True)
@@ -96,7 +71,7 @@ class Search:
     model: Model
     kernels: PairKernels
 
-    def begun(self, half_width: float, count: int) -> Standing:
+    def begun(self, half_width: float, count: int) -> SheetAttempt:
         """Find zones on a mesh that reaches beyond the contact, in the linear geometry.
 
         ``half_width``: about that of the nip [mm]; ``count``: elements.
@@ -113,11 +88,11 @@ class Search:
                 break
             reach *= _WIDER
         zones = Zones.around(problem.mesh.inner, state, problem.frictions)
-        return Standing(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
+        return SheetAttempt(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
 
     def placed(
-        self, zones: Zones, count: int, before: Standing | None, closely: float = _PLACED
-    ) -> Standing:
+        self, zones: Zones, count: int, before: SheetAttempt | None, closely: float = _PLACED
+    ) -> SheetAttempt:
         """Find the solution on a mesh of some size with nodes at the ends of its zones.
 
         ``closely``: what an end may be off, of the tolerance times the width.
@@ -179,7 +154,7 @@ class Search:
         self,
         zones: Zones,
         shape: tuple[NDArray[np.intp], tuple[float, ...]],
-        before: Standing | None,
+        before: SheetAttempt | None,
     ) -> SheetProblem:
         """Assemble the problem on a mesh with nodes at the ends of zones."""
         nodes = cosine_nodes(zones.breaks, *shape)
@@ -187,7 +162,7 @@ class Search:
         mesh = sheet_mesh_on(nodes, kernels, subdivided(nodes, *shape))
         return SheetProblem.on(self.nip, mesh)
 
-    def _holding(self, before: Standing | None) -> PairKernels:
+    def _holding(self, before: SheetAttempt | None) -> PairKernels:
         """Return influence functions with the second order of the solution before."""
         if self.kernels.is_linear:
             return self.kernels
@@ -203,7 +178,7 @@ class Search:
         lagged: Lagged,
         steps: int,
         off: tuple[float, float],
-    ) -> Standing:
+    ) -> SheetAttempt:
         """Solve on one mesh with given zones, in turns of the lagged terms.
 
         ``off``: how far ends were off, the least and on the last mesh of this size. Ends that are
@@ -226,13 +201,15 @@ class Search:
                 break
         if not (np.isfinite(change) and np.all(np.isfinite(state.pressure))):
             raise np.linalg.LinAlgError("no finite solution")
-        return Standing(zones, problem, state, lagged, change, inf, steps, bool(change <= still))
+        return SheetAttempt(
+            zones, problem, state, lagged, change, inf, steps, bool(change <= still)
+        )
 
     @property
     def _slack(self) -> float:
         return min(self.model.tolerance, _SLACK)
 
-    def _called_for(self, stand: Standing) -> Zones | None:
+    def _called_for(self, stand: SheetAttempt) -> Zones | None:
         """Return the zones that the states make which a solution calls for, if like its own."""
         wanted = next_slip(stand.problem, stand.state, stand.lagged, self._slack)
         state = replace(stand.state, states=wanted[0], states_lower=wanted[1])
@@ -241,7 +218,7 @@ class Search:
         found = None if found is None else found.without_slivers()
         return found if found is not None and found.is_like(zones) else None
 
-    def _other(self, stand: Standing, edges: Zones) -> tuple[Standing, Zones] | None:
+    def _other(self, stand: SheetAttempt, edges: Zones) -> tuple[SheetAttempt, Zones] | None:
         """Find other zones between known edges, node by node; None where there are none."""
         problem = stand.problem
         state = slipping(problem, stand.state, stand.lagged, self._slack)
@@ -253,7 +230,7 @@ class Search:
         return replace(stand, state=state, steps=stand.steps + state.steps), zones
 
 
-def violation(stand: Standing) -> float:
+def violation(stand: SheetAttempt) -> float:
     """Return how badly a solution violates the conditions of friction, relative.
 
     The parts are the traction that a piece in stick carries beyond the traction bound, over what
@@ -280,7 +257,7 @@ def violation(stand: Standing) -> float:
     return max(parts)
 
 
-def overlap(stand: Standing, kernels: PairKernels) -> float:
+def overlap(stand: SheetAttempt, kernels: PairKernels) -> float:
     """Return how far surfaces and sheet overlap outside the contact, and tension, relative.
 
     Over the approach, or the depth of the gap at the edge; over the highest pressure.
@@ -346,7 +323,7 @@ def squeeze_layer(nip: Nip) -> float:
     return sheet.thickness * (1.0 + 0.5 * sheet.thickness * yielding / sheet.squeeze)
 
 
-def carried(stand: Standing, problem: SheetProblem) -> Lagged:
+def carried(stand: SheetAttempt, problem: SheetProblem) -> Lagged:
     """Return the lagged terms of a solution on another mesh."""
     old, new, lagged = stand.problem.mesh, problem.mesh, stand.lagged
     middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))

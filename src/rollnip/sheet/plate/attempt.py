@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from math import inf
 
 import numpy as np
@@ -12,6 +12,7 @@ from rollnip.contact import State
 from rollnip.influence import displacement_under
 from rollnip.rolling import PairKernels
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.attempt import Attempt
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.search import longest_run
@@ -22,33 +23,7 @@ Array = NDArray[np.float64]
 _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
 
 
-@dataclass(frozen=True, slots=True)
-class PlateAttempt:
-    """A solution on two meshes between the ends of some zones, and how well these are placed.
-
-    Attributes
-    ----------
-    zones : where it puts the zones.
-    problem, state, lagged : the solved problem.
-    change : last change of the lagged terms, relative.
-    off : how far ends were off, over the width.
-    steps : linear systems solved so far.
-    stands_still : whether zones and terms stand still.
-    """
-
-    zones: PlateZones
-    problem: PlateProblem
-    state: PlateState
-    lagged: LaggedPlate
-    change: float
-    off: float
-    steps: int
-    stands_still: bool
-
-    @property
-    def wanted_traction(self) -> float | None:
-        """T_l that is asked for [N/mm]; None where none is."""
-        return self.lagged.traction
+PlateAttempt = Attempt[PlateZones, PlateProblem, PlateState, LaggedPlate]
 
 
 def violation(stand: PlateAttempt) -> float:

@@ -97,8 +97,7 @@ def interior_point(problem: Inequalities, start: Array) -> Complementary:
         left = iterate.left
         if left < min(best, _SMALL):
             best, solution = left, iterate.solution(steps)
-        done = best < _SMALLEST or (solution is not None and left > best)
-        if done or not left < _DIVERGED or not iterate.is_inside:
+        if best < _SMALLEST or (solution is not None and left > best) or not left < _DIVERGED:
             break
         iterate.advance()
     if solution is None:
@@ -146,11 +145,6 @@ class _Iterate:
             return inf
         products = float(room @ self.creeps) / self.creeps.size
         return max(products, float(np.abs(self._residual()).max()))
-
-    @property
-    def is_inside(self) -> bool:
-        """Return whether all conditions hold with room to spare; rounding may take the last."""
-        return bool(np.all(self._room(self.unknowns) > 0.0))
 
     def advance(self) -> None:
         """Take one step of Newton's method: predicted to zero, corrected, and kept inside."""

@@ -354,13 +354,13 @@ def test_a_memory_against_a_calculation_in_time(stored):
 def test_a_skin_takes_few_turns(monkeypatch):
     """Turns begin from the linear displacements: under a skin the second order misleads them."""
     turns = []
-    beyond_of = beyond._AllOrders.beyond
+    beyond_of = beyond.AllOrders.beyond
 
     def counted(self, *given, **named):
         turns.append(1)
         return beyond_of(self, *given, **named)
 
-    monkeypatch.setattr(beyond._AllOrders, "beyond", counted)
+    monkeypatch.setattr(beyond.AllOrders, "beyond", counted)
     solution = rn.solve(rn.read_case(EXAMPLES / "figure-4-top-layer-0.1mm.toml").nip, FULL)
     assert solution.converged
     assert solution.model.geometry == "finite"

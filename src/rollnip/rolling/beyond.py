@@ -34,6 +34,8 @@ from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import STILL, change_of, solve_on_mesh, with_residual
 
 Array = NDArray[np.float64]
+Acting = tuple[Array, Array, Array]
+"""Nodes, and the pressure and the shear that act on a roller at all but the first and the last."""
 _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
 _MOST_TURNS = 20  # of the correction and the contact
@@ -70,14 +72,14 @@ def with_second_order(
 
 
 @dataclass(frozen=True)
-class _AllOrders:
+class AllOrders:
     """Finite elements of both rollers; None for a rigid one."""
 
     upper: FiniteResponse | None
     lower: FiniteResponse | None
 
     @classmethod
-    def of(cls, nip: Nip, half_width: float, strain: float) -> _AllOrders:
+    def of(cls, nip: Nip, half_width: float, strain: float) -> AllOrders:
         """Prepare elements for a contact of about that half-width [mm] and surface strain."""
         cut = CUT / (1.0 + strain / _STRAIN)
 
@@ -92,28 +94,40 @@ class _AllOrders:
         return all(one.is_found for one in (self.upper, self.lower) if one is not None)
 
     def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, SecondFields, bool]:
-        """Return what all orders add to the linear displacements under a solution's tractions.
+        """Return what all orders add to the linear displacements of a bare nip, see `under`."""
+        nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
+        sides = (nodes, pressure, shear), (nodes, pressure, -shear)
+        return self.under(sides, latest.state.creepage, roughly=roughly)
 
-        ``roughly``: on a mesh of before as long as the contact has not moved far. Raises
-        `NoEquilibriumError` where there is no equilibrium.
+    def under(
+        self, sides: tuple[Acting, Acting], creepage: float, *, roughly: bool
+    ) -> tuple[SecondFields, SecondFields, bool]:
+        """Return what all orders add to the linear displacements under tractions of both rollers.
+
+        Raises `NoEquilibriumError` where there is no equilibrium.
+
+        Parameters
+        ----------
+        sides : of the upper and of the lower roller: nodes (N+1,) [mm], and pressure and shear at
+            nodes[1:-1] as they act on that roller, (N-1,) [MPa].
+        creepage : of the upper roller against the lower one.
+        roughly : on a mesh of before as long as the contact has not moved far.
 
         Returns
         -------
         The correction, the same before it was smoothed, and whether it is that of the tractions
         themselves, not of some on the way to them.
         """
-        nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
         functions: list[Field | None] = []
         rough: list[Field | None] = []
         lost, is_whole = [0.0, 0.0], True
-        rates = rates_of("finite", latest.state.creepage)
-        for side, (response, sign) in enumerate(((self.upper, 1.0), (self.lower, -1.0))):
+        rates = rates_of("finite", creepage)
+        for side, response in enumerate((self.upper, self.lower)):
             if response is None:
                 functions += [None, None]
                 rough += [None, None]
                 continue
-            tractions = nodes, pressure, sign * shear
-            functions += response.displacement(*tractions, rates[side], roughly=roughly)
+            functions += response.displacement(*sides[side], rates[side], roughly=roughly)
             rough += response.rough
             lost[side] = response.lost
             is_whole = is_whole and response.share == 1.0
@@ -143,7 +157,7 @@ def refine_all_orders(
     is_balanced = True
     if latest.stands_still and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
-        orders = _AllOrders.of(nip, half_width, strain)
+        orders = AllOrders.of(nip, half_width, strain)
         try:
             found = _turns(nip, model, kernels, latest, orders, is_refined=is_refined)
         except NoEquilibriumError:
@@ -166,7 +180,7 @@ def _coarse(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> 
 
 
 @dataclass
-class _Past:
+class Past:
     """Corrections that contacts were solved with, and those that belong to their solutions.
 
     The next one is that mean of the latter for which the differences of both are smallest
@@ -227,7 +241,7 @@ def _turns(
     model: Model,
     kernels: PairKernels,
     latest: Round,
-    orders: _AllOrders,
+    orders: AllOrders,
     *,
     is_refined: bool,
 ) -> tuple[PairKernels, Round] | None:
@@ -237,13 +251,13 @@ def _turns(
     go on until the contact conditions are met with the correction that belongs to the solution
     itself.
     """
-    change, afresh, past, least = inf, 0, _Past(_places(latest)), _Least()
+    change, afresh, past, least = inf, 0, Past(_places(latest)), _Least()
     for _ in range(_MOST_TURNS):
         is_coarse = not is_refined and latest.mesh.fine.values is not None
         made, rough, is_whole = orders.beyond(latest, roughly=is_coarse)
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
-        to_come = _to_come(change, before) / model.tolerance
+        to_come = to_come_after(change, before) / model.tolerance
         if is_refined and change < _SMALL and is_whole:
             checked = with_residual(nip, model, smooth, _with(latest, smooth))
             checked = replace(checked, geometry_change=largest(change, latest.geometry_change))
@@ -254,7 +268,7 @@ def _turns(
         near = min(to_come, change / model.tolerance)
         if not is_refined and is_whole and near <= (_NEARLY if is_coarse else 1.0):
             found, is_refined = _refined(nip, model, mixed, latest), True
-            past = _Past(_places_by_the_edges(latest))
+            past = Past(_places_by_the_edges(latest))
         elif is_coarse:
             found = _solved_again(nip, _coarsely(model), mixed, latest, change, _COARSE)
         else:
@@ -311,7 +325,7 @@ def _with_cut(
     return kernels, replace(checked, cut=cut)
 
 
-def _to_come(change: float, before: float) -> float:
+def to_come_after(change: float, before: float) -> float:
     """Return the sum of all changes to come, as a geometric series; inf after the first."""
     if before == inf:
         return inf

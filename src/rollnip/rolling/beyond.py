@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from math import inf
+from typing import Generic, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,20 +39,20 @@ Acting = tuple[Array, Array, Array]
 """Nodes, and the pressure and the shear that act on a roller at all but the first and the last."""
 _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
-_MOST_TURNS = 20  # of the correction and the contact
+MOST_CORRECTIONS = 20  # of the correction and the contact
 _ENOUGH = 0.3  # violation of the contact conditions, or change to come, over the tolerance
-_SMALL = 0.1  # change of a turn from which it may be the last one
+SMALL = 0.1  # change of a turn from which it may be the last one
 _LARGEST_RATIO = 0.9  # of changes
 _FAR = 0.1  # change from which a mesh of linear elements is graded anew
-_MOST_AFRESH = 10  # turns that are solved from the beginning
+MOST_AFRESH = 10  # turns that are solved from the beginning
 _STRAIN = 0.6  # of a surface at which waves up to half the number are kept
 _COARSE = 24  # elements of the contact while its correction still changes
-_NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
+NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
 _COARSELY = 10.0  # times the tolerance
 _COARSEST = 1e-2  # at most
 # Tolerance that nips with a stiff skin are solved to at least: violations of the contact conditions
 # by 0.007 of the approach have changed the peak of pressure beside an edge by a half.
-_UNDER_SKINS = 1e-3
+UNDER_SKINS = 1e-3
 _EVERYWHERE = ((-inf, inf),) * 4
 _OFF = 0.01  # of the width of the contact: how far a correction moves the ends of zones, about
 
@@ -148,7 +149,7 @@ def refine_all_orders(
     is found, or no contact, it does not stand still; ``is_balanced`` tells which.
     """
     if skin_thickness(nip) > 0.0:
-        model = replace(model, tolerance=min(model.tolerance, _UNDER_SKINS))
+        model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
     latest = _coarse(nip, model, kernels, half_width)
     is_refined = latest is None
     if latest is None:
@@ -170,7 +171,7 @@ def refine_all_orders(
 
 def _coarse(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round | None:
     """Return a contact on a coarse mesh with free ends; None where there is none."""
-    placing = Placing(nip, _coarsely(model), kernels)
+    placing = Placing(nip, coarsely(model), kernels)
     try:
         stand = placing.guessed(Layout.sticking(half_width), _COARSE)
         placed = None if stand is None else placing.placed(stand, _COARSE, known=False)
@@ -205,32 +206,29 @@ class Past:
         return replace(NO_SECOND_ORDER, others=others, lost=(float(lost[0]), float(lost[1])))
 
 
+Found = TypeVar("Found")
+
+
 @dataclass
-class _Least:
+class Least(Generic[Found]):
     """The solution that violates the contact conditions least, with the correction of its own.
 
     Attributes
     ----------
-    found : influence functions with that correction, the solution, the correction as it was before
-        it was smoothed; None as long as all violate them by more than the tolerance.
+    found : that solution; None as long as all violate them by more than the tolerance.
     left : violation by the last solution, over the tolerance.
     """
 
-    found: tuple[PairKernels, Round, SecondFields] | None = None
+    found: Found | None = None
     left: float = inf
 
-    def is_enough(
-        self,
-        model: Model,
-        found: tuple[PairKernels, Round, SecondFields],
-        to_come: float,
-    ) -> bool:
+    def is_enough(self, found: Found, left: float, to_come: float) -> bool:
         """Take in a further solution; return whether there is one from which turns need not go on.
 
-        ``to_come``: sum of the changes to come, over the tolerance.
+        ``left``: violation by it, over the tolerance; ``to_come``: sum of the changes to come, over
+        the tolerance.
         """
-        left, before = found[1].residual / model.tolerance, self.left
-        self.left = left
+        before, self.left = self.left, left
         if left <= min(1.0, before):
             self.found = found
         return self.found is not None and (min(left, to_come) <= _ENOUGH or left > before)
@@ -251,29 +249,31 @@ def _turns(
     go on until the contact conditions are met with the correction that belongs to the solution
     itself.
     """
-    change, afresh, past, least = inf, 0, Past(_places(latest)), _Least()
-    for _ in range(_MOST_TURNS):
+    change, afresh, past = inf, 0, Past(even_places(_edges(latest)))
+    least = Least[tuple[PairKernels, Round, SecondFields]]()
+    for _ in range(MOST_CORRECTIONS):
         is_coarse = not is_refined and latest.mesh.fine.values is not None
         made, rough, is_whole = orders.beyond(latest, roughly=is_coarse)
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
         to_come = to_come_after(change, before) / model.tolerance
-        if is_refined and change < _SMALL and is_whole:
+        if is_refined and change < SMALL and is_whole:
             checked = with_residual(nip, model, smooth, _with(latest, smooth))
             checked = replace(checked, geometry_change=largest(change, latest.geometry_change))
-            if least.is_enough(model, (smooth, checked, rough), to_come):
+            left = checked.residual / model.tolerance
+            if least.is_enough((smooth, checked, rough), left, to_come):
                 break
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
         near = min(to_come, change / model.tolerance)
-        if not is_refined and is_whole and near <= (_NEARLY if is_coarse else 1.0):
+        if not is_refined and is_whole and near <= (NEARLY if is_coarse else 1.0):
             found, is_refined = _refined(nip, model, mixed, latest), True
-            past = Past(_places_by_the_edges(latest))
+            past = Past(places_by_the_edges(_edges(latest)))
         elif is_coarse:
-            found = _solved_again(nip, _coarsely(model), mixed, latest, change, _COARSE)
+            found = _solved_again(nip, coarsely(model), mixed, latest, change, _COARSE)
         else:
             found = _solved_again(nip, model, mixed, latest, change, as_cosines(latest))
-        if not found.stands_still and afresh < _MOST_AFRESH:
+        if not found.stands_still and afresh < MOST_AFRESH:
             afresh += 1
             half_width = 0.5 * latest.figures.nip_width
             again = _coarse(nip, model, mixed, half_width) if is_coarse else None
@@ -285,7 +285,7 @@ def _turns(
     return None if least.found is None else _with_cut(nip, model, *least.found)
 
 
-def _coarsely(model: Model) -> Model:
+def coarsely(model: Model) -> Model:
     """Return the model of contacts whose correction still changes."""
     tolerance = max(model.tolerance, min(_COARSELY * model.tolerance, _COARSEST))
     return replace(model, tolerance=tolerance)
@@ -301,17 +301,21 @@ def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Rou
     return refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
 
 
-def _places(latest: Round) -> Array:
+def _edges(latest: Round) -> tuple[float, float]:
+    return latest.zones[0].start, latest.zones[-1].stop
+
+
+def even_places(edges: tuple[float, float]) -> Array:
     """Return places at which corrections are compared, at even distances.
 
     Dense beside the edges, the short waves there would hide what is slow to come to rest.
     """
-    return np.linspace(latest.zones[0].start, latest.zones[-1].stop, _COMPARED)
+    return np.linspace(*edges, _COMPARED)
 
 
-def _places_by_the_edges(latest: Round) -> Array:
+def places_by_the_edges(edges: tuple[float, float]) -> Array:
     """Return places dense beside the edges, where last changes are."""
-    start, stop = latest.zones[0].start, latest.zones[-1].stop
+    start, stop = edges
     shares = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _COMPARED))
     return np.asarray(start + (stop - start) * shares)
 

@@ -48,6 +48,15 @@ def test_a_layer_that_is_hardly_stiffer_is_no_skin():
     assert columns[1].reach == pytest.approx(columns[0].reach, rel=1e-2)
 
 
+def test_a_layer_a_little_stiffer_has_no_short_waves_of_its_own():
+    """Configuration III (2.5 times as stiff) did not come to rest with those of a skin."""
+    weak, stiff = (Columns.of(skinned(stiffer), HALF).cut for stiffer in (2.5, 900.0))
+    assert weak < 0.02 * stiff
+    assert stiff == pytest.approx(8.0 / 0.05, rel=2e-3)
+    assert Columns.of(skinned(0.999), HALF).cut == Columns.of(PLAIN, HALF).cut == 0.0
+    assert Columns.of(skinned(1.001), HALF).cut == pytest.approx(0.0, abs=1e-3)
+
+
 def test_a_mesh_reaches_as_far_as_a_skin_carries_forces():
     """Twice as far changes the approach of a foil under a pull by 1e-3: it slid where it ended.
 

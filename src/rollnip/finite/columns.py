@@ -31,6 +31,8 @@ _REACH_OF_MEMORY = 8.0  # the same where a layer is viscoelastic
 _LAGS = 5.0  # the same, over the length along which a skin carries forces
 _TURN = 2.5  # of the radius: how far arcs reach at most
 _TURNS = 2.0 * pi  # the same under a skin
+_WAVES = 8.0  # wave number that counts under a stiff skin, times its thickness
+_STIFF = 10.0  # times as stiff as what it covers: half of these waves count
 _LEAST_THICKNESS = 0.5  # that counts, over the half-width
 
 
@@ -43,11 +45,13 @@ class Columns:
     longest : element beside the tractions [mm].
     reach : how far the mesh goes on beyond the tractions [mm].
     skin : length within which pressures change beside an edge [mm]; inf without a stiff skin.
+    cut : wave number up to which the displacement of a stiff skin counts [1/mm]; 0 without one.
     """
 
     longest: float
     reach: float
     skin: float
+    cut: float = 0.0
 
     @classmethod
     def of(cls, roller: Roller, half_width: float) -> Columns:
@@ -58,7 +62,8 @@ class Columns:
         if roller.curvature > 0.0:
             reach = min(reach, _TURN * roller.radius - half_width)
             far = min(far, _TURNS * roller.radius)
-        return cls(max(_LONGEST * thick, _LAG * lag), max(reach, far), _skin(roller))
+        longest = max(_LONGEST * thick, _LAG * lag)
+        return cls(longest, max(reach, far), _skin(roller), _cut(roller))
 
     def places(self, nodes: Array, pressure: Array) -> tuple[Array, slice]:
         """Return where the columns are to be when deformed, and which of them are loaded.
@@ -108,6 +113,20 @@ def _skin(roller: Roller) -> float:
         if softer < 1.0:
             return top.thickness / (1.0 - softer)
     return inf
+
+
+def _cut(roller: Roller) -> float:
+    """Return the wave number up to which the displacement of a stiff top layer counts.
+
+    Waves shorter than its thickness carry the peak of pressure beside an edge, which only a layer
+    many times stiffer than what it covers has. Beside a slipping edge turns do not come to rest
+    with such waves.
+    """
+    if len(roller.layers) < 2:
+        return 0.0
+    top, below = (layer.material for layer in roller.layers[:2])
+    softer = _STIFF * below.relaxed_modulus / top.glassy_modulus
+    return _WAVES / (_skin(roller) * (1.0 + softer**3))
 
 
 def _lag(roller: Roller) -> float:

@@ -25,7 +25,6 @@ from rollnip.rollers import Roller
 
 CUT = 150.0
 """Wave number over the half-width from which displacements are left out at small strains."""
-_CUT_OF_SKIN = 8.0  # the same over the length in which pressures change under a stiff skin
 _NEAR = 4.0  # half-widths beyond which the surface is of no interest
 _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
 _ALIGNED = 2e-4  # distance of columns from their places, over the width of the contact
@@ -205,7 +204,7 @@ class FiniteResponse:
         start, stop = places[loaded][[0, -1]]
         half = 0.5 * float(stop - start)
         middle, ends = 0.5 * float(start + stop), min(_NEAR * half, self._near)
-        cut = self._share_kept * max(self._cut / half, _CUT_OF_SKIN / self._columns.skin)
+        cut = self._share_kept * max(self._cut / half, self._columns.cut)
         self._made = smoothed(self.rough, middle, ends, cut)
         return self._made
 

@@ -9,7 +9,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactProblem, ContactState, Control, carry
+from rollnip.contact import (
+    ContactProblem,
+    ContactState,
+    ContactZone,
+    Control,
+    State,
+    carry,
+    contact_zones,
+)
 from rollnip.geometry import (
     linear_stretch,
     rotation_stretch,
@@ -24,6 +32,7 @@ from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Mesh, hoop_curvature
 
 Array = NDArray[np.float64]
+Bools = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
@@ -243,17 +252,38 @@ def mean_shear(mesh: Mesh, state: ContactState) -> Array:
     return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
 
 
+def slip_intervals(x: Array, zones: tuple[ContactZone, ...]) -> Bools:
+    """Return which of the intervals between ``x`` lie in a zone that slips, (n - 1,)."""
+    middle = 0.5 * (x[1:] + x[:-1])
+    slips = np.zeros(middle.size, dtype=bool)
+    for zone in zones:
+        if zone.state != State.STICK:
+            slips |= (middle > zone.start) & (middle < zone.stop)
+    return slips
+
+
 def pulls(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
+    nip: Nip,
+    geometry: Geometry,
+    mesh: Mesh,
+    state: ContactState,
+    u: Displacements,
+    zones: tuple[ContactZone, ...],
 ) -> tuple[float, float]:
     """Int q lambda ds of the upper and the lower surface [N/mm].
 
-    This is the power that the shear hands over per speed of that surface; ``u``: at the finer
-    nodes but the first.
+    This is the power that the shear hands over per speed of that surface; ``u``: at nodes[1:].
+    Where surfaces slip, lambda is that of the tractions, with the short waves that a contact cannot
+    follow: the solution without them has the lambda of smoother tractions, which are others.
     """
-    x = mesh.fine.nodes[1:]
-    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, u)
-    upper, lower = (x[1:] - x[:-1] + stretch_excess(x, nip, geometry, u)) @ shear
+    x, fine = mesh.fine.nodes[1:], mesh.finer(u)
+    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, fine)
+    excess = stretch_excess(x, nip, geometry, fine)
+    slips = slip_intervals(x, zones)
+    if mesh.kernels.held is not None and slips.any():
+        uncut = stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))
+        excess = np.where(slips, uncut, excess)
+    upper, lower = (x[1:] - x[:-1] + excess) @ shear
     return float(upper), float(lower)
 
 
@@ -286,7 +316,8 @@ def _traction_for_torque(
 ) -> float:
     """Return T for which the lower torque R_l (w_l - int q lambda_l ds) is as prescribed."""
     assert isinstance(nip.tangential, Torque)
-    _, pull = pulls(nip, geometry, mesh, state, mesh.finer(u))
+    zones = contact_zones(mesh.inner, state, nip.friction)
+    _, pull = pulls(nip, geometry, mesh, state, u, zones)
     lost = loss_inside("lower", nip, geometry, mesh, state)
     wanted = nip.tangential.torque_lower * nip.lower.curvature
     return lost - wanted - (pull - float(mesh.weights @ state.shear))

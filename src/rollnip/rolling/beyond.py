@@ -134,8 +134,10 @@ class AllOrders:
             is_whole = is_whole and response.share == 1.0
             if not response.is_found:
                 raise NoEquilibriumError
-        smooth = SecondFields(tuple(functions), _EVERYWHERE, (), (lost[0], lost[1]))
-        return smooth, replace(smooth, functions=tuple(rough)), is_whole
+        smooth = SecondFields(
+            tuple(functions), _EVERYWHERE, lost=(lost[0], lost[1]), rough=tuple(rough)
+        )
+        return smooth, smooth.uncut, is_whole
 
 
 def refine_all_orders(

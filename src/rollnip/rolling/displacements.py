@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
@@ -89,12 +89,20 @@ class SecondFields:
     others : further fields, each with the factor by which it is added.
     lost : heat inside the upper and the lower roller beyond that of linear theory, per distance
         [N/mm].
+    rough : the functions before waves were cut that no contact follows; empty: none were.
     """
 
     functions: tuple[Field | None, ...]
     ends: tuple[tuple[float, float], ...]
     others: tuple[tuple[float, SecondFields], ...] = ()
     lost: tuple[float, float] = (0.0, 0.0)
+    rough: tuple[Field | None, ...] = ()
+
+    @property
+    def uncut(self) -> SecondFields:
+        """The same with all waves."""
+        others = tuple((factor, other.uncut) for factor, other in self.others)
+        return replace(self, functions=self.rough or self.functions, others=others)
 
     def at(self, x: Array) -> Displacements:
         """Return the displacements at some places."""

@@ -18,14 +18,18 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import isnan
 
-import numpy as np
-
-from rollnip.contact import ContactState, ContactZone, State
+from rollnip.contact import ContactState, ContactZone
 from rollnip.model import Geometry
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import arc_ratio, creep, loss_inside, mean_shear, pulls
-from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.surfaces import Array, Mesh
+from rollnip.rolling.assemble import (
+    arc_ratio,
+    creep,
+    loss_inside,
+    mean_shear,
+    pulls,
+    slip_intervals,
+)
+from rollnip.rolling.surfaces import Mesh
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,6 +42,7 @@ class Powers:
     lost_upper, lost_lower : inside each roller, per distance of its own surface [N/mm].
     pull_upper, pull_lower : int q lambda ds, what the shear hands over at the surface of each
         roller per distance of that surface [N/mm].
+    cut : change of ``friction`` by the short waves that the solution leaves out [N/mm].
     """
 
     friction: float
@@ -45,6 +50,7 @@ class Powers:
     lost_lower: float
     pull_upper: float
     pull_lower: float
+    cut: float = 0.0
 
     @property
     def driving_upper(self) -> float:
@@ -67,34 +73,20 @@ def powers(
     nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...]
 ) -> Powers:
     """Return torques over radii and losses of a solution on a mesh."""
-    x = mesh.fine.nodes[1:]
-    u = mesh.finer(mesh.displacements(state))
-    pull_upper, pull_lower = pulls(nip, geometry, mesh, state, u)
+    x, u = mesh.fine.nodes[1:], mesh.displacements(state)
+    pull_upper, pull_lower = pulls(nip, geometry, mesh, state, u, zones)
+    friction = cut = 0.0
+    if nip.friction > 0.0 and not isnan(state.creepage):
+        lost = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, mesh.finer(u))
+        lost *= slip_intervals(x, zones)  # surfaces that stick lose nothing
+        both = (mesh.finer(v) for v in (mesh.uncut(u), u))
+        friction, smooth = (float(lost @ creep(x, nip, geometry, v, state.creepage)) for v in both)
+        cut = abs(friction - smooth)
     return Powers(
-        friction=_friction(nip, geometry, (x, u), (mesh, state), zones),
+        friction=friction,
         lost_upper=loss_inside("upper", nip, geometry, mesh, state),
         lost_lower=loss_inside("lower", nip, geometry, mesh, state),
         pull_upper=pull_upper,
         pull_lower=pull_lower,
+        cut=cut,
     )
-
-
-def _friction(
-    nip: Nip,
-    geometry: Geometry,
-    surfaces: tuple[Array, Displacements],
-    found: tuple[Mesh, ContactState],
-    zones: tuple[ContactZone, ...],
-) -> float:
-    """Return int q (creep) ds over the zones that slip; surfaces that stick lose nothing."""
-    (x, u), (mesh, state) = surfaces, found
-    if nip.friction == 0.0 or isnan(state.creepage):
-        return 0.0
-    middle = 0.5 * (x[1:] + x[:-1])
-    slips = np.zeros(middle.size, dtype=bool)
-    for zone in zones:
-        if zone.state != State.STICK:
-            slips |= (middle > zone.start) & (middle < zone.stop)
-    lost = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, u)
-    lost *= creep(x, nip, geometry, u, state.creepage)
-    return float(lost[slips].sum())

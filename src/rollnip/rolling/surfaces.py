@@ -193,6 +193,14 @@ class Mesh:
         held = self.held
         return linear + (self.second(state, self.nodes[1:]) if held is None else held)
 
+    def uncut(self, u: Displacements) -> Displacements:
+        """Return displacements at nodes[1:] with the short waves that were cut from those held."""
+        held = self.kernels.held
+        if held is None or self.held is None:
+            return u
+        four = held.uncut.at(self.nodes[1:]).four - self.held.four
+        return Displacements(u.four + four)
+
     def holding(self, kernels: PairKernels) -> Mesh:
         """Return this mesh with the second order that other influence functions hold."""
         return replace(self, kernels=kernels, held=_held_at(self.nodes, kernels))

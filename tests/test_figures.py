@@ -10,12 +10,32 @@ from typing import get_args
 import pytest
 
 import rollnip as rn
-from rollnip.figures import CLAIMED, FIGURES, PROFILES, ROUNDING, Dimension
+from rollnip.face.figures import (
+    FACE_FIGURES,
+    FACE_PROFILES,
+    SHEET_FACE_FIGURES,
+    SHEET_FACE_PROFILES,
+)
+from rollnip.figure import ROUNDING, Dimension
+from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PROFILES, PULL
+from rollnip.heat.figures import BALANCE_FIGURES, COURSES, ROLLER_FIGURES
 from rollnip.io import result_dict
-from rollnip.sheet_figures import SHEET_FIGURES
+from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
+from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 from rollnip.solution import Profiles, Solution
 from rollnip.sweeps import SCALARS
 
+REGISTRIES = {
+    "interfaces": {**INTERFACE_FIGURES, "pull": PULL},
+    "sheet": {**SHEET_FIGURES, **SHEET_PROFILES},
+    "face": {**FACE_FIGURES, **SHEET_FACE_FIGURES},
+    "face, curves": {**FACE_PROFILES, **SHEET_FACE_PROFILES},
+    "heat, rollers": ROLLER_FIGURES,
+    "heat": BALANCE_FIGURES,
+    "heat, courses": COURSES,
+    "patch": PATCH_FIGURES,
+    "patch, fields": PATCH_FIELDS,
+}
 SOURCE = Path(str(files("rollnip")))
 READERS = (
     "io/netcdf.py",
@@ -23,8 +43,15 @@ READERS = (
     "cli/summary.py",
     "plots/overview.py",
     "sweeps/row.py",
+    "cli/paper.py",
+    "face/report.py",
+    "heat/report.py",
+    "patch/report.py",
     "web/static/js/quantities.js",
     "web/static/js/answers.js",
+    "web/static/js/faceview.js",
+    "web/static/js/heatview.js",
+    "web/static/js/patchplots.js",
     "web/static/js/units.js",
 )
 
@@ -39,6 +66,18 @@ def test_a_figure_says_everything_in_plain_sentences(one):
     for sentence in filter(None, (one.sentence, one.sign)):
         assert re.fullmatch(r"[A-Z][^.]*\.", sentence), sentence
     assert set(one.size) <= set(FIGURES)
+
+
+@pytest.mark.parametrize("name", REGISTRIES)
+def test_every_registry_is_of_figures_with_a_sentence_and_a_name_of_their_own(name):
+    registry = REGISTRIES[name]
+    for key, one in registry.items():
+        assert one.key == key
+        assert one.label == one.label.strip()
+        for sentence in filter(None, (one.sentence, one.sign)):
+            assert re.fullmatch(r"[A-Z0-9].*\.", sentence), sentence
+        assert one.described["units"] == one.unit
+    assert len({one.label for one in registry.values()}) == len(registry)
 
 
 def test_labels_and_symbols_tell_figures_apart():
@@ -66,6 +105,15 @@ def test_tables_of_sweeps_hold_every_figure_with_its_unit():
     assert {name for name in SCALARS if name.startswith("error.")} == {
         f"error.{name}" for name in {*CLAIMED} | claimed
     }
+
+
+@pytest.mark.parametrize(
+    "reader", ["cli/paper.py", "face/report.py", "heat/report.py", "patch/report.py"]
+)
+def test_no_reader_has_units_of_its_own(reader):
+    """Of figures; bearing forces and fixed errors are no figures of a registry."""
+    text = (SOURCE / reader).read_text(encoding="utf-8")
+    assert not re.findall(r'"(?:mm|N/mm|MPa|degC|mW/mm|W/m|%)"', text)
 
 
 @pytest.mark.parametrize("reader", READERS)

@@ -8,167 +8,12 @@ error claim for it is the word ``claimed=True`` here and a key of `Solution.erro
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
-from math import isfinite
-from typing import Any, Literal, NamedTuple
 
-from rollnip._units import format_quantity
+from rollnip.figure import Dimension, Figure, Total, by_key
 
-__all__ = [
-    "CLAIMED",
-    "FIGURES",
-    "INTERFACE_FIGURES",
-    "PROFILES",
-    "ROUNDING",
-    "Dimension",
-    "Figure",
-    "Section",
-    "Total",
-]
-
-Dimension = Literal[
-    "length",
-    "line load",
-    "pressure",
-    "force",
-    "time",
-    "speed",
-    "ratio",
-    "share",
-    "power per length",
-]
-Section = Literal["nip", "drive", "losses", "sheet"]
-
-# Newton's method leaves the ends of zones some 1e-9 of the width from where they belong, and not
-# equally far on both sides; a loss of 1e-8 of load times speed is meant.
-ROUNDING = 5e-9
-"""Share of its size below which a figure is a rounding error.
-
-In free rolling, where torques, traction and friction losses are exactly 0, what is computed is at
-most 4e-13 of their size; the smallest figures that are meant (losses of a viscoelastic cover in
-slow motion) are 1e-8 of it and more.
-"""
-
-
-class _Units(NamedTuple):
-    base: str
-    shown: str
-    factor: float
-
-
-# Base unit, the unit a reader sees, and the factor from the one to the other.
-_UNITS: Mapping[Dimension, _Units] = {
-    "length": _Units("mm", "mm", 1.0),
-    "line load": _Units("N/mm", "N/mm", 1.0),
-    "pressure": _Units("MPa", "MPa", 1.0),
-    "force": _Units("N", "N mm/mm", 1.0),
-    "time": _Units("s", "ms", 1e3),
-    "speed": _Units("mm/s", "mm/s", 1.0),
-    "ratio": _Units("1", "", 1.0),
-    "share": _Units("1", "%", 100.0),
-    "power per length": _Units("N/s", "mW/mm", 1.0),
-}
-
-
-class Total(NamedTuple):
-    """The figure of the whole face: value times face width [mm] times ``factor``, in ``unit``."""
-
-    unit: str
-    factor: float
-
+__all__ = ["CLAIMED", "FIGURES", "INTERFACE_FIGURES", "PROFILES", "PULL"]
 
 _NEWTON, _NEWTON_METRE, _WATT = Total("N", 1.0), Total("N m", 1e-3), Total("W", 1e-3)
-
-
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Figure:
-    """One figure of a result.
-
-    Attributes
-    ----------
-    key : its path in the result JSON, such as "dissipation.friction".
-    symbol : as in the theory, in TeX.
-    label : its name, in lower case.
-    dimension : what kind of number it is; decides the units.
-    sentence : what it is, in one sentence.
-    sign : what a positive value means; empty where it is never negative.
-    undefined : why it may be null; empty where it never is.
-    section : of summaries.
-    digits : significant digits that a reader is shown.
-    size : figures whose product, with these powers, is the size it is compared with; the figure
-        is a rounding error below `ROUNDING` times it. Empty: 1.
-    claimed : whether `Solution.error` has an estimate of its error.
-    total : how the figure of the whole face follows; None where there is none.
-    """
-
-    key: str
-    symbol: str
-    label: str
-    dimension: Dimension
-    sentence: str
-    sign: str = ""
-    undefined: str = ""
-    section: Section = "nip"
-    digits: int = 4
-    size: Mapping[str, int] = field(default_factory=dict)
-    claimed: bool = False
-    total: Total | None = None
-
-    @property
-    def name(self) -> str:
-        """Attribute of the solution, and key among errors and totals."""
-        return self.key.replace(".", "_")
-
-    @property
-    def unit(self) -> str:
-        """Base unit, in files; "1" for a plain number."""
-        return _UNITS[self.dimension].base
-
-    @property
-    def shown_unit(self) -> str:
-        """The unit that a reader is shown; empty for a plain number."""
-        return _UNITS[self.dimension].shown
-
-    @property
-    def factor(self) -> float:
-        """Factor from the base unit to the unit shown."""
-        return _UNITS[self.dimension].factor
-
-    def value(self, solution: Any) -> float | None:
-        """The figure of a solution, in its base unit; None where not finite or not defined."""
-        return _finite(getattr(solution, self.name))
-
-    def cleaned(self, solution: Any) -> float | None:
-        """Return the value of the figure, but 0 where it is a rounding error."""
-        value = self.value(solution)
-        return value if value is None or abs(value) > self.noise(solution) else 0.0
-
-    def noise(self, result: Any) -> float:
-        """Size below which the figure is a rounding error, in its base unit.
-
-        ``result`` is a solution, or a mapping from keys to values.
-        """
-        level = ROUNDING
-        for key, power in self.size.items():
-            value = result.get(key) if isinstance(result, Mapping) else getattr(result, key)
-            if not value:
-                return 0.0
-            level *= abs(value) ** power
-        return level
-
-    def error(self, solution: Any) -> float | None:
-        """Estimated error of the figure, in its base unit; None where none is claimed."""
-        return _finite(solution.error.get(self.name)) if self.claimed else None
-
-    def number(self, value: float) -> str:
-        """Write a value of the base unit in the unit shown, without the unit."""
-        return format_quantity(value * self.factor, digits=self.digits)
-
-
-def _finite(value: float | None) -> float | None:
-    return float(value) if value is not None and isfinite(value) else None
-
-
 _UPPER_DRIVES = "Positive where the upper roller drives."
 _AXLE = "Positive where the axle puts power in."
 _SPEED = "needs `speed`"
@@ -378,17 +223,35 @@ _CURVES: tuple[Figure, ...] = (
     _curve("speed_lower", "v_l", "speed, lower surface", "speed", "Speed of the lower surface."),
 )
 
-FIGURES: Mapping[str, Figure] = {one.key: one for one in _SCALARS}
+FIGURES: Mapping[str, Figure] = by_key(*_SCALARS)
 """The scalar figures of a result by key, in the order of the JSON."""
 
 CLAIMED: Mapping[str, Figure] = {one.name: one for one in _SCALARS if one.claimed}
 """Those whose error is estimated, by name."""
 
-PROFILES: Mapping[str, Figure] = {one.key: one for one in _CURVES}
+PROFILES: Mapping[str, Figure] = by_key(*_CURVES)
 """The distributions over x of a result by key, in the order of the JSON."""
 
-INTERFACE_FIGURES = (
-    "depth", "shear_min", "shear_min_x", "shear_max", "shear_max_x", "peel_min", "peel_min_x",
-    "peel_max", "peel_max_x", "shear_range", "peel_range", "von_mises_max",
-)  # fmt: skip
-"""The numbers of an ``InterfaceStress`` that stand in files."""
+_AT = "Where it is, along x."
+_PULL = "Positive in tension."
+_CYCLE = "Largest less smallest of one revolution, 0 far from the nip included."
+INTERFACE_FIGURES: Mapping[str, Figure] = by_key(
+    Figure("depth", "depth", "length", "Depth of the interface below the surface.", symbol="z"),
+    Figure("shear_min", "smallest shear", "pressure", "Smallest shear stress along x."),
+    Figure("shear_min_x", "place of the smallest shear", "length", _AT),
+    Figure("shear_max", "largest shear", "pressure", "Largest shear stress along x."),
+    Figure("shear_max_x", "place of the largest shear", "length", _AT),
+    Figure("peel_min", "smallest peel stress", "pressure", "Smallest normal stress.", sign=_PULL),
+    Figure("peel_min_x", "place of the smallest peel stress", "length", _AT),
+    Figure("peel_max", "largest peel stress", "pressure", "Largest normal stress.", sign=_PULL),
+    Figure("peel_max_x", "place of the largest peel stress", "length", _AT),
+    Figure("shear_range", "shear range", "pressure", _CYCLE),
+    Figure("peel_range", "peel range", "pressure", _CYCLE),
+    Figure(
+        "von_mises_max", "largest von Mises stress", "pressure", "Of the layers on either side."
+    ),
+)
+"""The figures of an interface or bond, an `InterfaceStress`, by key, in the order of files."""
+
+PULL = Figure("pull", "largest pull", "pressure", "Largest tension across the interface, or 0.")
+"""The pull on an interface: of summaries and pictures; files have the peel stress."""

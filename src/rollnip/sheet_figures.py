@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
-from rollnip.figures import Dimension, Figure
+from rollnip.figure import Dimension, Figure
 
 __all__ = ["SHEET_FIGURES", "SHEET_PROFILES", "SheetFigure"]
 

@@ -221,7 +221,7 @@ def test_no_steady_state_is_a_sentence(designer):
 
 def test_files_and_the_report_hold_the_heat(heat):
     rows = {row[0]: row for row in csv.reader(io.StringIO(heat.saved("csv-figures")))}
-    hottest = float(rows["Hottest place, Upper roller"][1])
+    hottest = float(rows["Hot spot, Upper roller"][1])
     assert hottest == pytest.approx(cell(heat, "hot_spot", 1))
     assert rows["Input: Ambient air"][1] == "25"
     tree = json.loads(heat.saved("save-json"))

@@ -120,9 +120,11 @@ def test_both_languages_have_the_same_messages_with_the_same_holes():
 def test_the_german_names_of_figures_are_of_figures_that_there_are():
     from rollnip.figures import FIGURES
     from rollnip.sheet_figures import SHEET_FIGURES
+    from rollnip.web.library import MORE_FIGURES
 
     figures = [*FIGURES.values(), *SHEET_FIGURES.values()]
     names = {figure.name for figure in figures} | {"whole"}
+    names |= {f"{kind}_{key}" for kind, registry in MORE_FIGURES.items() for key in registry}
     german = {key.split(".")[1] for key in messages("de") if key.startswith("figure.")}
     assert german <= names
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
-from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PROFILES, Figure
+from rollnip.figure import Figure
+from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PROFILES
 from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 
 _NAN = float("nan")
@@ -22,7 +23,7 @@ def result_dataset(tree: dict[str, Any]) -> Any:
     profiles = tree["profiles"]
     size = len(profiles["x"])
     variables: _Variables = {
-        name: ("x", _floats(profiles[name], size), _described(curve))
+        name: ("x", _floats(profiles[name], size), curve.described)
         for name, curve in PROFILES.items()
     }
     place = variables.pop("x")
@@ -46,12 +47,6 @@ def _floats(values: list[float | None] | None, size: int) -> list[float]:
     return [_NAN if value is None else value for value in values]
 
 
-def _described(figure: Figure, unit: str = "") -> dict[str, str]:
-    """Attributes of a variable: its unit, its name, what it is and its sign."""
-    about = f"{figure.sentence} {figure.sign}".rstrip()
-    return {"units": unit or figure.unit, "long_name": figure.label, "comment": about}
-
-
 def _scalar(value: float | None, attributes: dict[str, str]) -> tuple[Any, ...]:
     return ((), _NAN if value is None else value, attributes)
 
@@ -63,7 +58,7 @@ def _value(tree: dict[str, Any], figure: Figure) -> float | None:
 
 
 def _scalars(tree: dict[str, Any]) -> _Variables:
-    variables = {one.name: _scalar(_value(tree, one), _described(one)) for one in FIGURES.values()}
+    variables = {one.name: _scalar(_value(tree, one), one.described) for one in FIGURES.values()}
     for one in CLAIMED.values():
         about = {"units": one.unit, "long_name": f"estimated error of the {one.label}"}
         variables[f"error_{one.name}"] = _scalar(tree["error"][one.name], about)
@@ -113,14 +108,14 @@ def _sheet(sheet: dict[str, Any], size: int) -> _Variables:
     found: _Variables = {}
     for key, figure in SHEET_FIGURES.items():
         name = key.partition(".")[2]
-        found[figure.name] = _scalar(sheet[name], _described(figure))
+        found[figure.name] = _scalar(sheet[name], figure.described)
         if figure.claimed:
             about = {"units": figure.unit, "long_name": f"estimated error of the {figure.label}"}
             found[f"error_{figure.name}"] = _scalar(sheet["error"][name], about)
     for name, curve in SHEET_PROFILES.items():
         if name != "x":
             values = _floats(sheet["profiles"][name], size)
-            found[f"sheet_{name}"] = ("x", values, _described(curve))
+            found[f"sheet_{name}"] = ("x", values, curve.described)
     lower = _zones(sheet["zones_lower"])
     return found | {
         f"lower_{name}": (f"lower_{dims[0]}", *rest) for name, (dims, *rest) in _tupled(lower)
@@ -139,10 +134,9 @@ def _interfaces(interfaces: list[dict[str, Any]]) -> _Variables:
         "interface_roller": ("interface", [one["roller"] for one in interfaces]),
         "interface_bond": ("interface", [int(one["bond"]) for one in interfaces]),
     }
-    for name in INTERFACE_FIGURES:
+    for name, figure in INTERFACE_FIGURES.items():
         values = [one[name] for one in interfaces]
-        unit = "mm" if name == "depth" or name.endswith("_x") else "MPa"
-        found[f"interface_{name}"] = ("interface", _floats(values, 0), {"units": unit})
+        found[f"interface_{name}"] = ("interface", _floats(values, 0), figure.described)
     return found
 
 

@@ -7,7 +7,8 @@ from html import escape
 from typing import Any, NamedTuple
 
 from rollnip._units import format_quantity
-from rollnip.figures import FIGURES, ROUNDING, Figure
+from rollnip.figure import ROUNDING, Figure
+from rollnip.figures import FIGURES
 from rollnip.sheet_figures import SHEET_FIGURES
 
 SIGNS = (

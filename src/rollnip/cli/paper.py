@@ -98,17 +98,16 @@ def process(
 
 
 _Value = float | int | bool | None
+_FIGURES = ("approach", "load", "traction", "creepage", "nip_width", "peak_pressure")
 
 
 def _figures_of(found: ProcessSolution) -> list[tuple[str, _Value, str]]:
-    """Return name, value and unit of the figures of the process."""
+    """Return name, value and base unit of the figures of the process."""
+    from rollnip.figures import FIGURES
+
+    units = {name: FIGURES[name].unit.removeprefix("1") for name in _FIGURES}
     return [
-        ("approach", found.approach, "mm"),
-        ("load", found.load, "N/mm"),
-        ("traction", found.traction, "N/mm"),
-        ("creepage", found.creepage, ""),
-        ("nip_width", found.nip_width, "mm"),
-        ("peak_pressure", found.peak_pressure, "MPa"),
+        *((name, getattr(found, name), unit) for name, unit in units.items()),
         ("elements", int(found.x.size + 1), ""),
         ("systems", found.systems, ""),
         ("converged", found.converged, ""),

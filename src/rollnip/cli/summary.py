@@ -18,12 +18,12 @@ from rollnip._results.summary import (
     verdict,
     zone_sections,
 )
-from rollnip._units import format_quantity
 from rollnip.cli.console import terminal
+from rollnip.figures import INTERFACE_FIGURES, PULL
 from rollnip.solution import Solution
 
 _WIDTH = 96
-_DIGITS = 4
+_DEPTH, _RANGE = INTERFACE_FIGURES["depth"], INTERFACE_FIGURES["shear_range"]
 
 
 def print_summary(solution: Solution, console: Console | None = None) -> None:
@@ -88,8 +88,8 @@ def _interfaces(solution: Solution) -> RenderableType:
     for one in solution.interfaces:
         kind = "bond" if one.is_bond else "interface"
         table.add_row(
-            f"{one.roller} {kind} at {format_quantity(one.depth, digits=_DIGITS)} mm",
-            f"shear range {format_quantity(one.shear_range, digits=_DIGITS)} MPa",
-            f"largest pull {format_quantity(one.pull, digits=_DIGITS)} MPa",
+            f"{one.roller} {kind} at {_DEPTH.text(one.depth)}",
+            f"{_RANGE.label} {_RANGE.text(one.shear_range)}",
+            f"{PULL.label} {PULL.text(one.pull)}",
         )
     return Padding(table, (0, 0, 0, 2))

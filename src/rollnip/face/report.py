@@ -14,16 +14,18 @@ from rollnip.face.figures import (
     FACE_PROFILES,
     SHEET_FACE_FIGURES,
     SHEET_FACE_PROFILES,
-    FaceFigure,
     figures_of,
     profiles_of,
 )
-from rollnip.face.sheet_solution import SheetFaceSolution
 from rollnip.face.solution import FaceSolution
 
 Array = NDArray[np.float64]
 
 _SILENT = ("mean_load", "evenness")
+_SHOWN_OVER_Y = (
+    *("load", "approach", "nip_width", "peak_pressure", "traction"),
+    *("traction_upper", "feed_upper", "tension_in"),
+)
 _OF_FRICTION = ("creepage", "total_traction", "largest_scrub")
 
 
@@ -57,11 +59,11 @@ def face_variables(tree: dict[str, Any]) -> tuple[dict[str, tuple[Any, ...]], di
         values = tree[key]
         row = [None] * len(tree["y"]) if values is None else values
         name = key if key == "y" else f"face_{key}"
-        variables[name] = ("y", _floats(row), _described(figure))
+        variables[name] = ("y", _floats(row), figure.described)
     for key, figure in {**FACE_FIGURES, **SHEET_FACE_FIGURES}.items():
         if key not in tree:
             continue
-        variables[f"face_{key}"] = ((), _floats([tree[key]])[0], _described(figure))
+        variables[f"face_{key}"] = ((), _floats([tree[key]])[0], figure.described)
     for key, error in tree["error"].items():
         about = {"units": "1", "long_name": f"relative error over the face: {key}"}
         variables[f"face_error_{key}"] = ((), error, about)
@@ -79,10 +81,6 @@ def face_variables(tree: dict[str, Any]) -> tuple[dict[str, tuple[Any, ...]], di
 
 def _floats(values: list[float | None]) -> list[float]:
     return [float("nan") if one is None else one for one in values]
-
-
-def _described(figure: FaceFigure) -> dict[str, str]:
-    return {"units": figure.unit, "long_name": figure.label, "comment": figure.sentence}
 
 
 def face_parts(solution: FaceSolution) -> dict[str, Any]:
@@ -111,46 +109,29 @@ def face_lines(solution: FaceSolution) -> Iterator[str]:
     """Yield the summary of a face, line by line."""
     word = "converged and verified" if solution.converged else "NOT CONVERGED"
     yield f"Face ({word}; {solution.law.solves} cross-sections)"
-    yield f"  {'':22s} {'y < 0 end':>12s} {'middle':>12s} {'y > 0 end':>12s}"
+    yield f"  {'':28s} {'y < 0 end':>12s} {'middle':>12s} {'y > 0 end':>12s}"
     middle = solution.y.size // 2
-    rows = (
-        ("line load", solution.load, "N/mm"),
-        ("approach", solution.approach, "mm"),
-        ("nip width", solution.nip_width, "mm"),
-        ("peak pressure", solution.peak_pressure, "MPa"),
-        ("traction", solution.traction, "N/mm"),
-        *_sheet_rows(solution),
-    )
-    for label, values, unit in rows:
-        shown = "".join(f" {_four(values[i], values):>12s}" for i in (0, middle, -1))
-        yield f"  {label:22s}{shown} {unit}"
+    for key, figure in profiles_of(solution).items():
+        if key in _SHOWN_OVER_Y:
+            values = figure.factor * getattr(solution, key)
+            shown = "".join(f" {_four(values[i], values):>12s}" for i in (0, middle, -1))
+            yield f"  {figure.label:28s}{shown} {figure.shown_unit}"
     for key, figure in figures_of(solution).items():
         value = figure.value(solution)
         hidden = not _has_friction(solution) and key in _OF_FRICTION
         if value is not None and key not in _SILENT and not hidden:
-            yield f"  {figure.label:25s} {figure.text(_quiet(key, value, solution))}"
+            yield f"  {figure.label:28s} {figure.text(_quiet(key, value, solution))}"
     for name in ("upper", "lower"):
         forces = solution.bearings(name)
         if forces is not None:
             ends = f"{forces.first:.5g} and {forces.second:.5g} N"
-            yield f"  {'bearings, ' + name:25s} {ends}"
+            yield f"  {'bearings, ' + name:28s} {ends}"
     for warning in solution.warnings:
         yield f"  note: {warning}"
 
 
 def _has_friction(solution: FaceSolution) -> bool:
     return solution.nip.friction > 0.0 or solution.nip.sheet is not None
-
-
-def _sheet_rows(solution: FaceSolution) -> tuple[tuple[str, Array, str], ...]:
-    """Return what a sheet has over y, as lines of the summary."""
-    if not isinstance(solution, SheetFaceSolution):
-        return ()
-    return (
-        ("traction, upper", solution.traction_upper, "N/mm"),
-        ("feed, upper", 100.0 * solution.feed_upper, "%"),
-        ("tension, inlet", solution.tension_in, "N/mm"),
-    )
 
 
 def _quiet(key: str, value: float, solution: FaceSolution) -> float:

@@ -9,43 +9,21 @@ from typing import Any
 import numpy as np
 
 from rollnip._results.case import case_tree, heat_tree, problem_hash
+from rollnip.figure import Figure
+from rollnip.heat.figures import BALANCE_FIGURES, NIP_FIGURES, ROLLER_FIGURES
 from rollnip.heat.follow import Branch, BranchPoint
 from rollnip.heat.solution import HeatSolution, RollerHeat
 from rollnip.heat.state import SIDES
 from rollnip.heat.warmup import WarmUp
 from rollnip.solution import Solution
 
-_ROLLER = (
-    "surface_temperature",
-    "bond_temperature",
-    "hot_spot",
-    "hot_spot_depth",
-    "power",
-    "viscous",
-    "friction",
-    "to_air",
-    "to_core",
-    "to_nip",
-    "growth",
-)
-_NIP = ("nip_width", "peak_pressure", "load", "approach", "creepage", "rolling_resistance")
-
-_SWEPT = {
-    "hot_spot": "degC",
-    "bond_temperature": "degC",
-    "surface_temperature": "degC",
-    "power": "mW/mm",
-    "growth": "mm",
-}
+_SWEPT = ("hot_spot", "bond_temperature", "surface_temperature", "power", "growth")
+_TEMPERATURES = ("hot_spot", "hot_spot_depth", "surface_temperature", "bond_temperature", "growth")
+_POWERS = ("viscous", "friction", "to_air", "to_core", "to_nip")
 HEAT_SCALARS: Mapping[str, str] = {
-    **{f"{side}.{name}": unit for side in SIDES for name, unit in _SWEPT.items()},
-    "power": "mW/mm",
-    "nip_width": "mm",
-    "peak_pressure": "MPa",
-    "load": "N/mm",
-    "approach": "mm",
-    "creepage": "1",
-    "rolling_resistance": "1",
+    **{f"{side}.{name}": ROLLER_FIGURES[name].unit for side in SIDES for name in _SWEPT},
+    "power": BALANCE_FIGURES["power"].unit,
+    **{name: figure.unit for name, figure in NIP_FIGURES.items()},
 }
 """Figures of a heat balance with their units: of each roller, of all heat, and of the warm nip."""
 
@@ -85,16 +63,12 @@ def heat_dict(solution: HeatSolution) -> dict[str, Any]:
 def _roller(roller: RollerHeat) -> dict[str, Any]:
     radii = [float(r) if isfinite(r) else None for r in roller.r]  # a plane has none
     return {"r": radii, "temperature": roller.temperature.tolist()} | {
-        name: getattr(roller, name) for name in _ROLLER
+        name: getattr(roller, name) for name in ROLLER_FIGURES
     }
 
 
 def _nip(solution: Solution) -> dict[str, Any]:
-    values = {name: getattr(solution, name) for name in _NIP}
-    return {
-        name: None if value is None or not isfinite(value) else float(value)
-        for name, value in values.items()
-    }
+    return {name: figure.value(solution) for name, figure in NIP_FIGURES.items()}
 
 
 def heat_parts(solution: HeatSolution) -> dict[str, Any]:
@@ -165,43 +139,30 @@ def _verdict(solution: HeatSolution) -> str:
 
 def _figures(solution: HeatSolution) -> Iterator[str]:
     yield f"\nTemperatures{'upper':>27s} {'lower':>12s}"
-    for label, name, unit in (
-        ("hot spot", "hot_spot", "degC"),
-        ("its depth", "hot_spot_depth", "mm"),
-        ("surface", "surface_temperature", "degC"),
-        ("bond", "bond_temperature", "degC"),
-        ("growth of the radius", "growth", "mm"),
-    ):
-        yield _row(label, [getattr(solution.of(side), name) for side in SIDES], unit)
+    for name in _TEMPERATURES:
+        yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES])
     yield "\nHeat, per metre of roller"
-    for label, name in (
-        ("viscous loss", "viscous"),
-        ("friction", "friction"),
-        ("to the air", "to_air"),
-        ("to the core", "to_core"),
-        ("over the nip", "to_nip"),
-    ):
-        yield _row(label, [getattr(solution.of(side), name) for side in SIDES], "W/m")
+    for name in _POWERS:
+        yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES])
     if solution.heat.sheet is not None:
-        yield _row("taken by the sheet", [solution.to_sheet], "W/m")
+        yield _row(BALANCE_FIGURES["to_sheet"], [solution])
     yield f"\nNip{'cold':>36s} {'warm':>12s}"
-    for label, name, unit, factor in (
-        ("nip width", "nip_width", "mm", 1.0),
-        ("peak pressure", "peak_pressure", "MPa", 1.0),
-        ("load", "load", "N/mm", 1.0),
-        ("approach", "approach", "mm", 1.0),
-        ("creepage", "creepage", "%", 100.0),
-        ("rolling resistance", "rolling_resistance", "%", 100.0),
-    ):
-        pair = [getattr(one, name) for one in (solution.cold, solution.warm)]
-        yield _row(label, [None if one is None else factor * one for one in pair], unit)
+    for figure in NIP_FIGURES.values():
+        yield _row(figure, [solution.cold, solution.warm])
     for warning in solution.warnings:
         yield f"Note: {warning}"
 
 
-def _row(label: str, values: list[float | None], unit: str) -> str:
+def _row(figure: Figure, results: list[Any]) -> str:
+    """Return the line of a figure of some results, in the unit shown."""
+    values = [figure.value(one) for one in results]
+    shown = [None if one is None else figure.factor * one for one in values]
+    return _line(figure.label, shown, figure.shown_unit)
+
+
+def _line(label: str, values: list[float | None], unit: str) -> str:
     shown = "".join(f" {'-' if one is None else _four(one):>12s}" for one in values)
-    return f"  {label:24s}{shown} {unit}"
+    return f"  {label:24s}{shown} {unit}".rstrip()
 
 
 def _four(value: float) -> str:
@@ -218,7 +179,7 @@ def warm_up_lines(course: WarmUp) -> Iterator[str]:
         row: list[float | None] = [
             float(np.interp(time, course.time, hottest[side])) for side in SIDES
         ]
-        yield _row(_span(time), row, "degC")
+        yield _line(_span(time), row, ROLLER_FIGURES["hot_spot"].shown_unit)
     if course.half_time is not None:
         yield f"  half of the rise after {_span(course.half_time)}"
 

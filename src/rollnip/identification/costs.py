@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError, require_positive
+from rollnip.figures import FIGURES
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
@@ -196,40 +197,46 @@ class Scalars(Measurements):
         return self.result
 
 
+def _figure(key: str) -> tuple[str, str, str]:
+    """Return label, unit and attribute of a figure of the registry."""
+    figure = FIGURES[key]
+    return figure.label, figure.unit.removeprefix("1"), figure.name
+
+
 class NipWidths(Scalars):
     """Nip widths [mm], mostly at line loads: ``at={"nip.load": [...]}``."""
 
-    quantity, unit, result = "nip width", "mm", "nip_width"
+    quantity, unit, result = _figure("nip_width")
 
 
 class Approaches(Scalars):
     """Approaches of the axles [mm], mostly at line loads."""
 
-    quantity, unit, result = "approach", "mm", "approach"
+    quantity, unit, result = _figure("approach")
 
 
 class Loads(Scalars):
     """Line loads [N/mm], mostly at approaches: ``at={"nip.approach": [...]}``."""
 
-    quantity, unit, result = "load", "N/mm", "load"
+    quantity, unit, result = _figure("load")
 
 
 class PeakPressures(Scalars):
     """Peak pressures [MPa], mostly at line loads."""
 
-    quantity, unit, result = "peak pressure", "MPa", "peak_pressure"
+    quantity, unit, result = _figure("peak_pressure")
 
 
 class Creepages(Scalars):
     """Creepages, mostly at tractions: ``at={"nip.traction": [...]}``."""
 
-    quantity, unit, result = "creepage", "", "creepage"
+    quantity, unit, result = _figure("creepage")
 
 
 class RollingResistances(Scalars):
     """Rolling-resistance coefficients, mostly at speeds: ``at={"nip.speed": [...]}``."""
 
-    quantity, unit, result = "rolling resistance", "", "rolling_resistance"
+    quantity, unit, result = _figure("rolling_resistance")
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

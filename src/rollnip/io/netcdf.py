@@ -15,16 +15,6 @@ from rollnip._extras import require_extra
 from rollnip._files import write_whole
 from rollnip._results.dataset import result_dataset
 
-_UNITS = {
-    "r": ("mm", "radius"),
-    "temperature": ("degC", "temperature"),
-    "time": ("s", "time"),
-    "hot_spot": ("degC", "highest temperature"),
-    "surface": ("degC", "temperature of the surface"),
-    "bond": ("degC", "temperature of the bond"),
-    "power": ("mW mm-1", "heat of the nip"),
-    "rise": ("K", "highest rise over the temperatures without heat"),
-}
 _SIDES = ("upper", "lower")
 
 
@@ -91,23 +81,26 @@ def _branch(branch: dict[str, Any]) -> Any:
     said: dict[str, Any] = {name: branch[name] for name in ("parameter", "unit", "status")}
     if branch["turning"] is not None:
         said["turning"] = branch["turning"]["value"]
-    units = {"value": (unit.replace("/mm", " mm-1").replace("/s", " s-1"), branch["parameter"])}
-    return _rows("value", columns, said, units)
+    value = {"units": unit, "long_name": branch["parameter"]}
+    return _rows("value", columns, said, value)
 
 
 def _rows(
     along: str,
     columns: dict[str, Any],
     attributes: dict[str, Any],
-    units: dict[str, tuple[str, str]] | None = None,
+    about: dict[str, str] | None = None,
 ) -> Any:
-    """Return the dataset of columns over the one called ``along``."""
+    """Return the dataset of columns over the one called ``along``, which ``about`` describes."""
     import xarray as xr
+
+    from rollnip.heat.figures import COURSES
 
     def described(key: str) -> dict[str, str]:
         plain = key.removesuffix("_upper").removesuffix("_lower")
-        unit, text = (_UNITS | (units or {})).get(plain, ("1", plain.replace("_", " ")))
-        return {"units": unit, "long_name": text}
+        if plain in COURSES:
+            return COURSES[plain].described
+        return about or {} if key == along else {"units": "1", "long_name": plain}
 
     rows = {
         key: [float("nan") if one is None else one for one in values]

@@ -143,13 +143,11 @@ def _dataset(solution: PatchSolution) -> Any:
 
     values = {}
     for name, field in fields_of(solution).items():
-        about = {"units": PATCH_FIELDS[name].unit, "long_name": PATCH_FIELDS[name].label}
-        values[name] = (("y", "x"), field, about)
+        values[name] = (("y", "x"), field, PATCH_FIELDS[name].described)
     scalars = {}
     for key, figure in PATCH_FIGURES.items():
         value, error = figure.value(solution), figure.error(solution)
-        about = {"units": figure.unit, "long_name": figure.label}
-        scalars[key] = ((), nan if value is None else value, about)
+        scalars[key] = ((), nan if value is None else value, figure.described)
         if error is not None:
             scalars[f"{key}_error"] = ((), error, {"units": figure.unit})
     places = {"units": "mm"}

@@ -68,8 +68,7 @@ def patch_lines(solution: PatchSolution) -> Iterator[str]:
 def _shown(figure: Any, solution: PatchSolution) -> str:
     """Return a figure in the unit shown with its error; 0 where the error is larger."""
     value, error = figure.value(solution), figure.error(solution)
-    unit = figure.shown_unit or ("" if figure.unit == "1" else figure.unit)
-    unit = f" {unit}" if unit else ""
+    unit = f" {figure.shown_unit}" if figure.shown_unit else ""
     if error is None:
         return f"{value * figure.factor:12.5g}{unit}"
     shown = 0.0 if abs(value) <= error and figure.when != "always" else value

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from rollnip._results.summary import line
 from rollnip._units import format_quantity
-from rollnip.figures import FIGURES
+from rollnip.figures import FIGURES, INTERFACE_FIGURES, PULL
 from rollnip.plots.field import plot_field
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.section import layer_texts
@@ -161,8 +161,8 @@ def _bond_rows(solution: Solution) -> Iterator[_Row]:
         yield _Row("Bond to the core")
     for bond in bonds:
         name, size = bond.roller, bond.peel_range
-        yield _number(f"shear range, {name}", bond.shear_range, "MPa", size=size)
-        yield _number(f"largest pull, {name}", bond.pull, "MPa", size=size)
+        for one in (INTERFACE_FIGURES["shear_range"], PULL):
+            yield _number(f"{one.label}, {name}", one.value(bond) or 0.0, one.shown_unit, size=size)
 
 
 def _roller_rows(name: str, roller: Roller) -> Iterator[_Row]:

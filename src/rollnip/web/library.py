@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib.resources import files
 from math import radians
@@ -11,9 +12,18 @@ from pathlib import Path
 from typing import Any, get_args
 
 from rollnip._units import Dimension, base_unit, conversions
-from rollnip.figures import FIGURES, ROUNDING, Figure
+from rollnip.face.figures import (
+    FACE_FIGURES,
+    FACE_PROFILES,
+    SHEET_FACE_FIGURES,
+    SHEET_FACE_PROFILES,
+)
+from rollnip.figure import ROUNDING, Figure
+from rollnip.figures import FIGURES
+from rollnip.heat.figures import BALANCE_FIGURES, ROLLER_FIGURES
 from rollnip.materials import SOURCES as THERMAL_SOURCES
 from rollnip.materials import TYPICAL, shore_a_band, shore_a_modulus
+from rollnip.patch.figures import PATCH_FIGURES
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sheets import SHEETS, Sheet
 from rollnip.web.answers import as_json
@@ -46,6 +56,7 @@ _SHARE, _DEGREE = ["%", 0.01], ["°", 1.0]
 _HORSEPOWER = 550.0 * 0.3048 * 4.4482216152605  # W; 550 ft lbf/s, what US drives are sized in
 _SHOWN_RESULTS = {
     "power per length": {"metric": ["W/m", 1.0], "us": ["hp/ft", _HORSEPOWER / 0.3048]},
+    "heat per length": {"metric": ["W/m", 1.0], "us": ["hp/ft", _HORSEPOWER / 0.3048]},
     "power per volume": {"metric": ["mW/mm³", 1.0], "us": ["hp/in³", 1e3 * _HORSEPOWER / 25.4**3]},
     "share": {"metric": _SHARE, "us": _SHARE},
     "angle": {"metric": _DEGREE, "us": _DEGREE},
@@ -61,6 +72,13 @@ _SHOWN_TOTALS = {
     "N": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
     "N m": {"metric": ["N·m", 1.0], "us": ["lbf·in", 0.11298482902762]},
     "W": {"metric": ["W", 1.0], "us": ["hp", _HORSEPOWER]},
+}
+# Registries of the other views, by the word that their German names begin with.
+MORE_FIGURES: Mapping[str, Mapping[str, Figure]] = {
+    "face": {**FACE_FIGURES, **SHEET_FACE_FIGURES},
+    "curve": {**FACE_PROFILES, **SHEET_FACE_PROFILES},
+    "heat": {**BALANCE_FIGURES, **ROLLER_FIGURES},
+    "patch": PATCH_FIGURES,
 }
 # In the order of the page: what is read first stands first.
 _FIRST = ("nip_width", "approach", "load", "peak_pressure", "mean_pressure", "dwell_time")
@@ -127,6 +145,10 @@ def figures_module() -> str:
         "ROUNDING": ROUNDING,
         "FIGURES": [_figure(FIGURES[key]) for key in keys],
         "SHEET_FIGURES": [_figure(figure) for figure in SHEET_FIGURES.values()],
+        "MORE_FIGURES": {
+            kind: {key: _figure(figure) for key, figure in registry.items()}
+            for kind, registry in MORE_FIGURES.items()
+        },
         "SHEETS": [{"name": name, "sheet": _sheet(sheet)} for name, sheet in SHEETS.items()],
         "THERMALS": [{"name": name, "source": THERMAL_SOURCES[name]} for name in TYPICAL],
         "TOTALS": [

@@ -10,28 +10,24 @@ import { bentPicture, printPicture } from "./facedrawing.js";
 import { ImpressionPart } from "./impression.js";
 import { getAt, placeInWords, same, setAt } from "./paths.js";
 import { PressControl, pressKind } from "./press.js";
-import { faceLabel } from "./quantities.js";
+import { faceLabel, figureIn } from "./quantities.js";
 import { inWords } from "./said.js";
 import { say } from "./texts.js";
 import { number } from "./units.js";
 
-const CURVES = [
-  ["load", "line load", "pressure"],
-  ["peak_pressure", "pressure", "pressure"],
-  ["nip_width", "length", "upper"],
-  ["traction", "line load", "shear"],
-];
-const SHEET_CURVES = [
-  ["feed_upper", "share", "upper"],
-  ["feed_lower", "share", "lower"],
-  ["tension_in", "line load", "shear"],
-];
-const SHEET_ROWS = [
-  ["mean_feed", "share", 4],
-  ["feed_difference", "feed per metre", 3],
-  ["least_tension_in", "line load", 3],
-  ["taut_tension", "line load", 3],
-];
+const COLOURS = {
+  load: "pressure",
+  peak_pressure: "pressure",
+  nip_width: "upper",
+  traction: "shear",
+  feed_upper: "upper",
+  feed_lower: "upper",
+  tension_in: "shear",
+};
+const CURVES = ["load", "peak_pressure", "nip_width", "traction"];
+const SHEET_CURVES = ["feed_upper", "feed_lower", "tension_in"];
+const ROWS = ["mean_load", "total_load", "evenness", "even_share", "largest_scrub", "added_length"];
+const SHEET_ROWS = ["mean_feed", "feed_difference", "least_tension_in", "taut_tension"];
 const NOISE = 1e-9; // of the mean load: a traction below it is rounding
 const WITHIN = 0.1;
 const FIELDS = [
@@ -157,7 +153,7 @@ export class FaceView {
       select({
         id: "face-curve",
         label: say("face.show"),
-        options: curvesIn(tree).map(([name]) => [name, say(`face.curve-${name}`)]),
+        options: curvesIn(tree).map((name) => [name, figureIn("curve", name).label]),
         value: curveIn(tree, view.face.curve),
         act: (curve) => put({ curve }),
       }),
@@ -267,7 +263,7 @@ function curvesIn(tree) {
 }
 
 function curveIn(tree, wanted) {
-  return curvesIn(tree).some(([name]) => name === wanted) ? wanted : CURVES[0][0];
+  return curvesIn(tree).includes(wanted) ? wanted : CURVES[0];
 }
 
 function servedText({ served, low, high, within }, text) {
@@ -281,13 +277,12 @@ function servedText({ served, low, high, within }, text) {
 
 /** A curve over the face. */
 export function faceChart(face, curve, units, palette) {
-  const known = [...CURVES, ...SHEET_CURVES].find(([name]) => name === curve && face[name]);
-  const [key, dimension, colour] = known ?? CURVES[0];
-  const name = say(`face.curve-${key}`);
+  const key = face[curve] ? curve : CURVES[0];
+  const { label: name, dimension } = figureIn("curve", key);
   const unit = units.name(dimension);
   const x = units.list(face.y, "length");
   const values = cleaned(face, key);
-  const data = [line(name, x, units.list(values, dimension), palette[colour], { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` })];
+  const data = [line(name, x, units.list(values, dimension), palette[COLOURS[key]], { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` })];
   if (key === "load") {
     const mean = units.shown(face.mean_load, dimension);
     const style = { dash: "dot", width: 1.5, hoverinfo: "skip" };
@@ -311,24 +306,13 @@ function cleaned(face, key) {
 /** What is said of a face, as {key, label, text, unit, error, hint}. */
 export function faceRows(face, units) {
   const worst = Math.max(...Object.values(face.error));
-  const row = (key, value, dimension, digits = 4) => ({
-    key,
-    label: say(`face.${key}`),
-    ...units.format(value, dimension, digits),
-    hint: say(`face.${key}-hint`),
-  });
-  const rows = [
-    row("mean_load", face.mean_load, "line load"),
-    row("total_load", face.total_load, "roller force"),
-    row("evenness", 100 * face.evenness, "ratio", 3),
-    row("even_share", 100 * face.even_share, "ratio", 3),
-    row("largest_scrub", cleanedScrub(face), "line load", 3),
-    ...(Number.isFinite(face.added_length) ? [row("added_length", face.added_length, "length", 3)] : []),
-    ...SHEET_ROWS.filter(([key]) => Number.isFinite(face[key])).map(([key, dimension, digits]) => row(key, face[key], dimension, digits)),
-    row("error", 100 * worst, "ratio", 2),
-  ];
-  const shares = ["evenness", "even_share", "error"];
-  return rows.map((one) => (shares.includes(one.key) ? { ...one, unit: "%" } : one));
+  const row = (key) => {
+    const { label, hint, dimension, digits } = figureIn("face", key);
+    const value = key === "largest_scrub" ? cleanedScrub(face) : face[key];
+    return { key, label, ...units.format(value, dimension, digits), hint };
+  };
+  const claimed = { key: "error", label: say("face.error"), ...units.format(worst, "share", 2), hint: say("face.error-hint") };
+  return [...[...ROWS, ...SHEET_ROWS].filter((key) => Number.isFinite(face[key])).map(row), claimed];
 }
 
 function cleanedScrub({ largest_scrub: scrub, mean_load: mean }) {
@@ -348,13 +332,10 @@ function figureOf({ key, label, hint, ...shown }) {
 /** Everything over y as rows of a table, units in the head. */
 export function faceColumns(face, units) {
   const columns = [
-    ["y", "y", "length"],
-    ...[...CURVES, ...SHEET_CURVES]
-      .filter(([key]) => face[key])
-      .map(([key, dimension]) => [say(`face.curve-${key}`), key, dimension]),
-    ...SIDES.map((side) => [say(`face.deflection-${side}`), `deflection_${side}`, "length"]),
-  ];
-  const head = columns.map(([name, , dimension]) => `${name} [${units.of(dimension).name}]`);
-  const lists = columns.map(([, key, dimension]) => units.list(cleaned(face, key), dimension));
+    "y",
+    ...[...CURVES, ...SHEET_CURVES, ...SIDES.map((side) => `deflection_${side}`)],
+  ].filter((key) => face[key]).map((key) => ({ ...figureIn("curve", key), list: cleaned(face, key) }));
+  const head = columns.map(({ label, dimension }) => `${label} [${units.of(dimension).name}]`);
+  const lists = columns.map(({ list, dimension }) => units.list(list, dimension));
   return [head, ...face.y.map((_y, i) => lists.map((list) => list[i]))];
 }

@@ -7,7 +7,7 @@ import { coreKind, heatPaths, losesHeat, withHeat } from "./heat.js";
 import { branchChart, depthChart, depthRows, warmChart } from "./heatcharts.js";
 import { placeInWords, same } from "./paths.js";
 import { pressKind } from "./press.js";
-import { faceLabel } from "./quantities.js";
+import { faceLabel, figureIn, figureOfNip } from "./quantities.js";
 import { inWords } from "./said.js";
 import { say } from "./texts.js";
 import { number } from "./units.js";
@@ -15,16 +15,9 @@ import { number } from "./units.js";
 const SIDES = ["upper", "lower"];
 const MINUTE = 60; // s
 const FINEST = 1e-4; // %, of a balance that is shown
-const TEMPERATURES = ["hot_spot", "bond_temperature", "surface_temperature"];
+const TEMPERATURES = ["hot_spot", "hot_spot_depth", "bond_temperature", "surface_temperature", "growth"];
 const POWERS = ["viscous", "friction", "to_air", "to_core", "to_nip"];
-const NIP = [
-  ["nip_width", "length"],
-  ["peak_pressure", "pressure"],
-  ["approach", "length"],
-  ["load", "line load"],
-  ["creepage", "share"],
-  ["rolling_resistance", "share"],
-];
+const NIP = ["nip_width", "peak_pressure", "approach", "load", "creepage", "rolling_resistance"];
 
 /** How the heat of a design is asked for: once the design rests. */
 export const HEAT_ROUTE = {
@@ -244,19 +237,17 @@ function branchSentence(branch, units) {
 
 /** Figures of heat as {key, label, cells}: {text, unit} of the upper and the lower roller, or cold and warm. */
 export function heatRows(heat, tree, units) {
-  const both = (key, dimension, digits = 4) => SIDES.map((side) => units.format(heat[side][key], dimension, digits));
-  const temperatures = TEMPERATURES.map((key) => ({ key, label: say(`heat.${key}`), cells: both(key, "temperature") }));
-  temperatures.splice(1, 0, { key: "hot_spot_depth", label: say("heat.hot_spot_depth"), cells: both("hot_spot_depth", "length", 3) });
-  temperatures.push({ key: "growth", label: say("heat.growth"), cells: both("growth", "length", 3) });
-  const used = POWERS.filter((key) => key !== "to_core" || SIDES.some((side) => tree[side].heat && coreKind(tree[side].heat) !== "insulated"));
-  const powers = used.map((key) => ({ key, label: say(`heat.${key}`), cells: both(key, "power per length", 3) }));
-  if (tree.heat.sheet) powers.push({ key: "to_sheet", label: say("heat.to_sheet"), cells: [units.format(heat.to_sheet, "power per length", 3)] });
-  powers.push({ key: "power", label: say("heat.power"), cells: both("power", "power per length", 3) });
-  const nip = NIP.map(([key, dimension]) => ({
-    key: `nip-${key}`,
-    label: say(`heat.nip-${key}`),
-    cells: ["cold", "warm"].map((state) => units.format(heat[state][key], dimension)),
-  }));
+  const row = (key, values, { label, dimension, digits }) => ({
+    key,
+    label,
+    cells: values.map((value) => units.format(value, dimension, digits)),
+  });
+  const both = (key) => row(key, SIDES.map((side) => heat[side][key]), figureIn("heat", key));
+  const temperatures = TEMPERATURES.map(both);
+  const powers = POWERS.filter((key) => key !== "to_core" || SIDES.some((side) => tree[side].heat && coreKind(tree[side].heat) !== "insulated")).map(both);
+  if (tree.heat.sheet) powers.push(row("to_sheet", [heat.to_sheet], figureIn("heat", "to_sheet")));
+  powers.push(both("power"));
+  const nip = NIP.map((key) => row(`nip-${key}`, [heat.cold[key], heat.warm[key]], figureOfNip(key)));
   return { temperatures, powers, nip };
 }
 

@@ -1,44 +1,34 @@
 // The pictures and figures of a patch: pressure with isolines, stick and slip with the shear.
 
 import { layoutOf, line, titled } from "./charts.js";
+import { figureIn } from "./quantities.js";
 import { say } from "./texts.js";
 
 const ARROWS = 13; // lines of shear along the longer side of the patch
-const FIGURES = [
-  ["load", "roller force"],
-  ["approach", "length"],
-  ["length", "length"],
-  ["width", "length"],
-  ["area", "area"],
-  ["peak_pressure", "pressure"],
-];
+const FIGURES = ["load", "approach", "length", "width", "area", "peak_pressure"];
 const OF_FRICTION = [
-  ["traction_x", "roller force"],
-  ["traction_y", "roller force"],
-  ["spin_moment", "moment"],
-  ["creepage", "share"],
-  ["lateral_creepage", "share"],
-  ["friction_resistance", "roller force"],
-  ["dissipation_friction", "power"],
+  "traction_x",
+  "traction_y",
+  "spin_moment",
+  "creepage",
+  "lateral_creepage",
+  "friction_resistance",
+  "dissipation_friction",
 ];
-const OF_LOSSES = [
-  ["rolling_resistance", "roller force"],
-  ["viscous_resistance", "roller force"],
-  ["dissipation_viscous", "power"],
-  ["load_centre", "length"],
-];
+const OF_LOSSES = ["rolling_resistance", "viscous_resistance", "dissipation_viscous", "load_centre"];
 
 /** The figures of a result as {key, label, value, error, dimension}; `friction` of the nip. */
 export function patchRows({ patch }, friction) {
   const isLossy = (key) => Boolean(patch[key]);
-  const wanted = [...FIGURES, ...(friction > 0 ? OF_FRICTION : []), ...OF_LOSSES.filter(([key]) => isLossy(key))];
+  const wanted = [...FIGURES, ...(friction > 0 ? OF_FRICTION : []), ...OF_LOSSES.filter(isLossy)];
   return wanted
-    .filter(([key]) => patch[key] !== null && patch[key] !== undefined)
-    .map(([key, dimension]) => {
+    .filter((key) => patch[key] !== null && patch[key] !== undefined)
+    .map((key) => {
+      const { label, dimension } = figureIn("patch", key);
       const error = patch.error[key] ?? null;
       const isNoise = error !== null && Math.abs(patch[key]) <= error;
-      const signed = OF_FRICTION.some(([name]) => name === key);
-      return { key, label: say(`patch.figure-${key}`), value: isNoise && signed ? 0 : patch[key], error, dimension };
+      const signed = OF_FRICTION.includes(key);
+      return { key, label, value: isNoise && signed ? 0 : patch[key], error, dimension };
     });
 }
 

@@ -1,7 +1,7 @@
 // The inputs and the answers by name: how each is called, measured and explained.
 
 import { meanLoad } from "./face.js";
-import { FIGURES, ROUNDING, SHEET_FIGURES, TOTALS } from "./figures.js";
+import { FIGURES, MORE_FIGURES, ROUNDING, SHEET_FIGURES, TOTALS } from "./figures.js";
 import { getAt } from "./paths.js";
 import { sheetPaths } from "./sheet.js";
 import { number } from "./units.js";
@@ -74,13 +74,23 @@ function said(figure) {
   return { ...figure, label: sayOr(`figure.${figure.key}`, figure.label), hint };
 }
 
+/** A figure of another view in the language of the page; `kind`: face, curve, heat or patch. */
+export function figureIn(kind, key) {
+  return said({ ...MORE_FIGURES[kind][key], key: `${kind}_${key}` });
+}
+
+/** A figure of the nip in the language of the page. */
+export function figureOfNip(wanted) {
+  return said(FIGURES.find(({ key }) => key === wanted));
+}
+
 function totalLabel(key, label) {
   const figure = sayOr(`figure.${key}`, null);
   return figure === null ? label : say("figure.whole", { figure });
 }
 
 function labelOf(key) {
-  return said(FIGURES.find((figure) => figure.key === key)).label;
+  return figureOfNip(key).label;
 }
 
 const NIP = {

@@ -47,7 +47,7 @@ export const LIBRARY_DE = {
   "example.figure-4-top-layer-0.2mm": "Bild 4, Deckschicht 0,2 mm",
   "example.figure-4-top-layer-0.2mm.hint": `Eine harte Deckschicht auf einer weichen, von einer starren Walze gedrückt. ${PAPER}. ${FOUR}`,
   "example.figure-5-elastic-driven": "Bild 5, elastisch, angetrieben",
-  "example.figure-5-elastic-driven.hint": `Eine elastische Schicht, die treibt: die Tangentialkraft macht den Druck schief. ${PAPER}, Bild 5A. ${FIVE} ${DRIVES}`,
+  "example.figure-5-elastic-driven.hint": `Eine elastische Schicht, die treibt: die Umfangskraft macht den Druck schief. ${PAPER}, Bild 5A. ${FIVE} ${DRIVES}`,
   "example.figure-5-viscoelastic-free": "Bild 5, viskoelastisch, frei rollend",
   "example.figure-5-viscoelastic-free.hint": `Eine viskoelastische Schicht, die frei rollt: die Verluste des Werkstoffs machen den Druck schief. ${PAPER}, Bild 5B. ${FIVE} Der Modul 2,0 MPa ist als der relaxierte genommen.`,
   "library.polyurethane": "Polyurethan (PUR), nach Härte",

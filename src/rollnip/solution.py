@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property
-from math import isinf, isnan, nan
+from math import isinf, nan
 from typing import Any, Literal
 
 import numpy as np
@@ -12,7 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip._results.presented import Presented
-from rollnip.contact import State, contact_intervals
 from rollnip.interior import (
     FiniteFields,
     InterfaceStress,
@@ -25,25 +25,7 @@ from rollnip.interior import (
 )
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling import (
-    DeformedSurfaces,
-    PairKernels,
-    Powers,
-    Profiles,
-    Round,
-    SolverInfo,
-    Zone,
-    claims,
-    fields_at,
-    fine_points,
-    further_claims,
-    peak_pressure,
-    powers,
-    rates_of,
-    slip_velocity,
-    surface_depths,
-    surface_strain,
-)
+from rollnip.rolling import DeformedSurfaces, Powers, Profiles, SolverInfo, Zone, rates_of
 
 __all__ = ["DeformedSurfaces", "Profiles", "Solution", "SolverInfo", "Zone"]
 
@@ -51,8 +33,11 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)
-class Solution(Presented):
+class Solution(Presented, ABC):
     """A solved nip. Units mm, N, MPa, s; x points to the leading edge (the inlet).
+
+    What holds for every nip. `solve` returns a `rollnip.smooth.SmoothSolution`, with a sheet a
+    `rollnip.sheet.SheetSolution`, with a measured profile a `rollnip.rough.RoughSolution`.
 
     Attributes
     ----------
@@ -71,8 +56,6 @@ class Solution(Presented):
     status: str
     warnings: tuple[str, ...]
     solver: SolverInfo
-    final: Round = field(repr=False)
-    kernels: PairKernels = field(repr=False)
     max_surface_strain: float | None = field(default=None, kw_only=True, repr=False)
 
     @property
@@ -81,28 +64,27 @@ class Solution(Presented):
         return None
 
     @property
+    @abstractmethod
     def load(self) -> float:
         """Line load F [N/mm]."""
-        return self.final.figures.load
 
     @property
+    @abstractmethod
     def approach(self) -> float | None:
         """Approach delta of the axles [mm]; None with a half-space core."""
-        return None if self.nip.has_half_space else self.final.state.approach
 
     @property
+    @abstractmethod
     def creepage(self) -> float | None:
         """Creepage xi = (V_u - V_l)/V; None where it is free (no friction)."""
-        creepage = self.final.state.creepage
-        return None if isnan(creepage) else creepage
 
     @property
+    @abstractmethod
     def traction(self) -> float:
         """Traction T [N/mm]: int q dx, "curved" and "corrected": per undeformed arc, mean of both.
 
         T > 0: the upper roller drives the lower one.
         """
-        return float(self.final.problem.weights @ self.final.state.shear)
 
     @property
     def speed_ratio(self) -> float | None:
@@ -110,15 +92,15 @@ class Solution(Presented):
         xi = self.creepage
         return None if xi is None else (1.0 + 0.5 * xi) / (1.0 - 0.5 * xi)
 
-    @cached_property
+    @property
+    @abstractmethod
     def contact(self) -> tuple[tuple[float, float], ...]:
         """Contact intervals (trailing, leading) [mm], trailing first."""
-        return contact_intervals(self.final.zones)
 
     @property
+    @abstractmethod
     def nip_width(self) -> float:
         """Nip width, from the outermost trailing to the outermost leading edge [mm]."""
-        return self.final.figures.nip_width
 
     @property
     def dwell_time(self) -> float | None:
@@ -126,32 +108,24 @@ class Solution(Presented):
         return None if self.nip.speed is None else self.nip_width / self.nip.speed
 
     @property
+    @abstractmethod
     def peak_pressure(self) -> float:
         """Highest pressure [MPa]."""
-        return self.final.figures.peak_pressure
 
     @property
+    @abstractmethod
     def peak_pressure_x(self) -> float:
         """Place of the highest pressure [mm]."""
-        return peak_pressure(self.final.x, self.final.pressure)[1]
 
     @property
     def mean_pressure(self) -> float:
         """Load over contacted length [MPa]."""
         return self.load / sum(leading - trailing for trailing, leading in self.contact)
 
-    @cached_property
+    @property
+    @abstractmethod
     def zones(self) -> tuple[Zone, ...]:
         """Stick and slip zones from trailing to leading edge; empty without friction."""
-        if self.nip.friction == 0.0:
-            return ()
-        # q = -mu p sign(slip velocity): shear to the plus side resists slip to the minus side.
-        kinds: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
-            State.STICK: ("stick", None),
-            State.SLIP_PLUS: ("slip", -1),
-            State.SLIP_MINUS: ("slip", 1),
-        }
-        return tuple(Zone(z.start, z.stop, *kinds[z.state]) for z in self.final.zones)
 
     @property
     def torque_upper(self) -> float | None:
@@ -199,6 +173,7 @@ class Solution(Presented):
         return self.nip.speed * (traction * (self.creepage or 0.0) + upper + lower)
 
     @property
+    @abstractmethod
     def error(self) -> dict[str, float]:
         """Estimated errors, absolute, in the unit of each figure; nan where it is not defined.
 
@@ -206,67 +181,41 @@ class Solution(Presented):
         and `status` follow from those that `Model.tolerance` is for. A prescribed figure is off by
         what it misses the prescribed value by.
         """
-        geometry, final = self.model.geometry, self.final
-        further = further_claims(self.nip, geometry, final, self._powers)
-        return claims(self.nip, geometry, final) | further
 
-    @cached_property
+    @property
+    @abstractmethod
     def profiles(self) -> Profiles:
         """Distributions in and outside the nip."""
-        x = fine_points(self.final)
-        fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
-        strains = [
-            surface_strain(x, self.nip, self.model.geometry, self.kernels, self.final, side=side)
-            for side in ("upper", "lower")
-        ]
-        speeds = self._roller_speeds
-        slip = None
-        if speeds is not None and self.nip.friction > 0.0:
-            slip = slip_velocity(fields, self.final.zones, 0.5 * sum(speeds))
-        return Profiles(
-            x=x,
-            pressure=fields.pressure,
-            shear=fields.shear,
-            gap=np.where(fields.pressure > 0.0, 0.0, np.maximum(fields.gap, 0.0)),
-            slip_velocity=slip,
-            strain_upper=strains[0],
-            strain_lower=strains[1],
-            speed_upper=None if speeds is None else speeds[0] * (1.0 + strains[0]),
-            speed_lower=None if speeds is None else speeds[1] * (1.0 + strains[1]),
-        )
 
-    @cached_property
+    @property
+    @abstractmethod
     def deformed_surfaces(self) -> DeformedSurfaces:
         """Heights of both surfaces in and outside the nip, with the gap of the geometry model.
 
         Half-space cores have no finite approach: heights are then relative to a displacement
         that is left out.
         """
-        x = fine_points(self.final)
-        fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
-        depths = surface_depths(x, self.nip, self.model.geometry, fields.displacements)
-        return DeformedSurfaces(x, depths[0] - self.final.state.approach, -depths[1])
 
     @property
+    @abstractmethod
     def nodes(self) -> Array:
         """Nodes of the mesh that carry tractions, from trailing to leading, (n,) [mm]."""
-        return self.final.x
 
     @property
+    @abstractmethod
     def pressure(self) -> Array:
         """Pressure at the nodes, linear between them, (n,) [MPa]; it adds up to the load.
 
         Between nodes its mean is right, so at a node it may exceed ``peak_pressure`` by a few 1e-4.
         """
-        return self.final.pressure
 
     @property
+    @abstractmethod
     def shear(self) -> Array:
         """Shear on the upper roller along +x as it acts, linear between the nodes, (n,) [MPa].
 
         In stick next to a transition it is within friction times pressure to the tolerance only.
         """
-        return self.final.shear
 
     def interior(
         self,
@@ -333,7 +282,7 @@ class Solution(Presented):
         depths = np.append(0.0, np.atleast_1d(np.asarray(z, dtype=float)))
         given = self.model.geometry, self.nip.speed
         lost = loss_below(one, self._tractions_on(roller), depths, *given)
-        further = self.final.mesh.kernels.heat_beyond[0 if upper else 1]
+        further = self._heat_beyond[0 if upper else 1]
         share = 1.0 + further / lost[0] if lost[0] > 0.0 else 1.0
         return np.asarray(self.nip.speed * rate * share * lost[1:])
 
@@ -366,15 +315,19 @@ class Solution(Presented):
         return {}
 
     @property
+    def _heat_beyond(self) -> tuple[float, float]:
+        """Heat over V of the upper and the lower roller beyond linear theory [N/mm]."""
+        return 0.0, 0.0
+
+    @property
     def _section(self) -> Array:
         """Places to one nip width outside the contact, (401,) [mm]."""
         trailing, leading = self.contact[0][0], self.contact[-1][1]
         return np.linspace(trailing - self.nip_width, leading + self.nip_width, 401)
 
+    @abstractmethod
     def _tractions_on(self, roller: str) -> SurfaceTractions:
         """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""
-        shear = self.shear if roller == "upper" else -self.shear
-        return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 
     @property
     def _roller_speeds(self) -> tuple[float, float] | None:
@@ -384,10 +337,10 @@ class Solution(Presented):
         half = 0.5 * self.creepage
         return self.nip.speed * (1.0 + half), self.nip.speed * (1.0 - half)
 
-    @cached_property
+    @property
+    @abstractmethod
     def _powers(self) -> Powers:
-        final = self.final
-        return powers(self.nip, self.model.geometry, final.mesh, final.state, final.zones)
+        """Powers of the contact."""
 
     @property
     def _rates(self) -> tuple[float, float]:

@@ -32,6 +32,7 @@ from rollnip.rolling import (
     verdict,
     with_second_order,
 )
+from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import Strains, validity_warnings
 
@@ -148,7 +149,7 @@ def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solutio
     _require_grip(nip, final)
     converged, status = _verdict(nip, model, final)
     strains = Strains.of(nip, model, final)
-    return Solution(
+    return SmoothSolution(
         nip=nip,
         model=model,
         converged=converged,

@@ -24,8 +24,7 @@ def edge_peak(solution: Solution) -> float:
 
 def edge_load(solution: Solution, width: float) -> float:
     """Load carried within ``width`` [mm] of the leading edge [N/mm]."""
-    x = solution.final.nodes
-    pressure = np.concatenate([[0.0], solution.pressure, [0.0]])
+    x, pressure = solution.profiles.x, solution.profiles.pressure
     carried = np.concatenate([[0.0], cumulative_trapezoid(pressure, x)])
     edge = solution.contact[-1][1]
     return float(np.interp(edge, x, carried) - np.interp(edge - width, x, carried))
@@ -33,8 +32,7 @@ def edge_load(solution: Solution, width: float) -> float:
 
 def pressure_offset(solution: Solution) -> float:
     """Centre of pressure, from the middle of the contact, over the half-width; > 0: leading."""
-    x = solution.final.nodes
-    pressure = np.concatenate([[0.0], solution.pressure, [0.0]])
+    x, pressure = solution.profiles.x, solution.profiles.pressure
     centre = float(np.trapezoid(pressure * x, x) / np.trapezoid(pressure, x))
     first, last = solution.contact[0][0], solution.contact[-1][1]
     return (centre - 0.5 * (first + last)) / (0.5 * (last - first))

@@ -74,8 +74,9 @@ def draw_pressure(data: PressureFigure) -> Figure:
     figure = Figure(figsize=(8.0, 5.0), layout="constrained")
     ax = figure.subplots()
     for thickness, solution, color in zip(data.thicknesses, data.solutions, _COLORS, strict=True):
-        x = solution.final.nodes
-        pressure = np.concatenate([[0.0], solution.pressure, [0.0]])
+        first, last = solution.contact[0][0], solution.contact[-1][1]
+        inside = (solution.profiles.x >= first) & (solution.profiles.x <= last)
+        x, pressure = solution.profiles.x[inside], solution.profiles.pressure[inside]
         label = f"d = {thickness:g} mm, peak {solution.peak_pressure:.2f} MPa"
         ax.plot(x, pressure, color=color, linewidth=1.6, label=label)
     ax.axhline(0.0, color=_GREY, linewidth=0.8)

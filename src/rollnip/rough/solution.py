@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from functools import cached_property
 from math import nan
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,10 +14,8 @@ from rollnip.nip import Approach
 from rollnip.rollers import Roller
 from rollnip.rolling import (
     DeformedSurfaces,
-    PairKernels,
     Powers,
     Profiles,
-    Round,
     Zone,
     hoop_curvature,
 )
@@ -38,24 +35,14 @@ class RoughSolution(Solution):
     Everything that `Solution` says, with these differences: there is no shear, no creepage and no
     zone; ``torque_upper``, ``torque_lower`` and ``power_in`` are None (what an uneven snapshot
     would give is not what a turn gives: on average that is 0); ``contact`` has an interval for
-    each piece that touches; ``final`` and ``kernels`` are not there.
+    each piece that touches.
 
     Attributes
     ----------
     rough : the solved contact.
     """
 
-    final: Round = field(init=False, repr=False, compare=False)
-    kernels: PairKernels = field(init=False, repr=False, compare=False)
     rough: RoughContact = field(kw_only=True, repr=False, compare=False)
-
-    def __getattr__(self, name: str) -> Any:
-        if name in ("final", "kernels"):
-            raise AttributeError(
-                f"`{name}` is of smooth rollers; a nip with measured profiles is solved on a "
-                "uniform grid: see `rough`, or `nodes` and `pressure`."
-            )
-        raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
 
     @property
     def load(self) -> float:

@@ -35,7 +35,7 @@ from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, Refined, SheetFigures,
 from rollnip.sheet.result import SheetProfiles, SheetResult, slip_share_of
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of
-from rollnip.solution import Solution
+from rollnip.smooth import SmoothSolution
 
 Array = NDArray[np.float64]
 _Side = Literal["upper", "lower"]
@@ -47,7 +47,7 @@ _KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
 
 
 @dataclass(frozen=True, repr=False)
-class SheetSolution(Solution):
+class SheetSolution(SmoothSolution):
     """A solved nip with a sheet.
 
     Everything that `Solution` says, with these differences: ``creepage`` is the difference of the

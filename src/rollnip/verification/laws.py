@@ -132,8 +132,8 @@ def _losses(solution: Solution) -> float:
 
 def _spent(solution: Solution) -> float:
     """Losses over T (V_u - V_l) + V (1/R_u + 1/R_l) int p x dx, the work balance of flat layers."""
-    nip, nodes, p = solution.nip, solution.final.nodes, np.pad(solution.pressure, 1)
-    a, b = nodes[:-1], nodes[1:]
+    nip, profiles = solution.nip, solution.profiles
+    p, (a, b) = profiles.pressure, (profiles.x[:-1], profiles.x[1:])
     moment = float(np.sum((b - a) * (p[:-1] * (2.0 * a + b) + p[1:] * (a + 2.0 * b)) / 6.0))
     slip = solution.traction * (solution.creepage or 0.0)
     return _losses(solution) / (100.0 * (slip + nip.curvature * moment))

@@ -1,0 +1,189 @@
+"""The result for smooth rollers that touch each other: every figure from the last mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from functools import cached_property
+from math import isnan
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import State, contact_intervals
+from rollnip.interior import SurfaceTractions
+from rollnip.rolling import (
+    DeformedSurfaces,
+    PairKernels,
+    Powers,
+    Profiles,
+    Round,
+    Zone,
+    claims,
+    fields_at,
+    fine_points,
+    further_claims,
+    peak_pressure,
+    powers,
+    slip_velocity,
+    surface_depths,
+    surface_strain,
+)
+from rollnip.solution import Solution
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class SmoothSolution(Solution):
+    """A solved nip of smooth rollers, as `Solution` says.
+
+    Attributes
+    ----------
+    final : the contact on the last mesh, with its error estimates.
+    kernels : the influence functions of both rollers.
+    """
+
+    final: Round = field(repr=False, kw_only=True)
+    kernels: PairKernels = field(repr=False, kw_only=True)
+
+    @property
+    def load(self) -> float:
+        """Line load F [N/mm]."""
+        return self.final.figures.load
+
+    @property
+    def approach(self) -> float | None:
+        """Approach delta of the axles [mm]; None with a half-space core."""
+        return None if self.nip.has_half_space else self.final.state.approach
+
+    @property
+    def creepage(self) -> float | None:
+        """Creepage xi = (V_u - V_l)/V; None where it is free (no friction)."""
+        creepage = self.final.state.creepage
+        return None if isnan(creepage) else creepage
+
+    @property
+    def traction(self) -> float:
+        """Traction T [N/mm]: int q dx, "curved" and "corrected": per undeformed arc, mean of both.
+
+        T > 0: the upper roller drives the lower one.
+        """
+        return float(self.final.problem.weights @ self.final.state.shear)
+
+    @cached_property
+    def contact(self) -> tuple[tuple[float, float], ...]:
+        """Contact intervals (trailing, leading) [mm], trailing first."""
+        return contact_intervals(self.final.zones)
+
+    @property
+    def nip_width(self) -> float:
+        """Nip width, from the outermost trailing to the outermost leading edge [mm]."""
+        return self.final.figures.nip_width
+
+    @property
+    def peak_pressure(self) -> float:
+        """Highest pressure [MPa]."""
+        return self.final.figures.peak_pressure
+
+    @property
+    def peak_pressure_x(self) -> float:
+        """Place of the highest pressure [mm]."""
+        return peak_pressure(self.final.x, self.final.pressure)[1]
+
+    @cached_property
+    def zones(self) -> tuple[Zone, ...]:
+        """Stick and slip zones from trailing to leading edge; empty without friction."""
+        if self.nip.friction == 0.0:
+            return ()
+        # q = -mu p sign(slip velocity): shear to the plus side resists slip to the minus side.
+        kinds: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
+            State.STICK: ("stick", None),
+            State.SLIP_PLUS: ("slip", -1),
+            State.SLIP_MINUS: ("slip", 1),
+        }
+        return tuple(Zone(z.start, z.stop, *kinds[z.state]) for z in self.final.zones)
+
+    @property
+    def error(self) -> dict[str, float]:
+        """Estimated errors, absolute, in the unit of each figure; nan where it is not defined.
+
+        What the mesh leaves; in "second" at least what its second order leaves open. `converged`
+        and `status` follow from those that `Model.tolerance` is for. A prescribed figure is off by
+        what it misses the prescribed value by.
+        """
+        geometry, final = self.model.geometry, self.final
+        further = further_claims(self.nip, geometry, final, self._powers)
+        return claims(self.nip, geometry, final) | further
+
+    @cached_property
+    def profiles(self) -> Profiles:
+        """Distributions in and outside the nip."""
+        x = fine_points(self.final)
+        fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
+        strains = [
+            surface_strain(x, self.nip, self.model.geometry, self.kernels, self.final, side=side)
+            for side in ("upper", "lower")
+        ]
+        speeds = self._roller_speeds
+        slip = None
+        if speeds is not None and self.nip.friction > 0.0:
+            slip = slip_velocity(fields, self.final.zones, 0.5 * sum(speeds))
+        return Profiles(
+            x=x,
+            pressure=fields.pressure,
+            shear=fields.shear,
+            gap=np.where(fields.pressure > 0.0, 0.0, np.maximum(fields.gap, 0.0)),
+            slip_velocity=slip,
+            strain_upper=strains[0],
+            strain_lower=strains[1],
+            speed_upper=None if speeds is None else speeds[0] * (1.0 + strains[0]),
+            speed_lower=None if speeds is None else speeds[1] * (1.0 + strains[1]),
+        )
+
+    @cached_property
+    def deformed_surfaces(self) -> DeformedSurfaces:
+        """Heights of both surfaces in and outside the nip, with the gap of the geometry model.
+
+        Half-space cores have no finite approach: heights are then relative to a displacement
+        that is left out.
+        """
+        x = fine_points(self.final)
+        fields = fields_at(x, self.nip, self.model.geometry, self.kernels, self.final)
+        depths = surface_depths(x, self.nip, self.model.geometry, fields.displacements)
+        return DeformedSurfaces(x, depths[0] - self.final.state.approach, -depths[1])
+
+    @property
+    def nodes(self) -> Array:
+        """Nodes of the mesh that carry tractions, from trailing to leading, (n,) [mm]."""
+        return self.final.x
+
+    @property
+    def pressure(self) -> Array:
+        """Pressure at the nodes, linear between them, (n,) [MPa]; it adds up to the load.
+
+        Between nodes its mean is right, so at a node it may exceed ``peak_pressure`` by a few 1e-4.
+        """
+        return self.final.pressure
+
+    @property
+    def shear(self) -> Array:
+        """Shear on the upper roller along +x as it acts, linear between the nodes, (n,) [MPa].
+
+        In stick next to a transition it is within friction times pressure to the tolerance only.
+        """
+        return self.final.shear
+
+    def _tractions_on(self, roller: str) -> SurfaceTractions:
+        """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""
+        shear = self.shear if roller == "upper" else -self.shear
+        return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
+
+    @cached_property
+    def _powers(self) -> Powers:
+        final = self.final
+        return powers(self.nip, self.model.geometry, final.mesh, final.state, final.zones)
+
+    @property
+    def _heat_beyond(self) -> tuple[float, float]:
+        return self.final.mesh.kernels.heat_beyond

@@ -77,6 +77,7 @@ class HandMade:
     max_surface_strain: float | None = 0.04
     interfaces: tuple[InterfaceStress, ...] = ()
     sheet: None = None
+    peaks_alike_x: tuple[float, ...] = ()
 
     def is_finite_inside(self, of):
         return True

@@ -180,6 +180,11 @@ class Figure:
         return f"{self.number(value)} {self.shown_unit}".rstrip()
 
     @property
+    def axis(self) -> str:
+        """Label of an axis in a picture: the label and the unit shown."""
+        return f"{self.label} [{self.shown_unit}]" if self.shown_unit else self.label
+
+    @property
     def described(self) -> dict[str, str]:
         """Attributes of a variable of a data set: units, long_name and comment."""
         comment = f"{self.sentence} {self.sign}".rstrip()

@@ -105,7 +105,8 @@ _SCALARS: tuple[Figure, ...] = (
         symbol=r"x(p_\mathrm{max})",
         label="peak pressure at x",
         dimension="length",
-        sentence="Where the pressure is highest, from the line of centres.",
+        sentence="Where the pressure is highest, of equal peaks the leading one, from the line of "
+        "centres.",
         sign="Positive towards the leading edge (inlet).",
         size={"nip_width": 1},
         claimed=True,

@@ -88,7 +88,7 @@ class SmoothSolution(Solution):
 
     @property
     def peak_pressure_x(self) -> float:
-        """Place of the highest pressure [mm]."""
+        """Place of the highest pressure [mm]; the leading one of peaks that are equally high."""
         return peak_pressure(self.final.x, self.final.pressure)[1]
 
     @cached_property

@@ -25,7 +25,16 @@ from rollnip.interior import (
 )
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling import DeformedSurfaces, Powers, Profiles, SolverInfo, Zone, rates_of
+from rollnip.rolling import (
+    DeformedSurfaces,
+    Powers,
+    Profiles,
+    SolverInfo,
+    Zone,
+    peak_at,
+    peaks_alike,
+    rates_of,
+)
 
 __all__ = ["DeformedSurfaces", "Profiles", "Solution", "SolverInfo", "Zone"]
 
@@ -115,7 +124,13 @@ class Solution(Presented, ABC):
     @property
     @abstractmethod
     def peak_pressure_x(self) -> float:
-        """Place of the highest pressure [mm]."""
+        """Place of the highest pressure [mm]; the leading one of peaks that are equally high."""
+
+    @property
+    def peaks_alike_x(self) -> tuple[float, ...]:
+        """Places of the other peaks that agree with the highest to four digits [mm]."""
+        x, p = self.nodes, self.pressure
+        return tuple(peak_at(x, p, i)[1] for i in peaks_alike(p)[:-1])
 
     @property
     def mean_pressure(self) -> float:

@@ -178,13 +178,13 @@ def test_what_a_face_with_a_sheet_holds_in_files(one_speed, free):
     variables, _ = face_variables(tree)
     assert variables["face_feed_upper"][1] == one_speed.feed_upper.tolist()
     text = "\n".join(face_lines(free))
-    assert "tension, inlet" in text
+    assert "tension at the inlet" in text
     assert "ends feed more by" in text
 
 
 def test_the_picture_has_feed_and_tension(one_speed):
     labels = [ax.get_ylabel() for ax in plot_face(one_speed).axes]
-    assert labels[3:5] == ["feed over mean [mm/m]", "tension, inlet [N/mm]"]
+    assert labels[3:5] == ["feed over mean [mm/m]", "tension at the inlet [N/mm]"]
 
 
 def test_how_the_sheet_runs_is_read_and_written_again(one_speed):

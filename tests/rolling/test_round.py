@@ -2,13 +2,15 @@
 
 from dataclasses import replace
 from math import inf
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.rolling import Figures, creepage_scale, excess, peak_pressure
+from rollnip.rolling import Figures, creepage_scale, excess, peak_pressure, peaks_alike
 
+EXAMPLES = Path(__file__).parents[2] / "examples"
 FIGURES = Figures(approach=0.2, load=1.5, creepage=0.02, nip_width=4.0, peak_pressure=0.3)
 
 
@@ -86,3 +88,25 @@ def test_no_error_is_small_where_nothing_is_pressed(case, solved):
     final = solved(case[0]).final
     nothing = replace(final, figures=replace(final.figures, peak_pressure=0.0))
     assert excess(case[1], nothing, 1e-3) == inf
+
+
+def test_of_peaks_that_are_equally_high_the_leading_one_is_the_place():
+    """Rounding does not choose between them; a fifth digit does not make one of them higher."""
+    x = np.linspace(-1.0, 1.0, 41)
+    twins = np.exp(-40.0 * (x - 0.8) ** 2) + np.exp(-40.0 * (x + 0.8) ** 2)
+    for tilt in (-1e-12, 0.0, 1e-12, -4e-5):
+        assert peak_pressure(x, twins * (1.0 + tilt * x))[1] == pytest.approx(0.8, abs=1e-3)
+        assert len(peaks_alike(twins * (1.0 + tilt * x))) == 2
+    assert peak_pressure(x, twins * (1.0 - 1e-3 * x))[1] == pytest.approx(-0.8, abs=1e-3)
+    assert len(peaks_alike(twins * (1.0 - 1e-3 * x))) == 1
+
+
+def test_the_place_of_peaks_beside_both_edges_of_a_skin_is_known():
+    """Their place is said to a share of their distance from the edge, not to the whole nip."""
+    case = rn.read_case(EXAMPLES / "figure-4-top-layer-0.2mm.toml")
+    solution = rn.solve(case.nip, rn.Model(geometry="curved"))
+    leading, (trailing,) = solution.peak_pressure_x, solution.peaks_alike_x
+    assert leading == pytest.approx(-trailing, rel=1e-3)
+    assert 0.9 < leading / solution.contact[-1][1] < 1.0
+    assert solution.error["peak_pressure_x"] < 0.02 * solution.nip_width
+    assert "as high at x" in solution.summary()

@@ -41,9 +41,9 @@ class Counted:
     def __init__(self):
         self.asked = 0
 
-    async def run(self, name, body, seconds, **options):
+    async def run(self, task):
         self.asked += 1
-        return Reply(422 if body["case"]["friction"] < 0 else 200, f"{self.asked}".encode())
+        return Reply(422 if task.body["case"]["friction"] < 0 else 200, f"{self.asked}".encode())
 
 
 def test_a_question_that_comes_again_needs_no_worker():

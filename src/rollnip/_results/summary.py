@@ -58,6 +58,7 @@ def sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
             if figure.section == section:
                 lines.append(line(figure, solution))
                 lines += _contact(solution) if figure.key == "nip_width" else ()
+                lines += _alike(solution) if figure.key == "peak_pressure_x" else ()
         yield heading, lines
     if solution.sheet is not None:
         yield "Sheet", [line(figure, solution) for figure in SHEET_FIGURES.values()]
@@ -164,6 +165,16 @@ def _contact(solution: Any) -> Iterator[Line]:
         return
     for trailing, leading in intervals:
         yield from _edges(solution, trailing, leading)
+
+
+def _alike(solution: Any) -> Iterator[Line]:
+    """Yield a line for the place of each further peak as high as the highest; one for many."""
+    places = solution.peaks_alike_x
+    if len(places) > _MOST_INTERVALS:
+        yield Line("  as high in", f"{len(places)}", "other places")
+        return
+    for place in places:
+        yield Line("  as high at x", _number(place), "mm")
 
 
 def _edges(solution: Any, trailing: float, leading: float) -> Iterator[Line]:

@@ -47,7 +47,7 @@ from rollnip.io.designs import (
     parse_optimise,
     parse_tolerance,
 )
-from rollnip.io.document import read_document
+from rollnip.io.document import folder_of, read_document
 from rollnip.io.messages import placed
 
 _Entry = TypeVar("_Entry")
@@ -170,7 +170,7 @@ def _at(source: str, where: str) -> Iterator[None]:
 
 def _case(given: Any, path: str | Path) -> Mapping[str, Any]:
     if isinstance(given, str):
-        folder = Path() if str(path) == "-" else Path(path).parent
+        folder = folder_of(path)
         return read_document(folder / given)
     if not isinstance(given, dict):
         raise CaseFileError(f"{path}: case: must be the name of a case file, or a table.")
@@ -183,7 +183,7 @@ def _fitted(
     """The unknowns of a fit as parameters, and their correlations; nothing without one."""
     if name is None:
         return (), ()
-    folder = Path() if str(path) == "-" else Path(path).parent
+    folder = folder_of(path)
     with _at(str(path), "fit"):
         return posterior(read_document(folder / name))
 

@@ -14,7 +14,7 @@ from rollnip.design.quantities import QUANTITIES, result_error
 from rollnip.design.scatter import Chance, Scatter, Share, Tolerance
 from rollnip.figures import FIGURES
 from rollnip.plots import plot_distribution, plot_shares
-from rollnip.plots.style import FULL, MM, Style, palette_of
+from rollnip.plots.style import Style, page
 
 _DIGITS = 5
 _ROUNDING = 1e-9  # relative error that counts as none
@@ -95,9 +95,8 @@ def plot_tolerance(found: Tolerance, *, style: Style = "light") -> Figure:
     InvalidInputError
         where the style is unknown.
     """
-    ground = palette_of(style).ground
     rows = len(found.scatters)
-    figure = Figure(figsize=(FULL * MM, _ROW * rows * MM), layout="constrained", facecolor=ground)
+    figure = page(style, _ROW * rows)
     axes = figure.subplots(rows, 2, squeeze=False, width_ratios=(1.25, 1.0))
     for (left, right), scatter in zip(axes, found.scatters, strict=True):
         unit = f" [{scatter.unit}]" if scatter.unit else ""

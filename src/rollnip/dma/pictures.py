@@ -13,7 +13,7 @@ from rollnip.dma.fit import DmaFit
 from rollnip.dma.quality import relative_deviations
 from rollnip.dma.timefit import TimeFit
 from rollnip.materials import creep_compliance, relaxation_modulus
-from rollnip.plots.style import FULL, MM, Look, Style, label, palette_of, prepare
+from rollnip.plots.style import FULL, Look, Style, label, page, palette_of, prepare
 
 _HEIGHT = 150.0  # mm
 _MARK = 0.32  # size of a mark over the size of type
@@ -34,9 +34,7 @@ def plot_dma(fit: DmaFit, style: Style = "light") -> Figure:
     Figure
         180 by 150 mm, outside pyplot.
     """
-    figure = Figure(
-        figsize=(FULL * MM, _HEIGHT * MM), layout="constrained", facecolor=palette_of(style).ground
-    )
+    figure = page(style, _HEIGHT)
     (master, shifts), (phase, deviation) = figure.subplots(2, 2)
     plot_master(fit, master, style=style)
     plot_shifts(fit, shifts, style=style)
@@ -87,11 +85,7 @@ def plot_time(fit: TimeFit, style: Style = "light") -> Figure:
     Figure
         88 by 66 mm, outside pyplot.
     """
-    figure = Figure(
-        figsize=(0.49 * FULL * MM, 66.0 * MM),
-        layout="constrained",
-        facecolor=palette_of(style).ground,
-    )
+    figure = page(style, 66.0, 0.49 * FULL)
     ax, look = prepare(figure.subplots(), style)
     colours, data = look.palette, fit.master.reduced
     grid = np.geomspace(*fit.time_range, 300)

@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rollnip.identification.result import Fit, FittedSet
-from rollnip.plots.style import FULL, MM, Look, Style, label, palette_of, prepare
+from rollnip.plots.style import Look, Style, label, page, palette_of, prepare
 
 _MOST_COLUMNS = 3
 _HEIGHT = 92.0  # mm of a row
@@ -33,11 +33,7 @@ def plot_fit(fit: Fit, style: Style = "light") -> Figure:
     """
     columns = min(len(fit.sets), _MOST_COLUMNS)
     rows = ceil(len(fit.sets) / columns)
-    figure = Figure(
-        figsize=(FULL * MM, _HEIGHT * rows * MM),
-        layout="constrained",
-        facecolor=palette_of(style).ground,
-    )
+    figure = page(style, _HEIGHT * rows)
     grids = figure.subfigures(rows, columns, squeeze=False)
     for part, one in zip(grids.flat, fit.sets, strict=False):
         part.set_facecolor(palette_of(style).ground)

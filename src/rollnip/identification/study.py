@@ -33,7 +33,7 @@ from rollnip.identification.quality import row_names
 from rollnip.identification.surface import Strains, Velocities
 from rollnip.identification.unknowns import Prior, Unknown
 from rollnip.io import Columns, dimension_at, read_columns
-from rollnip.io.document import read_document
+from rollnip.io.document import folder_of, read_document
 from rollnip.io.fitting import DataTable, FitTable, UnknownTable, parse_fit
 from rollnip.io.velocities import Settings, read_velocities
 
@@ -84,7 +84,7 @@ def read_fit(path: str | Path) -> FitStudy:
     InvalidInputError
         where a table of measurements is wrong, with file, line and column.
     """
-    folder = Path() if str(path) == "-" else Path(path).parent
+    folder = folder_of(path)
     reader = _Reader(parse_fit(read_document(path), str(path)), str(path), folder)
     return reader.study()
 

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rollnip.face.figures import FACE_PROFILES, SHEET_FACE_PROFILES
 from rollnip.face.sheet_solution import SheetFaceSolution
 from rollnip.face.solution import FaceSolution
 from rollnip.plots.style import Palette, Style, palette_of
@@ -33,9 +34,9 @@ def plot_face(solution: FaceSolution, *, style: Style = "light") -> Figure:
         for spine in ax.spines.values():
             spine.set_color(palette.ink)
     _impression(impression, solution, palette)
-    _line(load, solution, solution.load, "line load [N/mm]", palette.pressure)
+    _line(load, solution, solution.load, FACE_PROFILES["load"].axis, palette.pressure)
     load.axhline(solution.mean_load, color="0.5", linewidth=0.8, linestyle=":")
-    _line(scrub, solution, solution.traction, "traction [N/mm]", palette.shear)
+    _line(scrub, solution, solution.traction, FACE_PROFILES["traction"].axis, palette.shear)
     if isinstance(solution, SheetFaceSolution):
         _sheet(axes[3], axes[4], scrub, solution, palette)
     _shapes(shape, solution, palette)
@@ -55,7 +56,7 @@ def _impression(ax: Axes, solution: FaceSolution, palette: Palette) -> None:
     ax.fill_between(solution.y, -half, half, color=palette.muted, linewidth=0.0)
     top = 1.4 * float(half.max(initial=0.0)) or 1.0
     ax.set_ylim(-top, top)
-    ax.set_ylabel("nip width [mm]")
+    ax.set_ylabel(FACE_PROFILES["nip_width"].axis)
     widths = solution.nip_width[[0, solution.y.size // 2, -1]]
     places, sides = (solution.y[0], 0.0, solution.y[-1]), ("left", "center", "right")
     for y, width, side in zip(places, widths, sides, strict=True):
@@ -104,7 +105,7 @@ def _sheet(
     tension.axhline(0.0, color="0.5", linewidth=0.6)
     low, high = min(float(inlet.min()), 0.0), max(float(inlet.max()), 0.0)
     tension.set_ylim(1.2 * low, 1.2 * high or 1.0)
-    tension.set_ylabel("tension, inlet [N/mm]")
+    tension.set_ylabel(SHEET_FACE_PROFILES["tension_in"].axis)
 
 
 def _shapes(ax: Axes, solution: FaceSolution, palette: Palette) -> None:

@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
+from rollnip.figures import PROFILES
 from rollnip.plots.style import (
     Look,
     Style,
@@ -24,7 +25,10 @@ from rollnip.plots.style import (
     view,
 )
 from rollnip.sheet.result import SheetResult
+from rollnip.sheet_figures import SHEET_PROFILES
 from rollnip.solution import Solution
+
+_Row = tuple[Any, str, str, str]  # values, colour, dashes and name of a curve
 
 _SIDE = 0.35  # shown on either side, in nip widths
 _FLAT = 1e-3  # of the nip width: what the scale of a straight path spans
@@ -55,31 +59,20 @@ def plot_sheet(solution: Solution, ax: Axes | None = None, *, style: Style | Non
     """
     sheet = _sheet_of(solution)
     ax, look = prepare(ax, style)
-    x = solution.profiles.x
     times = _largest(sheet.profiles.tension) / _largest(
         solution.profiles.shear, sheet.profiles.shear_lower
     )
-    zones = shade(ax, look, solution)
-    ax.axhline(0.0, color=look.palette.muted, linewidth=look.thin)
-    rows: tuple[tuple[Any, str, str, str], ...] = (
+    rows: tuple[_Row, ...] = (
         (solution.profiles.shear, look.palette.shear, "--", "shear of the upper roller"),
         (sheet.profiles.shear_lower, look.palette.shear, ":", "shear on the underside"),
         (sheet.profiles.tension / times, look.palette.pressure, "-", "tension (right)"),
     )
-    curves: list[Artist] = []
-    for values, color, dashes, name in rows:
-        curves += ax.plot(x, values, color=color, linestyle=dashes, linewidth=look.line, label=name)
-    ax.set_xlim(*view(solution, _SIDE))
-    heights(
-        ax,
-        min(0.0, *(float(np.min(row[0])) for row in rows)),
-        max(0.0, *(float(np.max(row[0])) for row in rows)),
-    )
-    label(ax, look, "x [mm]", "shear [MPa]")
-    _on_right(ax, look, "tension [N/mm]", (0.0, times), look.palette.pressure)
+    lowest = min(0.0, *(float(np.min(row[0])) for row in rows))
+    highest = max(0.0, *(float(np.max(row[0])) for row in rows))
+    _draw(ax, look, solution, rows, view(solution, _SIDE), (lowest, highest))
+    label(ax, look, PROFILES["x"].axis, PROFILES["shear"].axis)
+    _on_right(ax, look, SHEET_PROFILES["tension"].axis, (0.0, times), look.palette.pressure)
     title(ax, look, solution, "Shears and tension of the sheet")
-    mark_direction(ax, look, solution)
-    legend(ax, look, curves + zones)
     return ax
 
 
@@ -109,9 +102,7 @@ def plot_sheet_path(
     x, colours = solution.profiles.x, look.palette
     first, last = _both_contacts(solution)
     shown = (x >= first) & (x <= last)
-    zones = shade(ax, look, solution)
-    ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
-    rows: tuple[tuple[Any, str, str, str], ...] = (
+    rows: tuple[_Row, ...] = (
         (solution.profiles.pressure, colours.upper, "-", "pressure on the upper roller"),
         (sheet.profiles.pressure_lower, colours.lower, "--", "pressure on the lower roller"),
     )
@@ -120,17 +111,33 @@ def plot_sheet_path(
     low, rise = float(np.min(height[shown])), float(np.ptp(height[shown]))
     times = (rise or _FLAT * solution.nip_width) / high
     path = ((height - low) / times, colours.ink, "-", "path of the sheet (right)")
-    curves: list[Artist] = []
-    for values, color, dashes, name in (*rows, path):
-        curves += ax.plot(x, values, color=color, linestyle=dashes, linewidth=look.line, label=name)
-    ax.set_xlim(first, last)
-    heights(ax, 0.0, high)
-    label(ax, look, "x [mm]", "pressure [MPa]")
+    _draw(ax, look, solution, (*rows, path), (first, last), (0.0, high))
+    label(ax, look, PROFILES["x"].axis, PROFILES["pressure"].axis)
     _on_right(ax, look, "height of the sheet [mm]", (low, times), colours.ink)
     title(ax, look, solution, "Pressures on the sheet, and its path")
+    return ax
+
+
+def _draw(
+    ax: Axes,
+    look: Look,
+    solution: Solution,
+    rows: tuple[_Row, ...],
+    along: tuple[float, float],
+    up: tuple[float, float],
+) -> None:
+    """Draw the zones and some curves over x, from and to ``along`` and ``up``, with a legend."""
+    zones = shade(ax, look, solution)
+    ax.axhline(0.0, color=look.palette.muted, linewidth=look.thin)
+    curves: list[Artist] = []
+    for values, color, dashes, name in rows:
+        drawn = ax.plot(solution.profiles.x, values, color=color, linestyle=dashes, label=name)
+        drawn[0].set_linewidth(look.line)
+        curves += drawn
+    ax.set_xlim(*along)
+    heights(ax, *up)
     mark_direction(ax, look, solution)
     legend(ax, look, curves + zones)
-    return ax
 
 
 def _sheet_of(solution: Solution) -> SheetResult:

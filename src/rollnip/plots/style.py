@@ -152,11 +152,14 @@ def new_axes(width: float = FULL, height: float | None = None, style: Style = "l
     if height is None:
         height = (_GOLDEN if width > 1.2 * COLUMN else 0.75) * width
     require_positive("height", height)
-    colours = palette_of(style)
-    figure = Figure(
-        figsize=(width * MM, height * MM), layout="constrained", facecolor=colours.ground
-    )
-    return figure.subplots(subplot_kw={"facecolor": colours.ground})
+    ground = palette_of(style).ground
+    return page(style, height, width).subplots(subplot_kw={"facecolor": ground})
+
+
+def page(style: str, height: float, width: float = FULL) -> Figure:
+    """Return an empty page of a height and a width [mm], outside pyplot."""
+    ground = palette_of(style).ground
+    return Figure(figsize=(width * MM, height * MM), layout="constrained", facecolor=ground)
 
 
 def palette_of(style: str) -> Palette:

@@ -24,7 +24,9 @@ from rollnip.rolling.round import (
     creepage_scale,
     excess,
     has_grip,
+    peak_at,
     peak_pressure,
+    peaks_alike,
 )
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import (
@@ -59,7 +61,9 @@ __all__ = [
     "hoop_curvature",
     "impossible",
     "pair_kernels",
+    "peak_at",
     "peak_pressure",
+    "peaks_alike",
     "powers",
     "rates_of",
     "refine",

@@ -14,6 +14,8 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Array, Mesh
 
+_ALIKE = 1e-4  # peaks that differ by less agree in the four digits that are shown
+
 
 @dataclass(frozen=True, slots=True)
 class Figures:
@@ -128,9 +130,29 @@ class Round:
         return load_weights(self.nodes)
 
 
+def peaks_alike(pressure: Array) -> list[int]:
+    """Return the nodes of the highest pressure: more than one where peaks are equally high.
+
+    They count as equal where they agree to the four digits that are shown: beside both edges of a
+    stiff skin the rounding of a mesh would decide which one is higher.
+    """
+    fence = np.concatenate([[-np.inf], pressure, [-np.inf]])
+    peaks = (pressure >= fence[:-2]) & (pressure > fence[2:])
+    high = pressure >= (1.0 - _ALIKE) * np.max(pressure)
+    found = np.flatnonzero(peaks & high)
+    return found.tolist() if found.size else [int(np.argmax(pressure))]
+
+
 def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:
-    """Highest pressure and its place, by the parabola through the highest node's neighbours."""
-    i = int(np.argmax(pressure))
+    """Highest pressure and its place, by the parabola through the highest node's neighbours.
+
+    Of peaks that are equally high the leading one is taken, so that meshes agree on the place.
+    """
+    return peak_at(x, pressure, peaks_alike(pressure)[-1])
+
+
+def peak_at(x: Array, pressure: Array, i: int) -> tuple[float, float]:
+    """Height and place of the parabola through a node and its neighbours; at an end the node's."""
     if not 0 < i < x.size - 1:
         return float(pressure[i]), float(x[i])
     rise = (pressure[i] - pressure[i - 1]) / (x[i] - x[i - 1])

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rollnip.plots.style import FULL, MM, Style, label, palette_of, prepare
+from rollnip.plots.style import Style, label, page, prepare
 from rollnip.rubber.data import TESTS
 from rollnip.rubber.fit import RubberFit
 from rollnip.rubber.laws import nominal_stress
@@ -31,9 +31,7 @@ def plot_rubber(fit: RubberFit, style: Style = "light") -> Figure:
     Figure
         180 by 75 mm, outside pyplot.
     """
-    figure = Figure(
-        figsize=(FULL * MM, _HEIGHT * MM), layout="constrained", facecolor=palette_of(style).ground
-    )
+    figure = page(style, _HEIGHT)
     left, right = figure.subplots(1, 2)
     plot_stress(fit, left, style=style)
     plot_stress_deviation(fit, right, style=style)

@@ -16,7 +16,7 @@ from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
 from rollnip._units import Dimension, base_unit, parse_quantity
 from rollnip.figures import PROFILES
 from rollnip.io import Columns, dimension_at, read_columns, value_at
-from rollnip.io.document import read_document
+from rollnip.io.document import folder_of, read_document
 from rollnip.io.patch_case import any_case
 from rollnip.io.study import ParameterTable, StudyTable, parse_study
 from rollnip.sweeps.row import SCALARS
@@ -47,7 +47,7 @@ def read_study(study: str | Path | Mapping[str, Any]) -> Study:
     """
     if isinstance(study, Mapping):
         return _Reader(study, "study", Path()).study()
-    folder = Path() if str(study) == "-" else Path(study).parent
+    folder = folder_of(study)
     return _Reader(read_document(study), str(study), folder).study()
 
 

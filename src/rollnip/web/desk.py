@@ -22,7 +22,7 @@ from rollnip.web.bodies import (
 from rollnip.web.kept import Kept
 from rollnip.web.limits import Limits
 from rollnip.web.patches import is_coarse
-from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError
+from rollnip.web.pool import OverloadedError, Pool, Task, TimeLimitError, WorkerError
 
 _REMEDY = "try a simpler geometry, fewer layers or a larger tolerance"
 
@@ -48,7 +48,7 @@ class Desk:
 
     async def task(self, name: str, body: Mapping[str, Any]) -> Reply:
         """Do one task in the time of a solve. Raises RefusedError."""
-        return await self._asked(name, body, self._limits.solve_seconds)
+        return await self._asked(Task(name=name, body=body, seconds=self._limits.solve_seconds))
 
     async def solve(self, case: Mapping[str, Any], *, interfaces: bool) -> Reply:
         """Solve a case. Raises RefusedError."""
@@ -95,12 +95,14 @@ class Desk:
         """Return what is known about the figures of a case. Raises RefusedError."""
         async with self._gate:
             seconds = 3.0 * self._limits.solve_seconds  # three solves
-            return await self._asked("known", body.model_dump(), seconds, patient=True)
+            task = Task(name="known", body=body.model_dump(), seconds=seconds, patient=True)
+            return await self._asked(task)
 
     async def face(self, case: Mapping[str, Any]) -> Reply:
         """Solve a case along its face, where its table is if it can be. Raises RefusedError."""
         seconds = self._limits.long_seconds  # the first time; a table that is there takes no time
-        return await self._asked("face", {"case": case}, seconds, key=_section_key(case))
+        task = Task(name="face", body={"case": case}, seconds=seconds, key=_section_key(case))
+        return await self._asked(task)
 
     async def crown(self, body: CrownBody) -> Reply:
         """Find the crown that evens out the load along the face. Raises RefusedError."""
@@ -120,8 +122,9 @@ class Desk:
 
     async def _long_answer(self, name: str, body: Mapping[str, Any]) -> Reply:
         """Do one long task, beside which a worker stays free. Raises RefusedError."""
+        task = Task(name=name, body=body, seconds=self._limits.long_seconds, patient=True)
         async with self._long_task(), self._gate:
-            return await self._asked(name, body, self._limits.long_seconds, patient=True)
+            return await self._asked(task)
 
     async def impression(self, body: ImpressionBody) -> Reply:
         """Read measured nip widths along a face. Raises RefusedError."""
@@ -133,40 +136,31 @@ class Desk:
             return await self.task("patch", {"case": case})
         return await self._long_answer("patch", {"case": case})
 
-    async def _asked(
-        self,
-        name: str,
-        body: Mapping[str, Any],
-        seconds: float,
-        *,
-        patient: bool = False,
-        key: str | None = None,
-    ) -> Reply:
-        """Return the answer of a worker, or the one that was given before. Raises RefusedError.
-
-        The parameters are those of `rollnip.web.pool.Pool.run`.
-        """
-        question = _question(name, body)
+    async def _asked(self, task: Task) -> Reply:
+        """Return the answer of a worker, or the one that was given before. Raises RefusedError."""
+        question = _question(task)
         if (kept := self._answers.get(question)) is not None:
             return kept
         try:
-            reply = await self.pool.run(name, body, seconds, patient=patient, key=key)
+            reply = await self.pool.run(task)
         except (OverloadedError, TimeLimitError, WorkerError) as error:
-            raise _refused(error, seconds) from None
+            raise _refused(error, task.seconds) from None
         return self._answers.put(question, reply) if reply.status == 200 else reply
 
     async def _value(self, body: SweepBody, value: float | str) -> Reply:
         """One solve of a sweep; one that takes too long is an error of its row."""
-        task = {"case": body.case, "path": body.path, "value": value}
+        what = {"case": body.case, "path": body.path, "value": value}
+        seconds = self._limits.solve_seconds
+        task = Task(name="value", body=what, seconds=seconds, patient=True)
         async with self._gate:
             try:
-                return await self.pool.run("value", task, self._limits.solve_seconds, patient=True)
+                return await self.pool.run(task)
             except TimeLimitError as error:
-                text = str(_refused(error, self._limits.solve_seconds))
+                text = str(_refused(error, seconds))
                 tree = {"unit": None, "value": value, "result": {"error": text}}
                 return Reply(200, json_bytes(tree))
             except (OverloadedError, WorkerError) as error:
-                raise _refused(error, self._limits.solve_seconds) from None
+                raise _refused(error, seconds) from None
 
     @asynccontextmanager
     async def _long_task(self) -> AsyncIterator[None]:
@@ -183,10 +177,10 @@ class Desk:
             self._long -= 1
 
 
-def _question(name: str, body: Mapping[str, Any]) -> str:
+def _question(task: Task) -> str:
     """Return what is the same for a question however its body is ordered."""
-    text = json.dumps(body, sort_keys=True)
-    return f"{name} {hashlib.sha256(text.encode()).hexdigest()}"
+    text = json.dumps(task.body, sort_keys=True)
+    return f"{task.name} {hashlib.sha256(text.encode()).hexdigest()}"
 
 
 def _section_key(case: Mapping[str, Any]) -> str:

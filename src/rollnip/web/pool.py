@@ -15,7 +15,7 @@ import sys
 from asyncio.subprocess import PIPE, Process
 from collections import deque
 from collections.abc import Coroutine, Mapping
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any, TypeVar
 
 from rollnip.web.answers import Reply
@@ -40,6 +40,25 @@ class TimeLimitError(Exception):
 
 class WorkerError(Exception):
     """The error of a worker that ended by itself or could not be started."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Task:
+    """A task for a worker.
+
+    Attributes
+    ----------
+    name, body : what to do, see `rollnip.web.tasks`.
+    seconds : that it may take once it is begun.
+    patient : whether it may wait even where too many do: for a caller that asks for one at a time.
+    key : what the worker keeps for the next such task; None: the case.
+    """
+
+    name: str
+    body: Mapping[str, Any]
+    seconds: float
+    patient: bool = False
+    key: str | None = None
 
 
 class _Worker:
@@ -133,29 +152,10 @@ class Pool:
         await asyncio.gather(*self._jobs, *self._starts, return_exceptions=True)
         await asyncio.gather(*(worker.stop() for worker in self._all))
 
-    async def run(
-        self,
-        name: str,
-        body: Mapping[str, Any],
-        seconds: float,
-        *,
-        patient: bool = False,
-        key: str | None = None,
-    ) -> Reply:
+    async def run(self, task: Task) -> Reply:
         """Have one task done.
 
         Cancelled while it waits, it is never begun; cancelled later, its answer is dropped.
-
-        Parameters
-        ----------
-        name, body :
-            of the task, see `rollnip.web.tasks`.
-        seconds :
-            that it may take once it is begun.
-        patient :
-            whether it may wait even where too many do: for a caller that asks for one at a time.
-        key :
-            what the worker keeps for the next such task; the case by default.
 
         Raises
         ------
@@ -163,16 +163,16 @@ class Pool:
         """
         if self._is_stopped:
             raise WorkerError
-        if not self._idle and len(self._queue) >= self._limits.waiting and not patient:
+        if not self._idle and len(self._queue) >= self._limits.waiting and not task.patient:
             raise OverloadedError
-        task = json.dumps({"name": name, "body": body}).encode()
-        key = key or json.dumps(body.get("case"), sort_keys=True)
+        order = json.dumps({"name": task.name, "body": task.body}).encode()
+        key = task.key or json.dumps(task.body.get("case"), sort_keys=True)
         try:
             async with asyncio.timeout(self._limits.waiting_seconds):
                 worker = await self._free(key)
         except TimeoutError:
             raise OverloadedError from None
-        return await asyncio.shield(self._spawn(self._done(worker, task, key, seconds)))
+        return await asyncio.shield(self._spawn(self._done(worker, order, key, task.seconds)))
 
     def _spawn(self, work: Coroutine[Any, Any, T]) -> asyncio.Task[T]:
         job = asyncio.create_task(work)

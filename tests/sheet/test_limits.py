@@ -116,7 +116,8 @@ def test_turned_over_the_nip_is_the_same():
 @pytest.mark.parametrize("geometry", ["linear", "curved"])
 def test_power_of_the_axles_is_loss_and_what_the_sheet_takes(geometry):
     nip = nip_with(paper(tension_in=0.2, tension_out=0.05), friction=0.3, speed=100.0)
-    solution = rn.solve(nip, rn.Model(geometry=geometry))
+    # a finer mesh than by default: the balance is exact but for the elements
+    solution = rn.solve(nip, rn.Model(geometry=geometry, tolerance=3e-4))
     sheet = solution.sheet
     spent = sheet.friction_upper + sheet.friction_lower + solution.dissipation_viscous + sheet.power
     assert solution.power_in == pytest.approx(spent, rel=2e-5)

@@ -49,7 +49,7 @@ def test_widths_settle_where_springs_would_make_an_edge_layer(number):
     case = random_case(number)
     solution = rn.solve(case.nip, rn.Model(geometry=case.geometry))
     assert solution.converged
-    assert solution.solver.elements < 100
+    assert solution.solver.elements < 110  # four sizes of mesh at most
 
 
 def test_the_surfaces_close_on_a_squeezed_sheet():

@@ -41,10 +41,24 @@ Z = TypeVar("Z", bound=Ends)
 
 @dataclass(slots=True)
 class Moves(Generic[Z]):
-    """Ends of like zones on the last meshes, and how far their solutions moved them."""
+    """Ends of like zones on the last mesh, and what the moves that were asked for are worth.
+
+    Attributes
+    ----------
+    zones : on the last mesh of this size; None: on none yet.
+    step : (m,) how far its solution moved their ends [mm].
+    slopes : (m,) by how much less a solution asks for, per move of each end. It is 1 where a
+        surface responds as a half-plane does over the first elements. The next size of mesh
+        begins with these slopes.
+    """
 
     zones: Z | None = None
     step: Array | None = None
+    slopes: Array | None = None
+
+    def refined(self) -> None:
+        """Note that the next zones lie on a mesh of another size."""
+        self.step = None
 
     def next(self, zones: Z, asked: Z) -> Z:
         """Return where to put the ends next, each by the secant through its last two moves.
@@ -57,10 +71,16 @@ class Moves(Generic[Z]):
         here, step = zones.ends, asked.ends - zones.ends
         before, step_before = self.zones, self.step
         self.zones, self.step = zones, step
-        if before is None or step_before is None or not zones.is_like(before):
+        if before is None or not zones.is_like(before):
+            self.slopes = None
             return asked
-        with np.errstate(divide="ignore", invalid="ignore"):
-            slope = (step_before - step) / (here - before.ends)
-        factor = 1.0 / np.clip(np.nan_to_num(slope, nan=1.0), *_SLOPES)
-        found = zones.with_ends(here + factor * step)
+        if step_before is not None:
+            moved = here - before.ends
+            with np.errstate(divide="ignore", invalid="ignore"):
+                slopes = np.clip((step_before - step) / moved, *_SLOPES)
+            known = np.ones(step.size) if self.slopes is None else self.slopes
+            self.slopes = np.where(np.isfinite(slopes), slopes, known)
+        if self.slopes is None:
+            return asked
+        found = zones.with_ends(here + step / self.slopes)
         return found if found.is_proper else asked

@@ -20,14 +20,19 @@ from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
 
-FIRST_COUNT = 20
+FIRST_COUNT = 20  # elements where zones are not known
+_FIRST = 24  # of the first size of mesh
 GROWTH = 1.6
 MOST_COUNT = 190
 _SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
-FEWEST, FEWEST_WITH_SLIP = 2, 3  # sizes of mesh before an error is believed
+_ORDER_OF_TWO = 1.5  # of errors, where only two sizes are there
+_ORDER_OF_ELEMENTS = 4  # of errors where all tractions are roots at their ends
+# Sizes of mesh before an error is believed, and one more with memory, as without a sheet.
+FEWEST = 2
+FEWEST_WITH_SLIP = 3
 _MOST_FAILURES = 3  # sizes of mesh whose zones are clearly wrong; finer ones find none either
 _CLEARLY_WRONG = 1.0  # violation of the conditions of friction
-_ROUGHLY, _CLOSELY = 0.5, 0.1  # of the tolerance: what ends may be off on first and last sizes
+_ROUGHLY, _CLOSELY = 0.3, 0.1  # of the tolerance: what ends may be off on first and last sizes
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
 # Least error of each figure over its scale, times the square of the number of elements; measured
@@ -140,13 +145,13 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
     numpy.linalg.LinAlgError
         where no size of mesh has a solution.
     """
-    search, count = Search(nip, model, kernels), float(FIRST_COUNT)
+    search, count = Search(nip, model, kernels), float(_FIRST)
     stand = search.begun(half_width, FIRST_COUNT)
     history: list[tuple[float, SheetFigures, Zones]] = []
     best: Refined | None = None
-    failures = 0
+    failures, fewest = 0, FEWEST + nip.is_viscoelastic
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
-        may_be_last = len(history) + 1 >= _fewest(stand.zones)
+        may_be_last = len(history) + 1 >= fewest
         closely = _CLOSELY if may_be_last else _ROUGHLY
         try:
             stand = search.placed(stand.zones, round(count), stand, closely)
@@ -160,23 +165,19 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
         if stand.stands_still:
             history.append(here)
             best = latest
-            enough = may_be_last and len(history) >= _fewest(stand.zones)
-            if enough and ratio(nip, figures, errors) <= model.tolerance:
+            if may_be_last and ratio(nip, figures, errors) <= model.tolerance:
                 best = _with_overlap(latest, kernels)
                 if best.residual <= model.tolerance:
                     return best
         else:
             best = best or latest
             failures += not latest.residual <= _CLEARLY_WRONG
+            if not history:
+                stand = search.begun(half_width, round(count * GROWTH))
         count *= GROWTH
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return _with_overlap(best, kernels)
-
-
-def _fewest(zones: Zones) -> int:
-    """Return the fewest sizes of mesh; where something slips, two may agree by chance."""
-    return FEWEST if zones.breaks.size == 2 else FEWEST_WITH_SLIP
 
 
 def _with_overlap(refined: Refined, kernels: PairKernels) -> Refined:
@@ -222,10 +223,10 @@ def errors_between(nip: Nip, history: Sequence[tuple[float, SheetFigures, object
     """Return the estimated errors from the changes between meshes.
 
     The last change counts by the second order, or the first where the changes do not shrink so
-    fast. Two sizes may agree by chance, so earlier changes count too, by the third order, which
-    figures reach where all tractions are roots at their ends; but for the first size, which finds
-    the zones and hardly resolves short ones, where three finer ones stand. No error is less than
-    the least of such meshes in random nips.
+    fast; from two sizes alone, which show no order, by one between them. Two sizes may agree by
+    chance, so earlier changes count too, by the order of the elements; but for the first size,
+    which finds the zones and hardly resolves short ones, where three finer ones stand. No error is
+    less than the least of such meshes in random nips.
     """
     history = history[1:] if len(history) > FEWEST_WITH_SLIP else history
     count, figures, _ = history[-1]
@@ -233,7 +234,7 @@ def errors_between(nip: Nip, history: Sequence[tuple[float, SheetFigures, object
         return np.full(figures.values.size, inf)
     steps = [np.abs(b.values - a.values) for (_, a, _), (_, b, _) in pairwise(history)]
     ratios = [b / a for (a, _, _), (b, _, _) in pairwise(history)]
-    order = np.ones(figures.values.size)
+    order = np.full(figures.values.size, _ORDER_OF_TWO)
     if len(steps) > 1:
         a, b, c = (1.0 / size**2 for size, _, _ in history[-3:])
         order = np.where(steps[-1] > 1.05 * steps[-2] * (b - c) / (a - b), 1.0, 2.0)
@@ -241,7 +242,8 @@ def errors_between(nip: Nip, history: Sequence[tuple[float, SheetFigures, object
         steps[-1] * np.where(order > 1.0, _SAFETY, _SAFETY_OF_FIRST) / (ratios[-1] ** order - 1.0)
     )
     for step, grown, (size, _, _) in zip(steps[:-1], ratios[:-1], history[1:-1], strict=True):
-        error = np.maximum(error, _SAFETY * step / (grown**2 - 1.0) * (size / count) ** 3)
+        left = (size / count) ** _ORDER_OF_ELEMENTS
+        error = np.maximum(error, _SAFETY * step / (grown**2 - 1.0) * left)
     floor = _LEAST * scales(nip, figures) / count**2
     prescribed = 1 if isinstance(nip.normal, LineLoad) else 0
     floor[prescribed] = _ROUNDING * abs(figures.values[prescribed])

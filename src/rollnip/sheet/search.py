@@ -7,7 +7,7 @@ tells whether its zones are right too; where they are not, stick and slip are so
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, sqrt
 
@@ -15,7 +15,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import (
+    Layout,
     State,
+    States,
     cosine_nodes,
     crowding_of,
     elements_of_zones,
@@ -60,7 +62,14 @@ _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where over
 SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
 
 
-SheetAttempt = Attempt[Zones, SheetProblem, SheetState, Lagged]
+@dataclass(frozen=True)
+class SheetAttempt(Attempt[Zones, SheetProblem, SheetState, Lagged]):
+    """A solution between the ends of the zones of a sheet."""
+
+    @cached_property
+    def creeps(self) -> Array:
+        """Return the creep of both interfaces over each interval, (2, n) [mm]."""
+        return self.problem.gap_and_creeps(self.state, self.lagged)[1:]
 
 
 @dataclass(frozen=True)
@@ -70,6 +79,7 @@ class Search:
     nip: Nip
     model: Model
     kernels: PairKernels
+    moves: Moves[Zones] = field(default_factory=Moves)
 
     def begun(self, half_width: float, count: int) -> SheetAttempt:
         """Find zones on a mesh that reaches beyond the contact, in the linear geometry.
@@ -102,7 +112,8 @@ class Search:
         known = 1.0 if before is None else min(before.off, 1.0)
         elements: NDArray[np.intp] | None = None
         crowding: tuple[float, ...] = ()
-        stand, moves = before, Moves[Zones]()
+        stand = before
+        self.moves.refined()
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().aligned()
             if not zones.is_proper:
@@ -116,18 +127,18 @@ class Search:
             start = first_lagged(problem) if stand is None else carried(stand, problem)
             stand = self._solved(problem, zones, start, steps, (known, off))
             steps = stand.steps
-            called = self._called_for(stand)
-            asked = zones.moved(problem, stand.state, called or zones)
+            called = _Called(stand, self._slack)
+            asked = zones.moved(problem, stand.state, called)
             off = asked.distance(zones)
             known = min(known, off)
             is_met = violation(stand) <= self._slack
             rough = off > _FAIRLY_PLACED and not changes
             # Without a violation zones are doubted once; with one, as soon as no end moves.
             sure = changes > 0 if is_met else off > placed
-            if rough or (is_met and sure) or ((is_met or sure) and called is not None):
+            if rough or (is_met and sure) or ((is_met or sure) and called.are_like):
                 if off <= placed and stand.stands_still and is_fine and is_met:
                     return replace(stand, zones=asked, off=off)
-                zones = asked if off > _NEARLY_PLACED else moves.next(zones, asked)
+                zones = asked if off > _NEARLY_PLACED else self.moves.next(zones, asked)
                 continue
             changes += 1
             if changes > _MOST_CHANGES:
@@ -209,15 +220,6 @@ class Search:
     def _slack(self) -> float:
         return min(self.model.tolerance, _SLACK)
 
-    def _called_for(self, stand: SheetAttempt) -> Zones | None:
-        """Return the zones that the states make which a solution calls for, if like its own."""
-        wanted = next_slip(stand.problem, stand.state, stand.lagged, self._slack)
-        state = replace(stand.state, states=wanted[0], states_lower=wanted[1])
-        problem, zones = stand.problem, stand.zones
-        found = Zones.found(problem.mesh.inner, state, problem.frictions, zones.edges)
-        found = None if found is None else found.without_slivers()
-        return found if found is not None and found.is_like(zones) else None
-
     def _other(self, stand: SheetAttempt, edges: Zones) -> tuple[SheetAttempt, Zones] | None:
         """Find other zones between known edges, node by node; None where there are none."""
         problem = stand.problem
@@ -230,6 +232,46 @@ class Search:
         return replace(stand, state=state, steps=stand.steps + state.steps), zones
 
 
+@dataclass(frozen=True)
+class _Called:
+    """What the states of nodes say that a solution calls for.
+
+    Attributes
+    ----------
+    stand : the solution.
+    slack : see `next_slip`.
+    """
+
+    stand: SheetAttempt
+    slack: float
+
+    @cached_property
+    def _wanted(self) -> States:
+        stand = self.stand
+        return next_slip(stand.problem, stand.state, stand.creeps, self.slack)
+
+    @cached_property
+    def _found(self) -> Zones | None:
+        """Return their zones, if these are like those of the solution."""
+        stand, wanted = self.stand, self._wanted
+        state = replace(stand.state, states=wanted[0], states_lower=wanted[1])
+        frictions, x = stand.problem.frictions, stand.problem.mesh.inner
+        found = Zones.found(x, state, frictions, stand.zones.edges)
+        found = None if found is None else found.without_slivers()
+        return found if found is not None and found.is_like(stand.zones) else None
+
+    @cached_property
+    def are_like(self) -> bool:
+        """Return whether they make zones like those of the solution."""
+        same = np.array_equal(self._wanted, self.stand.state.both_states)
+        return same or self._found is not None
+
+    @property
+    def sides(self) -> tuple[Layout, Layout]:
+        """Return the zones of both interfaces that they make; its own where these are others."""
+        return (self._found or self.stand.zones).sides
+
+
 def violation(stand: SheetAttempt) -> float:
     """Return how badly a solution violates the conditions of friction, relative.
 
@@ -238,7 +280,7 @@ def violation(stand: SheetAttempt) -> float:
     a twentieth of the nip's slope times its width or the larger creepage times it.
     """
     state, problem = stand.state, stand.problem
-    creeps = problem.gap_and_creeps(state, stand.lagged)[1:]
+    creeps = stand.creeps
     weights, width = problem.mesh.weights, float(np.ptp(problem.mesh.inner))
     load = float(weights @ state.pressure)
     if not load > 0.0:

@@ -57,7 +57,8 @@ def slipping(
     ``state``: a solution near to it; ``slack``: see `next_slip`.
     """
     for steps in range(1, _MOST_STEPS + 1):
-        wanted = next_slip(problem, state, lagged, slack)
+        creeps = problem.gap_and_creeps(state, lagged)[1:]
+        wanted = next_slip(problem, state, creeps, slack)
         if steps > 1 and np.array_equal(wanted, state.both_states):
             return replace(state, steps=steps)
         try:

@@ -262,13 +262,12 @@ def frictions_of(nip: Nip) -> tuple[float, float]:
     return nip.friction_on("upper"), nip.friction_on("lower")
 
 
-def next_slip(problem: SheetProblem, state: SheetState, lagged: Lagged, slack: float) -> States:
-    """Return the states of both interfaces that creep and shear call for; (2, n).
+def next_slip(problem: SheetProblem, state: SheetState, creeps: Array, slack: float) -> States:
+    """Return the states of both interfaces that creep (2, n) and shear call for; (2, n).
 
     Free nodes and those under tension keep theirs. Within ``slack`` of the highest pressure's
     bound a node keeps its state.
     """
-    creeps = problem.gap_and_creeps(state, lagged)[1:]
     states = state.both_states
     little = slack * float(np.abs(state.pressure).max())
     kept = (states[0] != State.FREE) & (state.pressure >= -little)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,16 @@ _TOGETHER = (
 _COINCIDENT = 1e-8  # over the width: breaks so near leave elements of no length
 SLIVER = 1e-3  # over the width: zones that are left out
 LONGEST_MOVE = 0.04  # of an edge, over the width
-_OF_TRANSITIONS = 0.1  # of the distance of transitions, beside that of edges
+_OF_TRANSITIONS = 10.0  # times the squared distance of transitions, beside that of edges
+
+
+class Called(Protocol):
+    """Zones that are worked out where they are asked for."""
+
+    @property
+    def sides(self) -> tuple[Layout, Layout]:
+        """Return the zones of the upper and of the lower interface."""
+        ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,7 +97,8 @@ class Zones:
         moves = [np.abs(a.breaks - b.breaks) for a, b in zip(self.sides, other.sides, strict=True)]
         edges = max(float(max(move[0], move[-1])) for move in moves)
         inner = max(float(np.max(move[1:-1], initial=0.0)) for move in moves)
-        return max(edges, _OF_TRANSITIONS * inner) / other.width
+        share = inner / other.width
+        return max(edges / other.width, _OF_TRANSITIONS * share * share)
 
     def states_on(self, x: Array) -> States:
         """Return the states of the nodes on both interfaces, (2, n)."""
@@ -105,7 +116,7 @@ class Zones:
         upper, lower = (Layout(p, s.states) for p, s in zip(places, self.sides, strict=True))
         return Zones(upper, lower)
 
-    def moved(self, problem: SheetProblem, state: SheetState, called: Zones) -> Zones:
+    def moved(self, problem: SheetProblem, state: SheetState, called: Called) -> Zones:
         """Return the zones with their breaks moved to where a solution with them puts them.
 
         ``called``: like zones, of the states that the solution calls for. They say where a
@@ -119,19 +130,18 @@ class Zones:
                 zip(self.sides, problem.frictions, strict=True)
             )
         ]
-        edges = self.edges
-        trailing, leading = float(asked[0][0]), float(asked[0][-1])
-        if not (np.isfinite(trailing) and np.isfinite(leading) and trailing < leading):
-            trailing, leading = edges
         most = LONGEST_MOVE * self.width
-        trailing = float(np.clip(trailing, edges[0] - most, edges[0] + most))
-        leading = float(np.clip(leading, edges[1] - most, edges[1] + most))
+        trailing, leading = (
+            float(np.clip(wanted, edge - most, edge + most))  # also where it is infinite
+            for wanted, edge in zip(asked[0][[0, -1]], self.edges, strict=True)
+        )
         sides = []
-        for side, wanted, other in zip(self.sides, asked, called.sides, strict=True):
+        for number, (side, wanted) in enumerate(zip(self.sides, asked, strict=True)):
             middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])
             inner = wanted[1:-1]
             clear = (inner > middles[:-1]) & (inner < middles[1:])
-            inner[~clear] = other.breaks[1:-1][~clear]
+            if not clear.all():
+                inner[~clear] = called.sides[number].breaks[1:-1][~clear]
             sides.append(Layout(held(side.breaks, wanted, (trailing, leading)), side.states))
         return Zones(sides[0], sides[1])
 

@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple, TypeVar
 
 from rollnip._units import format_quantity
 
-__all__ = ["ROUNDING", "Dimension", "Figure", "Section", "Total", "by_key"]
+__all__ = ["ROUNDING", "Dimension", "FaceTotal", "Figure", "Section", "by_key"]
 
 Dimension = Literal[
     "length",
@@ -78,7 +78,7 @@ _UNITS: Mapping[Dimension, _Units] = {
 }
 
 
-class Total(NamedTuple):
+class FaceTotal(NamedTuple):
     """The figure of the whole face: value times face width [mm] times ``factor``, in ``unit``."""
 
     unit: str
@@ -118,7 +118,7 @@ class Figure:
     digits: int = 4
     size: Mapping[str, int] = field(default_factory=dict)
     claimed: bool = False
-    total: Total | None = None
+    total: FaceTotal | None = None
 
     @property
     def name(self) -> str:

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from rollnip.figure import Dimension, Figure, Total, by_key
+from rollnip.figure import Dimension, FaceTotal, Figure, by_key
 
 __all__ = ["CLAIMED", "FIGURES", "INTERFACE_FIGURES", "PROFILES", "PULL"]
 
-_NEWTON, _NEWTON_METRE, _WATT = Total("N", 1.0), Total("N m", 1e-3), Total("W", 1e-3)
+_NEWTON, _NEWTON_METRE, _WATT = FaceTotal("N", 1.0), FaceTotal("N m", 1e-3), FaceTotal("W", 1e-3)
 _UPPER_DRIVES = "Positive where the upper roller drives."
 _AXLE = "Positive where the axle puts power in."
 _SPEED = "needs `speed`"

@@ -8,7 +8,7 @@ from press_face import CURVED, FACE, press, solve_face
 
 import rollnip as rn
 from rollnip.face import CoveringTable, NipRows
-from rollnip.face.covering import Axis
+from rollnip.face.covering import CoveringAxis
 
 
 def frictionless(covering, **changes):
@@ -105,7 +105,7 @@ def test_every_modulus_times_a_factor(kept):
 
 def test_weights_of_nodes_are_those_of_the_polynomial():
     """A parabola in the logarithm through three nodes is kept exactly."""
-    axis = Axis.between(("upper", "thickness"), 8.0, 12.0)
+    axis = CoveringAxis.between(("upper", "thickness"), 8.0, 12.0)
     x = np.linspace(8.0, 12.0, 7)
     exact = 1.0 + np.log(x) - 0.3 * np.log(x) ** 2
     nodes = np.array(axis.nodes)

@@ -22,7 +22,7 @@ from rollnip.verification import (
     summary,
     verify,
 )
-from rollnip.verification.case import Experiment, Tolerance
+from rollnip.verification.case import AllowedError, Experiment
 from rollnip.verification.half_spaces import carter_cases, half_spaces
 from rollnip.verification.sources import Kind, Source
 
@@ -138,7 +138,7 @@ def test_a_problem_is_solved_once():
         return 2.0
 
     experiment = Experiment("name", Source(Kind.LAW, "a law"), problem)
-    exact = Tolerance(0.0, "exact")
+    exact = AllowedError(0.0, "exact")
     cases = [experiment.figure(q, "", 2.0, float, exact) for q in ("one", "two")]
     assert [outcome.passed for outcome in verify(cases)] == [True, True]
     assert len(asked) == 1
@@ -146,7 +146,7 @@ def test_a_problem_is_solved_once():
 
 def test_nan_is_no_pass():
     figure = Experiment("name", Source(Kind.LAW, "a law"), lambda: float("nan")).figure
-    (outcome,) = verify([figure("q", "", 1.0, float, Tolerance(1e9, "anything"))])
+    (outcome,) = verify([figure("q", "", 1.0, float, AllowedError(1e9, "anything"))])
     assert not outcome.passed
     assert outcome.error == float("inf")
 

@@ -14,7 +14,7 @@ import pytest
 
 from rollnip.web import Limits, pool
 from rollnip.web.answers import Reply
-from rollnip.web.pool import OverloadedError, Pool, Task, TimeLimitError, WorkerError
+from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError, WorkerTask
 
 
 class Fake:
@@ -102,7 +102,9 @@ def with_pool(scenario, **limits):
 
 def ask(one, case, seconds=0.0, limit=1.0, **how):
     return asyncio.create_task(
-        one.run(Task(name="solve", body={"case": case, "seconds": seconds}, seconds=limit, **how))
+        one.run(
+            WorkerTask(name="solve", body={"case": case, "seconds": seconds}, seconds=limit, **how)
+        )
     )
 
 

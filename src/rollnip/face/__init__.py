@@ -11,7 +11,12 @@ from rollnip.face.design import (
     with_crown,
 )
 from rollnip.face.find import solve_face
-from rollnip.face.impression import Estimate, Impression, Reading, read_impressions
+from rollnip.face.impression import (
+    Impression,
+    ImpressionEstimate,
+    ImpressionReading,
+    read_impressions,
+)
 from rollnip.face.law import NipLaw
 from rollnip.face.problem import FaceProblem, face_problem
 from rollnip.face.rows import NipRows
@@ -37,13 +42,14 @@ __all__ = [
     "CoveringTable",
     "Crown",
     "CrownTable",
-    "Estimate",
     "EvenCrown",
     "Face",
     "FaceGrid",
     "FaceProblem",
     "FaceSolution",
     "Impression",
+    "ImpressionEstimate",
+    "ImpressionReading",
     "Journal",
     "JournalStep",
     "LoadRange",
@@ -51,7 +57,6 @@ __all__ = [
     "NipRows",
     "PivotArm",
     "PlainWall",
-    "Reading",
     "Shaft",
     "SheetBalance",
     "SheetFaceSolution",

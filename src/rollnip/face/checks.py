@@ -9,7 +9,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.face.covering import Axis, nips_of, with_covering
+from rollnip.face.covering import CoveringAxis, nips_of, with_covering
 from rollnip.face.law import NAMES, NipLaw, Places
 from rollnip.face.rows import NipRows, Place
 from rollnip.face.table import Progress, Work
@@ -108,7 +108,7 @@ def _worst(
     return error | {"loss": error["loss"] / most if error["loss"] else 0.0}
 
 
-def _error_of_axis(law: NipLaw, axis: Axis, work: Work) -> float:
+def _error_of_axis(law: NipLaw, axis: CoveringAxis, work: Work) -> float:
     """Return the largest error of a law between two nodes of one of its axes."""
     if len(axis.nodes) == 1:
         return 0.0

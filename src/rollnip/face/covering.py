@@ -95,7 +95,7 @@ def thinnest(roller: Roller) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Axis:
+class CoveringAxis:
     """Thicknesses or stiffnesses that cross-sections are solved for.
 
     Attributes
@@ -108,7 +108,7 @@ class Axis:
     nodes: tuple[float, ...]
 
     @classmethod
-    def between(cls, key: Key, low: float, high: float, count: int = _NODES) -> Axis:
+    def between(cls, key: Key, low: float, high: float, count: int = _NODES) -> CoveringAxis:
         """Return Chebyshev's extreme points of the logarithm; one node where nothing varies."""
         if high <= low * (1.0 + 1e-9):
             return cls(key, (low,))
@@ -127,9 +127,11 @@ class Axis:
         return 1 < len(self.nodes) < _MOST_NODES
 
     @property
-    def finer(self) -> Axis:
+    def finer(self) -> CoveringAxis:
         """The axis with a node between each two."""
-        return Axis.between(self.key, self.nodes[0], self.nodes[-1], 2 * len(self.nodes) - 1)
+        return CoveringAxis.between(
+            self.key, self.nodes[0], self.nodes[-1], 2 * len(self.nodes) - 1
+        )
 
     @property
     def between_nodes(self) -> float:
@@ -147,12 +149,14 @@ class Axis:
         return out
 
 
-def axes_of(coverings: Coverings) -> tuple[Axis, ...]:
+def axes_of(coverings: Coverings) -> tuple[CoveringAxis, ...]:
     """Return the axes that cover all values, with as many nodes as a table begins with."""
-    return tuple(Axis.between(key, low, high) for key, (low, high) in coverings.ranges.items())
+    return tuple(
+        CoveringAxis.between(key, low, high) for key, (low, high) in coverings.ranges.items()
+    )
 
 
-def covers(axes: tuple[Axis, ...], coverings: Coverings) -> bool:
+def covers(axes: tuple[CoveringAxis, ...], coverings: Coverings) -> bool:
     """Return whether axes reach over the values of a face."""
     ranges = coverings.ranges
     return {axis.key for axis in axes} == set(ranges) and all(
@@ -162,14 +166,14 @@ def covers(axes: tuple[Axis, ...], coverings: Coverings) -> bool:
     )
 
 
-def nips_of(nip: Nip, axes: tuple[Axis, ...]) -> list[Nip]:
+def nips_of(nip: Nip, axes: tuple[CoveringAxis, ...]) -> list[Nip]:
     """Return the nip for each combination of nodes; the last axis runs fastest."""
     keys = [axis.key for axis in axes]
     states = product(*(axis.nodes for axis in axes))
     return [with_covering(nip, dict(zip(keys, state, strict=True))) for state in states]
 
 
-def weights_of(axes: tuple[Axis, ...], coverings: Coverings) -> Array:
+def weights_of(axes: tuple[CoveringAxis, ...], coverings: Coverings) -> Array:
     """Return the share of each of the `nips_of` at the places of a face, (n, nips)."""
     out = np.ones((coverings.scale.size, 1))
     for axis in axes:

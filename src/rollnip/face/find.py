@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.face.checks import REPORTED, checked
-from rollnip.face.covering import Axis, axes_of, covers
+from rollnip.face.covering import CoveringAxis, axes_of, covers
 from rollnip.face.lattice import Lattice, cells_at, cells_of
 from rollnip.face.law import NipLaw, slip_measure
 from rollnip.face.notes import warnings_of
@@ -249,7 +249,7 @@ class _Maker:
             "end. Try a smaller crown, skew or difference of end loads."
         )
 
-    def _table(self, lattice: Lattice, axes: tuple[Axis, ...]) -> NipLaw:
+    def _table(self, lattice: Lattice, axes: tuple[CoveringAxis, ...]) -> NipLaw:
         return nip_law(
             self.problem.nip,
             self.model,

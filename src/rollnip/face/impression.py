@@ -71,7 +71,7 @@ class Impression:
 
 
 @dataclass(frozen=True, slots=True)
-class Estimate:
+class ImpressionEstimate:
     """Estimate of one unknown from the widths.
 
     Attributes
@@ -88,7 +88,7 @@ class Estimate:
 
 
 @dataclass(frozen=True, slots=True)
-class Reading:
+class ImpressionReading:
     """Result of reading impressions: estimates, fitted faces and warnings.
 
     Attributes
@@ -105,7 +105,7 @@ class Reading:
         first fitted face [mm]; None without a shaft of the upper roller.
     """
 
-    estimates: tuple[Estimate, ...]
+    estimates: tuple[ImpressionEstimate, ...]
     solutions: tuple[FaceSolution, ...]
     chi_squared: float
     freedom: int
@@ -121,7 +121,7 @@ class Reading:
             return None
         return self.shop_crown / self.needed_crown - 1.0
 
-    def __getitem__(self, name: str) -> Estimate:
+    def __getitem__(self, name: str) -> ImpressionEstimate:
         """Return the estimate of an unknown by its name."""
         return next(one for one in self.estimates if one.name == name)
 
@@ -143,7 +143,7 @@ def read_impressions(
     *,
     roller: Name = "upper",
     rows: NipRows | None = None,
-) -> Reading:
+) -> ImpressionReading:
     """Fit loads, crown, tilt or modulus to measured nip widths.
 
     Parameters
@@ -280,7 +280,7 @@ def _reading(
     solutions: list[FaceSolution],
     impressions: Sequence[Impression],
     nip: Nip,
-) -> Reading:
+) -> ImpressionReading:
     values, jacobian = fit.x, fit.jac  # type: ignore[attr-defined]
     chi2 = 2.0 * float(fit.cost)  # type: ignore[attr-defined]
     freedom = int(jacobian.shape[0] - jacobian.shape[1])
@@ -299,13 +299,15 @@ def _reading(
         label, unit = _UNITS[name]
         scale = scales[name]
         estimates.append(
-            Estimate(name, unit, value * scale, (value - half) * scale, (value + half) * scale)
+            ImpressionEstimate(
+                name, unit, value * scale, (value - half) * scale, (value + half) * scale
+            )
         )
         if name in ("load", "modulus") and half > _UNTOLD * abs(value):
             notes.append(
                 f"These widths do not tell the {label}: its interval is wider than itself."
             )
-    return Reading(
+    return ImpressionReading(
         estimates=tuple(estimates),
         solutions=tuple(solutions),
         chi_squared=chi2,

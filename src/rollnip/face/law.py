@@ -21,7 +21,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.face.covering import Axis, Coverings, weights_of
+from rollnip.face.covering import CoveringAxis, Coverings, weights_of
 from rollnip.face.lattice import Lattice
 from rollnip.face.rows import NipRows
 from rollnip.model import Model
@@ -128,7 +128,7 @@ class NipLaw:
     s: Array
     table: Mapping[str, Array]
     error: Mapping[str, float]
-    axes: tuple[Axis, ...] = ()
+    axes: tuple[CoveringAxis, ...] = ()
     parts: tuple[float, float] = (0.0, 0.0)
     faults: tuple[str, str] = ("", "")
     unsolved: NDArray[np.bool_] | None = None

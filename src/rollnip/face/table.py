@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.face.covering import Axis, nips_of
+from rollnip.face.covering import CoveringAxis, nips_of
 from rollnip.face.lattice import Lattice
 from rollnip.face.law import NAMES, NipLaw, traction_share
 from rollnip.face.rows import NipRows, Place, Row
@@ -36,7 +36,7 @@ def nip_law(
     nip: Nip,
     model: Model,
     lattice: Lattice,
-    axes: tuple[Axis, ...],
+    axes: tuple[CoveringAxis, ...],
     rows: NipRows,
     progress: Progress | None = None,
     executor: Executor | None = None,

@@ -12,7 +12,7 @@ from rollnip.cooling import (
 from rollnip.heat.crown import thermal_crown
 from rollnip.heat.exchange import Exchange, exchange
 from rollnip.heat.follow import Branch, BranchPoint
-from rollnip.heat.grid import Grid, roller_grid
+from rollnip.heat.grid import RadialGrid, roller_grid
 from rollnip.heat.growth import radial_growth
 from rollnip.heat.solution import HeatSolution, RollerHeat
 from rollnip.heat.steady import follow_heat, solve_heat
@@ -24,12 +24,12 @@ __all__ = [
     "Coolant",
     "Cooling",
     "Exchange",
-    "Grid",
     "HeatBalance",
     "HeatSolution",
     "Held",
     "Insulated",
     "PassingSheet",
+    "RadialGrid",
     "RollerHeat",
     "Shell",
     "WarmUp",

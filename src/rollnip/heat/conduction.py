@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from rollnip.cooling import Coolant, Held, Insulated
 from rollnip.heat.exchange import Exchange
-from rollnip.heat.grid import Grid
+from rollnip.heat.grid import RadialGrid
 
 Array = NDArray[np.float64]
-Grids = tuple[Grid, Grid]
+Grids = tuple[RadialGrid, RadialGrid]
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,7 +111,9 @@ class Conduction:
                 matrix[n + side, n + side], right[n + side] = 1.0, held
         return matrix, right
 
-    def _inside(self, grid: Grid, first: int, surface: int, matrix: Array, right: Array) -> None:
+    def _inside(
+        self, grid: RadialGrid, first: int, surface: int, matrix: Array, right: Array
+    ) -> None:
         film = grid.film_conductance
         matrix[surface, surface] += film
         right[surface] += film * self.ambient
@@ -181,11 +183,11 @@ class Conduction:
         return core.temperature + flow / _film_inside(grid, core)
 
 
-def _film_inside(grid: Grid, core: Coolant) -> float:
+def _film_inside(grid: RadialGrid, core: Coolant) -> float:
     return 2e-3 * np.pi * grid.inner_radius * core.film
 
 
-def _core_conductance(grid: Grid) -> float:
+def _core_conductance(grid: RadialGrid) -> float:
     """Return the conductance from the innermost cell to the core's boundary [mW/(mm K)]."""
     core = grid.cooling.core
     if isinstance(core, Insulated):
@@ -196,6 +198,6 @@ def _core_conductance(grid: Grid) -> float:
     return 1.0 / (wall + 1.0 / _film_inside(grid, core))
 
 
-def _core_temperature(grid: Grid) -> float:
+def _core_temperature(grid: RadialGrid) -> float:
     core = grid.cooling.core
     return 0.0 if isinstance(core, Insulated) else core.temperature

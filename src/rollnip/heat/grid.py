@@ -27,7 +27,7 @@ SHELL = -1  # the layer number of the cells of a shell
 
 
 @dataclass(frozen=True)
-class Grid:
+class RadialGrid:
     """One roller as heat sees it.
 
     Attributes
@@ -99,7 +99,7 @@ class Grid:
         return float(self.radii[-1])
 
 
-def roller_grid(name: str, roller: Roller, cooling: Cooling, ambient: float) -> Grid:
+def roller_grid(name: str, roller: Roller, cooling: Cooling, ambient: float) -> RadialGrid:
     """Return the cells of a roller.
 
     Parameters
@@ -142,7 +142,7 @@ def roller_grid(name: str, roller: Roller, cooling: Cooling, ambient: float) -> 
 
 def _joined(
     roller: Roller, cooling: Cooling, top: Thermal, parts: list[tuple[Array, int, Thermal]]
-) -> Grid:
+) -> RadialGrid:
     counts = [faces.size - 1 for faces, _, _ in parts]
     depth = np.concatenate([parts[0][0][:1], *(faces[1:] for faces, _, _ in parts)])
     if depth[-1] > roller.radius * (1.0 - 1e-12):
@@ -152,13 +152,13 @@ def _joined(
     radii = roller.radius - depth
     volumes = np.pi * (radii[:-1] ** 2 - radii[1:] ** 2)
     layer = np.repeat([number for _, number, _ in parts], counts)
-    return Grid(roller, cooling, depth, layer, conductivity, stored * volumes, top.effusivity)
+    return RadialGrid(roller, cooling, depth, layer, conductivity, stored * volumes, top.effusivity)
 
 
-def _bare(roller: Roller, cooling: Cooling, top: Thermal, plane: float | None) -> Grid:
+def _bare(roller: Roller, cooling: Cooling, top: Thermal, plane: float | None) -> RadialGrid:
     none = np.zeros(0)
     layer = np.zeros(0, dtype=np.intp)
-    return Grid(roller, cooling, np.zeros(1), layer, none, none, top.effusivity, plane)
+    return RadialGrid(roller, cooling, np.zeros(1), layer, none, none, top.effusivity, plane)
 
 
 def _check_inside(name: str, roller: Roller, cooling: Cooling) -> None:

@@ -18,14 +18,14 @@ from math import cosh, log, sinh
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.heat.grid import SHELL, Grid
+from rollnip.heat.grid import SHELL, RadialGrid
 
 Array = NDArray[np.float64]
 
 _PINHOLE = 1e-3  # of the innermost cell: radius of the hole in a solid roller
 
 
-def radial_growth(grid: Grid, temperature: Array, reference: float) -> float:
+def radial_growth(grid: RadialGrid, temperature: Array, reference: float) -> float:
     """Return how much the radius of a roller grows [mm].
 
     Parameters
@@ -58,7 +58,7 @@ def radial_growth(grid: Grid, temperature: Array, reference: float) -> float:
     return float(start[0, 0] + unknown * start[0, 1])
 
 
-def _across(grid: Grid, cell: int, inner: float, warmer: float, state: Array) -> Array:
+def _across(grid: RadialGrid, cell: int, inner: float, warmer: float, state: Array) -> Array:
     """Carry (u, S) and its change with the unknown, (2, 2), from a cell's inside to its outside."""
     material = grid.roller.materials[grid.layer[cell]]
     modulus, nu = material.relaxed_modulus, material.poisson
@@ -80,7 +80,7 @@ def _across(grid: Grid, cell: int, inner: float, warmer: float, state: Array) ->
     return np.asarray(out)
 
 
-def core_growth(grid: Grid, temperature: Array, reference: float) -> float:
+def core_growth(grid: RadialGrid, temperature: Array, reference: float) -> float:
     """Return how much the outside of the shell grows [mm]; 0 without a shell."""
     shell = grid.cooling.shell
     inside = np.flatnonzero(grid.layer == SHELL)

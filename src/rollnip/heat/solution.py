@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction, Outflow
-from rollnip.heat.grid import Grid
+from rollnip.heat.grid import RadialGrid
 from rollnip.heat.state import SIDES, Side, ThermalState
 from rollnip.model import Model
 from rollnip.nip import Nip
@@ -82,7 +82,7 @@ def bond_temperature(conduction: Conduction, values: Array, side: int) -> float 
     return float((above * cells[inner] + below * cells[inner + 1]) / (above + below))
 
 
-def _halves(grid: Grid, cell: int) -> tuple[float, float]:
+def _halves(grid: RadialGrid, cell: int) -> tuple[float, float]:
     """Return the conductances from the lower face of a cell to its middle and to the next one."""
     face = grid.radii[cell + 1]
     above = grid.conductivity[cell] / np.log(grid.middles[cell] / face)
@@ -185,7 +185,9 @@ class HeatSolution:
         )
 
 
-def _hottest(grid: Grid, r: Array, temperature: Array, bond: float | None) -> tuple[float, float]:
+def _hottest(
+    grid: RadialGrid, r: Array, temperature: Array, bond: float | None
+) -> tuple[float, float]:
     """Return depth and temperature of the hottest place of the coverings, the bond if it is one."""
     if r.size == 1:
         return 0.0, float(temperature[0])

@@ -13,7 +13,7 @@ from rollnip._errors import InvalidInputError
 from rollnip.cooling import HeatBalance, PassingSheet
 from rollnip.heat.conduction import Conduction, Sources
 from rollnip.heat.exchange import exchange
-from rollnip.heat.grid import Grid, roller_grid
+from rollnip.heat.grid import RadialGrid, roller_grid
 from rollnip.heat.warm import Divided, Growth, divided, follows, growths, undivided, warm_nip
 from rollnip.influence import KernelCache
 from rollnip.model import Model
@@ -81,7 +81,7 @@ class HeatProblem:
         self.passing = _passing(nip, heat)
         self.nip, self.heat, self.model = nip, heat, model
         self.cache = KernelCache() if cache is None else cache
-        grids: list[Grid] = [
+        grids: list[RadialGrid] = [
             roller_grid(side, getattr(nip, side), heat.of(side), heat.ambient) for side in SIDES
         ]
         self.conduction = Conduction((grids[0], grids[1]), heat.ambient)
@@ -162,7 +162,7 @@ class HeatProblem:
         return Sources(np.concatenate(cells), lost, over)
 
 
-def _cells(grid: Grid, solution: Solution, side: Side, grown: Growth) -> Array:
+def _cells(grid: RadialGrid, solution: Solution, side: Side, grown: Growth) -> Array:
     """Return the power in each cell of a roller, (n,) [mW/mm]."""
     covering = grid.covering
     powers = np.zeros(grid.size)

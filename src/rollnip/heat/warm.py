@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.heat.conduction import Conduction
-from rollnip.heat.grid import Grid
+from rollnip.heat.grid import RadialGrid
 from rollnip.heat.growth import core_growth, radial_growth
 from rollnip.materials import Material, Viscoelastic
 from rollnip.nip import Approach, Nip
@@ -91,21 +91,21 @@ def divided(
     return Divided(*parts)
 
 
-def _indices(grid: Grid) -> range:
+def _indices(grid: RadialGrid) -> range:
     return range(0 if grid.size == 0 else len(grid.roller.materials))
 
 
-def _whole(grid: Grid) -> Bounds:
+def _whole(grid: RadialGrid) -> Bounds:
     return tuple(_span(grid, index) for index in _indices(grid))
 
 
-def _span(grid: Grid, index: int) -> tuple[int, int]:
+def _span(grid: RadialGrid, index: int) -> tuple[int, int]:
     cells = np.flatnonzero(grid.layer == index)
     return int(cells[0]), int(cells[-1]) + 1
 
 
 def _bounds(
-    grid: Grid, temperatures: Array, index: int, frequency: float, allowed: float
+    grid: RadialGrid, temperatures: Array, index: int, frequency: float, allowed: float
 ) -> tuple[int, ...]:
     first, stop = _span(grid, index)
     material = grid.roller.materials[index]
@@ -189,7 +189,7 @@ def warm_nip(
     return replace(nip, upper=rollers[0], lower=rollers[1], normal=normal)
 
 
-def _warm_roller(grid: Grid, temperatures: Array, cut: Bounds, grown: Growth) -> Roller:
+def _warm_roller(grid: RadialGrid, temperatures: Array, cut: Bounds, grown: Growth) -> Roller:
     roller = grid.roller
     radius = roller.radius + grown.total
     if grid.size == 0 or not roller.materials:
@@ -215,6 +215,6 @@ def _with(roller: Roller, radius: float, layers: Sequence[Layer], core: Material
     )
 
 
-def _mean(grid: Grid, temperatures: Array, first: int, stop: int) -> float:
+def _mean(grid: RadialGrid, temperatures: Array, first: int, stop: int) -> float:
     weights = grid.volumes[first:stop]
     return float(weights @ temperatures[first:stop] / weights.sum())

@@ -20,7 +20,7 @@ from rollnip.identification.pictures import plot_fit, plot_residuals, plot_set
 from rollnip.identification.report import fit_case, fit_dict, fit_report
 from rollnip.identification.result import Estimate, Fit, FittedSet, Start
 from rollnip.identification.study import FitStudy, read_fit
-from rollnip.identification.surface import Strains, Surface, Velocities
+from rollnip.identification.surface import Strains, SurfaceMeasurements, Velocities
 from rollnip.identification.unknowns import Prior, Unknown
 
 __all__ = [
@@ -43,7 +43,7 @@ __all__ = [
     "Scalars",
     "Start",
     "Strains",
-    "Surface",
+    "SurfaceMeasurements",
     "Torques",
     "Total",
     "Unknown",

@@ -16,7 +16,12 @@ from rollnip._errors import InvalidInputError
 from rollnip._units import base_unit
 from rollnip.identification.costs import Cost, Measurements
 from rollnip.identification.forward import Forward, Predictor, Workforce, check_paths, model_of
-from rollnip.identification.intervals import End, covariance, prediction_errors, profile_ends
+from rollnip.identification.intervals import (
+    IntervalEnd,
+    covariance,
+    prediction_errors,
+    profile_ends,
+)
 from rollnip.identification.judge import (
     at_bounds,
     bound_warnings,
@@ -190,7 +195,7 @@ def fitted(
         spread = robust_covariance(plain.jacobian, plain.residuals)
     else:
         spread = covariance(best.jacobian, weights) * scatter.widened**2
-    profiles: list[tuple[End, End] | None] = [None] * len(unknowns)
+    profiles: list[tuple[IntervalEnd, IntervalEnd] | None] = [None] * len(unknowns)
     if method.profile and method.loss == "squares" and np.all(weights == 1.0):
         profiles = [
             profile_ends(misfit, best, spread, i, scatter.quantile * scatter.widened)
@@ -326,7 +331,7 @@ def _estimates(
     best: Local,
     spread: Array,
     scatter: _Scatter,
-    profiles: Sequence[tuple[End, End] | None],
+    profiles: Sequence[tuple[IntervalEnd, IntervalEnd] | None],
 ) -> tuple[Estimate, ...]:
     found = []
     bounds = at_bounds(misfit, best)
@@ -358,7 +363,9 @@ def _correlation(spread: Array) -> Array:
     return np.asarray(spread / np.outer(scale, scale))
 
 
-def _profile_warnings(profiles: Sequence[tuple[End, End] | None], rise: float) -> list[str]:
+def _profile_warnings(
+    profiles: Sequence[tuple[IntervalEnd, IntervalEnd] | None], rise: float
+) -> list[str]:
     gain = max((end.gain for ends in profiles if ends is not None for end in ends), default=0.0)
     if gain > 0.05 * rise:
         return [

@@ -19,7 +19,7 @@ _LITTLE = 0.01  # share of the wanted rise; a smaller gain ends the search of th
 
 
 @dataclass(frozen=True, slots=True)
-class End:
+class IntervalEnd:
     """One end of a profile-likelihood interval.
 
     Attributes
@@ -73,7 +73,7 @@ def prediction_errors(misfit: Misfit, jacobian: Array, spread: Array) -> list[Ar
 
 def profile_ends(
     misfit: Misfit, best: Local, spread: Array, index: int, quantile: float
-) -> tuple[End, End]:
+) -> tuple[IntervalEnd, IntervalEnd]:
     """Return both ends of the profile-likelihood interval of one unknown.
 
     The interval ends where the sum of squares, least over all other unknowns, is quantile^2
@@ -90,7 +90,9 @@ def profile_ends(
     )
 
 
-def _profile_end(misfit: Misfit, best: Local, spread: Array, index: int, wanted: float) -> End:
+def _profile_end(
+    misfit: Misfit, best: Local, spread: Array, index: int, wanted: float
+) -> IntervalEnd:
     sign, target = np.sign(wanted), abs(wanted)
     bound = misfit.high[index] if sign > 0 else misfit.low[index]
     room = abs(float(bound - best.ended[index]))
@@ -108,7 +110,7 @@ def _profile_end(misfit: Misfit, best: Local, spread: Array, index: int, wanted:
             break
         if reached < 1.0:
             if distance >= room * (1.0 - 1e-9):
-                return End(float(bound), True, gain)
+                return IntervalEnd(float(bound), True, gain)
             inner = distance
         else:
             outer = distance
@@ -116,7 +118,7 @@ def _profile_end(misfit: Misfit, best: Local, spread: Array, index: int, wanted:
         if not inner < guess < outer:
             guess = 0.5 * (inner + outer)
         distance = min(guess, room)
-    return End(float(best.ended[index] + sign * distance), False, gain)
+    return IntervalEnd(float(best.ended[index] + sign * distance), False, gain)
 
 
 def _least_rise(misfit: Misfit, best: Local, begin: Array, index: int, target: float) -> float:

@@ -16,7 +16,7 @@ from rollnip.solution import Solution
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Surface(Measurements):
+class SurfaceMeasurements(Measurements):
     """Measurements at places along the surface of one roller, all in one nip.
 
     Parameters
@@ -52,7 +52,7 @@ class Surface(Measurements):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Strains(Surface):
+class Strains(SurfaceMeasurements):
     """Surface strains at places x [mm] in the frame of the nip (towards the leading edge).
 
     Parameters
@@ -60,7 +60,7 @@ class Strains(Surface):
     x :
         (n,) places [mm].
     at, measured, standard_error, weight, name, roller, width :
-        see `Surface`.
+        see `SurfaceMeasurements`.
     """
 
     quantity, unit = "surface strain", ""
@@ -92,7 +92,7 @@ class Strains(Surface):
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Velocities(Surface):
+class Velocities(SurfaceMeasurements):
     """A velocity profile of laser-Doppler anemometry; shift and roller speed are fitted with it.
 
     Parameters
@@ -101,7 +101,7 @@ class Velocities(Surface):
         from `rollnip.lda.estimate_profile` or `rollnip.lda.profile_from_means`; its velocities
         and their standard errors are the measurements.
     at, weight, name, roller, width :
-        see `Surface`; ``measured`` and ``standard_error`` come from the profile.
+        see `SurfaceMeasurements`; ``measured`` and ``standard_error`` come from the profile.
     """
 
     quantity, unit = "surface velocity", "mm/s"

@@ -45,7 +45,7 @@ _CHUNK = 2_000_000
 """Values of a Bessel function that are held at once."""
 
 
-class Waves(NamedTuple):
+class WaveCompliance(NamedTuple):
     """S, T, Z and X at some wave numbers, (n,) each [mm/MPa]."""
 
     s: Array
@@ -141,7 +141,7 @@ def _half_space(roller: Roller) -> HalfSpace:
     return HalfSpace.of(top.relaxed_modulus, top.poisson)
 
 
-def waves_of(roller: Roller, k: Array) -> Waves:
+def waves_of(roller: Roller, k: Array) -> WaveCompliance:
     """Return S, T, Z and X of an elastic roller at positive wave numbers."""
     thickness = np.array([layer.thickness for layer in roller.layers])
     young = np.array([layer.material.relaxed_modulus for layer in roller.layers])
@@ -151,7 +151,7 @@ def waves_of(roller: Roller, k: Array) -> Waves:
         core, core_poisson = np.asarray(roller.core.relaxed_modulus), roller.core.poisson
     plane = flat_compliance(k, thickness, young, poisson, core, core_poisson)
     across = np.asarray(shear_compliance(k, thickness, young, poisson, core, core_poisson).real)
-    return Waves(across, plane.xx.real - across, plane.zz.real, plane.xz.imag)
+    return WaveCompliance(across, plane.xx.real - across, plane.zz.real, plane.xz.imag)
 
 
 def radial_table(roller: Roller, reach: float) -> RadialTable:

@@ -16,7 +16,7 @@ from rollnip.verification.sources import COLLOCATION
 _RADIUS = 1000.0  # thicknesses of 1 mm; what is linear has no other length
 
 
-class Indentation(NamedTuple):
+class PublishedIndentation(NamedTuple):
     """Contact half-width over thickness, and P R/(E h^2), p(0) R/(E h), delta R/h^2."""
 
     poisson: float
@@ -27,18 +27,18 @@ class Indentation(NamedTuple):
 
 
 INDENTATIONS = (
-    Indentation(0.3, 0.5, 0.251615, 0.322026, 0.204980),
-    Indentation(0.3, 1.0, 1.342634, 0.884488, 0.653997),
-    Indentation(0.3, 2.0, 8.694674, 3.028596, 2.284567),
-    Indentation(0.3, 5.0, 120.7403, 17.61706, 13.15349),
-    Indentation(0.45, 0.5, 0.299513, 0.384028, 0.173296),
-    Indentation(0.45, 1.0, 1.732703, 1.153467, 0.532983),
-    Indentation(0.45, 2.0, 12.97865, 4.628397, 1.823759),
-    Indentation(0.45, 5.0, 235.2206, 35.69842, 10.97079),
-    Indentation(0.5, 0.5, 0.326591, 0.419190, 0.152264),
-    Indentation(0.5, 1.0, 1.993130, 1.334885, 0.438344),
-    Indentation(0.5, 2.0, 16.95545, 6.138857, 1.329184),
-    Indentation(0.5, 5.0, 478.6558, 75.84069, 6.179127),
+    PublishedIndentation(0.3, 0.5, 0.251615, 0.322026, 0.204980),
+    PublishedIndentation(0.3, 1.0, 1.342634, 0.884488, 0.653997),
+    PublishedIndentation(0.3, 2.0, 8.694674, 3.028596, 2.284567),
+    PublishedIndentation(0.3, 5.0, 120.7403, 17.61706, 13.15349),
+    PublishedIndentation(0.45, 0.5, 0.299513, 0.384028, 0.173296),
+    PublishedIndentation(0.45, 1.0, 1.732703, 1.153467, 0.532983),
+    PublishedIndentation(0.45, 2.0, 12.97865, 4.628397, 1.823759),
+    PublishedIndentation(0.45, 5.0, 235.2206, 35.69842, 10.97079),
+    PublishedIndentation(0.5, 0.5, 0.326591, 0.419190, 0.152264),
+    PublishedIndentation(0.5, 1.0, 1.993130, 1.334885, 0.438344),
+    PublishedIndentation(0.5, 2.0, 16.95545, 6.138857, 1.329184),
+    PublishedIndentation(0.5, 5.0, 478.6558, 75.84069, 6.179127),
 )
 
 
@@ -47,7 +47,7 @@ def bonded_layers() -> tuple[VerificationCase, ...]:
     return (*_under_approach(), *(case for row in INDENTATIONS for case in _under_load(row)))
 
 
-def _under_load(row: Indentation) -> tuple[VerificationCase, ...]:
+def _under_load(row: PublishedIndentation) -> tuple[VerificationCase, ...]:
     figure = Experiment(
         f"Bonded layer, nu {row.poisson:g}, a/h = {row.half_width:g}",
         COLLOCATION,

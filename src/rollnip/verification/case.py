@@ -12,18 +12,18 @@ from rollnip.solution import Solution
 from rollnip.verification.sources import Source
 
 
-class Tolerance(NamedTuple):
+class AllowedError(NamedTuple):
     """Relative error that is allowed, and the reason for its size."""
 
     value: float
     reason: str
 
 
-SOLVER = Tolerance(
+SOLVER = AllowedError(
     3e-3,
     "default settings: the solver estimates its error below 0.1 % and may under-claim threefold",
 )
-ROUNDING = Tolerance(1e-9, "both sides are exact but for rounding")
+ROUNDING = AllowedError(1e-9, "both sides are exact but for rounding")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -90,7 +90,7 @@ class Experiment:
         unit: str,
         expected: float,
         read: Callable[[Any], float],
-        tolerance: Tolerance = SOLVER,
+        tolerance: AllowedError = SOLVER,
         *,
         scale: float | None = None,
     ) -> VerificationCase:

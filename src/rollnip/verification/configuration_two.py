@@ -18,11 +18,11 @@ from rollnip.verification._nips import (
     solved,
     trailing_edge,
 )
-from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import CONFIGURATION_TWO
 
-_PRINTED = Tolerance(1e-2, "three digits printed, and a small difference of large strains")
-_BALANCE = Tolerance(3e-3, "three digits printed (0.1 %), and the solver's 0.1 %")
+_PRINTED = AllowedError(1e-2, "three digits printed, and a small difference of large strains")
+_BALANCE = AllowedError(3e-3, "three digits printed (0.1 %), and the solver's 0.1 %")
 
 
 def configuration_two() -> tuple[VerificationCase, ...]:

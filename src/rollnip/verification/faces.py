@@ -18,9 +18,9 @@ from rollnip.face import (
     FaceProblem,
     FaceSolution,
     Impression,
+    ImpressionReading,
     Journal,
     NipLaw,
-    Reading,
     balance,
     read_impressions,
     solve_face,
@@ -33,7 +33,7 @@ from rollnip.nip import LineLoad, Nip
 from rollnip.rollers import Layer, Roller
 from rollnip.shafts import Crown, Shaft
 from rollnip.verification._nips import LINEAR
-from rollnip.verification.case import ROUNDING, Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import ROUNDING, AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import (
     BENDING,
     END_LOADED_ROLLERS,
@@ -43,7 +43,7 @@ from rollnip.verification.sources import (
 )
 
 _PLACES, _MIDDLE = 65, 32
-_CLOSED = Tolerance(1e-4, "both sides are exact but for places along the face")
+_CLOSED = AllowedError(1e-4, "both sides are exact but for places along the face")
 _LENGTH, _BEARINGS = 1600.0, 1900.0
 _PLI = 0.1751268  # N/mm
 
@@ -165,14 +165,14 @@ def _equilibrium() -> tuple[VerificationCase, ...]:
 
 def _impression() -> tuple[VerificationCase, ...]:
     figure = Experiment("A nip impression of that press, read", IMPRESSION, _read).figure
-    exact = Tolerance(1e-3, "exact widths at places; straight lines between 65 places")
+    exact = AllowedError(1e-3, "exact widths at places; straight lines between 65 places")
     return (
         figure("crown", "mm", 0.25, lambda one: one["crown"].value, exact),
         figure("difference of end loads", "N", 200.0, lambda one: one["tilt"].value, exact),
     )
 
 
-def _read() -> Reading:
+def _read() -> ImpressionReading:
     true = _crowned()
     widths = Impression(true.y[::4], true.nip_width[::4], 0.05)
     nip, face = _press(), Face(length=_LENGTH)
@@ -181,7 +181,7 @@ def _read() -> Reading:
 
 def _trade_rule() -> tuple[VerificationCase, ...]:
     figure = Experiment("Rollers that lie .005 in apart in the middle", TRADE_RULE, _hollow).figure
-    count = Tolerance(0.0, "a count: 12.7 mm of 50, 60 and 80 Shore A at 50 pli")
+    count = AllowedError(0.0, "a count: 12.7 mm of 50, 60 and 80 Shore A at 50 pli")
     return (figure("coverings of three within 5 to 40 pli", "", 3.0, _within, count),)
 
 

@@ -20,7 +20,7 @@ from rollnip.verification._nips import (
     peak_pressure,
     solved,
 )
-from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import FINITE_ELEMENTS
 
 
@@ -87,19 +87,19 @@ REFERENCES = (
 class Tolerances(NamedTuple):
     """Tolerances of one geometry; the creepage counts against that of free rolling."""
 
-    approach: Tolerance
-    half_width: Tolerance
-    peak_pressure: Tolerance
-    creepage: Tolerance
+    approach: AllowedError
+    half_width: AllowedError
+    peak_pressure: AllowedError
+    creepage: AllowedError
 
 
 _THIRD = "the finite elements' own error, and terms of third order, which the model leaves out"
 _ALL = "the finite elements' own error, and that of the elements of the model"
 _SECOND = "the model keeps only some terms of second order, at strains of 5 to 10 %"
 TOLERANCES: dict[Geometry, Tolerances] = {
-    "finite": Tolerances(*(Tolerance(t, _ALL) for t in (1e-3, 2e-3, 1e-3, 5e-3))),
-    "second": Tolerances(*(Tolerance(t, _THIRD) for t in (4e-3, 6e-3, 3e-3, 1.5e-2))),
-    "curved": Tolerances(*(Tolerance(t, _SECOND) for t in (2e-2, 2.5e-2, 3e-2, 4e-2))),
+    "finite": Tolerances(*(AllowedError(t, _ALL) for t in (1e-3, 2e-3, 1e-3, 5e-3))),
+    "second": Tolerances(*(AllowedError(t, _THIRD) for t in (4e-3, 6e-3, 3e-3, 1.5e-2))),
+    "curved": Tolerances(*(AllowedError(t, _SECOND) for t in (2e-2, 2.5e-2, 3e-2, 4e-2))),
 }
 
 
@@ -131,7 +131,7 @@ def _figures(reference: Reference, geometry: Geometry) -> tuple[VerificationCase
     ]
     if reference.creepage is not None and reference.stretch is not None:
         free = 0.0413343 if reference.coating is _ONE else 0.0428791
-        of_free = Tolerance(
+        of_free = AllowedError(
             allowed.creepage.value, f"of the creepage in free rolling; {allowed.creepage.reason}"
         )
         strain = reference.stretch - 1.0

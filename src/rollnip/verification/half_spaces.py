@@ -23,7 +23,7 @@ from rollnip.verification._nips import (
     solved,
     stick_length,
 )
-from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import BENTALL_JOHNSON, CARTER, HERTZ
 
 _STEEL = Elastic(modulus=210e3, poisson=0.3)
@@ -140,7 +140,7 @@ def _slipping() -> tuple[VerificationCase, ...]:
         "Bentall & Johnson, friction 1e-4", BENTALL_JOHNSON, partial(_solve_dissimilar, 1e-4)
     ).figure
     exact = free_rolling_vanishing_friction(**_PAIR)
-    finite = Tolerance(1e-2, "friction is small, not zero: it moves the places by 1 % of c")
+    finite = AllowedError(1e-2, "friction is small, not zero: it moves the places by 1 % of c")
     return (
         figure("creepage, as printed", "", 5.26e-4, creepage),
         figure("creepage, closed form", "", exact.creepage, creepage),

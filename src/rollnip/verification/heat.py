@@ -15,9 +15,9 @@ from rollnip.heat import (
     Branch,
     Cooling,
     Exchange,
-    Grid,
     HeatBalance,
     HeatSolution,
+    RadialGrid,
     exchange,
     radial_growth,
     roller_grid,
@@ -29,7 +29,7 @@ from rollnip.materials import TYPICAL, WLF, Elastic, StandardLinearSolid, Therma
 from rollnip.nip import LineLoad, Nip
 from rollnip.rollers import Layer, Roller
 from rollnip.verification._nips import LINEAR
-from rollnip.verification.case import ROUNDING, Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import ROUNDING, AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import (
     CONDUCTION,
     CONTACT_OF_HALF_SPACES,
@@ -43,7 +43,7 @@ Array = NDArray[np.float64]
 
 _RING = Thermal(conductivity=0.25, density=1150.0, heat_capacity=1900.0, expansion=2e-4)
 _POWER, _FILM, _INNER, _OUTER = 500.0, 30.0, 88.9, 101.6  # W/m, W/(m2 K), mm, mm
-_CELLS = Tolerance(1e-4, "48 cells in a layer leave the square of 1/48 of its parabola, halved")
+_CELLS = AllowedError(1e-4, "48 cells in a layer leave the square of 1/48 of its parabola, halved")
 _BETA, _LOSS = 0.05, 0.01  # 1/K; K of rise per mm/s when cold
 
 
@@ -115,7 +115,7 @@ def _slab() -> tuple[VerificationCase, ...]:
         CONDUCTION,
         partial(_ring, Held(0.0), radius, thickness, film, power),
     ).figure
-    return (figure("surface over ambient", "K", surface, _surface, Tolerance(5e-4, "48 cells")),)
+    return (figure("surface over ambient", "K", surface, _surface, AllowedError(5e-4, "48 cells")),)
 
 
 def _contact() -> tuple[VerificationCase, ...]:
@@ -138,13 +138,13 @@ def _growth() -> tuple[VerificationCase, ...]:
     return (figure("growth of the radius", "mm", volume, _grown, ROUNDING),)
 
 
-def _thick_covering() -> Grid:
+def _thick_covering() -> RadialGrid:
     rubber = Elastic(modulus=2.0, poisson=0.5, thermal=_RING)
     roller = Roller(radius=100.0, layers=[Layer(50.0, rubber)])
     return roller_grid("upper", roller, Cooling(film=1.0), 0.0)
 
 
-def _grown(grid: Grid) -> float:
+def _grown(grid: RadialGrid) -> float:
     return radial_growth(grid, np.full(grid.size, 10.0), 0.0)
 
 
@@ -177,7 +177,7 @@ def _energy() -> tuple[VerificationCase, ...]:
     figure = Experiment(
         "Warm press in thermal balance", ENERGY_OF_ROLLERS, partial(_warm_press, 50.0, Insulated())
     ).figure
-    closed = Tolerance(1e-4, "the balance that the heat of a nip is solved to")
+    closed = AllowedError(1e-4, "the balance that the heat of a nip is solved to")
     return (
         figure("heat to the air over all heat", "", 1.0, _to_air, closed),
         figure("heat in all depths over the viscous loss", "", 1.0, _in_depths, closed),
@@ -194,7 +194,7 @@ def _in_depths(found: HeatSolution) -> float:
 
 def _cooling() -> tuple[VerificationCase, ...]:
     thin = Experiment("Thin covering, cooled without limit", PERFECT_COOLING, _cooled).figure
-    left = Tolerance(5e-3, "half a tenth of a kelvin is left in the middle of the covering")
+    left = AllowedError(5e-3, "half a tenth of a kelvin is left in the middle of the covering")
     return (thin("viscous loss over that of the cold nip", "", 1.0, _over_cold, left),)
 
 
@@ -268,8 +268,8 @@ class _Lumped:
 
 def _runaway() -> tuple[VerificationCase, ...]:
     figure = Experiment("Heat that grows as e^(T/20 K)", SEMENOV, _branch).figure
-    top = Tolerance(1e-3, "what the branch is solved to; the value is flat at the top")
-    near = Tolerance(3e-2, "the place of a flat top is known to the root of its value")
+    top = AllowedError(1e-3, "what the branch is solved to; the value is flat at the top")
+    near = AllowedError(3e-2, "the place of a flat top is known to the root of its value")
     return (
         figure("speed of runaway", "mm/s", 1.0 / (e * _BETA * _LOSS), _turning_value, top),
         figure("rise at runaway", "K", 1.0 / _BETA, _turning_rise, near),

@@ -18,7 +18,7 @@ from rollnip.compliance import (
 from rollnip.influence import SurfaceKernels, covering_window, surface_kernels
 from rollnip.materials import Elastic
 from rollnip.rollers import Roller
-from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import (
     BONDED_LAYER_FORM,
     ELLEA,
@@ -45,14 +45,14 @@ def kernels() -> tuple[VerificationCase, ...]:
 
 
 def _single_layer() -> tuple[VerificationCase, ...]:
-    printed = Tolerance(1e-9, "nine to ten digits printed")
+    printed = AllowedError(1e-9, "nine to ten digits printed")
     rows = (
         (0.5, "C_zz", 0.3608725218, _zz, printed),
-        (0.5, "C_xx", 1.24815829, _xx, Tolerance(1e-8, "nine digits printed")),
+        (0.5, "C_xx", 1.24815829, _xx, AllowedError(1e-8, "nine digits printed")),
         (0.5, "|C_xz|", 0.4436428842, _xz, printed),
         (0.3, "C_zz", 0.7566682732, _zz, printed),
         (0.3, "C_xx", 1.425051666, _xx, printed),
-        (0.3, "|C_xz|", 0.00133904674, _xz, Tolerance(1e-8, "nine digits printed")),
+        (0.3, "|C_xz|", 0.00133904674, _xz, AllowedError(1e-8, "nine digits printed")),
     )
     problems = {poisson: partial(_one_layer, poisson, 1.0) for poisson in (0.5, 0.3)}
     return tuple(
@@ -68,7 +68,7 @@ def _one_layer(poisson: float, k: float) -> SurfaceCompliance:
 
 
 def _closed_form() -> tuple[VerificationCase, ...]:
-    exact = Tolerance(1e-11, "rounding; the closed form itself loses digits at small k")
+    exact = AllowedError(1e-11, "rounding; the closed form itself loses digits at small k")
     return tuple(
         Experiment(
             f"One bonded layer, k h = {k:g}", BONDED_LAYER_FORM, partial(_one_layer, nu, k)
@@ -92,7 +92,7 @@ def _stack(k: float) -> tuple[VerificationCase, ...]:
     figure = Experiment(
         f"Three layers, k = {k:g}/mm", FORTY_DIGITS, partial(_three_layers, k)
     ).figure
-    digits = Tolerance(1e-9, "ten digits stored")
+    digits = AllowedError(1e-9, "ten digits stored")
     xx, zz, xz = STACK_COMPLIANCE[k]
     return (
         figure("C_xx", "mm/MPa", xx, _xx, digits),
@@ -113,7 +113,7 @@ def _ring() -> tuple[VerificationCase, ...]:
     gap = outer - inner**2 / outer
     squeeze = gap / (2.0 * shear * (1.0 / 0.4 + (inner / outer) ** 2))
     twist = gap * (outer / inner) ** 2 / (2.0 * shear)
-    exact = Tolerance(1e-10, "rounding")
+    exact = AllowedError(1e-10, "rounding")
     return (
         figure("u_z under uniform pressure", "mm/MPa", squeeze, _zz, exact),
         figure("u_x under uniform shear", "mm/MPa", twist, _xx, exact),
@@ -128,13 +128,15 @@ def _half_space() -> tuple[VerificationCase, ...]:
     line = Experiment("Line force on a half-space", FLAMANT, _flamant).figure
     shear = Experiment("Hertz pressure, shear below the axis", MCEWEN, _below_hertz).figure
     fall = -2.0 * (1.0 - 0.3**2) / 2.0 / pi * log(10.0)
-    table = Tolerance(1e-6, "the inverse transform is tabulated to 1e-7")
-    panels = Tolerance(1e-5, "quadrature over the wave numbers")
+    table = AllowedError(1e-6, "the inverse transform is tabulated to 1e-7")
+    panels = AllowedError(1e-5, "quadrature over the wave numbers")
     return (
         line("u_z at 10 mm less at 1 mm", "mm", fall, lambda v: float(v[0]), table),
         line("u_x of a normal force", "mm", -0.5 * 1.3 * 0.4 / 2.0, lambda v: float(v[1]), table),
         shear("largest shear/p0", "", 0.300283, lambda v: float(v[0]), panels),
-        shear("its depth/a", "", 0.786152, lambda v: float(v[1]), Tolerance(1e-3, "flat maximum")),
+        shear(
+            "its depth/a", "", 0.786152, lambda v: float(v[1]), AllowedError(1e-3, "flat maximum")
+        ),
     )
 
 
@@ -162,7 +164,7 @@ def _below_hertz() -> tuple[float, float]:
 
 def _disc() -> tuple[VerificationCase, ...]:
     figure = Experiment("Three-layer half-space under a disc", ELLEA, _deflection).figure
-    printed = Tolerance(1e-4, "five digits printed")
+    printed = AllowedError(1e-4, "five digits printed")
     return (figure("deflection at the centre", "mm", 1.0508, float, printed),)
 
 

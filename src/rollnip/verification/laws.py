@@ -21,7 +21,7 @@ from rollnip.nip import LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Roller
 from rollnip.solution import Solution
 from rollnip.verification._nips import creepage, half_width, peak_pressure, solved
-from rollnip.verification.case import ROUNDING, Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import ROUNDING, AllowedError, Experiment, VerificationCase
 from rollnip.verification.configuration_two import nip_two, solve_two
 from rollnip.verification.sources import BETTI, DIMENSIONS, ENERGY, EQUILIBRIUM, MIRROR, PASSIVITY
 
@@ -97,7 +97,7 @@ def _most_negative(c: SurfaceCompliance, factor: complex) -> float:
 
 
 def _energy() -> tuple[VerificationCase, ...]:
-    balance = Tolerance(3e-3, "work of linear tractions on the mesh: second order, 0.1 %")
+    balance = AllowedError(3e-3, "work of linear tractions on the mesh: second order, 0.1 %")
     problems: tuple[tuple[str, Callable[[], Any]], ...] = (
         ("Energy, configuration II driven", partial(solve_two, 0.53)),
         ("Energy, viscoelastic covering rolling freely", partial(_solve_viscous, 0.0)),
@@ -141,7 +141,7 @@ def _spent(solution: Solution) -> float:
 
 def _idler() -> tuple[VerificationCase, ...]:
     figure = Experiment("Idler under a viscoelastic covering", EQUILIBRIUM, _solve_idler).figure
-    balance = Tolerance(3e-3, "work of linear tractions on the mesh: second order, 0.1 %")
+    balance = AllowedError(3e-3, "work of linear tractions on the mesh: second order, 0.1 %")
     return (
         figure("traction/(mu F)", "", 0.0, lambda s: float(s.traction / 4.0), scale=1.0),
         figure("torque_lower/(mu F R)", "", 0.0, _idler_torque, scale=1.0),
@@ -164,7 +164,7 @@ def _axle_power(solution: Solution) -> float:
 
 def _dimensions() -> tuple[VerificationCase, ...]:
     figure = Experiment("Configuration II, a thousand times as large", DIMENSIONS, _scaled).figure
-    same = Tolerance(1e-3, "the tables start at a power of two: within the solver's tolerance")
+    same = AllowedError(1e-3, "the tables start at a power of two: within the solver's tolerance")
     return (
         figure("creepage, ratio", "", 1.0, _ratio(creepage), same),
         figure("half-width, ratio", "", 1e3, _ratio(half_width), same),
@@ -178,7 +178,7 @@ def _scaled() -> tuple[Solution, Solution]:
 
 def _mirror() -> tuple[VerificationCase, ...]:
     figure = Experiment("Configuration II, rollers swapped", MIRROR, _swapped).figure
-    same = Tolerance(1e-6, "the same equations in another order")
+    same = AllowedError(1e-6, "the same equations in another order")
     return (
         figure("creepage, ratio", "", -1.0, _ratio(creepage), same),
         figure("half-width, ratio", "", 1.0, _ratio(half_width), same),

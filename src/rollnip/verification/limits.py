@@ -23,7 +23,7 @@ from rollnip.verification._nips import (
     solved,
     trailing_edge,
 )
-from rollnip.verification.case import ROUNDING, Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import ROUNDING, AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import CORRESPONDENCE, ONE_MATERIAL, PLIES
 
 _RUBBER = Elastic(modulus=0.91, poisson=0.5)
@@ -48,7 +48,7 @@ def _plies() -> tuple[VerificationCase, ...]:
         Experiment("Layer in three plies, flat", PLIES, _flat_plies),
         Experiment("Layer in three plies, ring", PLIES, _ring_plies),
     )
-    claimed = Tolerance(1.0, "within the error the solution claims")
+    claimed = AllowedError(1.0, "within the error the solution claims")
     figure = Experiment("Configuration I in plies", PLIES, _solved_plies).figure
     return (
         *(
@@ -149,7 +149,7 @@ def _speed(name: str, speed: float, modulus: float) -> tuple[VerificationCase, .
             "",
             0.0,
             lambda pair: float(pair[1].rolling_resistance * 50.0 / 3.0 / half_width(pair[0])),
-            Tolerance(1e-4, "vanishes as V tau/a or its inverse, 1e-6 to 1e-5 here; of R/a"),
+            AllowedError(1e-4, "vanishes as V tau/a or its inverse, 1e-6 to 1e-5 here; of R/a"),
             scale=1.0,
         ),
     )

@@ -12,7 +12,7 @@ from rollnip.nip import LineLoad, Nip
 from rollnip.rollers import Layer, Roller
 from rollnip.solution import Solution
 from rollnip.verification._nips import approach, half_width, solved
-from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import FIGURE_FOUR, PLATE_ON_SPRINGS
 
 # A hundredth of the load on a hundred times the radius: the same width, small strain.
@@ -27,8 +27,10 @@ def plates() -> tuple[VerificationCase, ...]:
 
 def _figure_four() -> tuple[VerificationCase, ...]:
     figure = Experiment("Figure 4, stiff top layer", FIGURE_FOUR, _solve_figure_four).figure
-    inside = Tolerance(0.03, "just inside: within the thickness of the top layer, 0.1 mm of 3.44")
-    whole = Tolerance(0.0, "a count")
+    inside = AllowedError(
+        0.03, "just inside: within the thickness of the top layer, 0.1 mm of 3.44"
+    )
+    whole = AllowedError(0.0, "a count")
     return (
         figure("approach", "mm", 0.38266, approach),
         figure("half-width", "mm", 3.44, half_width),
@@ -74,8 +76,8 @@ def _on_springs() -> tuple[VerificationCase, ...]:
         stiffness=plate_stiffness(modulus=5500.0, poisson=0.3, thickness=0.1),
         foundation=0.05,
     )
-    theory = Tolerance(6e-3, "thin-plate theory, (h/bending length)^2 = 0.2 %, and 0.3 %")
-    spread = Tolerance(2e-2, "the edge force is spread over some thicknesses of 0.1 mm")
+    theory = AllowedError(6e-3, "thin-plate theory, (h/bending length)^2 = 0.2 %, and 0.3 %")
+    spread = AllowedError(2e-2, "the edge force is spread over some thicknesses of 0.1 mm")
     return (
         figure("approach", "mm", exact.approach, approach, theory),
         figure("half-width", "mm", exact.half_width, half_width, theory),

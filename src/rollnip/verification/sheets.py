@@ -10,7 +10,7 @@ from rollnip.rollers import Layer, Roller
 from rollnip.sheets import Sheet
 from rollnip.solution import Solution
 from rollnip.verification._nips import creepage, peak_pressure, solved
-from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import DIRECT_SHEET, ENERGY, NO_SHEET
 
 _UPPER = Roller(radius=50.0, layers=(Layer(2.0, Elastic(modulus=0.91, poisson=0.5)),))
@@ -38,7 +38,7 @@ def _nip(sheet: Sheet | None, traction: float, friction: float) -> Nip:
 
 def _without_stiffness() -> tuple[VerificationCase, ...]:
     figure = Experiment("Sheet of E h = 0.001 N/mm over none", NO_SHEET, _soft).figure
-    near = Tolerance(3e-3, "stiffness left and meshes, 1e-3 each")
+    near = AllowedError(3e-3, "stiffness left and meshes, 1e-3 each")
     return (
         figure("creepage", "", 1.0, lambda pair: creepage(pair[0]) / creepage(pair[1]), near),
         figure(
@@ -56,7 +56,7 @@ def _soft() -> Pair:
 def _direct() -> tuple[VerificationCase, ...]:
     figure = Experiment("Paper between two coverings, driven", DIRECT_SHEET, _driven).figure
     slope = 0.5 * 7.135 * (1.0 / 50.0 + 1.0 / 25.0)
-    near = Tolerance(2e-3, "of the slope of the gap at its edge: elements of the program")
+    near = AllowedError(2e-3, "of the slope of the gap at its edge: elements of the program")
     wanted = _STORED
     return (
         figure("approach", "mm", wanted["approach"], lambda one: one.approach),
@@ -93,7 +93,7 @@ def _driven() -> Solution:
 
 def _power() -> tuple[VerificationCase, ...]:
     figure = Experiment("Power of both axles with a pulled sheet", ENERGY, _pulled).figure
-    near = Tolerance(1e-4, "meshes of elastic layers; of the power in")
+    near = AllowedError(1e-4, "meshes of elastic layers; of the power in")
     return (figure("losses and the sheet's share over power in", "", 1.0, _balance, near),)
 
 

@@ -25,7 +25,7 @@ from rollnip.verification._nips import (
     peak_pressure,
     solved,
 )
-from rollnip.verification.case import SOLVER, Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import SOLVER, AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import KALKER_SIMPLIFIED, THIN_LAYER
 
 # So large a radius presses the thinnest layer in by 2 % of its thickness.
@@ -55,7 +55,9 @@ def _compressible(poisson: float) -> tuple[VerificationCase, ...]:
     exact = thin_compressible_layer(
         load=load, radius=_RADIUS, modulus=_MODULUS, poisson=poisson, thickness=thickness
     )
-    theory = Tolerance(5e-3, "leading term: a is too large by 0.1 to 0.2 h, and the solver's 0.3 %")
+    theory = AllowedError(
+        5e-3, "leading term: a is too large by 0.1 to 0.2 h, and the solver's 0.3 %"
+    )
     return (
         figure("half-width", "mm", exact.half_width, half_width, theory),
         figure("peak pressure", "MPa", exact.peak_pressure, peak_pressure),
@@ -72,8 +74,8 @@ def _incompressible() -> tuple[VerificationCase, ...]:
     exact = thin_incompressible_layer(
         load=load, radius=_RADIUS, modulus=_MODULUS, thickness=thickness
     )
-    theory = Tolerance(6e-3, "leading term: 0.2 to 0.3 % at a/h = 40, and the solver's 0.3 %")
-    edge = Tolerance(
+    theory = AllowedError(6e-3, "leading term: 0.2 to 0.3 % at a/h = 40, and the solver's 0.3 %")
+    edge = AllowedError(
         SOLVER.value,
         "the leading term less 1.46 h, the next term, read from the collocation of "
         "tests/verification/test_bonded_layers.py; the solver's 0.3 %",
@@ -117,7 +119,7 @@ def _simplified(share: float) -> tuple[VerificationCase, ...]:
         traction=traction,
     )
     bed_of_springs = winkler_contact(load=load, radius=_RADIUS, foundation=foundation)
-    theory = Tolerance(
+    theory = AllowedError(
         6e-3, "leading term in h/a: 1.2 % at a/h = 50, 0.6 at 100, 0.3 to 0.4 at 200"
     )
     return (
@@ -127,7 +129,7 @@ def _simplified(share: float) -> tuple[VerificationCase, ...]:
             "mm",
             exact.stick_from,
             lambda s: longest_zone(s, "stick").start,
-            Tolerance(theory.value, f"of a; {theory.reason}"),
+            AllowedError(theory.value, f"of a; {theory.reason}"),
             scale=_WIDTH,
         ),
         figure("peak pressure", "MPa", bed_of_springs.peak_pressure, peak_pressure),

@@ -20,7 +20,7 @@ from rollnip.verification._nips import (
     solved,
     trailing_edge,
 )
-from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import HUNTER, MAY_MORRIS_ATACK, WANG_KNOTHE
 
 _RADIUS, _MODULUS = 10.0, 4.0  # E*; the relaxed Hertz half-width a0 is 1 under _LOAD
@@ -86,7 +86,7 @@ def _hunter_form() -> tuple[VerificationCase, ...]:
         speed=0.5 / _TIME,
     )
     figure = Experiment("Closed form of Hunter, De = 1", HUNTER, contact).figure
-    printed = Tolerance(1e-4, "five digits printed, four of the peak")
+    printed = AllowedError(1e-4, "five digits printed, four of the peak")
     return (
         figure("leading edge/a0", "", 0.94834, lambda c: float(c.leading), printed),
         figure("peak pressure/p0", "", 1.2476, lambda c: float(c.peak_pressure / _PEAK), printed),
@@ -108,7 +108,7 @@ def _strip() -> tuple[VerificationCase, ...]:
     figure = Experiment(
         "Viscoelastic strip, V tau = a, f = 1", MAY_MORRIS_ATACK, _strip_form
     ).figure
-    printed = Tolerance(5e-6, "six digits printed: half a unit of the last one")
+    printed = AllowedError(5e-6, "six digits printed: half a unit of the last one")
     return (
         figure("trailing/leading edge", "", 0.833125, lambda c: float(c.trailing / 2.0), printed),
         figure(
@@ -127,7 +127,7 @@ def _thin_layer() -> tuple[VerificationCase, ...]:
         "Thin viscoelastic layer, nu 0, a/h = 100", MAY_MORRIS_ATACK, _solve_thin_layer
     ).figure
     exact = _strip_form()
-    theory = Tolerance(6e-3, "the strip has no shear: 0.2 to 0.3 % of a at a/h = 100, and 0.3 %")
+    theory = AllowedError(6e-3, "the strip has no shear: 0.2 to 0.3 % of a at a/h = 100, and 0.3 %")
     return (
         figure("leading edge", "mm", 2.0, leading_edge, theory),
         figure("trailing edge", "mm", -exact.trailing, trailing_edge, theory),

@@ -13,15 +13,15 @@ from rollnip.nip import LineLoad, Nip
 from rollnip.rollers import Profile, Roller
 from rollnip.solution import Solution
 from rollnip.verification._nips import half_space, half_width, peak_pressure, solved
-from rollnip.verification.case import Experiment, Tolerance, VerificationCase
+from rollnip.verification.case import AllowedError, Experiment, VerificationCase
 from rollnip.verification.sources import HERTZ, WESTERGAARD
 
 _STEEL = Elastic(modulus=210e3, poisson=0.3)
 _MODULUS = contact_modulus(210e3, 0.3, 210e3, 0.3)
 _LOAD = 500.0
 _LENGTH = 0.01  # of a wave [mm]; the nip has 60
-_WAVES = Tolerance(1e-2, "60 waves lie in the nip where the closed form has infinitely many")
-_GRID = Tolerance(2e-3, "the edges fall between nodes of a grid of 530 in the nip")
+_WAVES = AllowedError(1e-2, "60 waves lie in the nip where the closed form has infinitely many")
+_GRID = AllowedError(2e-3, "the edges fall between nodes of a grid of 530 in the nip")
 _PARTIAL, _FULL = 0.5, 1.5  # mean pressure over that of full contact
 
 

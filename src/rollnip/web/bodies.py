@@ -22,13 +22,13 @@ Path = Annotated[
 Value = Annotated[float | str, Field(union_mode="left_to_right", examples=[2.0, "2 mm"])]
 
 
-class Body(BaseModel):
+class RequestBody(BaseModel):
     """The body of a request; unknown keys are errors."""
 
     model_config = ConfigDict(extra="forbid", strict=True, frozen=True)
 
 
-class InteriorBody(Body):
+class InteriorBody(RequestBody):
     """A request for one field inside one roller."""
 
     case: Case
@@ -37,7 +37,7 @@ class InteriorBody(Body):
     nz: int = Field(40, ge=2, description="Depths, three at least in each layer.")
 
 
-class SweepBody(Body):
+class SweepBody(RequestBody):
     """A request for the results at several sizes of one value of the case."""
 
     case: Case
@@ -45,7 +45,7 @@ class SweepBody(Body):
     values: list[Value] = Field(min_length=1)
 
 
-class FindBody(Body):
+class FindBody(RequestBody):
     """A request for the value of the case that gives a wanted figure."""
 
     case: Case
@@ -56,7 +56,7 @@ class FindBody(Body):
     high: Value
 
 
-class KnownBody(Body):
+class KnownBody(RequestBody):
     """A request for how well the figures of a case are known."""
 
     case: Case
@@ -74,7 +74,7 @@ class KnownBody(Body):
         return measured
 
 
-class CrownBody(Body):
+class CrownBody(RequestBody):
     """A request for the crown that evens out the load along a face."""
 
     case: Case
@@ -84,14 +84,14 @@ class CrownBody(Body):
     )
 
 
-class RunawayBody(Body):
+class RunawayBody(RequestBody):
     """A request for the steady states of a warm nip over its speed or load."""
 
     case: Case
     parameter: Literal["speed", "load"] = "speed"
 
 
-class ImpressionOf(Body):
+class ImpressionOf(RequestBody):
     """Nip widths of one impression."""
 
     y: list[float] = Field(min_length=1, max_length=200, description="From the middle [mm].")
@@ -101,7 +101,7 @@ class ImpressionOf(Body):
     )
 
 
-class ImpressionBody(Body):
+class ImpressionBody(RequestBody):
     """A request for what measured nip widths along a face tell."""
 
     case: Case
@@ -113,13 +113,13 @@ class ImpressionBody(Body):
     impressions: list[ImpressionOf] = Field(min_length=1, max_length=10)
 
 
-class TomlBody(Body):
+class TomlBody(RequestBody):
     """The text of a case file."""
 
     text: str
 
 
-class QuantityBody(Body):
+class QuantityBody(RequestBody):
     """A number with its unit as a person types it."""
 
     text: str = Field(max_length=200, examples=["2 in", '1/2"', "65A"])

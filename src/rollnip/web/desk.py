@@ -22,7 +22,7 @@ from rollnip.web.bodies import (
 from rollnip.web.kept import Kept
 from rollnip.web.limits import Limits
 from rollnip.web.patches import is_coarse
-from rollnip.web.pool import OverloadedError, Pool, Task, TimeLimitError, WorkerError
+from rollnip.web.pool import OverloadedError, Pool, TimeLimitError, WorkerError, WorkerTask
 
 _REMEDY = "try a simpler geometry, fewer layers or a larger tolerance"
 
@@ -48,7 +48,9 @@ class Desk:
 
     async def task(self, name: str, body: Mapping[str, Any]) -> Reply:
         """Do one task in the time of a solve. Raises RefusedError."""
-        return await self._asked(Task(name=name, body=body, seconds=self._limits.solve_seconds))
+        return await self._asked(
+            WorkerTask(name=name, body=body, seconds=self._limits.solve_seconds)
+        )
 
     async def solve(self, case: Mapping[str, Any], *, interfaces: bool) -> Reply:
         """Solve a case. Raises RefusedError."""
@@ -95,13 +97,13 @@ class Desk:
         """Return what is known about the figures of a case. Raises RefusedError."""
         async with self._gate:
             seconds = 3.0 * self._limits.solve_seconds  # three solves
-            task = Task(name="known", body=body.model_dump(), seconds=seconds, patient=True)
+            task = WorkerTask(name="known", body=body.model_dump(), seconds=seconds, patient=True)
             return await self._asked(task)
 
     async def face(self, case: Mapping[str, Any]) -> Reply:
         """Solve a case along its face, where its table is if it can be. Raises RefusedError."""
         seconds = self._limits.long_seconds  # the first time; a table that is there takes no time
-        task = Task(name="face", body={"case": case}, seconds=seconds, key=_section_key(case))
+        task = WorkerTask(name="face", body={"case": case}, seconds=seconds, key=_section_key(case))
         return await self._asked(task)
 
     async def crown(self, body: CrownBody) -> Reply:
@@ -122,7 +124,7 @@ class Desk:
 
     async def _long_answer(self, name: str, body: Mapping[str, Any]) -> Reply:
         """Do one long task, beside which a worker stays free. Raises RefusedError."""
-        task = Task(name=name, body=body, seconds=self._limits.long_seconds, patient=True)
+        task = WorkerTask(name=name, body=body, seconds=self._limits.long_seconds, patient=True)
         async with self._long_task(), self._gate:
             return await self._asked(task)
 
@@ -136,7 +138,7 @@ class Desk:
             return await self.task("patch", {"case": case})
         return await self._long_answer("patch", {"case": case})
 
-    async def _asked(self, task: Task) -> Reply:
+    async def _asked(self, task: WorkerTask) -> Reply:
         """Return the answer of a worker, or the one that was given before. Raises RefusedError."""
         question = _question(task)
         if (kept := self._answers.get(question)) is not None:
@@ -151,7 +153,7 @@ class Desk:
         """One solve of a sweep; one that takes too long is an error of its row."""
         what = {"case": body.case, "path": body.path, "value": value}
         seconds = self._limits.solve_seconds
-        task = Task(name="value", body=what, seconds=seconds, patient=True)
+        task = WorkerTask(name="value", body=what, seconds=seconds, patient=True)
         async with self._gate:
             try:
                 return await self.pool.run(task)
@@ -177,7 +179,7 @@ class Desk:
             self._long -= 1
 
 
-def _question(task: Task) -> str:
+def _question(task: WorkerTask) -> str:
     """Return what is the same for a question however its body is ordered."""
     text = json.dumps(task.body, sort_keys=True)
     return f"{task.name} {hashlib.sha256(text.encode()).hexdigest()}"

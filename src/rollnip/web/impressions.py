@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from rollnip._errors import CaseFileError, InvalidInputError
-from rollnip.face import Impression, Reading, read_impressions
+from rollnip.face import Impression, ImpressionReading, read_impressions
 from rollnip.io import Case
 from rollnip.web.answers import SOURCE
 from rollnip.web.faces import face_of
@@ -39,7 +39,7 @@ def read_impression(case: Case, body: Mapping[str, Any]) -> dict[str, Any]:
     return _tree(reading)
 
 
-def _tree(reading: Reading) -> dict[str, Any]:
+def _tree(reading: ImpressionReading) -> dict[str, Any]:
     return {
         "estimates": {
             one.name: {"value": one.value, "low": one.low, "high": one.high, "unit": one.unit}

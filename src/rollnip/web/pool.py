@@ -43,7 +43,7 @@ class WorkerError(Exception):
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Task:
+class WorkerTask:
     """A task for a worker.
 
     Attributes
@@ -152,7 +152,7 @@ class Pool:
         await asyncio.gather(*self._jobs, *self._starts, return_exceptions=True)
         await asyncio.gather(*(worker.stop() for worker in self._all))
 
-    async def run(self, task: Task) -> Reply:
+    async def run(self, task: WorkerTask) -> Reply:
         """Have one task done.
 
         Cancelled while it waits, it is never begun; cancelled later, its answer is dropped.

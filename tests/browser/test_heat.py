@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.browser.conftest import Designer, Gate, fragment, new_context
-from tests.browser.test_accessibility import violations
+from tests.browser.test_accessibility import THEMES, repaint, violations
 from tests.browser.test_standing import overhang
 
 import rollnip as rn
@@ -266,16 +266,17 @@ def test_a_first_balance_is_one_click_and_goes_with_another(fresh):
     assert not page.is_visible("#chart-heat")
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_heat_fits_a_phone_and_axe_finds_nothing(browser, base, scheme):
+def test_heat_fits_a_phone_and_axe_finds_nothing(browser, base):
     size = {"width": 390, "height": 844}
-    context = new_context(browser, viewport=size, color_scheme=scheme, locale="de-DE")
+    context = new_context(browser, viewport=size, locale="de-DE")
     designer = Designer(context.new_page(), base).open(fragment({"case": CASE, "tab": "heat"}))
     designer.rest("heat")
     designer.page.wait_for_selector("#chart-heat .main-svg")
-    assert overhang(designer.page) <= 0
-    assert violations(designer.page, "#panel") == []
-    assert violations(designer.page, "#group-heat") == []
+    for theme in THEMES:
+        repaint(designer, theme)
+        assert overhang(designer.page) <= 0
+        assert violations(designer.page, "#panel") == []
+        assert violations(designer.page, "#group-heat") == []
     words = designer.page.inner_text("#panel").lower().split()
     assert not set(words) & {"and", "with", "heat", "roller", "surface", "bond"}
     context.close()

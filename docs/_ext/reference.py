@@ -123,26 +123,44 @@ class Units(Markup):
 
 
 class Figures(Markup):
-    """Every figure of a result, from the registry; ``profiles``: every distribution."""
+    """Every figure of a result, from the registry; an argument names another registry."""
 
     def lines(self) -> Iterable[str]:
-        """One row for each figure."""
-        from rollnip.figures import FIGURES, PROFILES
+        """One row for each figure; columns that would be empty are left out."""
+        chosen = list(registries()[self.arguments[0] if self.arguments else "nip"].values())
+        columns = {
+            "key": [f"`{one.key}`" for one in chosen],
+            "symbol": [f"${one.symbol}$" if one.symbol else "" for one in chosen],
+            "unit": ["-" if one.unit == "1" else one.unit for one in chosen],
+            "what it is": [f"{one.sentence} {one.sign}".rstrip() for one in chosen],
+            "error claimed": ["yes" if one.claimed else "" for one in chosen],
+        }
+        shown = {head: cells for head, cells in columns.items() if any(cells)}
+        rows = zip(*shown.values(), strict=True)
+        return table(tuple(shown), (tuple(cell or "-" for cell in row) for row in rows))
 
-        chosen = PROFILES if self.arguments == ["profiles"] else FIGURES
-        rows = [
-            (
-                f"`{one.key}`",
-                f"${one.symbol}$",
-                "-" if one.unit == "1" else one.unit,
-                f"{one.sentence} {one.sign}".rstrip(),
-                "yes" if one.claimed else "-",
-            )
-            for one in chosen.values()
-        ]
-        if chosen is PROFILES:
-            return table(("key", "symbol", "unit", "what it is"), (row[:4] for row in rows))
-        return table(("key", "symbol", "unit", "what it is", "error claimed"), rows)
+
+def registries() -> dict[str, Any]:
+    """Return every registry of figures by the word that a page asks for it with."""
+    from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES, SHEET_FACE_FIGURES
+    from rollnip.figures import FIGURES, INTERFACE_FIGURES, PROFILES
+    from rollnip.heat.figures import ROLLER_FIGURES
+    from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
+    from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
+
+    return {
+        "nip": FIGURES,
+        "profiles": PROFILES,
+        "interfaces": INTERFACE_FIGURES,
+        "sheet": SHEET_FIGURES,
+        "sheet-profiles": SHEET_PROFILES,
+        "face": FACE_FIGURES,
+        "face-profiles": FACE_PROFILES,
+        "face-sheet": SHEET_FACE_FIGURES,
+        "heat": ROLLER_FIGURES,
+        "patch": PATCH_FIGURES,
+        "patch-fields": PATCH_FIELDS,
+    }
 
 
 class Command(Markup):

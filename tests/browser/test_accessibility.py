@@ -53,7 +53,6 @@ def test_axe_finds_nothing_and_nothing_is_too_wide_in_any_view(seen):
     page.select_option("#in-upper-layers-0-material-kind", "prony")
     page.evaluate("document.querySelectorAll('details').forEach(fold => { fold.open = true; })")
     seen.quiet()
-    page.click("#keep")
     for theme in THEMES:
         seen.enter("in-nip-load", {"light": "2", "dark": "3"}[theme])
         seen.tab("pressure")
@@ -63,10 +62,13 @@ def test_axe_finds_nothing_and_nothing_is_too_wide_in_any_view(seen):
         for tab in TABS[1:]:
             seen.tab(tab)
             seen.quiet()
-            if tab == "compare":
-                page.wait_for_selector("#kept-drop-0")
             assert violations(page, "#panel") == [], tab
             assert overhang(page) <= 0, tab
+        if theme == "light":
+            page.click("#keep")
+            page.wait_for_selector("#kept-drop-0")
+            seen.quiet()
+            assert violations(page, "#panel") == []
         for opener, part in (
             ("#open-share", "#open-share-menu"),
             ("#open-designs", "#open-designs-menu"),

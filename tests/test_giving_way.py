@@ -1,11 +1,13 @@
 """When "second" gives way to "curved": only where it has no solution, never for an error."""
 
+import re
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
 import rollnip as rn
+from rollnip.rolling import beyond
 
 SECOND = rn.Model(geometry="second")
 
@@ -96,18 +98,64 @@ def test_where_there_is_no_solution_the_reason_is_given():
     assert "strain" not in solution.warnings[0]
 
 
-def test_tractions_without_equilibrium_are_said_to_be_the_cause():
-    """Chains of this rubber are straight long before the load is carried."""
-    rubber = rn.Elastic(modulus=1.0, poisson=0.5, energy=rn.Gent(0.02))
-    nip = rn.Nip(
+def stretched(limit, load=2.0):
+    """Rubber whose chains are straight where the squares of its stretches exceed 3 by a limit."""
+    rubber = rn.Elastic(modulus=1.0, poisson=0.5, energy=rn.Gent(limit))
+    return rn.Nip(
         upper=rn.Roller(radius=50.0, layers=(rn.Layer(4.0, rubber),)),
         lower=rn.Roller(radius=50.0),
-        normal=rn.LineLoad(2.0),
+        normal=rn.LineLoad(load),
         friction=0.5,
     )
-    solution = rn.solve(nip, rn.Model(geometry="finite"))
+
+
+def test_tractions_without_equilibrium_are_said_to_be_the_cause():
+    """Chains of this rubber are straight long before a sixteenth of the load is carried."""
+    solution = rn.solve(stretched(3e-4))
     assert solution.model.geometry == "second"
     assert solution.warnings[0] == (
         'No solution of geometry "finite" was found: its tractions have no equilibrium, or none '
-        'that was found. All figures are those of geometry "second".'
+        "that was found, nor has a sixteenth of them. All figures are those of geometry "
+        '"second".'
     )
+
+
+def test_tractions_without_equilibrium_are_led_up_to():
+    """Those of linear theory have none here, a half of them has: the nip was given up."""
+    solution = rn.solve(stretched(0.05))
+    assert solution.model.geometry == "finite"
+    assert solution.converged
+    soft = rn.solve(replace(stretched(0.05), upper=stretched(1e3).upper))
+    assert solution.approach < 0.9 * soft.approach
+
+
+@pytest.mark.slow
+def test_how_far_turns_got_is_said():
+    solution = rn.solve(stretched(2e-3))
+    assert solution.model.geometry == "second"
+    said = re.fullmatch(
+        r'No solution of geometry "finite" was found: its terms beyond the linear ones did not '
+        r"come to rest in (\d+) turns of contact and correction \(they last changed by (\S+) of "
+        r'the first-order ones\)\. All figures are those of geometry "second"\.',
+        solution.warnings[0],
+    )
+    assert int(said[1]) == beyond.MOST_CORRECTIONS
+    assert float(said[2]) > 0.1
+
+
+@pytest.mark.slow
+def test_an_edge_stretched_to_three_times_its_length_is_solved_with_fewer_waves():
+    """A thin covering that is driven hard gave way to "curved", 25 % off in the approach."""
+    upper = rn.Roller(radius=13.0, layers=(rn.Layer(0.3, rn.Elastic(modulus=7.5, poisson=0.5)),))
+    nip = rn.Nip(
+        upper=upper,
+        lower=rn.Roller(radius=54.0),
+        normal=rn.LineLoad(4.1),
+        tangential=rn.Traction(1.95),
+        friction=1.5,
+    )
+    solution = rn.solve(nip)
+    assert solution.model.geometry == "finite"
+    assert solution.converged
+    assert solution.max_surface_strain > 1.5
+    assert solution.error["creepage"] > 0.02 * solution.creepage

@@ -21,6 +21,7 @@ from rollnip.influence import KernelCache
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.rolling import (
+    Ended,
     PairKernels,
     Round,
     half_width_guess,
@@ -177,14 +178,38 @@ def _without_solution(model: Model, final: Round) -> str:
     """
     if not final.zones or not final.figures.peak_pressure > 0.0:
         return "its surfaces do not touch"
+    if final.ended is not None:
+        return _how_far(final.ended)
     if not final.geometry_change < _DIVERGED:
         return (
             f"its {_BEYOND[model.geometry]} did not come to rest (they last changed by "
             f"{final.geometry_change:.2g} of the first-order ones)"
         )
-    if not final.is_balanced:
-        return "its tractions have no equilibrium, or none that was found"
     return "" if final.stands_still else "contact, stick and slip did not settle"
+
+
+def _how_far(ended: Ended) -> str:
+    """Return why turns of contact and correction found no solution, and how far they got."""
+    turns, change = ended.turns, f"{ended.change:.2g}"
+    if ended.cause == "balance" and turns == 0:
+        return (
+            "its tractions have no equilibrium, or none that was found, nor has a sixteenth of them"
+        )
+    if ended.cause == "balance":
+        return (
+            f"its tractions have no equilibrium, or none that was found, in turn {turns + 1} of "
+            f"contact and correction (in the turn before, its terms beyond the linear ones changed "
+            f"by {change} of the first-order ones)"
+        )
+    if ended.cause == "contact":
+        return (
+            f"contact, stick and slip did not settle in turn {turns} of contact and correction (in "
+            f"it, its terms beyond the linear ones changed by {change} of the first-order ones)"
+        )
+    return (
+        f"its terms beyond the linear ones did not come to rest in {turns} turns of contact and "
+        f"correction (they last changed by {change} of the first-order ones)"
+    )
 
 
 def _refined(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, Round]:

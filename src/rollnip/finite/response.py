@@ -103,11 +103,16 @@ def between(last: Tractions, new: Tractions, share: float) -> Tractions:
     return at
 
 
+def _none(x: Array) -> Array:
+    """Return no tractions."""
+    return np.zeros((4, *x.shape))
+
+
 class FiniteResponse:
     """Displacement beyond the linear one of a covering under tractions, evaluated time and again.
 
     Each equilibrium starts from the one before. Where none is found, that under tractions between
-    the last and the new ones is looked for.
+    the last and the new ones is looked for; the first ones begin at a share of themselves.
 
     Attributes
     ----------
@@ -211,14 +216,23 @@ class FiniteResponse:
     def _solved(self, places: Array, loaded: slice, tractions: Tractions) -> _Meshes | None:
         """Return both solutions, on the meshes of the last tractions if these were about here.
 
-        None where there is no equilibrium but there was one under the last tractions.
+        None where there is no equilibrium but there was one under the last tractions. Of the first
+        ones a share counts, too.
         """
         try:
             return self._solved_now(places, loaded, tractions)
         except NoEquilibriumError:
-            if self._meshes is None:
-                raise
-            return None
+            return None if self._meshes is not None else self._lightly(places, loaded, tractions)
+
+    def _lightly(self, places: Array, loaded: slice, tractions: Tractions) -> _Meshes:
+        """Return both solutions under a share of the first tractions."""
+        while self.share > _LEAST_SHARE:
+            self.share *= 0.5
+            try:
+                return self._solved_now(places, loaded, between(_none, tractions, self.share))
+            except NoEquilibriumError:
+                continue
+        raise NoEquilibriumError
 
     def _partly(self, tractions: Tractions) -> _Meshes:
         """Return both solutions with only a share of the step from the last tractions to these."""

@@ -18,6 +18,7 @@ from rollnip.rolling.powers import Powers, powers, rates_of
 from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import (
+    Ended,
     Figures,
     Further,
     Round,
@@ -39,6 +40,7 @@ __all__ = [
     "MOST_PRESSED_IN",
     "DeformedSurfaces",
     "Displacements",
+    "Ended",
     "Fields",
     "Figures",
     "Further",

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from math import inf
-from typing import Generic, TypeVar
+from typing import Generic, Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,7 @@ from rollnip.rolling.largest import largest
 from rollnip.rolling.placing import Placing, SearchState
 from rollnip.rolling.powers import rates_of
 from rollnip.rolling.refinement import refine
-from rollnip.rolling.round import Round
+from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import STILL, change_of, solve_on_mesh, with_residual
 
@@ -39,12 +39,15 @@ Acting = tuple[Array, Array, Array]
 """Nodes, and the pressure and the shear that act on a roller at all but the first and the last."""
 _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
-MOST_CORRECTIONS = 20  # of the correction and the contact
+MOST_CORRECTIONS = 30  # of the correction and the contact
 _ENOUGH = 0.3  # violation of the contact conditions, or change to come, over the tolerance
 SMALL = 0.1  # change of a turn from which it may be the last one
 _LARGEST_RATIO = 0.9  # of changes
 _FAR = 0.1  # change from which a mesh of linear elements is graded anew
 MOST_AFRESH = 10  # turns that are solved from the beginning
+# Of the wave numbers: with all of them turns may not come to rest beside an edge that slips at
+# strains of two and more. Which cut they need is not known before; what it costs is claimed.
+_SHARES_KEPT = (1.0, 0.5, 0.25)
 _STRAIN = 0.6  # of a surface at which waves up to half the number are kept
 _COARSE = 24  # elements of the contact while its correction still changes
 NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
@@ -80,19 +83,17 @@ class AllOrders:
     lower: FiniteResponse | None
 
     @classmethod
-    def of(cls, nip: Nip, half_width: float, strain: float) -> AllOrders:
-        """Prepare elements for a contact of about that half-width [mm] and surface strain."""
-        cut = CUT / (1.0 + strain / _STRAIN)
+    def of(cls, nip: Nip, half_width: float, strain: float, share: float = 1.0) -> AllOrders:
+        """Prepare elements for a contact of about that half-width [mm] and surface strain.
+
+        ``share``: of the wave numbers that are kept as a rule.
+        """
+        cut = share * CUT / (1.0 + strain / _STRAIN)
 
         def response(roller: Roller) -> FiniteResponse | None:
             return None if roller.is_rigid else FiniteResponse(roller, half_width, cut, nip.speed)
 
         return cls(response(nip.upper), response(nip.lower))
-
-    @property
-    def is_balanced(self) -> bool:
-        """Return whether the last tractions had an equilibrium."""
-        return all(one.is_found for one in (self.upper, self.lower) if one is not None)
 
     def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, SecondFields, bool]:
         """Return what all orders add to the linear displacements of a bare nip, see `under`."""
@@ -148,7 +149,7 @@ def refine_all_orders(
     Returns
     -------
     The influence functions with the last correction, and the solution with it. Where no equilibrium
-    is found, or no contact, it does not stand still; ``is_balanced`` tells which.
+    is found, or no contact, it does not stand still; ``ended`` tells how far turns got.
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
@@ -157,18 +158,16 @@ def refine_all_orders(
     if latest is None:
         latest = refine(nip, model, kernels, half_width)
         is_refined = latest.mesh.fine.values is not None
-    is_balanced = True
+    ended: Ended | None = None
     if latest.stands_still and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
-        orders = AllOrders.of(nip, half_width, strain)
-        try:
+        for share in _SHARES_KEPT:
+            orders = AllOrders.of(nip, half_width, strain, share)
             found = _turns(nip, model, kernels, latest, orders, is_refined=is_refined)
-        except NoEquilibriumError:
-            found = None
-        if found is not None:
-            return found
-        is_balanced = orders.is_balanced
-    return kernels, replace(latest, stands_still=False, is_balanced=is_balanced)
+            if not isinstance(found, Ended):
+                return found
+            ended = found
+    return kernels, replace(latest, stands_still=False, ended=ended)
 
 
 def _coarse(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round | None:
@@ -244,7 +243,7 @@ def _turns(
     orders: AllOrders,
     *,
     is_refined: bool,
-) -> tuple[PairKernels, Round] | None:
+) -> tuple[PairKernels, Round] | Ended:
     """Solve the contact and evaluate its correction in turns.
 
     First on a coarse mesh, until the changes to come are small. Then the mesh is refined, and turns
@@ -252,10 +251,16 @@ def _turns(
     itself.
     """
     change, afresh, past = inf, 0, Past(even_places(_edges(latest)))
-    least = Least[tuple[PairKernels, Round, SecondFields]]()
-    for _ in range(MOST_CORRECTIONS):
+    least, turns = Least[tuple[PairKernels, Round, SecondFields]](), 0
+    cause: Literal["balance", "contact", "turns"] = "turns"
+    for turn in range(MOST_CORRECTIONS):
         is_coarse = not is_refined and latest.mesh.fine.values is not None
-        made, rough, is_whole = orders.beyond(latest, roughly=is_coarse)
+        try:
+            made, rough, is_whole = orders.beyond(latest, roughly=is_coarse)
+        except NoEquilibriumError:
+            cause, turns = "balance", turn
+            break
+        turns = turn + 1
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
         to_come = to_come_after(change, before) / model.tolerance
@@ -282,9 +287,12 @@ def _turns(
             found = again or refine(nip, model, mixed, half_width)
             is_refined = is_refined or (again is None and found.mesh.fine.values is not None)
         if not found.stands_still:
+            cause = "contact"
             break
         latest = found
-    return None if least.found is None else _with_cut(nip, model, *least.found)
+    if least.found is None:
+        return Ended(cause, turns, change)
+    return _with_cut(nip, model, *least.found)
 
 
 def coarsely(model: Model) -> Model:

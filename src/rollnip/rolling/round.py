@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import astuple, dataclass
 from math import inf, isfinite
+from typing import Literal
 
 import numpy as np
 
@@ -63,6 +64,23 @@ class Further:
 
 
 @dataclass(frozen=True, slots=True)
+class Ended:
+    """How far turns of contact and correction got that found no solution.
+
+    Attributes
+    ----------
+    cause : no equilibrium was found ("balance"), contact, stick and slip did not settle
+        ("contact"), or the correction still changed after the last turn allowed ("turns").
+    turns : how often a correction was found.
+    change : the last change of the correction, over the first-order terms; inf without any.
+    """
+
+    cause: Literal["balance", "contact", "turns"]
+    turns: int
+    change: float
+
+
+@dataclass(frozen=True, slots=True)
 class Round:
     """The solution on one mesh.
 
@@ -82,8 +100,8 @@ class Round:
     further_error : estimated discretisation error of the further figures; None where unknown.
     cut : largest relative violation of the contact conditions by what "finite" leaves out, because
         it is too short for the contact.
-    is_balanced : whether an equilibrium at finite strain was found in "finite"; True where none is
-        asked for.
+    ended : how far the turns of "finite" got where they found no solution; None where they did, or
+        where there were none.
     """
 
     mesh: Mesh
@@ -99,7 +117,7 @@ class Round:
     residual: float = inf
     further_error: Further | None = None
     cut: float = 0.0
-    is_balanced: bool = True
+    ended: Ended | None = None
 
     @property
     def nodes(self) -> Array:

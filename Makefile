@@ -41,8 +41,16 @@ demo: venv ## solve a driven press nip, print the summary, write a picture to ou
 serve: venv ## the nip designer at http://127.0.0.1:8000
 	$(BIN)/rollnip serve
 
+# Two halves of about the same length at a time; what the second one prints comes at the end.
+FAST := $(BIN)/python -m pytest -m "not slow"
+HALF := $(addprefix tests/,cli design dma face heat identification io sweeps web)
+
 test: venv ## the tests, in some minutes
-	$(BIN)/python -m pytest -m "not slow"
+	@log=$$(mktemp); trap 'rm -f "$$log"' EXIT; \
+	echo '$(FAST), in two halves'; \
+	$(FAST) $(addprefix --ignore=,$(HALF)) >"$$log" 2>&1 & other=$$!; \
+	failed=0; $(FAST) $(HALF) || failed=1; wait $$other || failed=1; \
+	cat "$$log"; exit $$failed
 
 test-slow: venv ## the tests that take more: with killed processes, on many random nips, of the built pages
 	$(BIN)/python -m pytest -m slow --ignore=tests/browser

@@ -1,7 +1,9 @@
 """The package as others meet it: what it loads, what it offers."""
 
+import pkgutil
 import subprocess
 import sys
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 
@@ -106,6 +108,20 @@ def test_names_of_the_contract():
     )
     assert set(rn.__all__) >= set(names.split())
     assert rn.__version__ == version("rollnip")
+
+
+def doors():
+    """Every package that others import from."""
+    inside = pkgutil.walk_packages(rn.__path__, "rollnip.")
+    return ["rollnip", *(one.name for one in inside if one.ispkg)]
+
+
+@pytest.mark.parametrize("name", [one for one in doors() if one != "rollnip.rolling"])
+def test_no_module_has_the_name_of_something_beside_it(name):
+    """`import rollnip.design.find as find` would give the function, or the module, by chance."""
+    door = import_module(name)
+    modules = {one.name for one in pkgutil.iter_modules(door.__path__)}
+    assert not modules & set(getattr(door, "__all__", ()))
 
 
 def test_an_unknown_name_is_an_attribute_error():

@@ -21,7 +21,6 @@ from rollnip.closed_forms.hertz import (
     hertz_line,
 )
 from rollnip.closed_forms.hetenyi import end_loaded_rollers
-from rollnip.closed_forms.hunter import Hunter, hunter
 from rollnip.closed_forms.partial_slip import (
     Carter,
     Cattaneo,
@@ -47,6 +46,7 @@ from rollnip.closed_forms.thin_layer import (
     thin_compressible_layer,
     thin_incompressible_layer,
 )
+from rollnip.closed_forms.viscoelastic import Hunter, hunter
 from rollnip.closed_forms.waviness import WavyContact, wavy_contact
 
 __all__ = [

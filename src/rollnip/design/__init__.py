@@ -9,15 +9,15 @@ from rollnip.design.distributions import (
     Uniform,
     Varied,
 )
-from rollnip.design.find import Found, find
-from rollnip.design.optimise import Chosen, Optimum, SearchEnd, optimise
+from rollnip.design.optimum import Chosen, Optimum, SearchEnd, optimise
 from rollnip.design.pareto import pareto_front
-from rollnip.design.posterior import posterior
+from rollnip.design.posteriors import posterior
 from rollnip.design.problem import Bounds
 from rollnip.design.quantities import QUANTITIES
+from rollnip.design.root import Found, find
 from rollnip.design.scatter import Chance, Quantile, Sampling, Scatter, Share, Tolerance
 from rollnip.design.search import Search
-from rollnip.design.tolerance import tolerance
+from rollnip.design.tolerances import tolerance
 
 __all__ = [
     "QUANTITIES",

@@ -30,7 +30,7 @@ from rollnip.design.distributions import (
     Varied,
     frozen,
 )
-from rollnip.design.posterior import posterior
+from rollnip.design.posteriors import posterior
 from rollnip.design.problem import Bounds, interval
 from rollnip.design.quantities import parameter_dimension, require_quantity
 from rollnip.design.scatter import Sampling

@@ -17,8 +17,8 @@ from rollnip.design.aims import (
     excess_over,
     require_consistent,
 )
-from rollnip.design.find import Evaluate
 from rollnip.design.quantities import parameter_dimension, read_parameter, result_error
+from rollnip.design.root import Evaluate
 from rollnip.design.search import Array, Trial
 from rollnip.io import value_at, with_values
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from rollnip._units import format_quantity
 from rollnip.design.aims import AtLeast, LimitKept
-from rollnip.design.optimise import Optimum
+from rollnip.design.optimum import Optimum
 from rollnip.design.quantities import QUANTITIES, result_error
 from rollnip.design.scatter import Chance, Scatter, Share, Tolerance
 from rollnip.figures import FIGURES

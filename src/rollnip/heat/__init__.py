@@ -10,10 +10,10 @@ from rollnip.cooling import (
     Shell,
 )
 from rollnip.heat.crown import thermal_crown
-from rollnip.heat.exchange import Exchange, exchange
 from rollnip.heat.follow import Branch, BranchPoint
 from rollnip.heat.grid import RadialGrid, roller_grid
 from rollnip.heat.growth import radial_growth
+from rollnip.heat.nip_exchange import Exchange, exchange
 from rollnip.heat.solution import HeatSolution, RollerHeat
 from rollnip.heat.steady import follow_heat, solve_heat
 from rollnip.heat.warmup import WarmUp, warm_up

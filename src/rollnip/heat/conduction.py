@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.cooling import Coolant, Held, Insulated
-from rollnip.heat.exchange import Exchange
 from rollnip.heat.grid import RadialGrid
+from rollnip.heat.nip_exchange import Exchange
 
 Array = NDArray[np.float64]
 Grids = tuple[RadialGrid, RadialGrid]

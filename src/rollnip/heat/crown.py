@@ -7,8 +7,8 @@ from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip.heat.conduction import Sources
-from rollnip.heat.exchange import Exchange
 from rollnip.heat.growth import radial_growth
+from rollnip.heat.nip_exchange import Exchange
 from rollnip.heat.solution import HeatSolution
 from rollnip.heat.state import SIDES, Side
 from rollnip.shafts import CrownTable

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError
 from rollnip.cooling import HeatBalance, PassingSheet
 from rollnip.heat.conduction import Conduction, Sources
-from rollnip.heat.exchange import exchange
 from rollnip.heat.grid import RadialGrid, roller_grid
+from rollnip.heat.nip_exchange import exchange
 from rollnip.heat.warm import Divided, Growth, divided, follows, growths, undivided, warm_nip
 from rollnip.influence import KernelCache
 from rollnip.model import Model

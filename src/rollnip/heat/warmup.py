@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction
-from rollnip.heat.exchange import Exchange
+from rollnip.heat.nip_exchange import Exchange
 from rollnip.heat.solution import HeatSolution, bond_temperature, profile
 from rollnip.heat.state import SIDES, HeatProblem, Side, ThermalState
 from rollnip.heat.steady import solve_heat

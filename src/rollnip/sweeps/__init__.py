@@ -1,13 +1,13 @@
 """Many cases: studies, one case to one row, sweeps over many cores and machines."""
 
+from rollnip.sweeps.at_once import Together, together
 from rollnip.sweeps.recall import recalling
 from rollnip.sweeps.row import SCALARS, STATUSES, evaluate, scalars
 from rollnip.sweeps.study import Axis, Study
 from rollnip.sweeps.study_file import read_study
-from rollnip.sweeps.sweep import sweep
+from rollnip.sweeps.sweeping import sweep
 from rollnip.sweeps.table import Table
 from rollnip.sweeps.task import Outcome
-from rollnip.sweeps.together import Together, together
 
 __all__ = [
     "SCALARS",

@@ -10,9 +10,9 @@ from rollnip._frames import Column, Frame, Framed, numbers
 from rollnip._html import html_table
 from rollnip._units import format_quantity
 from rollnip.design.aims import Limit, LimitKept, Objective, standing
-from rollnip.design.find import Evaluate
 from rollnip.design.problem import Bounds, Problem
 from rollnip.design.quantities import QUANTITIES, json_tree, result_error
+from rollnip.design.root import Evaluate
 from rollnip.design.search import (
     Each,
     Ended,

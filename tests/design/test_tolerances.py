@@ -19,7 +19,7 @@ from rollnip.design import (
     Varied,
     tolerance,
 )
-from rollnip.design.tolerance import quantile
+from rollnip.design.tolerances import quantile
 from rollnip.sweeps import Table, sweep
 
 LOAD = Varied("nip.load", Normal("10 N/mm", "1 N/mm"))

@@ -31,8 +31,8 @@ class Model:
         "linear": flat layers, parabolic gap. "corrected": flat layers, true distance of the
         deformed surfaces. "curved": ring layers and stretch to second order. "second": ring
         layers at finite strain, to second order throughout. "finite", the default: finite strain
-        of all orders (docs/geometry.md). With a sheet and on half-space cores there is none of all
-        orders: "second" is solved there in place of "finite", and a result says which it is.
+        of all orders (docs/geometry.md). On half-space cores there is none of all orders: "second"
+        is solved there in place of "finite", and a result says which it is.
         "full" is another word for "finite".
     tolerance :
         wanted relative accuracy of creepage, nip width, peak pressure, approach or load; between

@@ -98,6 +98,7 @@ def solve(
         else:
             from rollnip.sheet import solve_sheet  # likewise
 
+            model = replace(model, geometry=geometry_for(nip, model))
             solution = solve_sheet(nip, model, cache, _version())
     if on_failure == "raise" and not solution.converged:
         raise ConvergenceError(solution.status, solution)
@@ -107,12 +108,12 @@ def solve(
 def geometry_for(nip: Nip, model: Model) -> Geometry:
     """Return the geometry that a nip is solved in where a model asks for one.
 
-    With a sheet and on half-space cores "finite" is of second order, a measured profile is solved
-    with linear elasticity; elsewhere it is the one asked for.
+    On half-space cores "finite" is of second order, a measured profile is solved with linear
+    elasticity; elsewhere it is the one asked for.
     """
     if nip.has_profile and model.geometry in FINITE:
         return "curved"
-    if model.geometry == "finite" and (nip.sheet is not None or nip.has_half_space):
+    if model.geometry == "finite" and nip.has_half_space:
         return "second"
     return model.geometry
 

@@ -134,7 +134,7 @@ def _surface_strain(largest: float) -> str:
     return (
         f"Somewhere in the nip a surface is strained by {100.0 * largest:.0f} %, beside a slipping "
         "edge as a rule: this geometry does not hold for such a strain; do not read the strain "
-        'there. Geometry "finite" has all orders, without a sheet and on rigid cores.'
+        'there. Geometry "finite" has all orders, on rigid cores.'
     )
 
 

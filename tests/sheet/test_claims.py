@@ -9,7 +9,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.plate.search import PlateSearch
-from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, SheetFigures, scales
+from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, SheetFigures, scales
 from rollnip.sheet.search import Search
 
 ALLOWED = 3.0  # times the claim, as for a bare nip (tests/properties)
@@ -34,8 +34,8 @@ def _errors(number):
     scale = scales(case.nip, truth)
     scale[scale == 0.0] = 1.0  # losses of elastic layers: rounding
     claim = refined.errors.values / scale
-    if model.geometry == "second":
-        claim = np.maximum(claim, SHARES_OF_FINITE)
+    if model.geometry in SHARES_OF_MODEL:
+        claim = np.maximum(claim, SHARES_OF_MODEL[model.geometry])
     return np.stack([np.abs(refined.figures.values - truth.values) / scale, claim])
 
 

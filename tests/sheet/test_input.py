@@ -3,9 +3,10 @@
 from dataclasses import replace
 
 import pytest
-from sheet_nips import RIGID, nip_with, paper
+from sheet_nips import RIGID, SOFT, nip_with, paper
 
 import rollnip as rn
+from rollnip.solver import geometry_for
 
 
 @pytest.mark.parametrize(
@@ -104,10 +105,13 @@ def test_an_unknown_usual_sheet_is_refused():
         rn.Sheet.usual("ofice paper")
 
 
-def test_finite_strain_is_of_second_order_with_a_sheet():
-    default, second = (rn.solve(nip_with(paper()), m) for m in (None, rn.Model(geometry="second")))
-    assert default.model.geometry == "second"
-    assert default.approach == second.approach
+def test_the_default_takes_all_orders_but_on_half_space_cores():
+    rubber = SOFT.layers[0]
+    steel = rn.Roller(radius=50, layers=[rubber], core=rn.Elastic(modulus=206e3, poisson=0.3))
+    assert geometry_for(nip_with(paper()), rn.Model()) == "finite"
+    assert geometry_for(nip_with(paper(), upper=steel), rn.Model()) == "second"
+    assert rn.solve(nip_with(paper())).model.geometry == "finite"
+    assert rn.solve(nip_with(paper(), upper=steel)).model.geometry == "second"
 
 
 def test_usual_sheets_have_sources():

@@ -146,28 +146,34 @@ def test_forces_on_the_sheet_and_their_moment_balance(pulled):
     assert far == pytest.approx(0.0, abs=1e-9)
 
 
-@pytest.mark.parametrize("geometry", ["linear", "second"])
+@pytest.mark.parametrize("geometry", ["linear", "second", "finite"])
 def test_the_mirror_image_of_a_nip_has_the_mirror_image_of_its_solution(geometry):
     # Upper and lower side change places: shears, tractions and creepages change sides and sign,
     # all that does not depend on a side is the same to rounding.
     sheet = replace(BOARD, friction_upper=0.4, friction_lower=0.6)
     nip = nip_with(sheet, tangential=rn.Traction(0.1))
+    model = rn.Model(geometry=geometry)
+    one = rn.solve(nip, model)
     mirrored = nip_with(
         replace(sheet, friction_upper=0.6, friction_lower=0.4),
         upper=HARD,
         lower=SOFT,
-        tangential=rn.Traction(-0.2),
+        tangential=rn.Traction(-one.sheet.traction_upper),
     )
-    one, two = (rn.solve(each, rn.Model(geometry=geometry)) for each in (nip, mirrored))
+    two = rn.solve(mirrored, model)
+    if geometry == "linear":
+        assert one.sheet.traction_upper == pytest.approx(0.2, rel=1e-9)
     assert one.converged
     assert two.converged
-    assert two.approach == pytest.approx(one.approach, rel=1e-9)
-    assert two.sheet.nip_width_lower == pytest.approx(one.nip_width, rel=1e-9)
-    assert two.nip_width == pytest.approx(one.sheet.nip_width_lower, rel=1e-9)
-    assert two.sheet.peak_pressure_lower == pytest.approx(one.peak_pressure, rel=1e-9)
-    assert two.sheet.creepage_lower == pytest.approx(-one.sheet.creepage_upper, rel=1e-9)
-    assert two.sheet.creepage_upper == pytest.approx(-one.sheet.creepage_lower, rel=1e-9)
-    assert two.sheet.tension_max == pytest.approx(one.sheet.tension_max, rel=1e-9)
-    assert two.torque_lower == pytest.approx(one.torque_upper, rel=1e-8)
+    # at finite strain T_u follows from the path of the mesh before, which differs by that much
+    same = 1e-9 if geometry == "linear" else 1e-7
+    assert two.approach == pytest.approx(one.approach, rel=same)
+    assert two.sheet.nip_width_lower == pytest.approx(one.nip_width, rel=same)
+    assert two.nip_width == pytest.approx(one.sheet.nip_width_lower, rel=same)
+    assert two.sheet.peak_pressure_lower == pytest.approx(one.peak_pressure, rel=same)
+    assert two.sheet.creepage_lower == pytest.approx(-one.sheet.creepage_upper, rel=same)
+    assert two.sheet.creepage_upper == pytest.approx(-one.sheet.creepage_lower, rel=same)
+    assert two.sheet.tension_max == pytest.approx(one.sheet.tension_max, rel=same)
+    assert two.torque_lower == pytest.approx(one.torque_upper, rel=10.0 * same)
     errors = one.sheet.error["peak_pressure_lower"], two.error["peak_pressure"]
     assert errors[0] == pytest.approx(errors[1], rel=1e-3)

@@ -47,7 +47,7 @@ _FAR = 0.1  # change from which a mesh of linear elements is graded anew
 MOST_AFRESH = 10  # turns that are solved from the beginning
 # Of the wave numbers: with all of them turns may not come to rest beside an edge that slips at
 # strains of two and more. Which cut they need is not known before; what it costs is claimed.
-_SHARES_KEPT = (1.0, 0.5, 0.25)
+SHARES_KEPT = (1.0, 0.5, 0.25)
 _STRAIN = 0.6  # of a surface at which waves up to half the number are kept
 _COARSE = 24  # elements of the contact while its correction still changes
 NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
@@ -161,7 +161,7 @@ def refine_all_orders(
     ended: Ended | None = None
     if latest.stands_still and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
-        for share in _SHARES_KEPT:
+        for share in SHARES_KEPT:
             orders = AllOrders.of(nip, half_width, strain, share)
             found = _turns(nip, model, kernels, latest, orders, is_refined=is_refined)
             if not isinstance(found, Ended):

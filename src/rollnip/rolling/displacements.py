@@ -124,5 +124,14 @@ class SecondFields:
             four += factor * other.slopes_at(x).four
         return Displacements(four)
 
+    def of_side(self, side: int) -> SecondFields:
+        """Return the displacements of the upper (0) or lower (1) surface; the other stays."""
+        functions, rough = (
+            tuple(f if i // 2 == side else None for i, f in enumerate(four))
+            for four in (self.functions, self.rough)
+        )
+        others = tuple((factor, other.of_side(side)) for factor, other in self.others)
+        return replace(self, functions=functions, others=others, rough=rough)
+
 
 NO_SECOND_ORDER = SecondFields((None,) * 4, ((0.0, 0.0),) * 4)

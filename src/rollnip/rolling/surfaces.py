@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import partial
+from typing import Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -201,7 +202,7 @@ class Mesh:
         four = held.uncut.at(self.nodes[1:]).four - self.held.four
         return Displacements(u.four + four)
 
-    def holding(self, kernels: PairKernels) -> Mesh:
+    def holding(self, kernels: PairKernels) -> Self:
         """Return this mesh with the second order that other influence functions hold."""
         return replace(self, kernels=kernels, held=_held_at(self.nodes, kernels))
 

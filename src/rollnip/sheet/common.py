@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from math import inf, isfinite
 from typing import Protocol
 
 import numpy as np
 
 from rollnip._errors import InvalidInputError
-from rollnip.model import Model
+from rollnip.model import Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Roller
 from rollnip.rolling import Round, impossible, verdict
@@ -143,6 +144,24 @@ def creepage_errors(nip: Nip, refined: Refined) -> tuple[float, float]:
     """Return the estimated errors of both creepages against the sheet, relative."""
     upper, lower = (refined.errors.values[5:7] / scales(nip, refined.figures)[5:7]).tolist()
     return upper, lower
+
+
+SIMPLER: Mapping[Geometry, Geometry] = {"finite": "second", "second": "curved"}
+"""The geometry that is solved where there is no solution of another one."""
+_BEYOND: Mapping[Geometry, str] = {
+    "finite": "terms beyond the linear ones",
+    "second": "second-order terms",
+}
+
+
+def instead_of(left: Sequence[Geometry], geometry: Geometry) -> tuple[str, ...]:
+    """Return sentences that say which geometries had no solution, and which is solved."""
+    out = [
+        f'No solution of geometry "{one}" was found with this sheet: its zones or its '
+        f"{_BEYOND[one]} did not come to rest."
+        for one in left
+    ]
+    return (*out[:-1], f'{out[-1]} All figures are those of geometry "{geometry}".') if out else ()
 
 
 def bending_length(nip: Nip) -> float:

@@ -26,14 +26,15 @@ def grip_of(
     pulls : T_u and T_l [N/mm].
     sliding : see `first_to_slide`; used where the rollers are geared together.
     """
-    (mu_u, mu_l), (upper, lower) = frictions_of(nip), pulls
+    (mu_u, mu_l), (upper, lower), sheet = frictions_of(nip), pulls, nip.sheet
+    assert sheet is not None
     first: Literal["upper", "lower"] = "upper"
     reach, kept = mu_u * load, lower
     if isinstance(nip.tangential, Creepage):
         reach, kept = (mu_u + mu_l) * load, 0.0
         first = first_to_slide(sliding, nip.tangential.creepage)
     return Grip(
-        pull=upper - lower,
+        pull=sheet.tension_in - sheet.tension_out,
         largest=reach - kept,
         smallest=-reach - kept,
         first=first,

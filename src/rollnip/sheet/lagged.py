@@ -9,8 +9,9 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
+from rollnip.contact import State, States
 from rollnip.geometry import linear_stretch
-from rollnip.model import Geometry
+from rollnip.model import FINITE, Geometry
 from rollnip.nip import Nip, Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
@@ -46,7 +47,7 @@ def lagged_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -
     flat = mesh.linear_displacements(state)
     u = mesh.with_second(flat, state)
     clearance, lean, offsets = first.clearance, 0.0, first.offsets
-    if geometry == "second":
+    if geometry in FINITE:
         depth = sum(surface_depths(mesh.inner, nip, geometry, u.but_last()))
         approximate = 0.5 * nip.curvature * mesh.inner**2 + (flat.z_upper + flat.z_lower)[:-1]
         clearance = depth - approximate
@@ -74,6 +75,43 @@ def change_of(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState
         load = float(mesh.weights @ state.pressure)
         changes.append(abs(new.traction - old.traction) / (strain * load))
     return largest(*changes)
+
+
+def missed(new: Lagged, old: Lagged, problem: SheetProblem, state: SheetState) -> float:
+    """Return how badly a solution violates its conditions with other terms, relative.
+
+    ``old``: the terms that it was solved with. The parts are gaps under pressure, over the approach
+    and the highest pressure, and how far surfaces that stick creep along each other, over the width
+    and the scale of a creepage.
+    """
+    nip, mesh = problem.nip, problem.mesh
+    half = 0.5 * float(mesh.nodes[-1] - mesh.nodes[0])
+    approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
+    creepage = max(abs(state.creepage), abs(state.creepage_lower))
+    scale = scale_of_creepage(creepage, nip.curvature * half)
+    parts = [pressed_gap(new.clearance - old.clearance, state.pressure) / approach]
+    for states, drift in zip(state.both_states, new.offsets - old.offsets, strict=True):
+        parts.append(creep_in_stick(drift, states) / (2.0 * half * scale))
+    return largest(*parts)
+
+
+def pressed_gap(gap: Array, pressure: Array) -> float:
+    """Return the largest gap under pressure, times the pressure over the highest one [mm]."""
+    peak = float(np.abs(pressure).max())
+    return float(np.abs(gap * pressure).max()) / peak if peak > 0.0 else 0.0
+
+
+def creep_in_stick(creep: Array, states: States) -> float:
+    """Return the largest distance by which surfaces creep along each other where they stick [mm].
+
+    ``creep``, ``states``: of the intervals and of the nodes at which they begin.
+    """
+    sticks = states == State.STICK
+    along = np.concatenate([[0.0], np.cumsum(np.where(sticks, creep, 0.0))])
+    begins = np.flatnonzero(sticks & ~np.append(False, sticks[:-1]))
+    ends = np.flatnonzero(sticks & ~np.append(sticks[1:], False)) + 1
+    runs = (along[begin : end + 1] for begin, end in zip(begins, ends, strict=True))
+    return max((float(np.ptp(run)) for run in runs), default=0.0)
 
 
 def sheet_rate(creepage_upper: float, creepage_lower: float) -> float:

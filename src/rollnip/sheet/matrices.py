@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,26 +17,48 @@ Array = NDArray[np.float64]
 _STEEP = 4.0  # how fast the integral of the tension changes its kind
 
 
-def integrals(mesh: Mesh) -> tuple[Array, Array, Array]:
-    """Return what the sheet sees of nodal tractions, each (n, n) per value at ``mesh.inner``.
+@dataclass(frozen=True, slots=True)
+class Integrals:
+    """What the sheet sees of nodal tractions, per value at ``mesh.inner``.
 
-    They are int_x^inf t dx at these nodes [mm], its integral over the intervals [mm^2], and
-    int t dx over the intervals [mm]; exact for the straight lines along which tractions act.
+    Exact for the straight lines along which tractions act. ds is along the sheet's path.
+
+    Attributes
+    ----------
+    beyond : (n, n) int_x^inf t ds at these nodes [mm].
+    over : (n, n) its integral dx over the intervals [mm^2].
+    pressed : (n, n) int t dx over the intervals [mm].
+    whole : (n,) int t ds [mm].
     """
-    fine, n = mesh.fine, mesh.inner.size
-    assert fine.acting is not None
-    dx = np.diff(fine.nodes[1:])[:, None]
-    values = np.vstack([fine.acting[1:-1, 1:-1], np.zeros((1, n))])
-    pieces = 0.5 * dx * (values[1:] + values[:-1])
-    beyond = np.zeros(values.shape)
-    beyond[:-1] = np.cumsum(pieces[::-1], axis=0)[::-1]
-    rise = dx**2 / 12.0 * (values[1:] - values[:-1])
-    over = mesh.sums(0.5 * dx * (beyond[1:] + beyond[:-1]) + rise)
-    parts = (fine.nodes.size - 3) // (n - 1)
-    return beyond[: parts * (n - 1) + 1 : parts], over, mesh.sums(pieces)
+
+    beyond: Array
+    over: Array
+    pressed: Array
+    whole: Array
+
+    @classmethod
+    def on(cls, mesh: Mesh, arcs: Array) -> Integrals:
+        """Integrate on a mesh; ``arcs``: ds/dx on the intervals of its finer nodes."""
+        fine, n = mesh.fine, mesh.inner.size
+        assert fine.acting is not None
+        dx, along = np.diff(fine.nodes)[:, None], arcs[:, None]
+        values = np.zeros((fine.nodes.size, n))
+        values[1:-1] = fine.acting[1:-1, 1:-1]
+        pieces = 0.5 * dx * (values[1:] + values[:-1])
+        beyond = np.zeros(values.shape)
+        beyond[:-1] = np.cumsum((along * pieces)[::-1], axis=0)[::-1]
+        rise = along * dx**2 / 12.0 * (values[1:] - values[:-1])
+        over = 0.5 * dx * (beyond[1:] + beyond[:-1]) + rise
+        parts = (fine.nodes.size - 3) // (n - 1)
+        return cls(
+            beyond=beyond[1 : parts * (n - 1) + 2 : parts],
+            over=mesh.sums(over[1:]),
+            pressed=mesh.sums(pieces[1:]),
+            whole=beyond[0],
+        )
 
 
-def stable(mesh: Mesh, sheet: Sheet, over: Array, own: Array) -> Array:
+def stable(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -> Array:
     """Return the integral of the tension over each interval, kept stable where tension rules.
 
     Where an interval stretches more by the tension that its own node makes than by that node's
@@ -42,18 +66,18 @@ def stable(mesh: Mesh, sheet: Sheet, over: Array, own: Array) -> Array:
     grow. There the force of each node acts at the node: second order, and stable for any sheet.
     """
     dx, n = mesh.dx, mesh.inner.size
-    lumped = dx[:, None] * np.triu(np.broadcast_to(mesh.weights, (n, n)), k=1)
+    lumped = dx[:, None] * np.triu(np.broadcast_to(found.whole, (n, n)), k=1)
     ratio = sheet.stretch_by_tension * dx**2 / (6.0 * np.abs(own).min(axis=0))
     share = (1.0 / (1.0 + np.minimum(ratio, 1e6) ** -_STEEP))[:, None]
-    return np.asarray((1.0 - share) * over + share * lumped)
+    return np.asarray((1.0 - share) * found.over + share * lumped)
 
 
-def influence(mesh: Mesh, sheet: Sheet, integrals: tuple[Array, Array]) -> Array:
+def influence(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
     """Return gap, upper and lower creep per nodal p, q_u and q_l, (3 n, 3 n) [mm/MPa].
 
     The strain of the sheet by tension is left out.
     """
-    n, (at_nodes, pressed) = mesh.inner.size, integrals
+    n, at_nodes, pressed = mesh.inner.size, found.beyond, found.pressed
     xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = mesh.per_traction
     by_pressure, sheared = sheet.stretch_by_pressure, sheet.shear_by_thickness
     hoop_u, hoop_l = mesh.kernels.hoops

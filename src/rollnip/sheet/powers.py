@@ -3,7 +3,7 @@
 As without a sheet, M_u V_u/R_u = V_u (int q_u lambda_u ds + w_u) and
 M_l V_l/R_l = V_l (w_l - int q_l lambda_l ds), w the loss inside a roller per rolled distance. Of
 that power slip takes int q_u (creep of the upper interface) V and the like below, and the sheet
-takes the rest: V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] dx, which is the work
+takes the rest: V_s int [q_u (1 + e - h kappa/2) - q_l (1 + e + h kappa/2)] ds, which is the work
 against its tensions and the elastic energy that it carries away.
 """
 
@@ -74,7 +74,7 @@ def sheet_powers(
     for side in (0, 1):
         slips = state.both_states[side] > State.STICK
         slips = slips[:-1] & slips[1:]
-        sheared = (problem.pressed @ state.shears[side])[:-1]  # int q dx over each interval
+        sheared = -np.diff(problem.tension @ state.shears[side])  # int q ds over each interval
         rate = creeps[side, :-1] / mesh.dx[:-1]
         friction.append(float((sheared * rate)[slips].sum()))
     return SheetPowers(
@@ -94,8 +94,8 @@ def _into_sheet(problem: SheetProblem, geometry: Geometry, state: SheetState) ->
     Its faces run at V_s (1 + e -+ h kappa/2). "linear" leaves out products of creepage and strain.
     """
     mesh = problem.mesh
-    both = problem.pressed @ np.stack([state.shear, state.shear_lower], axis=1)
-    pushed, sheared = both[:-1, 0] - both[:-1, 1], both[:-1].sum(axis=1)
+    above, below = -np.diff(problem.tension @ state.shears.T, axis=0).T
+    pushed, sheared = above - below, above + below
     strain = (problem.strain_over(state) / mesh.dx)[:-1]
     rate = sheet_rate(state.creepage, state.creepage_lower)
     taken = rate * float(pushed.sum())

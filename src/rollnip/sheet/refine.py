@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
@@ -10,7 +10,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.model import Model
+from rollnip.model import Geometry, Model
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling import Figures, PairKernels
 from rollnip.rolling.round import peak_pressure, scale_of_creepage
@@ -32,7 +32,7 @@ FEWEST = 2
 FEWEST_WITH_SLIP = 3
 _MOST_FAILURES = 3  # sizes of mesh whose zones are clearly wrong; finer ones find none either
 _CLEARLY_WRONG = 1.0  # violation of the conditions of friction
-_ROUGHLY, _CLOSELY = 0.3, 0.1  # of the tolerance: what ends may be off on first and last sizes
+_ROUGHLY, LAST_CLOSELY = 0.3, 0.1  # of the tolerance: what ends may be off on first, last sizes
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
 # Least error of each figure over its scale, times the square of the number of elements; measured
@@ -129,16 +129,32 @@ class Refined:
     stand : the solution on the finest mesh.
     figures, errors : see `SheetFigures`; errors inf where unknown.
     residual : how badly it violates the conditions, see `violation` and `overlap`.
+    count : about how many elements the mesh was to have.
+    cut : how far the conditions are violated by what "finite" leaves out of its correction.
     """
 
     stand: SheetAttempt
     figures: SheetFigures
     errors: SheetFigures
     residual: float
+    count: int
+    cut: float = 0.0
 
 
-def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Refined:
+def refine_sheet(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    half_width: float,
+    before: SheetAttempt | None = None,
+) -> Refined:
     """Solve on ever finer meshes until the estimated errors are below the tolerance.
+
+    Parameters
+    ----------
+    nip, model, kernels : the problem, how it is computed, and its influence functions.
+    half_width : about that of the contact [mm].
+    before : a solution to begin with; None: one of the linear geometry.
 
     Raises
     ------
@@ -146,13 +162,13 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
         where no size of mesh has a solution.
     """
     search, count = Search(nip, model, kernels), float(_FIRST)
-    stand = search.begun(half_width, FIRST_COUNT)
+    stand = search.begun(half_width, FIRST_COUNT) if before is None else before
     history: list[tuple[float, SheetFigures, Zones]] = []
     best: Refined | None = None
     failures, fewest = 0, FEWEST + nip.is_viscoelastic
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
         may_be_last = len(history) + 1 >= fewest
-        closely = _CLOSELY if may_be_last else _ROUGHLY
+        closely = LAST_CLOSELY if may_be_last else _ROUGHLY
         try:
             stand = search.placed(stand.zones, round(count), stand, closely)
         except np.linalg.LinAlgError:
@@ -161,12 +177,12 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
         figures = SheetFigures.of(stand, model.geometry)
         here = (count, figures, stand.zones)
         errors = SheetFigures(errors_between(nip, [*history, here]))
-        latest = Refined(stand, figures, errors, violation(stand))
+        latest = Refined(stand, figures, errors, violation(stand), round(count))
         if stand.stands_still:
             history.append(here)
             best = latest
             if may_be_last and ratio(nip, figures, errors) <= model.tolerance:
-                best = _with_overlap(latest, kernels)
+                best = _with_overlap(latest, kernels, model.geometry)
                 if best.residual <= model.tolerance:
                     return best
         else:
@@ -177,13 +193,17 @@ def refine_sheet(nip: Nip, model: Model, kernels: PairKernels, half_width: float
         count *= GROWTH
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
-    return _with_overlap(best, kernels)
+    return _with_overlap(best, kernels, model.geometry)
 
 
-def _with_overlap(refined: Refined, kernels: PairKernels) -> Refined:
+def _with_overlap(refined: Refined, kernels: PairKernels, geometry: Geometry) -> Refined:
     """Return a solution with what it overlaps outside the contact, too."""
-    left = max(refined.residual, overlap(refined.stand, kernels))
-    return replace(refined, residual=left)
+    return replace(refined, residual=residual_of(refined.stand, kernels, geometry))
+
+
+def residual_of(stand: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+    """Return how badly a solution violates its conditions, relative."""
+    return max(violation(stand), overlap(stand, kernels, geometry))
 
 
 def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:
@@ -250,11 +270,21 @@ def errors_between(nip: Nip, history: Sequence[tuple[float, SheetFigures, object
     return np.asarray(np.maximum(error, floor))
 
 
-SHARES_OF_FINITE = np.array(
-    [
-        *(1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3, 1e-2, 1e-2),
-        *(5e-3, 5e-3, 1e-2, 1e-2),
-        *(3e-3, 3e-3, 3e-3, 3e-3, 2e-3, 2e-3, 5e-3, 7e-3, 1e-2),
-    ]
-)
-"""Relative error that the second order of "second" leaves in each figure, as for a bare nip."""
+SHARES_OF_MODEL: Mapping[Geometry, Array] = {
+    "second": np.array(
+        [
+            *(1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3, 1e-2, 1e-2),
+            *(5e-3, 5e-3, 1e-2, 1e-2),
+            *(3e-3, 3e-3, 3e-3, 3e-3, 2e-3, 2e-3, 5e-3, 7e-3, 1e-2),
+        ]
+    ),
+    "finite": np.array(
+        [
+            *(3e-4, 3e-4, 5e-3, 1e-3, 3e-3, 5e-3, 5e-3),
+            *(5e-3, 5e-3, 5e-3, 5e-3),
+            *(2e-3, 2e-3, 3e-3, 3e-3, 2e-3, 2e-3, 5e-3, 7e-3, 5e-3),
+        ]
+    ),
+}
+"""Relative error that a geometry leaves in each figure, as for a bare nip. In "finite" figures of
+30 random nips change by less than that between meshes of 24 and 64 elements."""

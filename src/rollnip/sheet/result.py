@@ -46,7 +46,8 @@ class Grip:
     """How hard the sheet can be pulled before it slips through the nip.
 
     The pull is the tension on the inlet side less that on the outlet side: what the rollers give
-    to the sheet, T_u - T_l. In full sliding each roller gives its friction times the load.
+    to the sheet, T_u - T_l (at finite strain up to a hundredth more, for tension grows along the
+    path of the sheet). In full sliding each roller gives its friction times the load.
 
     Attributes
     ----------

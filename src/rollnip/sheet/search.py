@@ -23,9 +23,10 @@ from rollnip.contact import (
     elements_of_zones,
     subdivided,
 )
-from rollnip.model import Model
+from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
-from rollnip.rolling import PairKernels
+from rollnip.rolling import PairKernels, surface_depths
+from rollnip.rolling.assemble import arc_ratio
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
@@ -38,9 +39,11 @@ from rollnip.sheet.system import (
     SIGNS,
     Factorised,
     Lagged,
+    SheetMesh,
     SheetProblem,
     SheetState,
     next_slip,
+    sheet_displacements,
     sheet_mesh_on,
 )
 from rollnip.sheet.zones import Zones
@@ -171,11 +174,21 @@ class Search:
         nodes = cosine_nodes(zones.breaks, *shape)
         kernels = self._holding(before)
         mesh = sheet_mesh_on(nodes, kernels, subdivided(nodes, *shape))
-        return SheetProblem.on(self.nip, mesh)
+        return SheetProblem.on(self.nip, mesh, self._arcs(mesh, before))
+
+    def _arcs(self, mesh: SheetMesh, before: SheetAttempt | None) -> Array | None:
+        """Return ds/dx of the sheet's path in the solution before; None: all 1."""
+        if before is None or self.model.geometry not in FINITE:
+            return None
+        own = before.problem.mesh
+        x, u = own.fine.nodes[1:], own.finer(own.displacements(before.state))
+        ratio = arc_ratio(x, self.nip, self.model.geometry, u)
+        places = 0.5 * (mesh.fine.nodes[1:] + mesh.fine.nodes[:-1])
+        return np.interp(places, 0.5 * (x[1:] + x[:-1]), ratio)
 
     def _holding(self, before: SheetAttempt | None) -> PairKernels:
-        """Return influence functions with the second order of the solution before."""
-        if self.kernels.is_linear:
+        """Return influence functions with the second order of the solution before, if they have."""
+        if self.kernels.is_fixed:
             return self.kernels
         held = NO_SECOND_ORDER
         if before is not None:
@@ -299,7 +312,7 @@ def violation(stand: SheetAttempt) -> float:
     return max(parts)
 
 
-def overlap(stand: SheetAttempt, kernels: PairKernels) -> float:
+def overlap(stand: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how far surfaces and sheet overlap outside the contact, and tension, relative.
 
     Over the approach, or the depth of the gap at the edge; over the highest pressure.
@@ -311,11 +324,11 @@ def overlap(stand: SheetAttempt, kernels: PairKernels) -> float:
     x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
     acting = [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)]
     made = pair_displacements(kernels, x, mesh.fine.nodes, np.stack(acting, axis=1))
-    lower = made[4, :, 0] + made[5, :, 2]
-    gap = 0.5 * nip.curvature * x**2 + made[1, :, 0] - made[2, :, 1] + lower - state.approach
-    clearance = np.interp(x, mesh.inner, stand.lagged.clearance)
+    u = sheet_displacements(made)
+    u = u if kernels.is_linear else u + mesh.second(state, x)
+    gap = sum(surface_depths(x, nip, geometry, u)) - state.approach
     sides = np.repeat([problem.sheet.tension_out, problem.sheet.tension_in], away.size)
-    gap += clearance + problem.sheet.stretch_by_pressure * sides
+    gap += problem.sheet.stretch_by_pressure * sides
     gap += squeezed(problem.sheet, x, mesh.fine.nodes, acting[0][:, None])[:, 0]
     depth = 0.125 * nip.curvature * width**2
     if not nip.has_half_space:

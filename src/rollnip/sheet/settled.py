@@ -85,7 +85,8 @@ def _inequalities(
     else:
         matrix[-3, -3], right[-3], scales[-3] = 1.0, -nip.normal.approach, depth
     pulled = problem.sheet.tension_in - problem.sheet.tension_out
-    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3], right[-2] = weights, -weights, -pulled
+    pulls = problem.pulls
+    matrix[-2, n : 2 * n], matrix[-2, 2 * n : -3], right[-2] = pulls, -pulls, -pulled
     if isinstance(nip.tangential, Creepage):
         matrix[-1, -2:], right[-1], scales[-1] = 1.0, -nip.tangential.creepage, slope
     else:

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactZone, State
 from rollnip.interior import SurfaceTractions
+from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
 from rollnip.rolling import (
     DeformedSurfaces,
@@ -31,10 +32,10 @@ from rollnip.sheet.common import bending_length
 from rollnip.sheet.grip import grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
-from rollnip.sheet.refine import NAMES, SHARES_OF_FINITE, Refined, SheetFigures, scales
+from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, Refined, SheetFigures, scales
 from rollnip.sheet.result import SheetProfiles, SheetResult, slip_share_of
 from rollnip.sheet.squeeze import squeezed
-from rollnip.sheet.system import SheetState, frictions_of
+from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
 from rollnip.smooth import SmoothSolution
 
 Array = NDArray[np.float64]
@@ -247,14 +248,18 @@ class SheetSolution(SmoothSolution):
         sheet = self.nip.sheet
         assert sheet is not None
         mine["traction_lower"] = abs(self.traction - self.nip.tangential.traction)
+        if self.model.geometry in FINITE:  # tension gains along the path, tractions act along x
+            return mine
         wanted = self.nip.tangential.traction + sheet.tension_in - sheet.tension_out
         mine["traction_upper"] = abs(figures.traction_upper - wanted)
         return mine
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, none less than what the model's own order leaves open."""
-        share = SHARES_OF_FINITE if self.model.geometry == "second" else 0.0
-        least = share * scales(self.nip, figures)
+        shares = SHARES_OF_MODEL.get(self.model.geometry, np.zeros(len(NAMES))).copy()
+        for name in ("creepage_upper", "creepage_lower"):
+            shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)
+        least = shares * scales(self.nip, figures)
         return dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
 
     @cached_property
@@ -311,12 +316,12 @@ class SheetSolution(SmoothSolution):
 
     def _tension(self, x: Array) -> Array:
         """Return the tension of the sheet, exact at the nodes between which shears are linear."""
-        sheet, mesh, state = self.nip.sheet, self.refined.stand.problem.mesh, self._state
+        sheet, problem, state = self.nip.sheet, self.refined.stand.problem, self._state
         assert sheet is not None
-        nodes = self.final.nodes
+        nodes, mesh = self.final.nodes, problem.mesh
         pull = np.zeros(nodes.size)
         pull[1:-1] = mesh.acting(state.shear - state.shear_lower)
-        pieces = 0.5 * np.diff(nodes) * (pull[1:] + pull[:-1])
+        pieces = 0.5 * problem.arcs * np.diff(nodes) * (pull[1:] + pull[:-1])
         beyond = np.append(np.cumsum(pieces[::-1])[::-1], 0.0)
         values = sheet.tension_in - beyond
         return np.interp(x, nodes, values, left=sheet.tension_out, right=sheet.tension_in)
@@ -337,17 +342,11 @@ class SheetSolution(SmoothSolution):
         acting = np.stack(
             [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)], axis=1
         )
-        xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = pair_displacements(
-            self.kernels, x, mesh.fine.nodes, acting
-        )
-        four = [
-            xz_u[:, 0] + xx_u[:, 1],
-            zz_u[:, 0] - xz_u[:, 1],
-            xz_l[:, 0] - xx_l[:, 2],
-            zz_l[:, 0] + xz_l[:, 2],
-        ]
-        u = Displacements(np.stack(four))
-        return (x, u) if self.kernels.is_linear else (x, u + mesh.second_fields(state).at(x))
+        u = sheet_displacements(pair_displacements(self.kernels, x, mesh.fine.nodes, acting))
+        if self.kernels.is_linear:
+            return x, u
+        held = self.kernels.held or mesh.second_fields(state)
+        return x, u + held.at(x)
 
     def _sliding(self) -> tuple[Array, Array]:
         """Return creeps over length, see `grip.first_to_slide`."""

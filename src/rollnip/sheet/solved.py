@@ -10,7 +10,7 @@ import numpy as np
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
-from rollnip.model import Model
+from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import (
     PairKernels,
@@ -21,14 +21,18 @@ from rollnip.rolling import (
     with_second_order,
 )
 from rollnip.rolling.assemble import SecondOrder
+from rollnip.sheet.all_orders import solve_in_turns
 from rollnip.sheet.common import (
+    SIMPLER,
     SLACK,
     bending_length,
     half_width_with_sheet,
+    instead_of,
     require_grip,
     require_torque,
     sheet_verdict,
 )
+from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.solved import COUNTED, solve_plate, stiffness_shows
 from rollnip.sheet.refine import Refined, refine_sheet
 from rollnip.sheet.solution import SheetSolution
@@ -43,7 +47,7 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
     Parameters
     ----------
     nip : with a sheet.
-    model : geometry "linear", "curved" or "second", which is solved in place of "finite" too.
+    model : geometry "linear", "curved", "second" or "finite".
     cache : influence functions of solves before.
     version : of rollnip, for the record.
 
@@ -57,11 +61,10 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
     start = perf_counter()
     if model.geometry == "corrected":
         raise InvalidInputError(
-            '`geometry` must be "linear", "curved" or "second" with a sheet, got "corrected".'
+            '`geometry` must be "linear", "curved", "second" or "finite" with a sheet, '
+            'got "corrected".'
         )
     require_torque(nip)
-    if model.geometry == "finite":
-        model = replace(model, geometry="second")
     assert nip.sheet is not None
     bending = nip.sheet.bending
     record: tuple[str, tuple[str, ...]] = (version, ())
@@ -81,9 +84,7 @@ def _bending_freely(
     ``record``: version, and why stiffness that shows was left out; such a solution is not verified.
     """
     version, simpler = record
-    kernels, refined, left = _refined(nip, model, cache)
-    if left:
-        model = replace(model, geometry="curved")
+    model, kernels, refined, left = _refined(nip, model, cache)
     left = simpler + left
     require_grip(nip, refined)
     final = as_round(nip, refined)
@@ -114,38 +115,34 @@ def _bending_freely(
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[PairKernels, Refined, tuple[str, ...]]:
-    """Return influence functions, the solution, and a sentence where "second" was left."""
-    try:
-        kernels, refined = _attempt(nip, model, cache)
-        if model.geometry != "second" or refined.stand.stands_still:
-            return kernels, refined, ()
-    except np.linalg.LinAlgError:
-        if model.geometry != "second":
+) -> tuple[Model, PairKernels, Refined, tuple[str, ...]]:
+    """Return the model solved, influence functions, the solution, and why it is another model."""
+    left: list[Geometry] = []
+    while True:
+        found = _attempt(nip, model, cache)
+        simpler = SIMPLER.get(model.geometry)
+        if found is not None and (simpler is None or found[1].stand.stands_still):
+            return model, *found, instead_of(left, model.geometry)
+        if simpler is None:
             raise ConvergenceError(
                 "No solution with this sheet was found; try a larger load or other tensions."
-            ) from None
-    try:
-        kernels, refined = _attempt(nip, replace(model, geometry="curved"), cache)
-    except np.linalg.LinAlgError:
-        raise ConvergenceError(
-            "No solution with this sheet was found; try a larger load or other tensions."
-        ) from None
-    return (
-        kernels,
-        refined,
-        (
-            'No solution of geometry "second" was found with this sheet: its zones or its '
-            'second-order terms did not come to rest. All figures are those of geometry "curved".',
-        ),
-    )
+            )
+        left.append(model.geometry)
+        model = replace(model, geometry=simpler)
 
 
-def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, Refined]:
+def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, Refined] | None:
+    """Return influence functions and the solution in one geometry; None where there is none."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    return kernels, refine_sheet(nip, model, kernels, half_width_with_sheet(nip, half_width))
+    half_width = half_width_with_sheet(nip, half_width)
+    if model.geometry == "finite":
+        return solve_in_turns(nip, model, kernels, Membrane(nip), half_width)
+    try:
+        return kernels, refine_sheet(nip, model, kernels, half_width)
+    except np.linalg.LinAlgError:
+        return None
 
 
 def as_round(nip: Nip, refined: Refined) -> Round:
@@ -177,6 +174,7 @@ def as_round(nip: Nip, refined: Refined) -> Round:
         stands_still=stand.stands_still,
         geometry_change=stand.change,
         residual=refined.residual,
+        cut=refined.cut,
     )
 
 

@@ -30,7 +30,7 @@ from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import Displacements, PairKernels
 from rollnip.rolling.displacements import SecondFields
 from rollnip.rolling.surfaces import Mesh, mesh_on
-from rollnip.sheet.matrices import influence, integrals, stable
+from rollnip.sheet.matrices import Integrals, influence, stable
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -99,6 +99,21 @@ class SheetMesh(Mesh):
         return SecondFields(functions, above.ends[:2] + below.ends[2:])
 
 
+def sheet_displacements(made: Array) -> Displacements:
+    """Return the displacements under a solution's tractions: (q_u, p) above and (-q_l, p) below.
+
+    ``made``, (6, n, 3): those by p, q_u and q_l, for each function of `pair_displacements`.
+    """
+    xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = made
+    four = [
+        xz_u[:, 0] + xx_u[:, 1],
+        zz_u[:, 0] - xz_u[:, 1],
+        xz_l[:, 0] - xx_l[:, 2],
+        zz_l[:, 0] + xz_l[:, 2],
+    ]
+    return Displacements(np.stack(four))
+
+
 def sheet_mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision) -> SheetMesh:
     """Evaluate the influence functions of both surfaces on a mesh."""
     mesh = mesh_on(nodes, kernels, fine)
@@ -131,8 +146,10 @@ class SheetProblem:
     ----------
     nip, sheet, mesh : the problem and where it is solved.
     frictions : coefficients of the upper and the lower interface.
-    tension : (n, n) int_x^inf q dx at ``mesh.inner`` per nodal shear [mm].
-    over : (n, n) integral of ``tension`` over each interval [mm^2].
+    arcs : ds/dx of the sheet's path on the intervals of the finer nodes.
+    tension : (n, n) int_x^inf q ds at ``mesh.inner`` per nodal shear [mm].
+    over : (n, n) integral of ``tension`` dx over each interval [mm^2].
+    pulls : (n,) int q ds per nodal shear [mm].
     pressed : (n, n) int p dx over each interval per nodal pressure [mm].
     own : (2, n) creep of each interval by the shear of its own node, without the tension that this
         shear makes; negative [mm/MPa].
@@ -143,28 +160,43 @@ class SheetProblem:
     sheet: Sheet
     mesh: SheetMesh
     frictions: tuple[float, float]
+    arcs: Array
     tension: Array
     over: Array
+    pulls: Array
     pressed: Array
     own: Array
     matrix: Array
 
     @classmethod
-    def on(cls, nip: Nip, mesh: SheetMesh) -> SheetProblem:
-        """Assemble the problem of a nip with a sheet on a mesh."""
+    def on(cls, nip: Nip, mesh: SheetMesh, arcs: Array | None = None) -> SheetProblem:
+        """Assemble the problem of a nip with a sheet on a mesh; ``arcs`` None: all 1."""
         sheet = nip.sheet
         assert sheet is not None
-        at_nodes, over, pressed = integrals(mesh)
-        matrix = influence(mesh, sheet, (at_nodes, pressed))
+        arcs = np.ones(mesh.fine.nodes.size - 1) if arcs is None else arcs
+        found = Integrals.on(mesh, arcs)
+        matrix = influence(mesh, sheet, found)
         n = mesh.inner.size
         own = np.minimum(np.diagonal(matrix)[n:].reshape(2, n), -_TINY)
-        over = stable(mesh, sheet, over, own)
+        over = stable(mesh, sheet, found, own)
         made = sheet.stretch_by_tension * over
         blocks = matrix.reshape(3, n, 3, n)
         for side, sign in ((1, 1.0), (2, -1.0)):
             blocks[side, :, 1] += sign * made
             blocks[side, :, 2] -= sign * made
-        return cls(nip, sheet, mesh, frictions_of(nip), at_nodes, over, pressed, own, matrix)
+        return cls(
+            nip=nip,
+            sheet=sheet,
+            mesh=mesh,
+            frictions=frictions_of(nip),
+            arcs=arcs,
+            tension=found.beyond,
+            over=over,
+            pulls=found.whole,
+            pressed=found.pressed,
+            own=own,
+            matrix=matrix,
+        )
 
     @property
     def dx(self) -> Array:
@@ -316,17 +348,26 @@ def _matrix(problem: SheetProblem, states: States) -> Array:
         matrix[-3, :n_c] = weights[contact]
     else:
         matrix[-3, -3] = 1.0
-    # T_u - T_l, then T_l or the sum of the creepages.
-    pulls = np.zeros((2, size))
-    for side in (0, 1):
-        pulls[side, :n_c] = (weights * ratios[side])[contact]
-        pulls[side, n_c:] = np.where(in_upper == (side == 0), weights[sticks % n], 0.0)
-    matrix[-2, :size] = pulls[0] - pulls[1]
+    # What the tension gains, then T_l or the sum of the creepages.
+    matrix[-2, :size] = _sums(problem.pulls, ratios[0], contact, sticks)
+    matrix[-2, :size] -= _sums(problem.pulls, ratios[1], contact, sticks - n)
     if isinstance(problem.nip.tangential, Creepage):
         matrix[-1, -2:] = 1.0
     else:
-        matrix[-1, :size] = pulls[1]
+        matrix[-1, :size] = _sums(weights, ratios[1], contact, sticks - n)
     return matrix
+
+
+def _sums(
+    weights: Array, ratio: Array, contact: NDArray[np.intp], sticks: NDArray[np.intp]
+) -> Array:
+    """Return an integral of one interface's shear per pressure and sticking shear.
+
+    ``sticks``: nodes of sticking shears; those that are none stand for shears of the other side.
+    """
+    own = (sticks >= 0) & (sticks < weights.size)
+    stuck = np.where(own, weights[np.where(own, sticks, 0)], 0.0)
+    return np.concatenate([(weights * ratio)[contact], stuck])
 
 
 def _right_side(problem: SheetProblem, states: States, lagged: Lagged) -> Array:

@@ -10,9 +10,11 @@ from numpy.typing import NDArray
 
 from rollnip.contact import State
 from rollnip.influence import displacement_under
-from rollnip.rolling import PairKernels
+from rollnip.model import Geometry
+from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.attempt import Attempt
+from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.search import longest_run
@@ -53,7 +55,7 @@ def violation(stand: PlateAttempt) -> float:
     return max(parts)
 
 
-def overlap(stand: PlateAttempt, kernels: PairKernels) -> float:
+def overlap(stand: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how far surfaces and sheet overlap outside the contacts, and tension, relative.
 
     Over the approach, or the depth of the gap at the edge; over the highest pressure.
@@ -67,8 +69,7 @@ def overlap(stand: PlateAttempt, kernels: PairKernels) -> float:
     for side, mesh in enumerate(problem.meshes):
         away = stand.zones.sides[side].width * _OUTSIDE
         x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
-        gap = gap_at(problem, state, kernels, side, x)
-        gap += np.interp(x, mesh.inner, stand.lagged.clearance[side])
+        gap = gap_at(problem, state, (kernels, geometry), side, x)
         parts.append(float(np.max(-gap)) / depth)
         pressure = state.pressure[side]
         peak = float(pressure.max())
@@ -77,25 +78,33 @@ def overlap(stand: PlateAttempt, kernels: PairKernels) -> float:
 
 
 def gap_at(
-    problem: PlateProblem, state: PlateState, kernels: PairKernels, side: int, x: Array
+    problem: PlateProblem,
+    state: PlateState,
+    model: tuple[PairKernels, Geometry],
+    side: int,
+    x: Array,
 ) -> Array:
-    """Return the gap between one roller and the sheet at some places, linear, (m,) [mm]."""
-    sign, nip = (1.0, -1.0)[side], problem.nip
-    curvature = (nip.upper.curvature, nip.lower.curvature)[side]
-    gap = 0.5 * curvature * x**2 + problem.thinned_at(state, x)[side]
-    gap -= sign * problem.height_at(state, x)
-    gap += inward_at(problem.meshes[side], state, kernels, side, x)
+    """Return the gap between one roller and the sheet at some places, (m,) [mm]."""
+    u = _displacements_at(problem.meshes[side], state, model[0], side, x)
+    gap = surface_depths(x, problem.nip, model[1], u)[side] + problem.thinned_at(state, x)[side]
+    gap -= SIGNS[side] * problem.height_at(state, x)
     return np.asarray(gap - (state.approach if side == 0 else 0.0))
 
 
-def inward_at(mesh: Mesh, state: PlateState, kernels: PairKernels, side: int, x: Array) -> Array:
-    """Return the linear displacement of one roller inwards at some places, (m,) [mm]."""
-    surface = (kernels.upper, kernels.lower)[side]
+def _displacements_at(
+    mesh: Mesh, state: PlateState, kernels: PairKernels, side: int, x: Array
+) -> Displacements:
+    """Return the displacements of one roller at some places; the other one's are zero."""
+    four, surface = np.zeros((4, x.size)), (kernels.upper, kernels.lower)[side]
     if surface is None:
-        return np.zeros(x.size)
-    acting = mesh.acting(state.pressure[side]), (1.0, -1.0)[side] * mesh.acting(state.shear[side])
-    made = displacement_under(surface.together, x, mesh.fine.nodes, np.stack(acting, axis=1))
-    return np.asarray(made[1, :, 0] - made[2, :, 1])
+        return Displacements(four)
+    tractions = state.pressure[side], SIGNS[side] * state.shear[side]
+    acting = np.stack([mesh.acting(t) for t in tractions], axis=1)
+    xx, zz, xz = displacement_under(surface.together, x, mesh.fine.nodes, acting)
+    four[2 * side] = xz[:, 0] + xx[:, 1]
+    four[2 * side + 1] = zz[:, 0] - xz[:, 1]
+    flat = Displacements(four)
+    return flat if mesh.kernels.is_linear else flat + mesh.second(state.side(side), x)
 
 
 def carried(stand: PlateAttempt, problem: PlateProblem) -> LaggedPlate:

@@ -80,7 +80,7 @@ def _conditions(problem: PlateProblem) -> Array:
     rows[1, a:b], rows[1, c:d] = -weights[0], weights[1]
     rows[2, a:b], rows[2, c:d] = -moments[0], moments[1]
     rows[2, b:c], rows[2, d:] = half * weights[0], half * weights[1]
-    rows[3, b:c], rows[3, d:] = weights[0], -weights[1]
+    rows[3, b:c], rows[3, d:] = problem.pulls[0].whole, -problem.pulls[1].whole
     rows[4, d:] = weights[1]
     return rows
 

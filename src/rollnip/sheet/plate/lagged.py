@@ -11,11 +11,11 @@ from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
-from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
+from rollnip.rolling.assemble import loss_inside, mean_shear
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.sheet.lagged import sheet_rate
-from rollnip.sheet.plate.sides import NAMES, SIGNS, curvatures, own_displacements
+from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate
+from rollnip.sheet.plate.sides import NAMES, SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 
 Array = NDArray[np.float64]
@@ -84,12 +84,30 @@ def change_of(
     return largest(*changes)
 
 
+def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState) -> float:
+    """Return how badly a solution violates its conditions with other terms, relative.
+
+    See `rollnip.sheet.lagged.missed`.
+    """
+    nip, parts = problem.nip, [0.0]
+    creepage = max(map(abs, state.creepages))
+    for side, mesh in enumerate(problem.meshes):
+        half = 0.5 * float(np.ptp(mesh.inner))
+        approach = max(abs(state.approach), 0.5 * nip.curvature * half**2)
+        gap = pressed_gap(new.clearance[side] - old.clearance[side], state.pressure[side])
+        drift = creep_in_stick(new.offsets[side] - old.offsets[side], state.states[side])
+        scale = scale_of_creepage(creepage, nip.curvature * half)
+        parts += [gap / approach, drift / (2.0 * half * scale)]
+    return largest(*parts)
+
+
 def pull_of(problem: PlateProblem, geometry: Geometry, state: PlateState, side: int) -> float:
     """Return int q lambda ds of one roller [N/mm]."""
     nip, mesh = problem.nip, problem.meshes[side]
     x, u = mesh.fine.nodes[1:], mesh.finer(displacements_of(problem, state, side))
     lengths = x[1:] - x[:-1] + stretch_excess(x, nip, geometry, u)[side]
-    lengths = lengths * arc_ratio(x, nip, geometry, u)
+    if geometry in FINITE:
+        lengths = lengths * path_ratio(x, nip, side, u)
     return float(lengths @ mean_shear(mesh, state.side(side)))
 
 

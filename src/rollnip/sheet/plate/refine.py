@@ -47,6 +47,8 @@ class PlateRefined:
         errors inf where unknown.
     residual : how badly it violates the conditions.
     lower, lower_errors : the same with nip width and pressure of the lower interface.
+    count : about how many elements the meshes were to have.
+    cut : how far the conditions are violated by what "finite" leaves out of its correction.
     """
 
     stand: PlateAttempt
@@ -55,6 +57,8 @@ class PlateRefined:
     residual: float
     lower: SheetFigures
     lower_errors: SheetFigures
+    count: int
+    cut: float = 0.0
 
     def ratio(self, nip: Nip) -> float:
         """Return the largest relative error of the figures that the tolerance is for."""
@@ -62,10 +66,20 @@ class PlateRefined:
         return max(ratio(nip, *side) for side in sides)
 
 
-def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> PlateRefined:
+def refine_plate(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    half_width: float,
+    before: PlateAttempt | None = None,
+) -> PlateRefined:
     """Solve on ever finer meshes until the estimated errors are below the tolerance.
 
-    ``half_width``: about that of a sheet that bends freely [mm].
+    Parameters
+    ----------
+    nip, model, kernels : the problem, how it is computed, and its influence functions.
+    half_width : about that of a sheet that bends freely [mm].
+    before : a solution to begin with; None: one of the linear geometry.
 
     Raises
     ------
@@ -76,18 +90,19 @@ def refine_plate(nip: Nip, model: Model, kernels: PairKernels, half_width: float
     history: list[tuple[float, SheetFigures, PlateZones]] = []
     below: list[tuple[float, SheetFigures, PlateZones]] = []
     best: PlateRefined | None = None
-    stand, failed = search.begun(half_width, FIRST_COUNT), 0
+    stand = search.begun(half_width, FIRST_COUNT) if before is None else before
+    failed = 0
     while count <= MOST_COUNT:
         if history or failed or model.geometry != "linear":
             stand = search.placed(stand.zones, round(count), stand)
         figures = plate_figures(stand, model.geometry)
         here = (count, figures, stand.zones)
-        lower = _of_lower(figures, stand)
+        lower = of_lower(figures, stand)
         here_below = (count, lower, stand.zones)
         errors = SheetFigures(errors_between(nip, [*history, here]))
         lower_errors = SheetFigures(errors_between(nip, [*below, here_below]))
-        left = max(violation(stand), overlap(stand, kernels))
-        latest = PlateRefined(stand, figures, errors, left, lower, lower_errors)
+        left = max(violation(stand), overlap(stand, kernels, model.geometry))
+        latest = PlateRefined(stand, figures, errors, left, lower, lower_errors, round(count))
         if stand.stands_still:
             history.append(here)
             below.append(here_below)
@@ -130,7 +145,7 @@ def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
     return SheetFigures(np.array([*first, *spent.array().tolist(), *last]))
 
 
-def _of_lower(figures: SheetFigures, stand: PlateAttempt) -> SheetFigures:
+def of_lower(figures: SheetFigures, stand: PlateAttempt) -> SheetFigures:
     """Return figures with width, highest pressure and its place on the lower interface."""
     mesh = stand.problem.meshes[1]
     peak, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(stand.state.pressure[1]))
@@ -158,8 +173,8 @@ def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
 
 
 def _pushed(stand: PlateAttempt, side: int) -> Array:
-    """Return int q dx over the intervals of one interface but the last, (n - 1,) [N/mm]."""
-    mesh, one = stand.problem.meshes[side], stand.problem.spreads[side]
+    """Return int q ds over the intervals of one interface but the last, (n - 1,) [N/mm]."""
+    mesh, one = stand.problem.meshes[side], stand.problem.pulls[side]
     return -np.diff(one.of(stand.state.shear[side]).beyond(mesh.inner)[0, :, 0])
 
 

@@ -16,17 +16,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import State, cosine_nodes, crowding_of, elements_of_zones, subdivided
-from rollnip.model import Model
+from rollnip.model import FINITE, Model
 from rollnip.nip import Nip, Torque
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
+from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.plate.attempt import PlateAttempt, carried, violation
 from rollnip.sheet.plate.factorised import FactorisedPlate
-from rollnip.sheet.plate.lagged import change_of, first_lagged, has_none, lagged_terms
+from rollnip.sheet.plate.lagged import (
+    change_of,
+    displacements_of,
+    first_lagged,
+    has_none,
+    lagged_terms,
+)
 from rollnip.sheet.plate.settled import Edges, settled
-from rollnip.sheet.plate.sides import side_mesh
+from rollnip.sheet.plate.sides import path_ratio, side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.search import SHORTEST_LAYER, sheet_layer, squeeze_layer
@@ -228,11 +235,29 @@ class PlateSearch:
             nodes = cosine_nodes(breaks, kept, crowding)
             fine = subdivided(nodes, kept, crowding)
             meshes.append(side_mesh(nodes, fine, self._holding(before, number), number))
-        return PlateProblem.on(self.nip, (meshes[0], meshes[1])), is_fine
+        both = meshes[0], meshes[1]
+        return PlateProblem.on(self.nip, both, self._arcs(both, before)), is_fine
+
+    def _arcs(
+        self, meshes: tuple[Mesh, Mesh], before: PlateAttempt | None
+    ) -> tuple[Array, Array] | None:
+        """Return ds/dx of the sheet's path in the solution before, at the finer nodes of meshes."""
+        if before is None or self.model.geometry not in FINITE:
+            return None
+        out = []
+        for side, (new, own) in enumerate(zip(meshes, before.problem.meshes, strict=True)):
+            x = own.fine.nodes[1:]
+            u = own.finer(displacements_of(before.problem, before.state, side))
+            ratio = path_ratio(x, self.nip, side, u)
+            out.append(np.interp(new.fine.nodes, 0.5 * (x[1:] + x[:-1]), ratio))
+        return out[0], out[1]
 
     def _holding(self, before: PlateAttempt | None, side: int) -> PairKernels:
-        """Return influence functions with the second order of one roller in the solution before."""
-        if self.kernels.is_linear:
+        """Return influence functions with the second order of one roller in the solution before.
+
+        Those that have no second order are as they are.
+        """
+        if self.kernels.is_fixed:
             return self.kernels
         held = NO_SECOND_ORDER
         if before is not None and (self.nip.upper, self.nip.lower)[side].layers:

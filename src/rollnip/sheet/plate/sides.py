@@ -44,6 +44,7 @@ def side_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels, side: int) 
         lower=kernels.lower if side == 1 else None,
         second_upper=kernels.second_upper if side == 0 else None,
         second_lower=kernels.second_lower if side == 1 else None,
+        held=None if kernels.held is None else kernels.held.of_side(side),
         together=surface.together,
         hoops=(hoops[0], hoops[1]),
     )
@@ -112,12 +113,16 @@ class Spread:
     tails: Array
 
     @classmethod
-    def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate) -> Spread:
-        """Return the spread of nodal tractions on a mesh."""
+    def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None) -> Spread:
+        """Return the spread of nodal tractions on a mesh.
+
+        ``along``: factors at its finer nodes, such as ds/dx; None: all 1.
+        """
         nodes, acting = mesh.fine.nodes, mesh.fine.acting
         assert acting is not None
         lines = np.zeros((nodes.size, mesh.inner.size))
         lines[1:-1] = acting[1:-1, 1:-1]
+        lines = lines if along is None else lines * along[:, None]
         length, (first, last) = np.diff(nodes)[:, None], (lines[:-1], lines[1:])
         tails = np.zeros((4, *lines.shape))
         for k, (one, two) in enumerate(_PIECES):
@@ -131,6 +136,11 @@ class Spread:
         """Return the spread of one set of tractions, of nodal values (n,)."""
         one = values[:, None]
         return replace(self, lines=self.lines @ one, tails=self.tails @ one)
+
+    @property
+    def whole(self) -> Array:
+        """Return int t dx of each set, (n,) [mm]."""
+        return np.asarray(self.tails[0, 0])
 
     @property
     def moment(self) -> Array:
@@ -221,3 +231,10 @@ def values_at(mesh: Mesh, x: Array) -> Array:
 def curvatures(nip: Nip) -> tuple[float, float]:
     """Return the curvatures of the upper and the lower roller [1/mm]."""
     return nip.upper.curvature, nip.lower.curvature
+
+
+def path_ratio(x: Array, nip: Nip, side: int, u: Displacements) -> Array:
+    """Return ds/dx of the surface of one roller in each interval, (n - 1,)."""
+    inward = (u.z_upper, u.z_lower)[side]
+    slope = 0.5 * curvatures(nip)[side] * (x[1:] + x[:-1]) + np.diff(inward) / np.diff(x)
+    return np.asarray(np.sqrt(1.0 + slope**2))

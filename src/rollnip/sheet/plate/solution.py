@@ -232,6 +232,7 @@ def plate_round(refined: PlateRefined) -> Round:
         stands_still=stand.stands_still,
         geometry_change=stand.change,
         residual=refined.residual,
+        cut=refined.cut,
     )
 
 

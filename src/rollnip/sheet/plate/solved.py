@@ -10,7 +10,7 @@ import numpy as np
 
 from rollnip._errors import ConvergenceError
 from rollnip.influence import KernelCache
-from rollnip.model import FINITE, Model
+from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling import (
     PairKernels,
@@ -20,13 +20,17 @@ from rollnip.rolling import (
     pair_kernels,
     with_second_order,
 )
+from rollnip.sheet.all_orders import solve_in_turns
 from rollnip.sheet.common import (
+    SIMPLER,
     SLACK,
     bending_length,
     half_width_with_sheet,
+    instead_of,
     require_grip,
     sheet_verdict,
 )
+from rollnip.sheet.plate.all_orders import Bending
 from rollnip.sheet.plate.refine import PlateRefined, refine_plate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.validity import Strains, validity_warnings
@@ -63,17 +67,8 @@ def solve_plate(
     start, (version, said) = perf_counter(), record
     assert nip.sheet is not None
     asked = nip.sheet.bending is True
-    kernels, half_width = _prepared(nip, model, cache)
-    refined = _attempt(nip, model, kernels, half_width)
-    if not _rests(refined) and model.geometry in FINITE:
-        curved = replace(model, geometry="curved")
-        again = _attempt(nip, curved, *_prepared(nip, curved, cache))
-        if _rests(again):
-            kernels, refined, model = _prepared(nip, curved, cache)[0], again, curved
-            said += (
-                "No solution at finite strain was found with this sheet: its zones or its "
-                'second-order terms did not come to rest. All figures are those of "curved".',
-            )
+    model, kernels, refined, left = _refined(nip, model, cache)
+    said += left
     if refined is None:
         if asked:
             raise ConvergenceError(
@@ -98,21 +93,39 @@ def _rests(refined: PlateRefined | None) -> bool:
     return refined is not None and refined.stand.stands_still
 
 
-def _prepared(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, float]:
-    """Return influence functions, and half the width of the nip of a sheet that bends freely."""
+def _refined(
+    nip: Nip, model: Model, cache: KernelCache
+) -> tuple[Model, PairKernels, PlateRefined | None, tuple[str, ...]]:
+    """Return the model solved, influence functions, the solution, and why it is another model.
+
+    Where none rests, the first one that there is; None where there is none at all.
+    """
+    tried: list[tuple[Model, PairKernels, PlateRefined | None]] = []
+    now: Model | None = model
+    while now is not None:
+        tried.append((now, *_attempt(nip, now, cache)))
+        if _rests(tried[-1][2]):
+            break
+        simpler = SIMPLER.get(now.geometry)
+        now = None if simpler is None else replace(now, geometry=simpler)
+    resting = [one for one in tried if _rests(one[2])]
+    model, kernels, refined = (resting or [one for one in tried if one[2]] or tried)[0]
+    left = [one.geometry for one, _, _ in tried[: [one for one, _, _ in tried].index(model)]]
+    return model, kernels, refined, instead_of(left, model.geometry)
+
+
+def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, PlateRefined | None]:
+    """Return influence functions and the solution in one geometry; None where there is none."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
-    return kernels, half_width_with_sheet(nip, half_width)
-
-
-def _attempt(
-    nip: Nip, model: Model, kernels: PairKernels, half_width: float
-) -> PlateRefined | None:
+    half_width = half_width_with_sheet(nip, half_width)
+    if model.geometry == "finite":
+        return solve_in_turns(nip, model, kernels, Bending(nip), half_width) or (kernels, None)
     try:
-        return refine_plate(nip, model, kernels, half_width)
+        return kernels, refine_plate(nip, model, kernels, half_width)
     except np.linalg.LinAlgError:
-        return None
+        return kernels, None
 
 
 def _solution(

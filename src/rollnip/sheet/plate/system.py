@@ -106,6 +106,7 @@ class PlateProblem:
     ----------
     nip, sheet, plate : the problem.
     meshes, spreads : of the upper and the lower interface.
+    pulls : spreads of shears along the sheet's path, whose tails are int q ds and so on.
     frictions : coefficients of both.
     own : creep of each interval by the shear of its own node, without the tension and the bending
         that this shear makes; negative, each (n,) [mm/MPa].
@@ -118,31 +119,43 @@ class PlateProblem:
     plate: Plate
     meshes: tuple[Mesh, Mesh]
     spreads: tuple[Spread, Spread]
+    pulls: tuple[Spread, Spread]
     frictions: tuple[float, float]
     own: Pair
     matrix: Array
 
     @classmethod
-    def on(cls, nip: Nip, meshes: tuple[Mesh, Mesh]) -> PlateProblem:
-        """Assemble the problem of a nip with a plate on meshes of both interfaces."""
+    def on(
+        cls, nip: Nip, meshes: tuple[Mesh, Mesh], arcs: tuple[Array, Array] | None = None
+    ) -> PlateProblem:
+        """Assemble the problem of a nip with a plate on meshes of both interfaces.
+
+        ``arcs``: ds/dx of the sheet's path at the finer nodes of either mesh; None: all 1.
+        """
         sheet = nip.sheet
         assert sheet is not None
         plate = Plate.of(sheet)
         spreads = Spread.on(meshes[0], sheet, plate), Spread.on(meshes[1], sheet, plate)
+        pulls = spreads
+        if arcs is not None:
+            upper, lower = (
+                Spread.on(mesh, sheet, plate, along)
+                for mesh, along in zip(meshes, arcs, strict=True)
+            )
+            pulls = upper, lower
         blocks, owns = [], []
         for at, mesh in enumerate(meshes):
             first = _by_roller(mesh, at)
             n = mesh.inner.size
             own = np.diagonal(first)[n:] - sheet.shear_by_thickness / 3.0
             owns.append(own)
-            rows = [_by_sheet(meshes, spreads, (at, by), own) for by in (0, 1)]
+            rows = [_by_sheet(meshes, (spreads, pulls), (at, by), own) for by in (0, 1)]
             rows[at] += first
             rows[at][2 * n - 2, 2 * n - 2] *= 1.0 - CREEP_TO_EDGE
             blocks.append(rows)
         matrix = np.block(blocks)
-        return cls(
-            nip, sheet, plate, meshes, spreads, frictions_of(nip), (owns[0], owns[1]), matrix
-        )
+        both = owns[0], owns[1]
+        return cls(nip, sheet, plate, meshes, spreads, pulls, frictions_of(nip), both, matrix)
 
     @property
     def starts(self) -> tuple[int, int, int, int, int]:
@@ -182,7 +195,7 @@ class PlateProblem:
         """Return the tension of the sheet at some places, (m,) [N/mm]."""
         upper, lower = (
             one.of(shear).beyond(x)[0, :, 0]
-            for one, shear in zip(self.spreads, state.shear, strict=True)
+            for one, shear in zip(self.pulls, state.shear, strict=True)
         )
         return np.asarray(self.sheet.tension_in - upper + lower)
 
@@ -249,7 +262,7 @@ class PlateProblem:
         tension = sheet.tension_in * mesh.dx
         pressed = np.zeros(mesh.dx.size)
         for number, one in enumerate(self.spreads):
-            second = one.of(state.shear[number]).beyond(mesh.nodes[1:])[1, :, 0]
+            second = self.pulls[number].of(state.shear[number]).beyond(mesh.nodes[1:])[1, :, 0]
             first = one.of(state.pressure[number]).beyond(mesh.nodes[1:])[0, :, 0]
             tension += SIGNS[number] * np.diff(second)
             pressed -= np.diff(first)
@@ -270,31 +283,36 @@ def _by_roller(mesh: Mesh, side: int) -> Array:
 
 
 def _by_sheet(
-    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], sides: tuple[int, int], own: Array
+    meshes: tuple[Mesh, Mesh],
+    spreads: tuple[tuple[Spread, Spread], tuple[Spread, Spread]],
+    sides: tuple[int, int],
+    own: Array,
 ) -> Array:
     """Return gap and creep of one interface by what tractions on one of them do to the sheet.
 
-    ``sides``: the interface that they are of, and the one that the tractions act on.
+    ``spreads``: of loads, and of pulls; ``sides``: the interface that they are of, and the one that
+    the tractions act on.
     """
-    (at, by), mesh, one = sides, meshes[sides[0]], spreads[sides[1]]
+    (at, by), mesh = sides, meshes[sides[0]]
+    one, pull = spreads[0][by], spreads[1][by]
     n, m, x = mesh.inner.size, one.lines.shape[1], mesh.nodes[1:]
     sheet, half = one.sheet, 0.5 * one.sheet.thickness
     here, there = SIGNS[at], SIGNS[by]
     beyond = one.beyond(x)
-    first, second = beyond[:2]
+    first, second = (beyond if pull is one else pull.beyond(x))[:2]
     height, slope, bend = one.bent(x, beyond)
     by_pressure = sheet.stretch_by_pressure
     out = np.zeros((2, n, 2, m))
     # y goes with -p_u and +p_l, the gap above with -y and below with +y
     out[0, :, 0] = here * there * height[:-1] + one.squeezed(mesh.inner, far=at != by)
     out[0, :, 1] = here * half * slope[:-1] - 0.5 * there * by_pressure * first[:-1]
-    pressed = first[:-1] - first[1:]
+    pressed = beyond[0, :-1] - beyond[0, 1:]
     out[1, :, 0] = -there * half * np.diff(slope, axis=0) - 0.5 * here * by_pressure * pressed
     share = _lumped_share(one, mesh, own)
     exact = _stretched(one, here * there, np.diff(second, axis=0), np.diff(bend, axis=0))
     out[1, :, 1] = (1.0 - share) * exact
     if share.any():
-        out[1, :, 1] += share * _point_stretched(meshes, spreads, sides)
+        out[1, :, 1] += share * _point_stretched(meshes, pull, sides)
     through = (1.0 / 3.0 if at == by else 1.0 / 6.0) * sheet.shear_by_thickness
     if at == by:
         out[1, :, 1] += through * (np.eye(n, k=1) - np.eye(n))
@@ -322,14 +340,11 @@ def _lumped_share(one: Spread, mesh: Mesh, own: Array) -> Array:
     return np.asarray(np.where(share > 1e-12, share, 0.0)[:, None])
 
 
-def _point_stretched(
-    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], sides: tuple[int, int]
-) -> Array:
+def _point_stretched(meshes: tuple[Mesh, Mesh], one: Spread, sides: tuple[int, int]) -> Array:
     """Return what `_stretched` says of forces at the nodes instead of tractions."""
     at, by = sides
     x, places = meshes[at].nodes[1:], meshes[by].inner
-    weights, one = meshes[by].weights, spreads[by]
     ahead = np.maximum(places - x[:, None], 0.0)
     bends = one.plate.curvature(x[:, None] - places)
     found = _stretched(one, SIGNS[at] * SIGNS[by], np.diff(ahead, axis=0), np.diff(bends, axis=0))
-    return np.asarray(weights * found)
+    return np.asarray(one.whole * found)

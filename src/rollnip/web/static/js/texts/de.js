@@ -202,7 +202,7 @@ export const DE = {
   "speed.give": "Geschwindigkeit angeben",
   "group.advanced": "Weiteres",
   "geometry.label": "Modell der Geometrie",
-  "geometry.note": "Wie genau Dehnungen und Spaltform genommen werden. Endliche Dehnung rechnet mit Dehnungen jeder Größe. Ihre zweite Ordnung ist schneller und gut bei Dehnungen bis etwa 25 %. Gekrümmte Schichten sind noch schneller und einige Prozent ungenauer. Ebene Schichten und lineare Theorie dienen dem Vergleich mit der Literatur. Mit einer Bahn oder einem Kern, der nicht starr ist, wird statt endlicher Dehnung die zweite Ordnung gerechnet. Solange ein Regler bewegt wird, zeigt die Seite gekrümmte Schichten.",
+  "geometry.note": "Wie genau Dehnungen und Spaltform genommen werden. Endliche Dehnung rechnet mit Dehnungen jeder Größe. Ihre zweite Ordnung ist schneller und gut bei Dehnungen bis etwa 25 %. Gekrümmte Schichten sind noch schneller und einige Prozent ungenauer. Ebene Schichten und lineare Theorie dienen dem Vergleich mit der Literatur. Mit einem Kern, der nicht starr ist, wird statt endlicher Dehnung die zweite Ordnung gerechnet. Solange ein Regler bewegt wird, zeigt die Seite gekrümmte Schichten.",
   "field.mises": "Von-Mises-Spannung",
   "field.max-shear": "größte Schubspannung",
   "field.s-zz": "Spannung quer (radial)",

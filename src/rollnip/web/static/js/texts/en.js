@@ -202,7 +202,7 @@ export const EN = {
   "speed.give": "Give a speed",
   "group.advanced": "Advanced",
   "geometry.label": "Model of the geometry",
-  "geometry.note": "How exactly strains and the shape of the gap are taken. Finite strain takes strains of any size. Its second order is faster and good for strains up to some 25 %. Curved layers are faster still and some per cent off. Flat layers and linear theory are there to compare with the literature. With a sheet, or a core that is not rigid, the second order is computed instead of finite strain. While a slider moves, curved layers are shown.",
+  "geometry.note": "How exactly strains and the shape of the gap are taken. Finite strain takes strains of any size. Its second order is faster and good for strains up to some 25 %. Curved layers are faster still and some per cent off. Flat layers and linear theory are there to compare with the literature. With a core that is not rigid the second order is computed instead of finite strain. While a slider moves, curved layers are shown.",
   "field.mises": "von Mises stress",
   "field.max-shear": "largest shear stress",
   "field.s-zz": "stress across (radial)",

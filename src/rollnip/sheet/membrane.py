@@ -1,0 +1,95 @@
+"""A sheet that bends freely, as turns of finite strain of all orders ask of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rolling import PairKernels, stretch_excess
+from rollnip.rolling.beyond import Acting
+from rollnip.sheet.all_orders import COARSE
+from rollnip.sheet.lagged import change_of, lagged_terms, missed
+from rollnip.sheet.refine import LAST_CLOSELY, Refined, SheetFigures, refine_sheet, residual_of
+from rollnip.sheet.search import Search, SheetAttempt
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Membrane:
+    """Solutions of one nip with a sheet that bends freely."""
+
+    nip: Nip
+
+    def begun(self, model: Model, kernels: PairKernels, half_width: float) -> SheetAttempt:
+        """Return a solution of a coarse contact, from no other one."""
+        search = Search(self.nip, model, kernels)
+        stand = search.begun(half_width, COARSE)
+        return search.placed(stand.zones, COARSE, stand)
+
+    def placed(
+        self, model: Model, kernels: PairKernels, before: SheetAttempt, count: int
+    ) -> SheetAttempt:
+        """Return the solution on a mesh of some size, from one before."""
+        search = Search(self.nip, model, kernels)
+        return search.placed(before.zones, count, before, LAST_CLOSELY)
+
+    def refined(
+        self, model: Model, kernels: PairKernels, before: SheetAttempt
+    ) -> tuple[Refined, SheetAttempt, int]:
+        """Return the refined solution, and its last mesh and size."""
+        found = refine_sheet(self.nip, model, kernels, 0.5 * before.zones.width, before)
+        return found, found.stand, found.count
+
+    def holding(self, stand: SheetAttempt, kernels: PairKernels) -> SheetAttempt:
+        """Return a solution whose terms are those with other corrections; ``change`` says how."""
+        problem = replace(stand.problem, mesh=stand.problem.mesh.holding(kernels))
+        lagged = lagged_terms(problem, "finite", stand.state)
+        change = change_of(lagged, stand.lagged, problem, stand.state)
+        return replace(stand, problem=problem, lagged=lagged, change=change)
+
+    def sides(self, stand: SheetAttempt) -> tuple[Acting, Acting]:
+        """Return the tractions of the upper and of the lower roller."""
+        mesh, state = stand.problem.mesh, stand.state
+        nodes, pressure = mesh.fine.nodes, mesh.acting(state.pressure)
+        above, below = (mesh.acting(shear) for shear in state.shears)
+        return (nodes, pressure, above), (nodes, pressure, -below)
+
+    def creepage(self, stand: SheetAttempt) -> float:
+        """Return the creepage of the upper roller against the lower one."""
+        return stand.state.creepage + stand.state.creepage_lower
+
+    def edges(self, stand: SheetAttempt) -> tuple[float, float]:
+        """Return the edges of the contact [mm]."""
+        return stand.zones.edges
+
+    def strain(self, stand: SheetAttempt) -> float:
+        """Return the largest strain of either surface in the contact, mean over an element."""
+        mesh = stand.problem.mesh
+        x, u = mesh.fine.nodes[1:], mesh.finer(mesh.displacements(stand.state))
+        touching = mesh.acting(stand.state.pressure) > 0.0
+        strains = np.abs(stretch_excess(x, self.nip, "finite", u) / np.diff(x))
+        return float(strains[:, touching].max(initial=0.0))
+
+    def missed(self, stand: SheetAttempt, other: SheetAttempt) -> float:
+        """Return how badly a solution violates its conditions with the terms of the other one."""
+        return missed(other.lagged, stand.lagged, stand.problem, stand.state)
+
+    def checked(
+        self, refined: Refined, stand: SheetAttempt, kernels: PairKernels, left: float
+    ) -> tuple[Refined, float]:
+        """Return a refined solution on its last mesh, and how badly it violates its conditions.
+
+        ``left``: how badly those of gap and creep.
+        """
+        left = max(left, residual_of(stand, kernels, "finite"))
+        figures = SheetFigures.of(stand, "finite")
+        return replace(refined, stand=stand, figures=figures, residual=left), left
+
+    def with_cut(self, refined: Refined, cut: float) -> Refined:
+        """Return a refined solution with what the correction leaves out."""
+        return replace(refined, cut=cut)

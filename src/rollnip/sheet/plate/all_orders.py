@@ -1,0 +1,106 @@
+"""A sheet that resists bending, as turns of finite strain of all orders ask of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rolling import PairKernels, stretch_excess
+from rollnip.rolling.beyond import Acting
+from rollnip.sheet.all_orders import COARSE
+from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
+from rollnip.sheet.plate.lagged import change_of, displacements_of, lagged_terms, missed
+from rollnip.sheet.plate.refine import PlateRefined, of_lower, plate_figures, refine_plate
+from rollnip.sheet.plate.search import PlateSearch
+from rollnip.sheet.plate.sides import SIGNS
+
+
+@dataclass(frozen=True, slots=True)
+class Bending:
+    """Solutions of one nip with a sheet that resists bending."""
+
+    nip: Nip
+
+    def begun(self, model: Model, kernels: PairKernels, half_width: float) -> PlateAttempt:
+        """Return a solution of a coarse contact, from no other one."""
+        search = PlateSearch(self.nip, model, kernels)
+        stand = search.begun(half_width, COARSE)
+        return search.placed(stand.zones, COARSE, stand)
+
+    def placed(
+        self, model: Model, kernels: PairKernels, before: PlateAttempt, count: int
+    ) -> PlateAttempt:
+        """Return the solution on meshes of some size, from one before."""
+        return PlateSearch(self.nip, model, kernels).placed(before.zones, count, before)
+
+    def refined(
+        self, model: Model, kernels: PairKernels, before: PlateAttempt
+    ) -> tuple[PlateRefined, PlateAttempt, int]:
+        """Return the refined solution, and its last meshes and their size."""
+        found = refine_plate(self.nip, model, kernels, 0.5 * before.zones.width, before)
+        return found, found.stand, found.count
+
+    def holding(self, stand: PlateAttempt, kernels: PairKernels) -> PlateAttempt:
+        """Return a solution whose terms are those with other corrections; ``change`` says how."""
+        meshes = list(stand.problem.meshes)
+        for side, roller in enumerate((self.nip.upper, self.nip.lower)):
+            if not roller.is_rigid and kernels.held is not None:
+                held = kernels.held.of_side(side)
+                meshes[side] = meshes[side].holding(replace(meshes[side].kernels, held=held))
+        problem = replace(stand.problem, meshes=(meshes[0], meshes[1]))
+        lagged = lagged_terms(problem, "finite", stand.state)
+        change = change_of(lagged, stand.lagged, problem, stand.state)
+        return replace(stand, problem=problem, lagged=lagged, change=change)
+
+    def sides(self, stand: PlateAttempt) -> tuple[Acting, Acting]:
+        """Return the tractions of the upper and of the lower roller."""
+        out = []
+        for side, mesh in enumerate(stand.problem.meshes):
+            shear = SIGNS[side] * mesh.acting(stand.state.shear[side])
+            out.append((mesh.fine.nodes, mesh.acting(stand.state.pressure[side]), shear))
+        return out[0], out[1]
+
+    def creepage(self, stand: PlateAttempt) -> float:
+        """Return the creepage of the upper roller against the lower one."""
+        return stand.state.creepage
+
+    def edges(self, stand: PlateAttempt) -> tuple[float, float]:
+        """Return the ends of both contacts together [mm]."""
+        upper, lower = stand.zones.edges
+        return min(upper[0], lower[0]), max(upper[1], lower[1])
+
+    def strain(self, stand: PlateAttempt) -> float:
+        """Return the largest strain of either surface in its contact, mean over an element."""
+        largest = 0.0
+        for side, mesh in enumerate(stand.problem.meshes):
+            x, u = (
+                mesh.fine.nodes[1:],
+                mesh.finer(displacements_of(stand.problem, stand.state, side)),
+            )
+            strains = np.abs(stretch_excess(x, self.nip, "finite", u)[side] / np.diff(x))
+            touching = mesh.acting(stand.state.pressure[side]) > 0.0
+            largest = max(largest, float(strains[touching].max(initial=0.0)))
+        return largest
+
+    def missed(self, stand: PlateAttempt, other: PlateAttempt) -> float:
+        """Return how badly a solution violates its conditions with the terms of the other one."""
+        return missed(other.lagged, stand.lagged, stand.problem, stand.state)
+
+    def checked(
+        self, refined: PlateRefined, stand: PlateAttempt, kernels: PairKernels, left: float
+    ) -> tuple[PlateRefined, float]:
+        """Return a refined solution on its last meshes, and how badly it violates conditions.
+
+        ``left``: how badly those of gap and creep.
+        """
+        left = max(left, violation(stand), overlap(stand, kernels, "finite"))
+        figures = plate_figures(stand, "finite")
+        lower = of_lower(figures, stand)
+        return replace(refined, stand=stand, figures=figures, lower=lower, residual=left), left
+
+    def with_cut(self, refined: PlateRefined, cut: float) -> PlateRefined:
+        """Return a refined solution with what the correction leaves out."""
+        return replace(refined, cut=cut)

@@ -54,7 +54,13 @@ FACE_FIGURES: Mapping[str, Figure] = by_key(
         "power",
         "Heat made inside the layers, over the whole face.",
     ),
-    _F("evenness", "smallest over largest line load", "share", "100 % is an even nip.", digits=3),
+    _F(
+        "evenness",
+        "smallest over largest line load",
+        "share",
+        "Smallest line load over the largest: 100 % is an even nip.",
+        digits=3,
+    ),
     _F(
         "largest_departure",
         "departs from the mean by",

@@ -11,7 +11,7 @@ MODULES = (
     *sorted((ROOT / "src" / "rollnip" / "contact").glob("grid*.py")),
     *(
         ROOT / "src" / "rollnip" / "rolling" / f"{name}.py"
-        for name in ("changes", "check", "estimates", "further", "impossible")
+        for name in ("changes", "check", "estimates", "further", "impossible", "round")
     ),
 )
 # the creepage at which one roller stands still; places among the figures

@@ -7,6 +7,7 @@ import rollnip as rn
 from rollnip.finite import Body, Depths, State, Strip, deformed_surface, linear_surface, nodal
 from rollnip.finite.memory import Memory
 from rollnip.finite.power import heat_inside, linear_heat_inside
+from rollnip.finite.viscous import Relaxing
 from rollnip.influence import covering_window, displacement_under, surface_kernels
 from rollnip.materials import memory_integral, relaxation_modulus
 
@@ -243,3 +244,47 @@ def test_an_elastic_covering_makes_no_heat():
     passed_on = 0.075 * np.sqrt(np.pi)
     assert abs(heat_inside(body, state.displacement, bump)) < 1e-3 * passed_on
     assert abs(linear_heat_inside(body, body.linear_displacements(bump), bump)) < 1e-3 * passed_on
+
+
+@pytest.mark.parametrize("number", [0.015, 0.05, 0.5, 5.0])
+def test_a_stiff_glass_takes_few_products(monkeypatch, number):
+    """Factors hold an element and the next of its row: 300 times stiffer glass, any memory.
+
+    With those of each point alone a step took 1200 products and more, and came to no end.
+    """
+    products = []
+    far = Memory.from_far
+    monkeypatch.setattr(Memory, "from_far", lambda *given: products.append(1) or far(*given))
+    solid = rn.StandardLinearSolid(
+        modulus=1.0, stiffening=299.0, relaxation_time=number * HALF / SPEED, poisson=0.49
+    )
+    body = Body(strip(covered(solid)), SPEED)
+    body.linear_displacements(bump)
+    assert len(products) < 50
+    state = body.equilibrium(lambda x: np.array(bump(x, 3.0)), body.at_rest())
+    assert np.abs(state.displacement).max() > 1e-3
+    assert len(products) < 200
+
+
+def test_near_and_far_memory_are_the_whole():
+    """Stored near forces and those from far are all that come from other points."""
+    body = Body(strip(covered(prony(0.3, 0.4)), columns=12, reach=3.0), SPEED)
+    state = body.equilibrium(bump, body.at_rest())
+    relaxing = Relaxing.of(body.relaxing(state))
+    size, band = body.strip.size, body.strip.band
+    stored = relaxing.with_near(np.zeros((size, 3 * band + 1)))
+    near = np.zeros((size, size))
+    for column in range(size):
+        row = np.arange(max(0, column - 2 * band), min(size, column + band + 1))
+        near[row, column] = stored[column, 3 * band + row - column]
+    moved = np.random.default_rng(3).normal(size=size)
+    local = np.append(moved, 0.0)[body.strip.unknowns]
+    change = (relaxing.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
+    memory = relaxing.memory
+    others = memory.relaxing(change) - memory.at_once[..., None] * change
+    force = np.zeros(size + 1)
+    made = (others.reshape(local.shape[0], 1, -1) @ relaxing.by)[:, 0]
+    np.add.at(force, body.strip.unknowns, made)
+    whole = near @ moved + relaxing.from_far(moved)
+    np.testing.assert_allclose(whole, force[:-1], atol=1e-10 * np.abs(force[:-1]).max())
+    assert np.abs(relaxing.from_far(moved)).max() < 0.5 * np.abs(force[:-1]).max()

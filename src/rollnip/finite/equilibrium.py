@@ -293,12 +293,14 @@ class Body:
         stiffness = self._stiffness(fields, means, rate, relaxing)
         if loads is not None:
             np.subtract.at(stiffness, *loads)
-        band = self.strip.band
-        matrix = stiffness.reshape(self.strip.size, 3 * band + 1).T
-        factors, pivots, info = lapack.dgbtrf(matrix, band, band, overwrite_ab=1)
+        band = above = self.strip.band
+        matrix = stiffness.reshape(self.strip.size, 3 * band + 1)
+        if relaxing is not None:
+            matrix, above = relaxing.with_near(matrix), 2 * band
+        factors, pivots, info = lapack.dgbtrf(matrix.T, band, above, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        return Tangent(band, factors, pivots, means, rate, relaxing)
+        return Tangent((band, above), factors, pivots, means, rate, relaxing)
 
     @cached_property
     def at_first(self) -> Tangent:
@@ -315,7 +317,7 @@ class Body:
         factors, info = lapack.dpbtrf(matrix, lower=1, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        return Tangent(band, factors, None, means, rate)
+        return Tangent((band, 0), factors, None, means, rate)
 
     def linear_displacements(self, tractions: Tractions, left: float = LEFT) -> Array:
         """Return the displacements (unknowns,) of linear theory, the tractions per undeformed arc.

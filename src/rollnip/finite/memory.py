@@ -57,15 +57,45 @@ class Memory:
 
     def relaxing(self, values: Array) -> Array:
         """Return int g(t - t') df/dt' dt' of values at points of Gauss, (elements, 9, parts)."""
+        return self._summed(values, [weights for _, weights in self._layers])
+
+    def from_far(self, values: Array) -> Array:
+        """Return the share of the same that comes from beyond the next element of a row."""
+        return self._summed(values, self._far)
+
+    def _summed(self, values: Array, all_weights: list[Array]) -> Array:
         parts = values.shape[-1]
         rows = self.strip.depths.owner.size
         by_row = self.strip.by_column(values)
         out = np.zeros(by_row.shape)
-        for where, weights in self._layers:
+        for (where, _), weights in zip(self._layers, all_weights, strict=True):
             chosen = by_row[:, where].reshape(weights.shape[0], -1)
             out[:, where] = (weights @ chosen).reshape(-1, where.size, 3 * parts)
         back = out.reshape(-1, 3, rows, 3, parts).transpose(0, 2, 1, 3, 4)
         return np.ascontiguousarray(back).reshape(-1, 9, parts)
+
+    @cached_property
+    def _far(self) -> list[Array]:
+        """Weights of points beyond an element and the next (a loss factor has some behind, too)."""
+        column = np.arange(3 * self.strip.columns) // 3
+        ahead = column - column[:, None]
+        is_far = (ahead != 0) & (ahead != 1)
+        return [weights * is_far for _, weights in self._layers]
+
+    @cached_property
+    def near(self) -> tuple[Array, Array]:
+        """Shares of the stresses along an element, and along the next, in those along it.
+
+        Each (elements, 3, 3); the share of a point in itself is `at_once`, and 0 here.
+        """
+        columns, rows = self.strip.columns, self.strip.depths.owner.size
+        out = np.zeros((2, columns, rows, 3, 3))
+        here = np.arange(columns)
+        for where, weights in self._layers:
+            blocks = weights.reshape(columns, 3, columns, 3)
+            out[0][:, where] = (blocks[here, :, here] * (1.0 - np.eye(3)))[:, None]
+            out[1][:-1, where] = blocks[here[:-1], :, here[1:]][:, None]
+        return out[0].reshape(-1, 3, 3), out[1].reshape(-1, 3, 3)
 
     @cached_property
     def at_once(self) -> Array:

@@ -12,7 +12,7 @@ from rollnip.finite.viscous import Relaxing
 
 LEFT = 1e-7  # of the loads by an iterative solution
 _KEPT = 60  # directions of the iterative solution before it starts anew
-_MOST_STARTS = 20
+_MOST_STARTS = 3
 
 
 class NoEquilibriumError(ArithmeticError):
@@ -25,14 +25,14 @@ class Tangent:
 
     Attributes
     ----------
-    band : diagonals on either side.
+    bands : diagonals below the main one and above it.
     factors, pivots : as LAPACK's dgbtrf leaves them; without pivots, as dpbtrf does.
     means : (elements, 3, 18) derivatives of the volumes, weighted with the basis `LINEAR`.
     rate : (elements, 3, 18) derivatives of the pressures.
-    relaxing : what the factors leave out, the memory of other columns; None: nothing.
+    relaxing : what the factors leave out, the memory of columns beyond the next; None: nothing.
     """
 
-    band: int
+    bands: tuple[int, int]
     factors: Array
     pivots: Indices | None
     means: Array
@@ -52,7 +52,7 @@ class Tangent:
         relaxing, size = self.relaxing, loads.size
 
         def applied(displacement: Array) -> Array:
-            return displacement + self._near(relaxing.elsewhere(displacement))
+            return displacement + self._near(relaxing.from_far(displacement))
 
         whole = LinearOperator((size, size), matvec=applied, dtype=np.float64)
         out, failed = gmres(
@@ -63,11 +63,11 @@ class Tangent:
         return np.asarray(out)
 
     def _near(self, loads: Array) -> Array:
-        """Return the displacements without the memory of other columns."""
+        """Return the displacements without the memory of columns beyond the next."""
         if self.pivots is None:
             out, info = lapack.dpbtrs(self.factors, loads, lower=1)
         else:
-            out, info = lapack.dgbtrs(self.factors, self.band, self.band, loads, self.pivots)
+            out, info = lapack.dgbtrs(self.factors, *self.bands, loads, self.pivots)
         if info != 0 or not np.all(np.isfinite(out)):
             raise NoEquilibriumError
         return np.asarray(out)

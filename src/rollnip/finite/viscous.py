@@ -218,11 +218,34 @@ class Relaxing:
         change = (self.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
         return self.memory.relaxing(change) - self.memory.at_once[..., None] * change
 
-    def elsewhere(self, displacement: Array) -> Array:
-        """Return the forces (unknowns,) that come from all other points."""
+    def with_near(self, stored: Array) -> Array:
+        """Add to a stored matrix what T adds from an element and the next of a row.
+
+        ``stored``, (unknowns, 3 band + 1), has ``band`` diagonals on either side of the main one;
+        what is returned, (unknowns, 4 band + 1), twice as many above it.
+        """
+        strip = self.memory.strip
+        band, count, ahead = strip.band, self.by.shape[0], strip.depths.owner.size
+        out = np.zeros((strip.size, 4 * band + 1))
+        out[:, band:] = stored
+        places, entries = [], []
+        for share, step in zip(self.memory.near, (0, ahead), strict=True):
+            rate = np.roll(self.rate, -step, axis=0).reshape(count, 3, -1)
+            made = self.by.transpose(0, 2, 1) @ (share @ rate).reshape(count, -1, 18)
+            row, column = strip.unknowns[:, :, None], np.roll(strip.unknowns, -step, axis=0)
+            column = column[:, None, :]
+            is_free = (row >= 0) & (column >= 0) & (made != 0.0)
+            places.append((column * (4 * band + 1) + 3 * band + row - column)[is_free])
+            entries.append(made[is_free])
+        np.add.at(out.ravel(), np.concatenate(places), np.concatenate(entries))
+        return out
+
+    def from_far(self, displacement: Array) -> Array:
+        """Return the forces (unknowns,) that come from beyond the next element of a row."""
         strip = self.memory.strip
         local = np.append(displacement, 0.0)[strip.unknowns]
-        force = self._elsewhere(local).reshape(local.shape[0], 1, -1) @ self.by
+        change = (self.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
+        force = self.memory.from_far(change).reshape(local.shape[0], 1, -1) @ self.by
         places = strip.unknowns.ravel() + 1
         return np.asarray(np.bincount(places, force.ravel(), minlength=strip.size + 1)[1:], float)
 

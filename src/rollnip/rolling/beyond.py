@@ -167,6 +167,8 @@ def refine_all_orders(
             if not isinstance(found, Ended):
                 return found
             ended = found
+            if ended.cause == "balance":
+                break
     return kernels, replace(latest, stands_still=False, ended=ended)
 
 

@@ -147,5 +147,10 @@ def test_bending_is_chosen_and_the_result_says_whether_it_was_counted(sheet):
     designer.tab("sheet")
     designer.trace("chart-sheet", "tension")
     assert "bends freely" in foot.inner_text()
+    case = parse_case(tree)
+    grip = rn.solve(case.nip, case.model).sheet.grip
+    text = foot.inner_text().replace("\u202f", " ")
+    assert f"to {grip.largest:.4g} N/mm" in text
+    assert f"on the {grip.first} roller first" in text
     tree = designer.choose("in-sheet-bending", "auto")
     assert "bending" not in tree["sheet"]

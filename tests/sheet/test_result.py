@@ -45,6 +45,11 @@ def test_grip_is_what_friction_leaves(pulled):
     assert grip.smallest == pytest.approx(-0.3 * 1.78, rel=1e-6)
     assert grip.reserve == pytest.approx(0.3 * 1.78 - 0.15, rel=1e-6)
     assert grip.first == "upper"
+    # The summary says so.
+    lines = [line.split() for line in pulled.summary().splitlines()]
+    assert ["smallest", "pull", "that", "holds", "-0.5340", "N/mm"] in lines
+    assert ["largest", "pull", "that", "holds", "0.5340", "N/mm"] in lines
+    assert ["slides", "first", "where", "pulled", "upper", "side"] in lines
 
 
 def test_just_below_the_grip_there_is_a_solution_and_the_upper_side_slides():

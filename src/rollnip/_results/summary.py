@@ -61,7 +61,8 @@ def sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
                 lines += _alike(solution) if figure.key == "peak_pressure_x" else ()
         yield heading, lines
     if solution.sheet is not None:
-        yield "Sheet", [line(figure, solution) for figure in SHEET_FIGURES.values()]
+        figures = [line(figure, solution) for figure in SHEET_FIGURES.values()]
+        yield "Sheet", [*figures, *_grip(solution.sheet.grip)]
     if solution.nip.face_width is not None:
         yield "Whole face", list(_totals(solution, solution.nip.face_width))
 
@@ -153,6 +154,13 @@ def _zone_lines(zones: Iterable[Any], faster: Mapping[int, str]) -> Iterator[Lin
     for zone in zones:
         ends = (format_quantity(end, digits=_DIGITS) for end in (zone.start, zone.stop))
         yield Line(zone.state, " to ".join(ends), "mm", note=faster.get(zone.direction or 0, ""))
+
+
+def _grip(grip: Any) -> Iterator[Line]:
+    """Yield the pulls between which the sheet holds, and the side that slides all over first."""
+    yield Line("  smallest pull that holds", _number(grip.smallest), "N/mm")
+    yield Line("  largest pull that holds", _number(grip.largest), "N/mm")
+    yield Line("  slides first where pulled", f"{grip.first} side")
 
 
 def _contact(solution: Any) -> Iterator[Line]:

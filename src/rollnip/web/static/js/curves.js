@@ -48,7 +48,7 @@ export class CurveView {
     this.chart.node.hidden = !figure;
     this.none.hidden = Boolean(figure);
     if (figure) this.chart.show(figure);
-    if (this.id === "sheet") this.foot.textContent = sheetFoot(result);
+    if (this.id === "sheet") this.foot.textContent = sheetFoot(result, this.app.units());
   }
 
   /** The figure in light colours, for files. */
@@ -57,8 +57,13 @@ export class CurveView {
   }
 }
 
-/** What the chart of the sheet shows, and whether the sheet's stiffness against bending was counted. */
-function sheetFoot({ sheet }) {
+/** What the chart of the sheet shows, whether its bending stiffness was counted, and its grip. */
+function sheetFoot({ sheet }, units) {
   if (!sheet) return FEET.sheet;
-  return `${FEET.sheet} ${say(sheet.bends ? "foot.sheet-bends" : "foot.sheet-free")}`;
+  const parts = [FEET.sheet, say(sheet.bends ? "foot.sheet-bends" : "foot.sheet-free")];
+  if (sheet.grip) {
+    const [from, to] = ["smallest", "largest"].map((end) => units.text(sheet.grip[end], "line load"));
+    parts.push(say(`foot.sheet-grip-${sheet.grip.first}`, { from, to }));
+  }
+  return parts.join(" ");
 }

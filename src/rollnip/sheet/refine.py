@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,12 +27,11 @@ GROWTH = 1.6
 MOST_COUNT = 190
 _SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
 _ORDER_OF_TWO = 1.5  # of errors, where only two sizes are there
-_ORDER_OF_ELEMENTS = 4  # of errors where all tractions are roots at their ends
+_ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and with others
 # Sizes of mesh before an error is believed, and one more with memory, as without a sheet.
 FEWEST = 2
 FEWEST_WITH_SLIP = 3
-_MOST_FAILURES = 3  # sizes of mesh whose zones are clearly wrong; finer ones find none either
-_CLEARLY_WRONG = 1.0  # violation of the conditions of friction
+_MOST_FAILURES = 3  # sizes of mesh whose zones do not come to rest
 _ROUGHLY, LAST_CLOSELY = 0.3, 0.1  # of the tolerance: what ends may be off on first, last sizes
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
@@ -176,7 +176,7 @@ def refine_sheet(
             continue
         figures = SheetFigures.of(stand, model.geometry)
         here = (count, figures, stand.zones)
-        errors = SheetFigures(errors_between(nip, [*history, here]))
+        errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
         latest = Refined(stand, figures, errors, violation(stand), round(count))
         if stand.stands_still:
             history.append(here)
@@ -187,9 +187,7 @@ def refine_sheet(
                     return best
         else:
             best = best or latest
-            failures += not latest.residual <= _CLEARLY_WRONG
-            if not history:
-                stand = search.begun(half_width, round(count * GROWTH))
+            failures += 1
         count *= GROWTH
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
@@ -239,14 +237,29 @@ def scales(nip: Nip, figures: SheetFigures) -> Array:
     return np.asarray(out)
 
 
-def errors_between(nip: Nip, history: Sequence[tuple[float, SheetFigures, object]]) -> Array:
+class _Alike(Protocol):
+    """Zones that can be compared with others."""
+
+    def is_like(self, other: Any) -> bool:
+        """Return whether the other zones have the same states in the same order."""
+        ...
+
+
+def errors_between(
+    nip: Nip,
+    history: Sequence[tuple[float, SheetFigures, _Alike]],
+    orders: tuple[float, float] = (3.0, 3.0),
+) -> Array:
     """Return the estimated errors from the changes between meshes.
 
     The last change counts by the second order, or the first where the changes do not shrink so
     fast; from two sizes alone, which show no order, by one between them. Two sizes may agree by
-    chance, so earlier changes count too, by the order of the elements; but for the first size,
-    which finds the zones and hardly resolves short ones, where three finer ones stand. No error is
-    less than the least of such meshes in random nips.
+    chance, so earlier changes count too, by higher orders; but for the first size, which finds the
+    zones and hardly resolves short ones, where three finer ones stand. No error is less than the
+    least of such meshes in random nips.
+
+    ``orders``: by which earlier changes count where the zones have not changed since, and where
+    they have.
     """
     history = history[1:] if len(history) > FEWEST_WITH_SLIP else history
     count, figures, _ = history[-1]
@@ -261,8 +274,10 @@ def errors_between(nip: Nip, history: Sequence[tuple[float, SheetFigures, object
     error = (
         steps[-1] * np.where(order > 1.0, _SAFETY, _SAFETY_OF_FIRST) / (ratios[-1] ** order - 1.0)
     )
-    for step, grown, (size, _, _) in zip(steps[:-1], ratios[:-1], history[1:-1], strict=True):
-        left = (size / count) ** _ORDER_OF_ELEMENTS
+    last = history[-1][2]
+    for number, (step, grown) in enumerate(zip(steps[:-1], ratios[:-1], strict=True)):
+        kept = all(zones.is_like(last) for _, _, zones in history[number:])
+        left = (history[number + 1][0] / count) ** orders[0 if kept else 1]
         error = np.maximum(error, _SAFETY * step / (grown**2 - 1.0) * left)
     floor = _LEAST * scales(nip, figures) / count**2
     prescribed = 1 if isinstance(nip.normal, LineLoad) else 0

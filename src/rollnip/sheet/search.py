@@ -59,7 +59,7 @@ _MOST_CHANGES = 5  # of zones, on meshes of one size
 _REACH = 1.12  # half of the first mesh over the half-width of the rollers alone
 _WIDER = 1.5  # times the reach, where the contact does not fit in
 _MOST_REACHES = 4
-_MOST_TURNS = 25
+_MOST_TURNS = 10
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
 _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
 SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
@@ -131,14 +131,15 @@ class Search:
             stand = self._solved(problem, zones, start, steps, (known, off))
             steps = stand.steps
             called = _Called(stand, self._slack)
-            asked = zones.moved(problem, stand.state, called)
+            asked, are_clear = zones.moved(problem, stand.state, called)
             off = asked.distance(zones)
             known = min(known, off)
             is_met = violation(stand) <= self._slack
             rough = off > _FAIRLY_PLACED and not changes
             # Without a violation zones are doubted once; with one, as soon as no end moves.
             sure = changes > 0 if is_met else off > placed
-            if rough or (is_met and sure) or ((is_met or sure) and called.are_like):
+            stay = rough or (is_met and sure) or ((is_met or sure) and called.are_like)
+            if stay and are_clear:
                 if off <= placed and stand.stands_still and is_fine and is_met:
                     return replace(stand, zones=asked, off=off)
                 zones = asked if off > _NEARLY_PLACED else self.moves.next(zones, asked)
@@ -146,7 +147,7 @@ class Search:
             changes += 1
             if changes > _MOST_CHANGES:
                 break
-            other = self._other(stand, asked)
+            other = self._other(stand, asked, near=are_clear)
             stand, zones = (stand, asked) if other is None else other
             steps, elements = stand.steps, None
         if stand is None:
@@ -233,10 +234,16 @@ class Search:
     def _slack(self) -> float:
         return min(self.model.tolerance, _SLACK)
 
-    def _other(self, stand: SheetAttempt, edges: Zones) -> tuple[SheetAttempt, Zones] | None:
-        """Find other zones between known edges, node by node; None where there are none."""
-        problem = stand.problem
-        state = slipping(problem, stand.state, stand.lagged, self._slack)
+    def _other(
+        self, stand: SheetAttempt, edges: Zones, *, near: bool
+    ) -> tuple[SheetAttempt, Zones] | None:
+        """Find other zones between known edges, node by node; None where there are none.
+
+        ``near``: whether a few nodes at most may have other states.
+        """
+        problem, state = stand.problem, None
+        if near:
+            state = slipping(problem, stand.state, stand.lagged, self._slack)
         if state is None:
             state = settled(problem, stand.lagged, 0.5 * stand.zones.width)
         zones = Zones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
@@ -340,6 +347,8 @@ def overlap(stand: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> fl
 
 def longest_run(values: Array) -> float:
     """Return the largest sum of a run of positive values."""
+    if not values.any():
+        return 0.0
     total = np.concatenate([[0.0], np.cumsum(values)])
     rest = np.maximum.accumulate(np.where(np.append(values, 0.0) > 0.0, 0.0, total))
     return float(np.max(total - np.concatenate([[0.0], rest[:-1]])))

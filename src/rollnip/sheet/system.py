@@ -58,12 +58,12 @@ class SheetState(ContactState):
     @property
     def shears(self) -> Array:
         """Return q_u and q_l, (2, n) [MPa]."""
-        return np.stack([self.shear, self.shear_lower])
+        return np.array((self.shear, self.shear_lower))
 
     @property
     def both_states(self) -> States:
         """Return the states of both interfaces, (2, n)."""
-        return np.stack([self.states, self.states_lower])
+        return np.array((self.states, self.states_lower))
 
 
 class SheetMesh(Mesh):

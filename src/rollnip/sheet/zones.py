@@ -72,7 +72,8 @@ class Zones:
     @property
     def breaks(self) -> Array:
         """Return the breaks of both interfaces together, each once, (m,) [mm]."""
-        return np.unique(np.concatenate([side.breaks for side in self.sides]))
+        places = {place for side in self.sides for place in side.breaks.tolist()}
+        return np.array(sorted(places))
 
     @property
     def ends(self) -> Array:
@@ -116,12 +117,13 @@ class Zones:
         upper, lower = (Layout(p, s.states) for p, s in zip(places, self.sides, strict=True))
         return Zones(upper, lower)
 
-    def moved(self, problem: SheetProblem, state: SheetState, called: Called) -> Zones:
+    def moved(self, problem: SheetProblem, state: SheetState, called: Called) -> tuple[Zones, bool]:
         """Return the zones with their breaks moved to where a solution with them puts them.
 
         ``called``: like zones, of the states that the solution calls for. They say where a
         transition belongs whose nearest shears do not, or would move it beyond the middle of a
-        zone.
+        zone. Return also whether the nearest pressures say where the edges belong, which stay where
+        they do not.
         """
         x = problem.mesh.inner
         asked = [
@@ -131,10 +133,10 @@ class Zones:
             )
         ]
         most = LONGEST_MOVE * self.width
-        trailing, leading = (
-            float(np.clip(wanted, edge - most, edge + most))  # also where it is infinite
-            for wanted, edge in zip(asked[0][[0, -1]], self.edges, strict=True)
-        )
+        edges, wanted_edges = np.array(self.edges), asked[0][[0, -1]]
+        are_clear = np.isfinite(wanted_edges)
+        moves = np.clip(wanted_edges - edges, -most, most)
+        trailing, leading = np.where(are_clear, edges + moves, edges).tolist()
         sides = []
         for number, (side, wanted) in enumerate(zip(self.sides, asked, strict=True)):
             middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])
@@ -143,7 +145,7 @@ class Zones:
             if not clear.all():
                 inner[~clear] = called.sides[number].breaks[1:-1][~clear]
             sides.append(Layout(held(side.breaks, wanted, (trailing, leading)), side.states))
-        return Zones(sides[0], sides[1])
+        return Zones(sides[0], sides[1]), bool(are_clear.all())
 
     def without_slivers(self) -> Zones:
         """Return the zones without those too short to matter."""
@@ -187,9 +189,9 @@ class Zones:
 def _as_contact(state: SheetState, side: int) -> ContactState:
     """Return one interface of a solution as if it were all of it."""
     return ContactState(
-        states=state.both_states[side],
+        states=state.states_lower if side else state.states,
         pressure=state.pressure,
-        shear=state.shears[side],
+        shear=state.shear_lower if side else state.shear,
         approach=state.approach,
         creepage=state.creepage,
         steps=state.steps,

@@ -1,0 +1,60 @@
+"""What a sheet costs, in meshes and linear systems: counts that no machine changes."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from sheet_population import random_case
+
+import rollnip as rn
+from rollnip.rolling import placing
+from rollnip.sheet import search
+from rollnip.sheet.lagged import lagged_terms
+
+
+@pytest.fixture
+def counted(monkeypatch):
+    """Meshes that are assembled, by their nodes: bare, and with a sheet."""
+    meshes = {"bare": [], "sheet": []}
+    for module, name, kind in ((placing, "mesh_on", "bare"), (search, "sheet_mesh_on", "sheet")):
+        assemble = getattr(module, name)
+
+        def count(nodes, *more, kind=kind, assemble=assemble):
+            meshes[kind].append(nodes.size)
+            return assemble(nodes, *more)
+
+        monkeypatch.setattr(module, name, count)
+    return meshes
+
+
+# numbers whose bare nips are cheap, where a sheet is dearest in comparison
+@pytest.mark.parametrize("number", [0, 4, 6, 17, 39, 40, 44, 49, 51, 58])
+def test_a_sheet_takes_at_most_twice_the_meshes_of_the_bare_nip(counted, number):
+    case = random_case(number)
+    model = rn.Model(geometry=case.geometry)
+    assert rn.solve(case.nip, model).converged
+    assert rn.solve(replace(case.nip, sheet=None), model).converged
+    assert len(counted["sheet"]) <= 2 * len(counted["bare"])
+
+
+def test_two_sizes_of_mesh_suffice_for_half_of_the_nips_without_memory():
+    elements = []
+    for number in (6, 17, 39, 40, 44, 49, 51, 58):
+        case = random_case(number)
+        assert not case.nip.is_viscoelastic
+        elements.append(rn.solve(case.nip, rn.Model(geometry=case.geometry)).solver.elements)
+    assert np.mean(np.array(elements) < 50) >= 0.5
+
+
+def test_what_never_settles_is_given_up_after_three_sizes_of_mesh(monkeypatch):
+    # a board taken to bend freely, as thick as its nip is wide: its path does not come to rest
+    calls = []
+
+    def counted(*given):
+        calls.append(1)
+        return lagged_terms(*given)
+
+    monkeypatch.setattr(search, "lagged_terms", counted)
+    case = random_case(13013)
+    assert not rn.solve(case.nip, rn.Model(geometry=case.geometry)).converged
+    assert len(calls) <= 200  # systems solved for other terms

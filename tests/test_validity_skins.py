@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 import rollnip as rn
-from rollnip.validity import SKIN_CREEPAGE, SKIN_SHARE, Strains
+from rollnip.validity import SKIN_CREEPAGE, SKIN_SHARE, StrainSizes
 
 SECOND = rn.Model(geometry="second")
 FILES = sorted((Path(__file__).parent / "data").glob("finite_strain_*.json"))
@@ -52,7 +52,7 @@ def solved(number):
 
 
 def estimate(solution):
-    return Strains.of(solution.nip, solution.model, solution.final).skin
+    return StrainSizes.of(solution.nip, solution.model, solution.final).skin
 
 
 @pytest.mark.parametrize("number", range(len(CASES)), ids=lambda n: name_of(CASES[n]))
@@ -128,5 +128,5 @@ def test_both_rollers_count():
     twins = rn.solve(replace(fuser, lower=fuser.upper), SECOND)
     one = twins.final
     upper_only = replace(fuser, lower=replace(fuser.lower, layers=(fuser.upper.layers[1],)))
-    both = Strains.of(twins.nip, twins.model, one).skin
-    assert both == pytest.approx(2.0 * Strains.of(upper_only, twins.model, one).skin, rel=1e-3)
+    both = StrainSizes.of(twins.nip, twins.model, one).skin
+    assert both == pytest.approx(2.0 * StrainSizes.of(upper_only, twins.model, one).skin, rel=1e-3)

@@ -17,7 +17,7 @@ import numpy as np
 
 import rollnip as rn
 from rollnip.model import Geometry
-from rollnip.validity import Strains
+from rollnip.validity import StrainSizes
 
 GEOMETRIES: tuple[str, ...] = get_args(Geometry)
 FIGURES = ("approach", "edges", "peak", "creepage")
@@ -139,7 +139,7 @@ def _judge(case: dict[str, Any], geometry: str) -> Judged:
 def _skin(solution: rn.Solution) -> float | None:
     if not any("A stiff top layer" in line for line in solution.warnings):
         return None
-    return Strains.of(solution.nip, solution.model, solution.final).skin
+    return StrainSizes.of(solution.nip, solution.model, solution.final).skin
 
 
 GROUPS = {

@@ -35,7 +35,7 @@ from rollnip.rolling import (
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import Strains, validity_warnings
+from rollnip.validity import StrainSizes, validity_warnings
 
 _CLEARLY = 1.5  # times a limit that is known roughly
 _SIMPLER: dict[Geometry, Geometry] = {"finite": "second", "second": "curved"}
@@ -150,7 +150,7 @@ def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solutio
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
     converged, status = _verdict(nip, model, final)
-    strains = Strains.of(nip, model, final)
+    strains = StrainSizes.of(nip, model, final)
     return SmoothSolution(
         nip=nip,
         model=model,

@@ -44,7 +44,7 @@ TIME_SPAN = 10.0
 
 
 @dataclass(frozen=True, slots=True)
-class Strains:
+class StrainSizes:
     """Sizes of the strains in a solution.
 
     Attributes
@@ -61,7 +61,7 @@ class Strains:
     skin: float
 
     @classmethod
-    def of(cls, nip: Nip, model: Model, final: Round) -> Strains:
+    def of(cls, nip: Nip, model: Model, final: Round) -> StrainSizes:
         """Return the strains of a solution."""
         surface = surface_strain_in_nip(nip, model.geometry, final)
         if model.geometry == "finite":  # of all orders: nothing is left out
@@ -69,7 +69,9 @@ class Strains:
         return cls(surface, _second_share(nip, final), _skin_stretch(nip, final))
 
 
-def validity_warnings(nip: Nip, model: Model, final: Round, strains: Strains) -> tuple[str, ...]:
+def validity_warnings(
+    nip: Nip, model: Model, final: Round, strains: StrainSizes
+) -> tuple[str, ...]:
     """Reservations on a solution, each a sentence that says what is exceeded and what it costs."""
     found = [
         _nip_strain(nip, final),
@@ -139,7 +141,7 @@ def _surface_strain(largest: float) -> str:
 
 
 def _second_share(nip: Nip, final: Round) -> float:
-    """Return `Strains.second` of a solution."""
+    """Return `StrainSizes.second` of a solution."""
     if final.mesh.kernels.is_linear:
         return 0.0
     inside = final.mesh.inner[final.state.pressure > 0.0]

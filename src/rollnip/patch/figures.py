@@ -50,13 +50,20 @@ PATCH_FIGURES: Mapping[str, PatchFigure] = by_key(
     ),
     _F(
         "length",
-        "length",
+        "length along rolling",
         "length",
         "Length of the patch along the rolling direction.",
         symbol="2a",
         claimed=True,
     ),
-    _F("width", "width", "length", "Width of the patch along the axes.", symbol="2b", claimed=True),
+    _F(
+        "width",
+        "width along the axes",
+        "length",
+        "Width of the patch along the axes.",
+        symbol="2b",
+        claimed=True,
+    ),
     _F("area", "area", "area", "Area that touches.", symbol="A", claimed=True),
     _F(
         "peak_pressure",

@@ -36,7 +36,7 @@ from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.solved import COUNTED, solve_plate, stiffness_shows
 from rollnip.sheet.refine import Refined, refine_sheet
 from rollnip.sheet.solution import SheetSolution
-from rollnip.validity import Strains, validity_warnings
+from rollnip.validity import StrainSizes, validity_warnings
 
 _STIFF = 0.1  # bending length over the nip width, beyond which bending stiffness matters
 
@@ -91,7 +91,7 @@ def _bending_freely(
     converged, status = (
         (False, simpler[0]) if simpler else sheet_verdict(nip, model, refined, final)
     )
-    strains = Strains.of(nip, model, final)
+    strains = StrainSizes.of(nip, model, final)
     return SheetSolution(
         nip=nip,
         model=model,

@@ -33,7 +33,7 @@ from rollnip.sheet.common import (
 from rollnip.sheet.plate.all_orders import Bending
 from rollnip.sheet.plate.refine import PlateRefined, refine_plate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
-from rollnip.validity import Strains, validity_warnings
+from rollnip.validity import StrainSizes, validity_warnings
 
 _HARDLY = 0.01  # violation of the conditions that moves of the ends make
 COUNTED = 0.2
@@ -187,10 +187,10 @@ def _verdict(
     return converged, status
 
 
-def _strains(nip: Nip, model: Model, rounds: tuple[Round, Round]) -> Strains:
+def _strains(nip: Nip, model: Model, rounds: tuple[Round, Round]) -> StrainSizes:
     """Return the larger strains of both interfaces."""
-    one, two = (Strains.of(nip, model, final) for final in rounds)
-    return Strains(
+    one, two = (StrainSizes.of(nip, model, final) for final in rounds)
+    return StrainSizes(
         max(one.surface, two.surface), max(one.second, two.second), max(one.skin, two.skin)
     )
 

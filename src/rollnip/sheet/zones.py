@@ -93,7 +93,7 @@ class Zones:
     def distance(self, other: Zones) -> float:
         """Return how far apart the breaks of like zones are, over the width.
 
-        Transitions count a tenth, for figures depend on them to second order.
+        Figures depend on transitions to second order: ten times their squared distance counts.
         """
         moves = [np.abs(a.breaks - b.breaks) for a, b in zip(self.sides, other.sides, strict=True)]
         edges = max(float(max(move[0], move[-1])) for move in moves)

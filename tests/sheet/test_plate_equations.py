@@ -165,8 +165,9 @@ def test_the_mirror_image_of_a_nip_has_the_mirror_image_of_its_solution(geometry
         assert one.sheet.traction_upper == pytest.approx(0.2, rel=1e-9)
     assert one.converged
     assert two.converged
-    # at finite strain T_u follows from the path of the mesh before, which differs by that much
-    same = 1e-9 if geometry == "linear" else 1e-7
+    # at finite strain T_u follows from the last terms of a solution, whose last change is 1e-5 to
+    # 1e-4 and shrinks as much again in the next turn
+    same = 1e-9 if geometry == "linear" else 1e-6
     assert two.approach == pytest.approx(one.approach, rel=same)
     assert two.sheet.nip_width_lower == pytest.approx(one.nip_width, rel=same)
     assert two.nip_width == pytest.approx(one.sheet.nip_width_lower, rel=same)

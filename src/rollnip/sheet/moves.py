@@ -76,8 +76,10 @@ class Moves(Generic[Z]):
             return asked
         if step_before is not None:
             moved = here - before.ends
+            # between two places that ask for opposite ways the secant needs no bound
+            most = np.where(step * step_before < 0.0, np.inf, _SLOPES[1])
             with np.errstate(divide="ignore", invalid="ignore"):
-                slopes = np.clip((step_before - step) / moved, *_SLOPES)
+                slopes = np.clip((step_before - step) / moved, _SLOPES[0], most)
             known = np.ones(step.size) if self.slopes is None else self.slopes
             self.slopes = np.where(np.isfinite(slopes), slopes, known)
         if self.slopes is None:

@@ -31,8 +31,9 @@ PlateAttempt = Attempt[PlateZones, PlateProblem, PlateState, LaggedPlate]
 def violation(stand: PlateAttempt) -> float:
     """Return how badly a solution violates the conditions of friction, relative.
 
-    As without bending: shear beyond the traction bound over its largest value, and slip with its
-    own shear over a twentieth of the nip's slope times its width or the creepage times it.
+    As without bending: the traction that a piece in stick carries beyond the traction bound, over
+    what friction carries at most; and slip with its own shear: the distance slipped so in a piece,
+    over a twentieth of the nip's slope times the width or the creepage times it.
     """
     state, problem = stand.state, stand.problem
     slope = 0.5 * stand.zones.width * problem.nip.curvature
@@ -40,19 +41,31 @@ def violation(stand: PlateAttempt) -> float:
     for side, friction in enumerate(problem.frictions):
         creep = problem.gaps_and_creeps(state, stand.lagged)[side][1]
         pressure, states = state.pressure[side], state.states[side]
-        peak, width = float(pressure.max()), float(np.ptp(problem.meshes[side].inner))
-        if not peak > 0.0:
+        width = float(np.ptp(problem.meshes[side].inner))
+        weights = problem.meshes[side].weights
+        load = float(weights @ pressure)
+        if not load > 0.0:
             return inf
-        over = (np.abs(state.shear[side]) - friction * np.maximum(pressure, 0.0))[
-            states == State.STICK
-        ]
-        parts.append(float(np.max(over, initial=0.0)) / (friction * peak))
+        bound = friction * np.maximum(pressure, 0.0)
+        beyond = np.maximum(np.abs(state.shear[side]) - bound, 0.0) * weights
+        carried_beyond = longest_run(np.where(states == State.STICK, beyond, 0.0))
+        parts.append(carried_beyond / (friction * load))
         signs = SIGNS_OF_STATES.take(states)
         slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
         wrong = np.where(slips, np.maximum(-signs[:-1] * creep[:-1], 0.0), 0.0)
         allowed = width * max(0.05 * slope, abs(state.creepage))
         parts.append(longest_run(wrong) / allowed)
     return max(parts)
+
+
+def shear_over(stand: PlateAttempt) -> float:
+    """Return by how much a sticking node's shear is beyond its bound, over the largest bound."""
+    state, most = stand.state, 0.0
+    for side, friction in enumerate(stand.problem.frictions):
+        bound = friction * np.maximum(state.pressure[side], 0.0)
+        over = (np.abs(state.shear[side]) - bound)[state.states[side] == State.STICK]
+        most = max(most, float(np.max(over, initial=0.0)) / float(bound.max()))
+    return most
 
 
 def overlap(stand: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:

@@ -24,7 +24,6 @@ from rollnip.sheet.refine import (
     FEWEST_WITH_SLIP,
     FIRST_COUNT,
     GROWTH,
-    MOST_COUNT,
     NAMES,
     SheetFigures,
     errors_between,
@@ -33,7 +32,8 @@ from rollnip.sheet.refine import (
 
 Array = NDArray[np.float64]
 
-_MOST_FAILED = 2  # sizes of mesh in a row on which zones do not come to rest
+_MOST_COUNT = 340
+_MOST_FAILED = 3  # sizes of mesh in a row on which zones do not come to rest
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +92,7 @@ def refine_plate(
     best: PlateRefined | None = None
     stand = search.begun(half_width, FIRST_COUNT) if before is None else before
     failed = 0
-    while count <= MOST_COUNT:
+    while count <= _MOST_COUNT:
         if history or failed or model.geometry != "linear":
             stand = search.placed(stand.zones, round(count), stand)
         figures = plate_figures(stand, model.geometry)

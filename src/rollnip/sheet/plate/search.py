@@ -8,7 +8,7 @@ solution violates its conditions, the states of its nodes are found once more.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf
 
@@ -23,7 +23,7 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.moves import Moves
-from rollnip.sheet.plate.attempt import PlateAttempt, carried, violation
+from rollnip.sheet.plate.attempt import PlateAttempt, carried, shear_over, violation
 from rollnip.sheet.plate.factorised import FactorisedPlate
 from rollnip.sheet.plate.lagged import (
     change_of,
@@ -43,15 +43,18 @@ Array = NDArray[np.float64]
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 2e-3  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
-_CLOSELY = 0.1  # of the tolerance: what an end may be off, over the width
+_CLOSELY = 0.03  # of the tolerance: what an end may be off, over the width
 _ROUGHLY = 1.0  # the same where a solution only begins another one
 _ELEMENTS = 40  # of a mesh that reaches beyond the contact
+_MOST_SOUGHT = 100  # the same at most, where zones are sought once more
 _REACH = 1.6  # half of the first mesh over the half-width of a sheet that bends freely
 _WIDER = 1.5  # times the reach, where the contact does not fit in
 _MOST_REACHES = 4
+_OF_THICKNESS = 0.25  # of the sheet: the boundary layer of the pressure on a rigid roller
 _MARGIN = 0.15  # of the width, beyond edges that are about known
 _MOST_MESHES = 18
 _MOST_ROUGH = 12  # meshes in a row on which ends only move
+_MOST_NODES = 320  # of a mesh whose states are sought all at once
 _MOST_CHANGES = 3  # of zones, before contact, stick and slip are sought together
 _MOST_TURNS = 25
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
@@ -68,6 +71,7 @@ class PlateSearch:
     nip: Nip
     model: Model
     kernels: PairKernels
+    moves: Moves[PlateZones] = field(default_factory=Moves)
 
     def begun(self, half_width: float, count: int) -> PlateAttempt:
         """Find a first solution, without terms that depend on it but a traction for a torque."""
@@ -90,14 +94,22 @@ class PlateSearch:
             if all(one[0] == one[-1] == State.FREE for one in state.states):
                 break
             reach *= _WIDER
-        return self._closer(PlateZones.around(problem, state), None)
+        zones = PlateZones.around(problem, state)
+        for _ in range(_MOST_REACHES):
+            closer = self._closer(zones, None)
+            if closer.edges_off(zones) < _MARGIN:
+                break
+            zones = closer
+        return closer
 
-    def _closer(self, zones: PlateZones, lagged: LaggedPlate | None) -> PlateZones:
+    def _closer(
+        self, zones: PlateZones, lagged: LaggedPlate | None, elements: int = _ELEMENTS
+    ) -> PlateZones:
         """Return zones from some whose edges are about right, on meshes that end beyond these.
 
         ``lagged`` : whose traction and load are taken; None: none that depend on a solution.
         """
-        problem = self._even(zones, _MARGIN)
+        problem = self._even(zones, _MARGIN, elements)
         first = first_lagged(problem)
         if lagged is not None:
             first = replace(first, traction=lagged.traction, lean=lagged.lean)
@@ -111,13 +123,13 @@ class PlateSearch:
             state, _ = settled(problem, replace(lagged, traction=wanted), edges)
         return state
 
-    def _even(self, zones: PlateZones, margin: float) -> PlateProblem:
+    def _even(self, zones: PlateZones, margin: float, count: int = _ELEMENTS) -> PlateProblem:
         """Assemble the problem on meshes that end a share of the width beyond the edges."""
         meshes = []
         for number, side in enumerate(zones.sides):
             beyond, (trailing, leading) = margin * side.width, side.edges
             ends = np.array([trailing - beyond, leading + beyond])
-            elements = np.array([_ELEMENTS])
+            elements = np.array([count])
             nodes = cosine_nodes(ends, elements, (1.0,))
             fine = subdivided(nodes, elements, (1.0,))
             meshes.append(side_mesh(nodes, fine, self._holding(None, number), number))
@@ -145,7 +157,7 @@ class PlateSearch:
             return stand
         start = stand.zones if stand.zones.is_proper else zones
         try:
-            found = self._closer(start, stand.lagged)
+            found = self._closer(start, stand.lagged, int(np.clip(count, _ELEMENTS, _MOST_SOUGHT)))
             again = self._moved_until(found, count, stand, placed)
         except np.linalg.LinAlgError:
             return stand
@@ -156,27 +168,31 @@ class PlateSearch:
     ) -> PlateAttempt:
         """Move the ends of zones until they stand still, and change zones that are wrong.
 
+        Slip that one node asks for is tried; where it does not settle, the zones without it do.
         ``placed``: what an end may be off, over the width.
         """
-        moves, shapes = Moves[PlateZones](), _Shapes()
+        self.moves.refined()
+        shapes = _Shapes()
         changes = rough_ones = 0
         known = 1.0 if before is None else min(before.off, 1.0)
         stand, off = before, inf
+        fair: PlateAttempt | None = None
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers()
             if not zones.is_proper:
                 break
-            problem, is_fine = self._problem(zones, (count, shapes), known, stand)
-            start = first_lagged(problem) if stand is None else carried(stand, problem)
-            steps = 0 if stand is None else stand.steps
-            stand = self._solved(problem, zones, start, steps, off)
+            stand, is_fine = self._on_mesh(zones, (count, shapes), (known, off), stand)
+            problem = stand.problem
             asked = zones.moved(problem, stand.state)
             off = asked.distance(zones)
             known = min(known, off)
-            is_met = violation(stand) <= self._slack
+            is_fair = violation(stand) <= self._slack
+            is_met = is_fair and shear_over(stand) <= self._slack
             is_placed = off <= placed and stand.stands_still and is_fine
             if is_met and is_placed:
                 return replace(stand, zones=asked, off=off)
+            if is_fair and is_placed and fair is None:
+                fair = replace(stand, zones=asked, off=off)
             rough = off > _FAIRLY_PLACED and rough_ones < _MOST_ROUGH
             rough_ones = rough_ones + 1 if rough else 0
             if not (rough or is_met):
@@ -193,16 +209,37 @@ class PlateSearch:
                 asked = zones.moved(problem, stand.state, found)
                 if is_placed and asked.distance(zones) <= placed:
                     break
-            zones = asked if off > _NEARLY_PLACED else moves.next(zones, asked)
-        if stand is None:
-            raise np.linalg.LinAlgError("zones without length")
-        proper = zones if zones.is_proper else stand.zones
-        return replace(stand, zones=proper, stands_still=False, off=off)
+            zones = asked if off > _NEARLY_PLACED else self.moves.next(zones, asked)
+        return _unplaced(zones, stand, off) if fair is None else fair
+
+    def _on_mesh(
+        self,
+        zones: PlateZones,
+        sizes: tuple[int, _Shapes],
+        off: tuple[float, float],
+        before: PlateAttempt | None,
+    ) -> tuple[PlateAttempt, bool]:
+        """Solve between given ends of zones; ``sizes`` and what is returned: see `_problem`.
+
+        ``off``: how far ends were off, the least and on the last mesh of this size.
+        """
+        problem, is_fine = self._problem(zones, sizes, off[0], before)
+        start = first_lagged(problem) if before is None else carried(before, problem)
+        steps = 0 if before is None else before.steps
+        return self._solved(problem, zones, start, steps, off[1]), is_fine
 
     @cached_property
     def boundary(self) -> float:
         """Length of the shortest boundary layer at the ends of zones [mm]."""
         return min(boundary_layer(self.nip), sheet_layer(self.nip), squeeze_layer(self.nip))
+
+    def _boundary_of(self, side: int) -> float:
+        """Return the length of the shortest boundary layer on one interface [mm].
+
+        On a rigid roller the pressure ends in a peak about as long as the sheet is thick.
+        """
+        rigid = (self.nip.upper, self.nip.lower)[side].is_rigid
+        return min(self.boundary, _OF_THICKNESS * self._thickness) if rigid else self.boundary
 
     @property
     def _thickness(self) -> float:
@@ -225,7 +262,7 @@ class PlateSearch:
         """
         meshes, is_fine, (count, shapes) = [], True, sizes
         for number, side in enumerate(zones.sides):
-            least = max(self.boundary, SHORTEST_LAYER * side.width)
+            least = max(self._boundary_of(number), SHORTEST_LAYER * side.width)
             breaks = zones.breaks_of_mesh(number, self._thickness)
             crowding = crowding_of(breaks, max(least, known * side.width))
             is_fine = is_fine and crowding == crowding_of(breaks, least)
@@ -296,9 +333,19 @@ class PlateSearch:
 
     def _found(self, stand: PlateAttempt, edges: PlateZones) -> PlateZones | None:
         """Return the zones between known edges that suit a solution; None where there are none."""
+        if max(mesh.inner.size for mesh in stand.problem.meshes) > _MOST_NODES:
+            return None
         try:
             state, _ = settled(stand.problem, stand.lagged, stand.zones.edges)
         except np.linalg.LinAlgError:
             return None
         found = edges.found(stand.problem, state)
         return None if found is None else found.without_slivers()
+
+
+def _unplaced(zones: PlateZones, stand: PlateAttempt | None, off: float) -> PlateAttempt:
+    """Return the last solution, whose ends do not stand still."""
+    if stand is None:
+        raise np.linalg.LinAlgError("zones without length")
+    proper = zones if zones.is_proper else stand.zones
+    return replace(stand, zones=proper, stands_still=False, off=off)

@@ -7,13 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import Layout, States, contact_zones
+from rollnip.contact import Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
-from rollnip.sheet.zones import LONGEST_MOVE, SLIVER, held, without_slivers_in
+from rollnip.sheet.zones import LONGEST_MOVE, held, without_slivers_in
 
 Array = NDArray[np.float64]
 
-_OF_TRANSITIONS = 0.1  # of the distance of transitions, beside that of edges
+_SLIVER = 1e-4  # over the width: zones that are left out
+_OF_TRANSITIONS = 10.0  # times the squared distance of transitions, beside that of edges
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,22 +61,28 @@ class PlateZones:
         return np.concatenate([side.breaks for side in self.sides])
 
     def breaks_of_mesh(self, number: int, thickness: float) -> Array:
-        """Return the places where nodes of one interface crowd: its breaks, and edges opposite.
+        """Return the places where nodes of one interface crowd: its breaks, and some opposite.
 
-        Opposite an edge of the other contact the pressure turns over about the thickness of the
-        sheet, which the nodes of a wide contact do not resolve by themselves. An edge nearer than
-        that to a break has the nodes of that break.
+        Opposite an edge of the other contact, and opposite a place where its slip turns to stick,
+        where the couple of its shear rises steeply, the pressure turns over about the thickness of
+        the sheet, which the nodes of a wide contact do not resolve by themselves. A place nearer
+        than that to another one has the nodes of that one.
 
         Parameters
         ----------
         number : of the interface.
         thickness : of the sheet [mm].
         """
-        own, opposite = self.sides[number], self.sides[1 - number].edges
-        apart = [x for x in opposite if float(np.abs(own.breaks - x).min()) > thickness]
+        own, opposite = self.sides[number], self.sides[1 - number]
         first, last = own.edges
-        inside = [x for x in apart if first < x < last]
-        return np.sort(np.concatenate([own.breaks, inside]))
+        # of the transitions only those where stick begins: there the shear is a root
+        begins = np.append(opposite.states == State.STICK, True)
+        begins[0] = True
+        breaks = own.breaks
+        for x in opposite.breaks[begins].tolist():
+            if first < x < last and float(np.abs(breaks - x).min()) > thickness:
+                breaks = np.append(breaks, x)
+        return np.sort(breaks)
 
     def with_ends(self, ends: Array) -> PlateZones:
         """Return the same zones between other breaks, in the order of ``ends``."""
@@ -91,14 +98,19 @@ class PlateZones:
     def distance(self, other: PlateZones) -> float:
         """Return how far apart the breaks of like zones are, over their widths.
 
-        Transitions count a tenth, for figures depend on them to second order.
+        Those of transitions count squared, for figures depend on them to second order.
         """
         parts = []
         for one, two in zip(self.sides, other.sides, strict=True):
-            move = np.abs(one.breaks - two.breaks)
-            move[1:-1] *= _OF_TRANSITIONS
-            parts.append(float(move.max()) / two.width)
+            share = np.abs(one.breaks - two.breaks) / two.width
+            share[1:-1] *= _OF_TRANSITIONS * share[1:-1]
+            parts.append(float(share.max()))
         return max(parts)
+
+    def edges_off(self, other: PlateZones) -> float:
+        """Return how far apart the edges of both are, over the widths of these."""
+        parts = zip(self.sides, self.edges, other.edges, strict=True)
+        return max(float(np.abs(np.subtract(a, b)).max()) / one.width for one, a, b in parts)
 
     def states_on(self, x: tuple[Array, Array]) -> tuple[States, States]:
         """Return the states of the nodes on both interfaces."""
@@ -143,7 +155,7 @@ class PlateZones:
 
     def without_slivers(self) -> PlateZones:
         """Return the zones without those too short to matter."""
-        upper, lower = (without_slivers_in(side, SLIVER * side.width) for side in self.sides)
+        upper, lower = (without_slivers_in(side, _SLIVER * side.width) for side in self.sides)
         return PlateZones(upper, lower)
 
     @classmethod

@@ -10,7 +10,7 @@ import rollnip as rn
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, SheetFigures, scales
-from rollnip.sheet.search import Search
+from rollnip.sheet.search import SheetSearch
 
 ALLOWED = 3.0  # times the claim, as for a bare nip (tests/properties)
 
@@ -26,7 +26,7 @@ def _errors(number):
         return None
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
-    search = Search(case.nip, model, solution.kernels)
+    search = SheetSearch(case.nip, model, solution.kernels)
     fine = search.placed(refined.stand.zones, round(2.2 * solution.solver.elements), refined.stand)
     if not fine.stands_still:
         return None

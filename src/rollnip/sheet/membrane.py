@@ -13,8 +13,8 @@ from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.beyond import Acting
 from rollnip.sheet.all_orders import COARSE
 from rollnip.sheet.lagged import change_of, lagged_terms, missed
-from rollnip.sheet.refine import LAST_CLOSELY, Refined, SheetFigures, refine_sheet, residual_of
-from rollnip.sheet.search import Search, SheetAttempt
+from rollnip.sheet.refine import LAST_CLOSELY, SheetFigures, SheetRefined, refine_sheet, residual_of
+from rollnip.sheet.search import SheetAttempt, SheetSearch
 
 Array = NDArray[np.float64]
 
@@ -27,7 +27,7 @@ class Membrane:
 
     def begun(self, model: Model, kernels: PairKernels, half_width: float) -> SheetAttempt:
         """Return a solution of a coarse contact, from no other one."""
-        search = Search(self.nip, model, kernels)
+        search = SheetSearch(self.nip, model, kernels)
         stand = search.begun(half_width, COARSE)
         return search.placed(stand.zones, COARSE, stand)
 
@@ -35,12 +35,12 @@ class Membrane:
         self, model: Model, kernels: PairKernels, before: SheetAttempt, count: int
     ) -> SheetAttempt:
         """Return the solution on a mesh of some size, from one before."""
-        search = Search(self.nip, model, kernels)
+        search = SheetSearch(self.nip, model, kernels)
         return search.placed(before.zones, count, before, LAST_CLOSELY)
 
     def refined(
         self, model: Model, kernels: PairKernels, before: SheetAttempt
-    ) -> tuple[Refined, SheetAttempt, int]:
+    ) -> tuple[SheetRefined, SheetAttempt, int]:
         """Return the refined solution, and its last mesh and size."""
         found = refine_sheet(self.nip, model, kernels, 0.5 * before.zones.width, before)
         return found, found.stand, found.count
@@ -80,8 +80,8 @@ class Membrane:
         return missed(other.lagged, stand.lagged, stand.problem, stand.state)
 
     def checked(
-        self, refined: Refined, stand: SheetAttempt, kernels: PairKernels, left: float
-    ) -> tuple[Refined, float]:
+        self, refined: SheetRefined, stand: SheetAttempt, kernels: PairKernels, left: float
+    ) -> tuple[SheetRefined, float]:
         """Return a refined solution on its last mesh, and how badly it violates its conditions.
 
         ``left``: how badly those of gap and creep.
@@ -90,6 +90,6 @@ class Membrane:
         figures = SheetFigures.of(stand, "finite")
         return replace(refined, stand=stand, figures=figures, residual=left), left
 
-    def with_cut(self, refined: Refined, cut: float) -> Refined:
+    def with_cut(self, refined: SheetRefined, cut: float) -> SheetRefined:
         """Return a refined solution with what the correction leaves out."""
         return replace(refined, cut=cut)

@@ -16,7 +16,7 @@ from rollnip.nip import LineLoad, Nip
 from rollnip.rolling import Figures, PairKernels
 from rollnip.rolling.round import peak_pressure, scale_of_creepage
 from rollnip.sheet.powers import SheetPowers, sheet_powers
-from rollnip.sheet.search import Search, SheetAttempt, overlap, violation
+from rollnip.sheet.search import SheetAttempt, SheetSearch, overlap, violation
 from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
@@ -121,7 +121,7 @@ def strain_at(stand: SheetAttempt) -> Array:
 
 
 @dataclass(frozen=True, slots=True)
-class Refined:
+class SheetRefined:
     """The last solution, its figures and their estimated errors.
 
     Attributes
@@ -147,7 +147,7 @@ def refine_sheet(
     kernels: PairKernels,
     half_width: float,
     before: SheetAttempt | None = None,
-) -> Refined:
+) -> SheetRefined:
     """Solve on ever finer meshes until the estimated errors are below the tolerance.
 
     Parameters
@@ -161,10 +161,10 @@ def refine_sheet(
     numpy.linalg.LinAlgError
         where no size of mesh has a solution.
     """
-    search, count = Search(nip, model, kernels), float(_FIRST)
+    search, count = SheetSearch(nip, model, kernels), float(_FIRST)
     stand = search.begun(half_width, FIRST_COUNT) if before is None else before
     history: list[tuple[float, SheetFigures, Zones]] = []
-    best: Refined | None = None
+    best: SheetRefined | None = None
     failures, fewest = 0, FEWEST + nip.is_viscoelastic
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
         may_be_last = len(history) + 1 >= fewest
@@ -177,7 +177,7 @@ def refine_sheet(
         figures = SheetFigures.of(stand, model.geometry)
         here = (count, figures, stand.zones)
         errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
-        latest = Refined(stand, figures, errors, violation(stand), round(count))
+        latest = SheetRefined(stand, figures, errors, violation(stand), round(count))
         if stand.stands_still:
             history.append(here)
             best = latest
@@ -194,7 +194,7 @@ def refine_sheet(
     return _with_overlap(best, kernels, model.geometry)
 
 
-def _with_overlap(refined: Refined, kernels: PairKernels, geometry: Geometry) -> Refined:
+def _with_overlap(refined: SheetRefined, kernels: PairKernels, geometry: Geometry) -> SheetRefined:
     """Return a solution with what it overlaps outside the contact, too."""
     return replace(refined, residual=residual_of(refined.stand, kernels, geometry))
 

@@ -76,7 +76,7 @@ class SheetAttempt(Attempt[Zones, SheetProblem, SheetState, Lagged]):
 
 
 @dataclass(frozen=True)
-class Search:
+class SheetSearch:
     """The search for the zones of a nip with a sheet, for one model."""
 
     nip: Nip

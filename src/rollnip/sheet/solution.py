@@ -32,7 +32,7 @@ from rollnip.sheet.common import bending_length
 from rollnip.sheet.grip import grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
-from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, Refined, SheetFigures, scales
+from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, SheetFigures, SheetRefined, scales
 from rollnip.sheet.result import SheetProfiles, SheetResult, slip_share_of
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
@@ -60,7 +60,7 @@ class SheetSolution(SmoothSolution):
     refined : the solution on the finest mesh and the estimated errors.
     """
 
-    refined: Refined = field(kw_only=True, repr=False, compare=False)
+    refined: SheetRefined = field(kw_only=True, repr=False, compare=False)
 
     @property
     def sheet(self) -> SheetResult:

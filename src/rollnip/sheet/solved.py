@@ -34,7 +34,7 @@ from rollnip.sheet.common import (
 )
 from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.solved import COUNTED, solve_plate, stiffness_shows
-from rollnip.sheet.refine import Refined, refine_sheet
+from rollnip.sheet.refine import SheetRefined, refine_sheet
 from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import StrainSizes, validity_warnings
 
@@ -115,7 +115,7 @@ def _bending_freely(
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, Refined, tuple[str, ...]]:
+) -> tuple[Model, PairKernels, SheetRefined, tuple[str, ...]]:
     """Return the model solved, influence functions, the solution, and why it is another model."""
     left: list[Geometry] = []
     while True:
@@ -131,7 +131,7 @@ def _refined(
         model = replace(model, geometry=simpler)
 
 
-def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, Refined] | None:
+def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, SheetRefined] | None:
     """Return influence functions and the solution in one geometry; None where there is none."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
@@ -145,7 +145,7 @@ def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, R
         return None
 
 
-def as_round(nip: Nip, refined: Refined) -> Round:
+def as_round(nip: Nip, refined: SheetRefined) -> Round:
     """Return a solution as the round of a bare nip, with the shear of the upper side."""
     stand, figures = refined.stand, refined.figures
     mesh, n = stand.problem.mesh, stand.problem.mesh.inner.size
@@ -178,7 +178,7 @@ def as_round(nip: Nip, refined: Refined) -> Round:
     )
 
 
-def _warnings(nip: Nip, refined: Refined) -> tuple[str, ...]:
+def _warnings(nip: Nip, refined: SheetRefined) -> tuple[str, ...]:
     """Return reservations on the sheet."""
     figures, out = refined.figures, []
     if figures.tension_min < -SLACK * figures.load:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +32,8 @@ class Called(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Zones:
-    """The zones of the upper and of the lower interface; both have the same edges.
+class SideZones:
+    """The zones of the upper and of the lower interface, whatever edges they have.
 
     Attributes
     ----------
@@ -44,9 +44,9 @@ class Zones:
     lower: Layout
 
     @classmethod
-    def sticking(cls, half_width: float) -> Zones:
-        """Return one zone of stick on both interfaces."""
-        return cls(Layout.sticking(half_width), Layout.sticking(half_width))
+    def sticking(cls, reach: float) -> Self:
+        """Return one zone of stick on each interface, as far as ``reach`` on either side [mm]."""
+        return cls(Layout.sticking(reach), Layout.sticking(reach))
 
     @property
     def sides(self) -> tuple[Layout, Layout]:
@@ -55,8 +55,29 @@ class Zones:
 
     @property
     def width(self) -> float:
-        """Return the width of the contact [mm]."""
+        """Return the width of the upper contact [mm]."""
         return self.upper.width
+
+    @property
+    def ends(self) -> Array:
+        """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
+        return np.concatenate([side.breaks for side in self.sides])
+
+    def with_ends(self, ends: Array) -> Self:
+        """Return the same zones between other breaks, in the order of ``ends``."""
+        n = self.upper.breaks.size
+        upper, lower = Layout(ends[:n], self.upper.states), Layout(ends[n:], self.lower.states)
+        return type(self)(upper, lower)
+
+    def is_like(self, other: Self) -> bool:
+        """Return whether the other zones have the same states in the same order."""
+        pairs = zip(self.sides, other.sides, strict=True)
+        return all(np.array_equal(one.states, two.states) for one, two in pairs)
+
+
+@dataclass(frozen=True, slots=True)
+class Zones(SideZones):
+    """The zones of the upper and of the lower interface; both have the same edges."""
 
     @property
     def edges(self) -> tuple[float, float]:
@@ -74,21 +95,6 @@ class Zones:
         """Return the breaks of both interfaces together, each once, (m,) [mm]."""
         places = {place for side in self.sides for place in side.breaks.tolist()}
         return np.array(sorted(places))
-
-    @property
-    def ends(self) -> Array:
-        """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
-        return np.concatenate([side.breaks for side in self.sides])
-
-    def with_ends(self, ends: Array) -> Zones:
-        """Return the same zones between other breaks, in the order of ``ends``."""
-        n = self.upper.breaks.size
-        return Zones(Layout(ends[:n], self.upper.states), Layout(ends[n:], self.lower.states))
-
-    def is_like(self, other: Zones) -> bool:
-        """Return whether the other zones have the same states in the same order."""
-        pairs = zip(self.sides, other.sides, strict=True)
-        return all(np.array_equal(one.states, two.states) for one, two in pairs)
 
     def distance(self, other: Zones) -> float:
         """Return how far apart the breaks of like zones are, over the width.

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
-from rollnip.sheet.zones import LONGEST_MOVE, held, without_slivers_in
+from rollnip.sheet.zones import LONGEST_MOVE, SideZones, held, without_slivers_in
 
 Array = NDArray[np.float64]
 
@@ -18,27 +18,8 @@ _OF_TRANSITIONS = 10.0  # times the squared distance of transitions, beside that
 
 
 @dataclass(frozen=True, slots=True)
-class PlateZones:
-    """The zones of the upper and of the lower interface.
-
-    Attributes
-    ----------
-    upper, lower : zones of either interface.
-    """
-
-    upper: Layout
-    lower: Layout
-
-    @classmethod
-    def sticking(cls, reach: float) -> PlateZones:
-        """Return one zone of stick on each interface, as far as ``reach`` on either side [mm]."""
-        both = Layout.sticking(reach)
-        return cls(both, both)
-
-    @property
-    def sides(self) -> tuple[Layout, Layout]:
-        """Return the zones of the upper and of the lower interface."""
-        return self.upper, self.lower
+class PlateZones(SideZones):
+    """The zones of the upper and of the lower interface, each between edges of its own."""
 
     @property
     def edges(self) -> tuple[tuple[float, float], tuple[float, float]]:
@@ -46,19 +27,9 @@ class PlateZones:
         return self.upper.edges, self.lower.edges
 
     @property
-    def width(self) -> float:
-        """Return the width of the upper interface [mm]."""
-        return self.upper.width
-
-    @property
     def is_proper(self) -> bool:
         """Return whether all breaks are finite and every zone has a length."""
         return self.upper.is_proper and self.lower.is_proper
-
-    @property
-    def ends(self) -> Array:
-        """Return the breaks of both interfaces, one after the other, (m,) [mm]."""
-        return np.concatenate([side.breaks for side in self.sides])
 
     def breaks_of_mesh(self, number: int, thickness: float) -> Array:
         """Return the places where nodes of one interface crowd: its breaks, and some opposite.
@@ -83,17 +54,6 @@ class PlateZones:
             if first < x < last and float(np.abs(breaks - x).min()) > thickness:
                 breaks = np.append(breaks, x)
         return np.sort(breaks)
-
-    def with_ends(self, ends: Array) -> PlateZones:
-        """Return the same zones between other breaks, in the order of ``ends``."""
-        n = self.upper.breaks.size
-        upper, lower = Layout(ends[:n], self.upper.states), Layout(ends[n:], self.lower.states)
-        return PlateZones(upper, lower)
-
-    def is_like(self, other: PlateZones) -> bool:
-        """Return whether the other zones have the same states in the same order."""
-        pairs = zip(self.sides, other.sides, strict=True)
-        return all(np.array_equal(one.states, two.states) for one, two in pairs)
 
     def distance(self, other: PlateZones) -> float:
         """Return how far apart the breaks of like zones are, over their widths.

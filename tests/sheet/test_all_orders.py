@@ -141,6 +141,30 @@ def test_power_by_moments_and_by_losses(name):
         assert torque / roller.radius == pytest.approx(_moment(solution, side), abs=allowed)
 
 
+@pytest.mark.slow
+def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut():
+    # On a bare roller driven with 0.4 of the load at a friction of 1.5 the covering is stretched to
+    # three times its length. With smooth stretches the loss was 4.6 % larger, 0.6 % of the power.
+    nip = nip_with(
+        paper(bending=False),
+        lower=RIGID,
+        friction=1.5,
+        speed=100.0,
+        tangential=rn.Traction(0.7),
+    )
+    solution = rn.solve(nip, ALL)
+    found = solution.sheet
+    assert solution.model.geometry == "finite"
+    passed = nip.speed * solution.traction
+    heat = found.friction_upper + found.friction_lower
+    assert solution.power_in == pytest.approx(heat + found.power, abs=1e-3 * passed)
+    for side, torque in enumerate((solution.torque_upper, solution.torque_lower)):
+        radius = (nip.upper, nip.lower)[side].radius
+        by_moment = _moment(solution, side)
+        assert torque / radius == pytest.approx(by_moment, abs=1e-3 * solution.traction)
+    assert solution.refined.cut_losses[0] > 4e-3 * solution.traction
+
+
 def _moment(solution, side):
     """Driving torque over the radius of the tractions on one deformed surface.
 
@@ -214,7 +238,7 @@ def _loaded(number, times, *, bending):
 
 @pytest.mark.slow
 def test_random_nips_are_solved_by_all_orders():
-    # numbers that nothing was chosen with; "second" does not settle 162 and 165 of these either
+    # numbers that nothing was chosen with
     nips = [_loaded(number, 8.0, bending=False) for number in range(500, 520)]
     nips = [nip for nip in nips if not nip.has_half_space]
     found = [rn.solve(nip, ALL) for nip in nips]

@@ -47,7 +47,7 @@ _SHARES_OF_RESIDUAL = {"approach": 0.7, "load": 1.4}
 _FURTHER_SHARES = np.array([5e-3, 2e-3, 2e-3, 2e-3, 3e-3, 3e-3, 2e-3, 7e-3])
 # Error of the friction loss over what the short waves that "finite" cuts change of it: the largest
 # difference from the power by moments where configuration II is driven with frictions of 2 to 4.
-_SHARE_OF_CUT_LOSS = 0.2
+SHARE_OF_CUT_LOSS = 0.2
 _VERB: Mapping[Geometry, str] = {"second": "leaves", "finite": "leave"}
 _WORDS = {
     "approach": "approach",
@@ -95,7 +95,7 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
     load = final.figures.load
     half = 0.0 if isnan(final.state.creepage) else 0.5 * final.state.creepage
     lost = _lost(further, spent, nip, geometry, final)
-    first, cut = claims(nip, geometry, final), _SHARE_OF_CUT_LOSS * spent.cut
+    first, cut = claims(nip, geometry, final), SHARE_OF_CUT_LOSS * spent.cut
     if geometry in FINITE and isfinite(first["creepage"]):
         cut = largest(cut, _power_left(first["creepage"], final))
     out = {

@@ -181,13 +181,35 @@ def _lean(problem: SheetProblem, state: SheetState, u: Displacements) -> float:
 def pulls_of(
     problem: SheetProblem, geometry: Geometry, state: SheetState, u: Displacements
 ) -> tuple[float, float]:
-    """Return int q lambda ds of the upper and the lower surface [N/mm]; ``u`` at nodes[1:]."""
+    """Return int q lambda ds of the upper and the lower surface [N/mm]; ``u`` at nodes[1:].
+
+    Where a side slips, lambda is that of the tractions with all waves, as without a sheet.
+    """
     nip, mesh = problem.nip, problem.mesh
     x, fine = mesh.fine.nodes[1:], mesh.finer(u)
-    lengths = x[1:] - x[:-1] + stretch_excess(x, nip, geometry, fine)
-    lengths = lengths * arc_ratio(x, nip, geometry, fine)
+    excess = stretch_excess(x, nip, geometry, fine)
+    slips = np.stack([slip_in(mesh, states) for states in state.both_states])
+    if geometry == "finite" and slips.any():
+        uncut = stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))
+        excess = np.where(slips, uncut, excess)
+    lengths = (x[1:] - x[:-1] + excess) * arc_ratio(x, nip, geometry, fine)
     upper, lower = (mean_shear(mesh, side_state(state, side)) for side in (0, 1))
     return float(lengths[0] @ upper), float(lengths[1] @ lower)
+
+
+def slip_in(mesh: Mesh, states: States) -> NDArray[np.bool_]:
+    """Return which intervals of the finer nodes but the first lie between nodes that slip."""
+    slips = states > State.STICK
+    parts = (mesh.fine.nodes.size - 3) // (states.size - 1)
+    return np.append(np.repeat(slips[:-1] & slips[1:], parts), False)
+
+
+def uncut_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -> Lagged:
+    """Return the terms of a solution with all waves of a held correction."""
+    mesh = problem.mesh
+    assert mesh.kernels.held is not None
+    kernels = replace(mesh.kernels, held=mesh.kernels.held.uncut)
+    return lagged_terms(replace(problem, mesh=mesh.holding(kernels)), geometry, state)
 
 
 def side_state(state: SheetState, side: int) -> SheetState:

@@ -13,6 +13,7 @@ from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.beyond import Acting
 from rollnip.sheet.all_orders import COARSE
 from rollnip.sheet.lagged import change_of, lagged_terms, missed
+from rollnip.sheet.powers import friction_losses
 from rollnip.sheet.refine import LAST_CLOSELY, SheetFigures, SheetRefined, refine_sheet, residual_of
 from rollnip.sheet.search import SheetAttempt, SheetSearch
 
@@ -92,4 +93,7 @@ class Membrane:
 
     def with_cut(self, refined: SheetRefined, cut: float) -> SheetRefined:
         """Return a refined solution with what the correction leaves out."""
-        return replace(refined, cut=cut)
+        stand, figures = refined.stand, refined.figures
+        upper, lower = friction_losses(stand.problem, stand.state, stand.lagged)
+        losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
+        return replace(refined, cut=cut, cut_losses=losses)

@@ -18,7 +18,7 @@ from rollnip.contact import State
 from rollnip.model import Geometry
 from rollnip.rolling.assemble import loss_inside
 from rollnip.rolling.powers import rates_of
-from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state
+from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state, uncut_terms
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
@@ -69,14 +69,9 @@ def sheet_powers(
         loss_inside("upper", nip, geometry, mesh, state),
         loss_inside("lower", nip, geometry, mesh, side_state(state, 1)),
     ]
-    creeps = problem.gap_and_creeps(state, lagged)[1:]
-    friction = []
-    for side in (0, 1):
-        slips = state.both_states[side] > State.STICK
-        slips = slips[:-1] & slips[1:]
-        sheared = -np.diff(problem.tension @ state.shears[side])  # int q ds over each interval
-        rate = creeps[side, :-1] / mesh.dx[:-1]
-        friction.append(float((sheared * rate)[slips].sum()))
+    if geometry == "finite" and mesh.kernels.held is not None:
+        lagged = uncut_terms(problem, geometry, state)
+    friction = friction_losses(problem, state, lagged)
     return SheetPowers(
         friction_upper=friction[0],
         friction_lower=friction[1],
@@ -86,6 +81,18 @@ def sheet_powers(
         pull_lower=pulls[1],
         into_sheet=_into_sheet(problem, geometry, state),
     )
+
+
+def friction_losses(problem: SheetProblem, state: SheetState, lagged: Lagged) -> list[float]:
+    """Return what slip on either interface loses per rolled distance [N/mm]."""
+    creeps, out = problem.gap_and_creeps(state, lagged)[1:], []
+    for side in (0, 1):
+        slips = state.both_states[side] > State.STICK
+        slips = slips[:-1] & slips[1:]
+        sheared = -np.diff(problem.tension @ state.shears[side])  # int q ds over each interval
+        rate = creeps[side, :-1] / problem.mesh.dx[:-1]
+        out.append(float((sheared * rate)[slips].sum()))
+    return out
 
 
 def _into_sheet(problem: SheetProblem, geometry: Geometry, state: SheetState) -> float:

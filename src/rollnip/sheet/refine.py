@@ -131,6 +131,7 @@ class SheetRefined:
     residual : how badly it violates the conditions, see `violation` and `overlap`.
     count : about how many elements the mesh was to have.
     cut : how far the conditions are violated by what "finite" leaves out of its correction.
+    cut_losses : how much that changes the friction loss of either side [N/mm].
     """
 
     stand: SheetAttempt
@@ -139,6 +140,7 @@ class SheetRefined:
     residual: float
     count: int
     cut: float = 0.0
+    cut_losses: tuple[float, float] = (0.0, 0.0)
 
 
 def refine_sheet(

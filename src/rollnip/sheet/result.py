@@ -9,6 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.contact import ContactZone
 from rollnip.rolling import Zone
 
 Array = NDArray[np.float64]
@@ -135,3 +136,8 @@ def slip_share_of(zones: tuple[Zone, ...]) -> float:
     """Return the share of the nip width that slips."""
     slipping = sum(zone.stop - zone.start for zone in zones if zone.state == "slip")
     return slipping / (zones[-1].stop - zones[0].start)
+
+
+def inside_zone(x: Array, zone: ContactZone) -> NDArray[np.bool_]:
+    """Return which places lie in a zone."""
+    return np.asarray((x >= zone.start) & (x <= zone.stop))

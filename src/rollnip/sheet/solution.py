@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactZone, State
+from rollnip.contact import State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
@@ -27,13 +27,14 @@ from rollnip.rolling import (
     surface_depths,
     surface_strain,
 )
+from rollnip.rolling.claims import SHARE_OF_CUT_LOSS
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.common import bending_length
 from rollnip.sheet.grip import grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
 from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, SheetFigures, SheetRefined, scales
-from rollnip.sheet.result import SheetProfiles, SheetResult, slip_share_of
+from rollnip.sheet.result import SheetProfiles, SheetResult, inside_zone, slip_share_of
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
 from rollnip.smooth import SmoothSolution
@@ -260,7 +261,15 @@ class SheetSolution(SmoothSolution):
         for name in ("creepage_upper", "creepage_lower"):
             shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)
         least = shares * scales(self.nip, figures)
-        return dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
+        out = dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
+        if self.model.geometry not in FINITE:
+            return out
+        for side, loss in zip(("upper", "lower"), self.refined.cut_losses, strict=True):
+            # a traction passes on the power of its creepage, and of the creepage's error
+            passed = abs(getattr(figures, f"traction_{side}")) * out[f"creepage_{side}"]
+            for name in (f"friction_{side}", f"pull_{side}"):
+                out[name] = max(out[name], SHARE_OF_CUT_LOSS * loss, passed)
+        return out
 
     @cached_property
     def zones(self) -> tuple[Zone, ...]:
@@ -388,8 +397,3 @@ class SheetSolution(SmoothSolution):
                 within = inside_zone(x, zone)
                 out[within] = -speed * np.interp(x[within], middle, rate)
         return out
-
-
-def inside_zone(x: Array, zone: ContactZone) -> NDArray[np.bool_]:
-    """Return which places lie in a zone."""
-    return np.asarray((x >= zone.start) & (x <= zone.stop))

@@ -13,7 +13,13 @@ from rollnip.rolling.beyond import Acting
 from rollnip.sheet.all_orders import COARSE
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import change_of, displacements_of, lagged_terms, missed
-from rollnip.sheet.plate.refine import PlateRefined, of_lower, plate_figures, refine_plate
+from rollnip.sheet.plate.refine import (
+    PlateRefined,
+    friction_losses,
+    of_lower,
+    plate_figures,
+    refine_plate,
+)
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.sides import SIGNS
 
@@ -103,4 +109,6 @@ class Bending:
 
     def with_cut(self, refined: PlateRefined, cut: float) -> PlateRefined:
         """Return a refined solution with what the correction leaves out."""
-        return replace(refined, cut=cut)
+        figures, (upper, lower) = refined.figures, friction_losses(refined.stand)
+        losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
+        return replace(refined, cut=cut, cut_losses=losses)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import sqrt
 
 import numpy as np
@@ -14,7 +15,7 @@ from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import loss_inside, mean_shear
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate
+from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate, slip_in
 from rollnip.sheet.plate.sides import NAMES, SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 
@@ -101,13 +102,29 @@ def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: Pla
     return largest(*parts)
 
 
+def uncut_terms(problem: PlateProblem, geometry: Geometry, state: PlateState) -> LaggedPlate:
+    """Return the terms of a solution with all waves of held corrections."""
+    upper, lower = (
+        mesh
+        if mesh.kernels.held is None
+        else mesh.holding(replace(mesh.kernels, held=mesh.kernels.held.uncut))
+        for mesh in problem.meshes
+    )
+    return lagged_terms(replace(problem, meshes=(upper, lower)), geometry, state)
+
+
 def pull_of(problem: PlateProblem, geometry: Geometry, state: PlateState, side: int) -> float:
-    """Return int q lambda ds of one roller [N/mm]."""
+    """Return int q lambda ds of one roller [N/mm], see `rollnip.sheet.lagged.pulls_of`."""
     nip, mesh = problem.nip, problem.meshes[side]
-    x, u = mesh.fine.nodes[1:], mesh.finer(displacements_of(problem, state, side))
-    lengths = x[1:] - x[:-1] + stretch_excess(x, nip, geometry, u)[side]
+    x, u = mesh.fine.nodes[1:], displacements_of(problem, state, side)
+    fine, slips = mesh.finer(u), slip_in(mesh, state.states[side])
+    excess = stretch_excess(x, nip, geometry, fine)[side]
+    if geometry == "finite" and slips.any():
+        uncut = stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))[side]
+        excess = np.where(slips, uncut, excess)
+    lengths = x[1:] - x[:-1] + excess
     if geometry in FINITE:
-        lengths = lengths * path_ratio(x, nip, side, u)
+        lengths = lengths * path_ratio(x, nip, side, fine)
     return float(lengths @ mean_shear(mesh, state.side(side)))
 
 

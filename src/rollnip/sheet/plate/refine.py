@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
-from rollnip.sheet.plate.lagged import lost_inside, pull_of
+from rollnip.sheet.plate.lagged import lost_inside, pull_of, uncut_terms
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.zones import PlateZones
@@ -49,6 +49,7 @@ class PlateRefined:
     lower, lower_errors : the same with nip width and pressure of the lower interface.
     count : about how many elements the meshes were to have.
     cut : how far the conditions are violated by what "finite" leaves out of its correction.
+    cut_losses : how much that changes the friction loss of either side [N/mm].
     """
 
     stand: PlateAttempt
@@ -59,6 +60,7 @@ class PlateRefined:
     lower_errors: SheetFigures
     count: int
     cut: float = 0.0
+    cut_losses: tuple[float, float] = (0.0, 0.0)
 
     def ratio(self, nip: Nip) -> float:
         """Return the largest relative error of the figures that the tolerance is for."""
@@ -160,10 +162,13 @@ def of_lower(figures: SheetFigures, stand: PlateAttempt) -> SheetFigures:
 
 def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
     """Return torques over radii and losses of a solution."""
-    problem, state = stand.problem, stand.state
+    problem, state, lagged = stand.problem, stand.state, stand.lagged
+    if geometry == "finite":
+        lagged = uncut_terms(problem, geometry, state)
+    friction = friction_losses(replace(stand, lagged=lagged))
     return SheetPowers(
-        friction_upper=_slipped(stand, 0),
-        friction_lower=_slipped(stand, 1),
+        friction_upper=friction[0],
+        friction_lower=friction[1],
         lost_upper=lost_inside(problem, geometry, state, 0),
         lost_lower=lost_inside(problem, geometry, state, 1),
         pull_upper=pull_of(problem, geometry, state, 0),
@@ -178,8 +183,12 @@ def _pushed(stand: PlateAttempt, side: int) -> Array:
     return -np.diff(one.of(stand.state.shear[side]).beyond(mesh.inner)[0, :, 0])
 
 
+def friction_losses(stand: PlateAttempt) -> tuple[float, float]:
+    """Return what slip on either interface loses per rolled distance [N/mm]."""
+    return _slipped(stand, 0), _slipped(stand, 1)
+
+
 def _slipped(stand: PlateAttempt, side: int) -> float:
-    """Return what slip on one interface loses per rolled distance [N/mm]."""
     problem, states = stand.problem, stand.state.states[side]
     creep = problem.gaps_and_creeps(stand.state, stand.lagged)[side][1]
     slips = states > State.STICK

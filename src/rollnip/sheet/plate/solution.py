@@ -26,8 +26,8 @@ from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.plate.attempt import PlateAttempt
 from rollnip.sheet.plate.refine import PlateRefined
 from rollnip.sheet.plate.sides import NAMES, SIGNS, values_at
-from rollnip.sheet.result import SheetProfiles
-from rollnip.sheet.solution import SheetSolution, inside_zone
+from rollnip.sheet.result import SheetProfiles, inside_zone
+from rollnip.sheet.solution import SheetSolution
 from rollnip.sheet.system import SheetState
 
 Array = NDArray[np.float64]

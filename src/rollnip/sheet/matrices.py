@@ -19,7 +19,7 @@ _STEEP = 4.0  # how fast the integral of the tension changes its kind
 
 @dataclass(frozen=True, slots=True)
 class Integrals:
-    """What the sheet sees of nodal tractions, per value at ``mesh.inner``.
+    """Integrals of nodal tractions along the sheet, per value at ``mesh.inner``.
 
     Exact for the straight lines along which tractions act. ds is along the sheet's path.
 

@@ -254,7 +254,7 @@ class SheetSearch:
 
 @dataclass(frozen=True)
 class _Called:
-    """What the states of nodes say that a solution calls for.
+    """Zones that a solution calls for by the states of its nodes, worked out when asked for.
 
     Attributes
     ----------

@@ -33,8 +33,8 @@ _LEFT_BY: Mapping[Geometry, str] = {
     "finite": 'the finite elements of "finite"',
 }
 # Error of a peak of pressure that lies within the thickness of a stiff skin from an edge: the
-# largest of the finite-element results with such peaks is 13 % ("second"), 0.8 % ("finite"), and
-# 2 % in "finite" where the mesh leaves more open than that.
+# largest of the finite-element results with such peaks is 15 % ("second"), 1.2 % ("finite", known
+# to 1.2 %), and 2 % in "finite" where the mesh leaves more open than that.
 SHARE_OF_EDGE_PEAK: Mapping[Geometry, float] = {"second": 0.15, "finite": 0.02}
 # Error of these figures over the violation of the contact conditions by what "finite" leaves out of
 # its correction: configurations II and III driven, with half, once and twice the wave number cut.

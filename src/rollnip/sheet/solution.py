@@ -129,12 +129,11 @@ class SheetSolution(SmoothSolution):
     @cached_property
     def profiles(self) -> Profiles:
         """Distributions in and outside the nip."""
-        x, u = self._points
+        x, _ = self._points
         speeds = self._roller_speeds
         strains = [self._strain(x, side) for side in (0, 1)]
         pressure = self._at(x, self.final.pressure)
-        upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
-        gap = upper + lower - self.final.state.approach + self._thinned(x)
+        gap = self._gap
         return Profiles(
             x=x,
             pressure=pressure,
@@ -146,6 +145,12 @@ class SheetSolution(SmoothSolution):
             speed_upper=None if speeds is None else speeds[0] * (1.0 + strains[0]),
             speed_lower=None if speeds is None else speeds[1] * (1.0 + strains[1]),
         )
+
+    @property
+    def _gap(self) -> Array:
+        """Gap of the surfaces less the sheet, negative where they are pressed into it [mm]."""
+        surfaces = self.deformed_surfaces
+        return surfaces.upper - surfaces.lower + self._thinned(surfaces.x)
 
     @cached_property
     def deformed_surfaces(self) -> DeformedSurfaces:

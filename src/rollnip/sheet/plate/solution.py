@@ -12,13 +12,10 @@ from numpy.typing import NDArray
 from rollnip.contact import ContactProblem, Control, State
 from rollnip.interior import SurfaceTractions
 from rollnip.rolling import (
-    DeformedSurfaces,
     Displacements,
-    Profiles,
     Round,
     fine_points,
     stretch_excess,
-    surface_depths,
     surface_strain,
 )
 from rollnip.rolling.assemble import SecondOrder
@@ -41,32 +38,11 @@ class PlateSolution(SheetSolution):
     upper interface, those of the lower one are in ``sheet``.
     """
 
-    @cached_property
-    def profiles(self) -> Profiles:
-        """Distributions in and outside the nip; the gap is that above the sheet."""
-        x, _ = self._points
-        speeds = self._roller_speeds
-        strains = [self._strain(x, side) for side in (0, 1)]
-        pressure = self._at(x, self.final.pressure)
-        gap = self.deformed_surfaces.upper - self._height + self._thinned_faces[0]
-        return Profiles(
-            x=x,
-            pressure=pressure,
-            shear=self._at(x, self.final.shear),
-            gap=np.where(pressure > 0.0, 0.0, np.maximum(gap, 0.0)),
-            slip_velocity=self._slip(0),
-            strain_upper=strains[0],
-            strain_lower=strains[1],
-            speed_upper=None if speeds is None else speeds[0] * (1.0 + strains[0]),
-            speed_lower=None if speeds is None else speeds[1] * (1.0 + strains[1]),
-        )
-
-    @cached_property
-    def deformed_surfaces(self) -> DeformedSurfaces:
-        """Heights of both surfaces; between them lies the sheet, whose thickness is left out."""
-        x, u = self._points
-        upper, lower = surface_depths(x, self.nip, self.model.geometry, u)
-        return DeformedSurfaces(x, upper - self.final.state.approach, -lower)
+    @property
+    def _gap(self) -> Array:
+        """Gap above the sheet [mm]."""
+        above = self.deformed_surfaces.upper - self._height
+        return np.asarray(above + self._thinned_faces[0])
 
     @property
     def _bends(self) -> bool:

@@ -33,6 +33,7 @@ FEWEST = 2
 FEWEST_WITH_SLIP = 3
 _MOST_FAILURES = 3  # sizes of mesh whose zones do not come to rest
 _ROUGHLY, LAST_CLOSELY = 0.3, 0.1  # of the tolerance: what ends may be off on first, last sizes
+_LAST_COUNT = 60  # elements beyond which ends are placed better
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
 # Least error of each figure over its scale, times the square of the number of elements; measured
@@ -170,7 +171,7 @@ def refine_sheet(
     failures, fewest = 0, FEWEST + nip.is_viscoelastic
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
         may_be_last = len(history) + 1 >= fewest
-        closely = LAST_CLOSELY if may_be_last else _ROUGHLY
+        closely = _closely(count) if may_be_last else _ROUGHLY
         try:
             stand = search.placed(stand.zones, round(count), stand, closely)
         except np.linalg.LinAlgError:
@@ -194,6 +195,11 @@ def refine_sheet(
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return _with_overlap(best, kernels, model.geometry)
+
+
+def _closely(count: float) -> float:
+    """Return what ends may be off, of the tolerance: less on finer meshes, which claim less."""
+    return LAST_CLOSELY * min(1.0, (_LAST_COUNT / count) ** 2)
 
 
 def _with_overlap(refined: SheetRefined, kernels: PairKernels, geometry: Geometry) -> SheetRefined:

@@ -176,7 +176,9 @@ def test_layouts_are_of_zones_that_touch_with_stick_between_slip():
     assert layout.width == 2.0
     assert Layout.of(()) is None
     assert Layout.of((ContactZone(-1.0, 0.0, STICK), ContactZone(0.1, 1.0, STICK))) is None
-    assert Layout.of((ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, MINUS))) is None
+    between = Layout.of((ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, MINUS)))
+    assert between.states.tolist() == [PLUS, STICK, MINUS]
+    np.testing.assert_allclose(between.breaks, [-1.0, -0.1, 0.1, 1.0])
     assert not Layout(np.array([0.0, np.nan, 1.0]), layout.states).is_proper
     assert not Layout(np.array([0.0, -0.1, 1.0]), layout.states).is_proper
 

@@ -265,7 +265,7 @@ def test_what_the_last_turn_leaves_of_the_approach_is_claimed(monkeypatch):
     It claimed 0.03 % whatever was left, so that neighbours in thickness were further apart.
     """
     found = []
-    for enough in (0.3, 0.03):
+    for enough in (1.0, 0.03):
         monkeypatch.setattr(beyond, "_ENOUGH", enough)
         found.append(rn.solve(figure_4(0.258)))
     rough, fine = found
@@ -403,3 +403,21 @@ def test_a_skin_takes_few_turns(monkeypatch):
     assert solution.converged
     assert solution.model.geometry == "finite"
     assert len(turns) <= 6  # 10, from the second order
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [1.153, 1.209, 1.268, 1.394])
+def test_a_plate_on_a_soft_layer_keeps_free_ends(share):
+    """Tractions right at the edges show each small change of the gap.
+
+    Second-order terms that stood still to a tenth of the tolerance left ends to and fro; linear
+    elements came next, whose peaks jumped by up to 12 % from neighbour to neighbour.
+    """
+    nip = figure_4(0.1)
+    nip = replace(nip, normal=rn.LineLoad(share * nip.normal.load))
+    solution = rn.solve(nip, FULL)
+    assert solution.converged
+    assert solution.model.geometry == "finite"
+    assert solution.final.mesh.fine.values is not None
+    # Peaks of 14 loads from 0.68 to 1.39 of it lie within 0.3 % of this power.
+    assert solution.peak_pressure == pytest.approx(2.2890 * share**0.354, rel=5e-3)

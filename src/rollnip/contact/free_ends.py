@@ -11,9 +11,9 @@ to a hundredth of one.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import inf, isfinite, sqrt
+from math import copysign, inf, isfinite, sqrt
 
 import numpy as np
 
@@ -26,6 +26,7 @@ from rollnip.contact.problem import (
     ContactProblem,
     ContactState,
     Indices,
+    Mask,
     State,
     States,
     shear_signs,
@@ -36,6 +37,10 @@ from rollnip.contact.problem import (
 # Measured on a parabola pressed on a half-plane (tests).
 _RESPONSE = (-0.6831, -0.1132, -0.0597)
 
+_ROUNDING = 1e-9  # length of a zone over the width of the contact, at least
+# Length of stick put between slip both ways, on either side, over the shorter zone of slip.
+_STICK_BETWEEN = 0.1
+_MOVE_WITHOUT_PLACE = 0.1  # likewise, where no place is asked for
 _LONGEST_MOVE = 0.4  # of an end into a zone, over its length, where ends are asked to cross
 
 
@@ -54,14 +59,18 @@ class Layout:
 
     @classmethod
     def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
-        """Return the layout of zones; None where they do not touch, or slip both ways."""
+        """Return the layout of zones; None where they do not touch.
+
+        Between slip one way and the other the surfaces stick: a short zone is put there.
+        """
+        zones = _with_stick_between(zones)
         if not zones:
             return None
         states = np.array([zone.state for zone in zones], dtype=np.int8)
         layout = cls(np.array([zones[0].start, *(zone.stop for zone in zones)]), states)
         touching = all(a.stop == b.start for a, b in pairwise(zones))
-        alike = [(a.state == STICK) == (b.state == STICK) for a, b in pairwise(zones)]
-        return layout if touching and not any(alike) and layout.is_proper else None
+        alike = any(a.state == b.state for a, b in pairwise(zones))
+        return layout if touching and not alike and layout.is_proper else None
 
     @classmethod
     def found(
@@ -99,9 +108,18 @@ class Layout:
 
     @property
     def is_proper(self) -> bool:
-        """Return whether all breaks are finite and every zone has a positive length."""
-        breaks = self.breaks.tolist()
-        return all(map(isfinite, breaks)) and all(a < b for a, b in pairwise(breaks))
+        """Return whether all breaks are finite and every zone has a length beyond rounding."""
+        breaks, least = self.breaks.tolist(), _ROUNDING * abs(self.width)
+        return all(map(isfinite, breaks)) and all(b - a > least for a, b in pairwise(breaks))
+
+    @property
+    def key(self) -> bytes:
+        """Return what layouts of like zones have in common: the states in their order."""
+        return self.states.tobytes()
+
+    def is_like(self, other: Layout) -> bool:
+        """Return whether another layout has the same states in the same order."""
+        return self.key == other.key
 
     def distance(self, other: Layout) -> float:
         """Return the largest distance of the edges of two like layouts, over the width.
@@ -123,10 +141,36 @@ class Layout:
         back = np.concatenate([[self.width], lengths])
         ahead = np.concatenate([lengths, [self.width]])
         moves = asked.breaks - self.breaks
-        furthest_back = np.minimum(_LONGEST_MOVE * back, ahead)
-        furthest_ahead = np.minimum(_LONGEST_MOVE * ahead, back)
+        little = np.where(np.isfinite(moves), np.inf, _MOVE_WITHOUT_PLACE * np.minimum(back, ahead))
+        furthest_back = np.minimum(np.minimum(_LONGEST_MOVE * back, ahead), little)
+        furthest_ahead = np.minimum(np.minimum(_LONGEST_MOVE * ahead, back), little)
         bounded = np.clip(moves, -furthest_back, furthest_ahead)
         return Layout(self.breaks + bounded, self.states)
+
+    def vanishing(self, asked: Layout) -> Mask:
+        """Return which zones would have no length left with the breaks asked for, (m,)."""
+        with np.errstate(invalid="ignore"):
+            return np.asarray(~(np.diff(asked.breaks) > 0.0))
+
+    def without(self, number: int, *, keeps_stick: bool) -> Layout | None:
+        """Return the layout without one zone; None where slip both ways would be side by side.
+
+        ``keeps_stick``: whether one zone of stick must be left.
+        """
+        breaks, states = self.breaks.tolist(), self.states.tolist()
+        if len(states) == 1:
+            return None
+        if number in (0, len(states) - 1):
+            del states[number]
+            del breaks[1 if number == 0 else -2]
+        elif states[number - 1] == states[number + 1]:
+            del states[number : number + 2]
+            del breaks[number : number + 2]
+        else:
+            return None
+        if keeps_stick and STICK not in states:
+            return None
+        return Layout(np.array(breaks), np.array(states, dtype=np.int8))
 
     def slipping_up_to(self, place: float, slip: State) -> Layout | None:
         """Return the layout with a zone of slip from a place [mm] to the nearer edge.
@@ -195,6 +239,21 @@ class Layout:
         return Layout(np.array(breaks), self.states)
 
 
+def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ...]:
+    """Put stick between zones that slip both ways."""
+    out = list(zones[:1])
+    for zone in zones[1:]:
+        before = out[-1]
+        if STICK not in (before.state, zone.state) and before.state != zone.state:
+            reach = _STICK_BETWEEN * min(before.stop - before.start, zone.stop - zone.start)
+            start, stop = before.stop - reach, zone.start + reach
+            out[-1] = replace(before, stop=start)
+            out += [ContactZone(start, stop, State.STICK), replace(zone, start=stop)]
+        else:
+            out.append(zone)
+    return tuple(out)
+
+
 _Three = Sequence[float]
 
 
@@ -202,8 +261,8 @@ def _outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
     """Return how far outwards a zone's end should move, from values at three distances inwards.
 
     The values are fitted by s, s^3 and a third pattern, where s is the square root of the
-    distance: the pattern that a misplaced end leaves, or s^5 at a smooth end. Return -inf where
-    the values do not rise inwards as they should.
+    distance: the pattern that a misplaced end leaves, or s^5 at a smooth end. Where the values do
+    not rise inwards as they should, the end is infinitely far off, on the side that they tell.
     """
     first = (1.0, 1.0, 1.0)
     third = [d * d for d in distance] if smooth else _RESPONSE
@@ -212,9 +271,11 @@ def _outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
     root = _determinant(right, distance, third)
     if smooth:
         bend = _determinant(first, right, third)
-        return root / (1.5 * bend) if bend * whole > 0.0 else -inf
+        return root / (1.5 * bend) if bend * whole > 0.0 else copysign(inf, root * whole)
     misplaced = _determinant(first, distance, right)
-    return -misplaced / root * distance[0] if root * whole > 0.0 else -inf
+    if root * whole > 0.0:
+        return -misplaced / root * distance[0]
+    return copysign(inf, -misplaced * whole)
 
 
 def _determinant(a: _Three, b: _Three, c: _Three) -> float:

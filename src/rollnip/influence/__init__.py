@@ -14,6 +14,7 @@ from rollnip.influence.second import SecondResponse, second_response
 from rollnip.influence.surface import (
     SurfaceKernels,
     covering_window,
+    has_stiff_skin,
     is_ring,
     surface_compliance,
     surface_kernels,
@@ -31,6 +32,7 @@ __all__ = [
     "displacement_under",
     "grid_displacements",
     "grid_strains",
+    "has_stiff_skin",
     "is_ring",
     "load_weights",
     "second_response",

@@ -32,25 +32,30 @@ class Window:
     """The part of space and of the spectrum that a table covers, in powers of two.
 
     x runs over 2^points[0] ... 2^points[1] mm; wave numbers over 2^octaves[0] ... 2^octaves[1]
-    per mm, with a single panel from 0 below and a closed form from there to infinity above.
+    per mm, with a single panel from 0 below and a closed form from there to infinity above. A table
+    has ``per_octave`` points in an octave of lengths.
     """
 
     points: tuple[int, int]
     octaves: tuple[int, int]
+    per_octave: int = _POINTS_PER_OCTAVE
 
     @classmethod
-    def covering(cls, shortest: float, longest: float, slowest: float = 0.0) -> Window:
+    def covering(
+        cls, shortest: float, longest: float, slowest: float = 0.0, *, densely: bool = False
+    ) -> Window:
         """Window that resolves lengths from ``shortest`` to ``longest`` [mm].
 
         ``slowest`` is the longest relaxation length V tau [mm]; the panel at zero ends well below
-        its inverse.
+        its inverse. ``densely``: with twice the points.
         """
         high = ceil(log2(longest))
         low = max(floor(log2(shortest)), high - MOST_OCTAVES)
         bottom = -high - 2
         if slowest > 0.0:
             bottom = max(min(bottom, floor(-log2(slowest)) - 5), bottom - MOST_OCTAVES)
-        return cls(points=(low, high), octaves=(bottom, -low + 2))
+        per_octave = (2 if densely else 1) * _POINTS_PER_OCTAVE
+        return cls(points=(low, high), octaves=(bottom, -low + 2), per_octave=per_octave)
 
 
 @dataclass(frozen=True, slots=True)
@@ -240,8 +245,8 @@ def tabulate(
         per_octave *= 2
         samples, roughness = _sample(compliance, window, per_octave, nodes)
     means = _transform(samples, limit, window, per_octave, nodes)
-    first = window.points[0] * _POINTS_PER_OCTAVE
-    return Kernel(_POINTS_PER_OCTAVE, first, _hermite(means), limit.size)
+    first = window.points[0] * window.per_octave
+    return Kernel(window.per_octave, first, _hermite(means, window.per_octave), limit.size)
 
 
 def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
@@ -259,10 +264,9 @@ def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
     -------
     Kernel with a channel for each.
     """
-    points = np.arange(
-        window.points[0] * _POINTS_PER_OCTAVE, window.points[1] * _POINTS_PER_OCTAVE + 1
-    )
-    step = log(2.0) / _POINTS_PER_OCTAVE
+    n = window.per_octave
+    points = np.arange(window.points[0] * n, window.points[1] * n + 1)
+    step = log(2.0) / n
     cells = points.size + 1
     out = np.zeros((6, 2 * cells, _filled_up(even.size)))
     # F_2 of ln|x| is ln|x| - 3/2, of the sign the sign; the outer cells go on beyond the grid.
@@ -271,7 +275,7 @@ def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
     out[0, :cells, : even.size] = level[::-1] + 0.5 * odd
     out[0, cells:, : even.size] = level - 0.5 * odd
     out[1, :, : even.size] = slope
-    return Kernel(_POINTS_PER_OCTAVE, int(points[0]), out, even.size)
+    return Kernel(n, int(points[0]), out, even.size)
 
 
 def _sample(
@@ -293,7 +297,7 @@ def _transform(
     samples: ComplexArray, low_limit: ComplexArray, window: Window, per_octave: int, nodes: int
 ) -> Array:
     """F_r(+-x_j); shape (3, points, compliances, 2 sides)."""
-    n = _POINTS_PER_OCTAVE
+    n = window.per_octave
     even, odd = transform_matrix(window.octaves, window.points, (n, per_octave), nodes)
     w = sample_points(window.octaves, per_octave, nodes)
     rows = np.empty((low_limit.size, w.size + 1), dtype=complex)
@@ -315,9 +319,9 @@ def _product(matrix: Array, rows: Array) -> Array:
     return out
 
 
-def _hermite(means: Array) -> Array:
+def _hermite(means: Array, per_octave: int) -> Array:
     """Coefficients (6, 2 cells, channels) from F_0, F_1, F_2 of shape (3, points, channels, 2)."""
-    step = log(2.0) / _POINTS_PER_OCTAVE
+    step = log(2.0) / per_octave
     f_0, f_1, f_2 = means
     slope = (2.0 * step) * (f_1 - f_2)
     half = step**2 * (f_0 - f_1) - step * slope  # of the second derivative

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from itertools import pairwise
 from math import inf, isinf
 
 import numpy as np
@@ -15,6 +16,10 @@ from rollnip.influence.kernel import TOLERANCE, Array, Kernel, Window, half_spac
 from rollnip.materials import Material
 from rollnip.model import RINGS
 from rollnip.rollers import Roller
+
+# Modulus of a layer over that of the one below from which tables have twice the points: what
+# interpolation leaves, 1e-7 of the largest compliance, is as much more of that of short waves.
+_STIFF_SKIN = 100.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +63,15 @@ def is_ring(roller: Roller, geometry: str) -> bool:
     return curved and not isinf(roller.radius) and roller.core is None
 
 
+def has_stiff_skin(rollers: Iterable[Roller]) -> bool:
+    """Return whether a layer is much stiffer than the one below it."""
+    return any(
+        above.material.glassy_modulus > _STIFF_SKIN * below.material.relaxed_modulus
+        for roller in rollers
+        for above, below in pairwise(roller.layers)
+    )
+
+
 def covering_window(rollers: tuple[Roller, ...], speed: float | None) -> Window:
     """Window that resolves every length of the rollers: radii, thicknesses, V tau."""
     radii = [roller.radius for roller in rollers if roller.radius < inf]
@@ -76,7 +90,7 @@ def covering_window(rollers: tuple[Roller, ...], speed: float | None) -> Window:
         [1e-6 * min(radii)] + [1e-3 * d for d in thicknesses] + [1e-5 * m for m in memories]
     )
     slowest = max([0.0, *thicknesses, *(r.coating_thickness for r in rollers), *memories])
-    return Window.covering(shortest, longest, slowest)
+    return Window.covering(shortest, longest, slowest, densely=has_stiff_skin(rollers))
 
 
 def surface_kernels(

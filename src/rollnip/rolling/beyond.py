@@ -27,10 +27,11 @@ from rollnip.rolling.claims import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields
 from rollnip.rolling.free_ends import as_cosines, with_free_ends
 from rollnip.rolling.largest import largest
-from rollnip.rolling.placing import Placing, SearchState
+from rollnip.rolling.placing import Placing
 from rollnip.rolling.powers import rates_of
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Ended, Round
+from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import STILL, change_of, solve_on_mesh, with_residual
 
@@ -270,7 +271,8 @@ def _turns(
             checked = with_residual(nip, model, smooth, _with(latest, smooth))
             checked = replace(checked, geometry_change=largest(change, latest.geometry_change))
             left = checked.residual / model.tolerance
-            if least.is_enough((smooth, checked, rough), left, to_come):
+            # Small changes to come are not enough: the last one is still missing in the solution.
+            if least.is_enough((smooth, checked, rough), left, inf):
                 break
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)

@@ -12,7 +12,7 @@ from math import ceil, inf, log, sqrt
 
 import numpy as np
 
-from rollnip.contact import Layout, State, cubic_error, more_elements
+from rollnip.contact import Layout, cubic_error, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import (
@@ -24,8 +24,9 @@ from rollnip.rolling.estimates import (
     zone_excess,
 )
 from rollnip.rolling.largest import largest
-from rollnip.rolling.placing import Placing, SearchState
+from rollnip.rolling.placing import Placing
 from rollnip.rolling.round import Round, excess
+from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import converge, with_residual
 
@@ -53,10 +54,12 @@ class Attempt:
     found : a round that was verified; None where there is none of this kind: pieces of contact
         that do not touch, zones that come and go, tractions that are not smooth in their zones.
     knew_zones : whether there was a solution that agrees with its zones.
+    is_spent : whether it ended for its number of elements.
     """
 
     found: Round | None
     knew_zones: bool = False
+    is_spent: bool = False
 
 
 def with_free_ends(
@@ -112,26 +115,12 @@ def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
             if final.residual <= model.tolerance:
                 return Attempt(with_further_errors(nip, final, history))
             ratio = final.residual / model.tolerance
-            slipping = _slipping_at_edge(nip, final, stand.layout)
+            slipping = placing.search.slipping_at_edge(final, stand.layout)
             if slipping is not None:
                 ratio = 1.0
             stand = SearchState(slipping or stand.layout, latest)
         count = _next_count(count, largest(ratio, roughness), model.tolerance)
-    return Attempt(None, True)
-
-
-def _slipping_at_edge(nip: Nip, final: Round, layout: Layout) -> Layout | None:
-    """Return the layout with slip at an edge, where the shear between nodes exceeds its bound most.
-
-    Return None where that place does not lie in an element that sticks up to an edge.
-    """
-    over = np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0)
-    worst = int(np.argmax(over))
-    place, slip = final.x[worst], State.SLIP_PLUS if final.shear[worst] > 0.0 else State.SLIP_MINUS
-    x = final.mesh.inner
-    if not over[worst] > 0.0 or x[1] < place < x[-2]:
-        return None
-    return layout.slipping_up_to(x[1] if place <= x[1] else x[-2], slip)
+    return Attempt(None, knew_zones=True, is_spent=True)
 
 
 def _next_count(count: int, ratio: float, tolerance: float) -> int:

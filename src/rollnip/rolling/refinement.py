@@ -87,7 +87,7 @@ def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> R
             return attempt.found
     if _is_hopeless(located):
         return _finished(nip, model, kernels, located)
-    return _refined(nip, model, kernels, located)
+    return _refined(nip, model, kernels, located, offers=0 if attempt.is_spent else _MOST_TRIES)
 
 
 def _located(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
@@ -100,8 +100,10 @@ def _located(nip: Nip, model: Model, kernels: PairKernels, half_width: float) ->
     for _ in range(_MOST_TRIES):
         mesh = mesh_on(graded_nodes(breaks, _FIRST_COUNT), holding(kernels, latest))
         latest = _solve_on(nip, model, mesh, (zones, latest), ROUGHLY_STILL)
-        if _is_hopeless(latest) or Layout.of(latest.zones) is not None:
-            break
+        layout = Layout.of(latest.zones)
+        has_all = layout is not None and layout.states.size == len(latest.zones)
+        if _is_hopeless(latest) or has_all:
+            break  # without slip both ways, between which stick was not seen
         breaks, zones = _next_breaks(latest), latest.zones
     assert latest is not None
     return latest
@@ -112,8 +114,9 @@ def _refined(
     model: Model,
     kernels: PairKernels,
     located: Round,
+    offers: int,
 ) -> Round:
-    """Refine with linear elements.
+    """Refine with linear elements, and offer their zones so many times to free ends.
 
     Their error is of second order in 1/elements, so two meshes give an estimate of it:
     |difference|/(ratio^2 - 1).
@@ -122,7 +125,7 @@ def _refined(
     latest, stood, best = located, located, None
     zones, breaks, demand = located.zones, _next_breaks(located), _demand(located)
     history: list[Size] = []
-    rounds = offered = 0
+    rounds = 0
     while rounds < _MOST_ROUNDS and work <= _MOST_WORK:
         rounds += 1
         mesh = mesh_on(graded_nodes(breaks, count, demand), holding(kernels, stood))
@@ -148,10 +151,10 @@ def _refined(
         latest = _with_layer(nip, latest)
         best = latest if latest.stands_still or best is None else best
         off = _apart(history)
-        if off < _ZONES_AGREE_WITHIN and offered < _MOST_TRIES:
+        if off < _ZONES_AGREE_WITHIN and offers > 0:
             # Linear elements converge slowly where surfaces stick up to an edge, and two sizes may
             # agree on a wrong creepage: free ends are tried before their result is accepted.
-            offered += 1
+            offers -= 1
             if taken := _handed_over(nip, model, kernels, latest, off):
                 return taken
         ratio = _ratio(nip, latest, history, model.tolerance)

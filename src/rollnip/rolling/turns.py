@@ -18,9 +18,9 @@ from rollnip.rolling.surfaces import Mesh, PairKernels
 
 MOST_TURNS = 40
 # Change of the second-order terms in a turn, over the tolerance. A turn reduces their remaining
-# error at least tenfold; meshes that only place nodes need them less accurately than the last mesh.
+# error at least tenfold; a coarse mesh that only looks for zones needs them less accurately.
 STILL = 0.1
-NEARLY_STILL = 1.0
+STILL_UNDER_SKIN = 1e-3
 ROUGHLY_STILL = 30.0
 
 

@@ -1,0 +1,109 @@
+"""How the ends of zones move one another, learnt from one mesh to the next."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from rollnip.contact.free_ends import Layout
+from rollnip.contact.problem import Array, Mask
+
+_LONGEST_STEP = 3.0  # of an end, over the longest move asked for, or the last step
+_TINY = float(np.finfo(float).tiny)
+
+
+@dataclass(slots=True)
+class Secants:
+    """Places of the ends of zones, by Broyden's method from what the last meshes asked for.
+
+    A solution asks each end to move by as much as it is off where the surfaces respond as
+    half-planes and no end moves another. So the slope of the moves asked for is taken as -1 on the
+    diagonal, and each mesh adds what it shows of the rest. Where a solution says only which way an
+    end should go, it goes half-way to the last place that asked for the other.
+
+    Attributes
+    ----------
+    slope : (m, m) of the moves asked for by the places of the ends; None: not known yet.
+    last : (m,) places of the ends on the last mesh, and the moves asked for there [mm].
+    """
+
+    slope: Array | None = None
+    last: tuple[Array, Array] | None = None
+    _longest: float = 0.0
+    _within: tuple[Array, Array] | None = None
+    _vanishing: Mask | None = None
+
+    def forget(self) -> None:
+        """Forget the last mesh, whose nodes lay otherwise."""
+        self.last = self._within = None
+
+    def next(self, layout: Layout, asked: Layout, *, is_still: bool) -> Layout:
+        """Return the zones with their ends at the next places to try.
+
+        Ends that are asked to go nowhere in particular go part of the way.
+
+        Parameters
+        ----------
+        layout : the zones of the last mesh.
+        asked : the same zones with the ends where its solution puts them.
+        is_still : whether nothing but the ends will change from this mesh to the next.
+        """
+        moves = asked.breaks - layout.breaks
+        given = ~np.isfinite(moves)
+        steps = np.where(given, layout.towards(asked).breaks - layout.breaks, 0.0)
+        slope = self._learnt(layout.breaks, moves)
+        self.last = (layout.breaks, moves) if is_still else None
+        free = ~given
+        if free.any():
+            wanted = moves[free] + slope[np.ix_(free, given)] @ steps[given]
+            try:
+                steps[free] = -np.linalg.solve(slope[np.ix_(free, free)], wanted)
+            except np.linalg.LinAlgError:
+                steps[free] = moves[free]
+            longest = _LONGEST_STEP * max(float(np.max(np.abs(moves[free]))), self._longest)
+            largest = max(float(np.max(np.abs(steps[free]))), _TINY)
+            steps[free] *= min(1.0, longest / largest)
+        there = layout.towards(Layout(layout.breaks + steps, layout.states))
+        places = self._half_way(layout.breaks, asked.breaks, there.breaks)
+        self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
+        return Layout(places, layout.states)
+
+    def _learnt(self, breaks: Array, moves: Array) -> Array:
+        """Return the slope of the moves asked for, with what the last two meshes show of it."""
+        if self.slope is None:
+            self.slope = -np.eye(moves.size)
+        if self.last is not None:
+            step = breaks - self.last[0]
+            known = np.isfinite(moves) & np.isfinite(self.last[1])
+            missed = np.zeros(moves.size)
+            missed[known] = moves[known] - self.last[1][known] - self.slope[known] @ step
+            self.slope = self.slope + np.outer(missed, step) / max(float(step @ step), _TINY)
+        return self.slope
+
+    def _half_way(self, breaks: Array, asked: Array, there: Array) -> Array:
+        """Return the next places, half-way back for ends that have gone too far to have one.
+
+        The edges of a single zone stay between the last places that asked for either way.
+        """
+        if self._within is None:
+            self._within = np.full(breaks.size, -np.inf), np.full(breaks.size, np.inf)
+        low, high = self._within
+        low = np.where(asked > breaks, breaks, np.where(low < breaks, low, -np.inf))
+        high = np.where(asked < breaks, breaks, np.where(high > breaks, high, np.inf))
+        self._within = low, high
+        is_alone = breaks.size == 2  # no transition moves these ends
+        lost = np.isinf(asked) | ((there <= low) | (there >= high) if is_alone else False)
+        out = there.copy()
+        between = lost & np.isfinite(low) & np.isfinite(high)
+        out[between] = 0.5 * (low[between] + high[between])
+        away = lost & ~between & np.isfinite(asked)
+        out[away] = asked[away]
+        return out
+
+    def vanishing(self, layout: Layout, asked: Layout) -> Mask:
+        """Return the zones of which two solutions in succession leave no length, (m,)."""
+        now = layout.vanishing(asked)
+        again = np.zeros_like(now) if self._vanishing is None else now & self._vanishing
+        self._vanishing = now
+        return again

@@ -1,0 +1,161 @@
+"""Which zones a contact has: what a solution says of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import inf
+
+import numpy as np
+
+from rollnip.contact import (
+    HeldContact,
+    Layout,
+    State,
+    States,
+    creep,
+    next_slip,
+    next_states,
+)
+from rollnip.contact.secants import Secants
+from rollnip.model import Geometry, Model
+from rollnip.nip import Nip
+from rollnip.rolling.assemble import second_order
+from rollnip.rolling.round import Round, creepage_scale
+from rollnip.rolling.surfaces import PairKernels
+
+_STICK_AND_SLIP = HeldContact()
+NEAR_ENOUGH_FOR_SLIP = 0.1  # over the width of the contact: good enough to see what slips
+# Shear over the bound counts as rounding up to the tolerance, and never beyond this.
+_MOST_SHEAR_SLACK = 1e-3
+# Of the tolerance: creep against the shear of one interval, over that of the whole contact.
+_LITTLE_CREEP = 0.02
+
+
+@dataclass(frozen=True, slots=True)
+class SearchState:
+    """State of the search for zones and their ends.
+
+    Attributes
+    ----------
+    layout : where the zones are thought to be.
+    before : the last solution.
+    change : of the second-order terms when the second order of "second" was last evaluated, over
+        the tolerance.
+    expected : the change that all further evaluations would add up to, over the tolerance.
+    off : how far the ends of zones may be off, over the width of the contact.
+    """
+
+    layout: Layout
+    before: Round
+    change: float = inf
+    expected: float = inf
+    off: float = NEAR_ENOUGH_FOR_SLIP
+
+    @property
+    def is_quiet(self) -> bool:
+        """Return whether further evaluations of the second order would change too little."""
+        return self.expected <= 1.0
+
+
+@dataclass(frozen=True, slots=True)
+class Search:
+    """The search for the zones of a nip, for one model and its influence functions."""
+
+    nip: Nip
+    model: Model
+    kernels: PairKernels
+
+    def other_zones(
+        self,
+        latest: Round,
+        zones: tuple[Layout, Layout],
+        ends: Secants,
+        *,
+        is_placed: bool,
+        is_near: bool,
+    ) -> SearchState | None:
+        """Return other zones that a solution calls for; None where it agrees with its own.
+
+        Parameters
+        ----------
+        latest : the solution.
+        zones : its zones, and with their ends where the solution puts them.
+        ends : what meshes with the same zones have shown.
+        is_placed, is_near : whether the ends lie where they should, or nearly.
+        """
+        layout, asked = zones
+        keeps_stick = latest.problem.control.traction is not None
+        for number in np.flatnonzero(ends.vanishing(layout, asked)):
+            fewer = layout.without(int(number), keeps_stick=keeps_stick)
+            if fewer is not None:
+                return SearchState(fewer, latest)
+        if not (is_placed or is_near):
+            return None
+        wanted = self.wanted(latest, layout, whole=is_placed)
+        if wanted is not None:
+            edges = asked if asked.is_proper else layout.towards(asked)
+            found = self.between_edges(latest, wanted, edges, self.model.geometry)
+            if found is None or is_placed or not found.layout.is_like(layout):
+                return found
+            return None  # the same zones: their ends move without that
+        return None
+
+    def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
+        """Return the states that a solution calls for; None where nodes in contact have them.
+
+        Violations that the residual of a result may have are no reason for another state.
+        ``whole``: whether contact is examined too; until the edges are placed, only stick and slip.
+        """
+        slack, given = min(self.model.tolerance, _MOST_SHEAR_SLACK), latest.state.states
+        wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
+        if whole:
+            allowed = creepage_scale(self.nip, latest.figures) * latest.figures.nip_width
+            little = _LITTLE_CREEP * self.model.tolerance * allowed
+            slips = (given > State.STICK) & (wanted != State.FREE)
+            slips &= np.abs(creep(latest.problem, latest.state)) < little
+            wanted[slips] = given[slips]
+        differs = (wanted != given) & (given != State.FREE)
+        differs[layout.ends(latest.problem.x)] = False  # ends belong to two zones alike
+        if not differs.any():
+            return None
+        return next_slip(latest.problem, latest.state, slack) if whole else wanted
+
+    def pulls(self, latest: Round) -> bool:
+        """Return whether nodes in contact pull at each other, which no other zones would mend."""
+        pressure = latest.state.pressure
+        slack = min(self.model.tolerance, _MOST_SHEAR_SLACK)
+        return bool(np.min(pressure) < -slack * np.max(pressure))
+
+    def between_edges(
+        self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry
+    ) -> SearchState | None:
+        """Find the zones between known edges, where a solution does not agree with its own.
+
+        Return None where the nodes keep their states, or where the zones have no layout.
+        """
+        given = latest.state.states
+        found = _STICK_AND_SLIP.solve(latest.problem, given if wanted is None else wanted)
+        if np.array_equal(found.states, given):
+            return None
+        layout = Layout.found(latest.problem.x, found, self.nip.friction, edges.edges)
+        if layout is None:
+            return None
+        second = second_order(self.nip, geometry, latest.mesh, found)
+        steps = latest.steps + found.steps
+        return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
+
+    def slipping_at_edge(self, latest: Round, layout: Layout) -> Layout | None:
+        """Return the layout with slip at an edge, where the shear between nodes exceeds its bound.
+
+        Where unlike surfaces stick up to an edge, the shear rises ever more steeply towards it.
+        Return None where the worst place does not lie in an element that sticks up to an edge.
+        """
+        friction, x = self.nip.friction, latest.mesh.inner
+        slack = min(self.model.tolerance, _MOST_SHEAR_SLACK) * latest.figures.peak_pressure
+        over = np.abs(latest.shear) - friction * np.maximum(latest.pressure, 0.0)
+        worst = int(np.argmax(over))
+        place, shear = latest.x[worst], latest.shear[worst]
+        if not over[worst] > friction * slack or x[1] < place < x[-2]:
+            return None
+        slip = State.SLIP_PLUS if shear > 0.0 else State.SLIP_MINUS
+        return layout.slipping_up_to(x[1] if place <= x[1] else x[-2], slip)

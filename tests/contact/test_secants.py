@@ -1,0 +1,64 @@
+"""Ends of zones that move one another, from what meshes asked for."""
+
+from itertools import pairwise
+
+import numpy as np
+import pytest
+
+from rollnip.contact import Layout, State
+from rollnip.contact.secants import Secants
+
+STICK, PLUS, MINUS = (np.int8(s) for s in (State.STICK, State.SLIP_PLUS, State.SLIP_MINUS))
+THREE = np.array([PLUS, STICK, MINUS], dtype=np.int8)
+ONE = np.array([STICK], dtype=np.int8)
+
+
+def found(layout, asked_at, meshes):
+    """Layouts on so many meshes, each with the moves that ``asked_at`` its ends."""
+    ends, places = Secants(), [layout]
+    for _ in range(meshes):
+        here = places[-1]
+        asked = Layout(here.breaks + asked_at(here.breaks), here.states)
+        places.append(ends.next(here, asked, is_still=True))
+    return places
+
+
+def test_ends_that_move_one_another_are_found():
+    """Steps as long as the moves asked for go to and fro: the largest slope is -2.8."""
+    right = np.array([-1.0, -0.4, 0.5, 1.1])
+    slope = -np.eye(4) - 0.6 * (np.ones((4, 4)) - np.eye(4))
+    begun = Layout(right + np.array([0.02, -0.03, 0.01, 0.02]), THREE)
+    last = found(begun, lambda b: slope @ (b - right), 9)[-1]
+    np.testing.assert_allclose(last.breaks, right, atol=1e-6)
+    plain = begun.breaks
+    for _ in range(9):
+        plain = plain + slope @ (plain - right)
+    assert np.max(np.abs(plain - right)) > 0.3
+
+
+@pytest.mark.parametrize("off", [-0.3, 0.3])
+def test_a_single_zone_does_not_leave_where_its_edges_lie(off):
+    """Under a stiff skin the moves asked for do not grow with what an end is off."""
+    right = np.array([-1.0, 1.0])
+
+    def asked(breaks):
+        return -0.01 * np.tanh((breaks - right) / 0.01) * (1.0 + 0.5 * (breaks - right))
+
+    places = found(Layout((1.0 + off) * right, ONE), asked, 14)
+    np.testing.assert_allclose(places[-1].breaks, right, atol=1e-4)
+    between = [p.breaks[1] for p in places]
+    bad = [b for a, b in pairwise(between) if (b - a) * (1.0 - a) < 0.0]
+    assert not bad  # no step goes away from the edge
+
+
+def test_a_zone_goes_after_two_solutions_that_leave_nothing_of_it():
+    layout = Layout(np.array([-1.0, -0.9, 0.9, 1.0]), THREE)
+    asked = Layout(np.array([-0.9, -0.95, 0.9, 1.0]), THREE)
+    ends = Secants()
+    assert not ends.vanishing(layout, asked).any()
+    assert ends.vanishing(layout, asked).tolist() == [True, False, False]
+    fewer = layout.without(0, keeps_stick=True)
+    assert fewer.states.tolist() == [STICK, MINUS]
+    np.testing.assert_allclose(fewer.breaks, [-1.0, 0.9, 1.0])
+    assert layout.without(1, keeps_stick=True) is None
+    assert Layout(np.array([-1.0, 1.0]), ONE).without(0, keeps_stick=True) is None

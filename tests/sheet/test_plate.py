@@ -155,8 +155,28 @@ def test_a_warning_says_how_stiffness_is_counted():
     thick = rn.Sheet(thickness=0.12, modulus=6000.0, poisson=0.3, modulus_thickness=40.0)
     left = rn.solve(nip_with(thick), LINEAR)
     assert any("`bending = true` in the sheet counts it" in line for line in left.warnings)
+    assert any("off, one too small, the other too large" in line for line in left.warnings)
     counted = rn.solve(nip_with(replace(thick, bending=True)), LINEAR)
     assert not any("bending stiffness" in line for line in counted.warnings)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("thickness", [0.06, 0.1])
+def test_widths_change_by_no_more_than_the_warning_says(thickness):
+    """Paper between rubber and a bare roller, where the widths of the two sides differ most."""
+    thin = rn.Sheet(thickness=thickness, modulus=3000.0, poisson=0.3, modulus_thickness=40.0)
+    counted, freely = (
+        rn.solve(nip_with(replace(thin, bending=bending), lower=RIGID), LINEAR)
+        for bending in (True, False)
+    )
+    share = freely.sheet.bending_length / freely.nip_width
+    assert 0.05 < share < 0.2
+    changes = [
+        width / freely.nip_width - 1.0
+        for width in (counted.nip_width, counted.sheet.nip_width_lower)
+    ]
+    assert 0.3 * share < max(changes) - min(changes)
+    assert all(abs(change) < 2.0 * share for change in changes)
 
 
 def test_peaks_opposite_the_edges_of_a_narrow_contact_are_resolved():

@@ -38,7 +38,8 @@ from rollnip.sheet.refine import SheetRefined, refine_sheet
 from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import StrainSizes, validity_warnings
 
-_STIFF = 0.1  # bending length over the nip width, beyond which bending stiffness matters
+_STIFF = 0.05  # bending length over the nip width, beyond which bending stiffness matters
+_WIDTHS_BY_STIFFNESS = 2.0  # largest change of a width, in that share, of the nips of decision 16
 
 
 def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> SheetSolution:
@@ -190,10 +191,12 @@ def _warnings(nip: Nip, refined: SheetRefined) -> tuple[str, ...]:
     if share > _STIFF:
         assert nip.sheet is not None
         asked = nip.sheet.bending is None and share <= COUNTED
-        hint = "; `bending = true` in the sheet counts it" if asked else ""
+        hint = " `bending = true` in the sheet counts it." if asked else ""
+        widths = 100.0 * _WIDTHS_BY_STIFFNESS * share
         out.append(
             f"The bending stiffness of the sheet counts over {length:.2g} mm, "
             f"{100.0 * share:.0f} % of the nip width; it is left out, so pressure and nip width "
-            f"are those of a sheet that bends freely{hint}."
+            "are those of a sheet that bends freely. The widths on its two sides may be up to "
+            f"{widths:.0f} % off, one too small, the other too large.{hint}"
         )
     return tuple(out)

@@ -6,6 +6,7 @@ import pytest
 import rollnip as rn
 from rollnip.finite import Body, Depths, FiniteResponse, Strip, nodal
 from rollnip.finite.columns import Columns
+from rollnip.influence import covering_window, surface_kernels
 
 RUBBER = rn.Elastic(modulus=0.5, poisson=0.5)
 HALF = 1.5
@@ -22,6 +23,12 @@ def skinned(stiffer, thickness=0.05):
 
 PLAIN, FOIL = coated(rn.Layer(3.0, RUBBER)), skinned(900.0)
 NODES = HALF * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 97))
+
+
+def response_of(roller):
+    window = covering_window((roller, coated(radius=25.0)), None)
+    surface = surface_kernels(roller, None, "second", window)
+    return FiniteResponse(roller, HALF, surface.displacement)
 
 
 def test_without_a_skin_columns_follow_the_nodes():
@@ -91,9 +98,9 @@ def test_contacts_of_other_nodes_one_after_the_other():
         pressure = 0.05 * np.sqrt(1.0 - (nodes[1:-1] / half) ** 2)
         return used.displacement(nodes, pressure, 0.2 * pressure)
 
-    used, x = FiniteResponse(FOIL, HALF), np.linspace(-HALF, HALF, 9)
+    used, x = response_of(FOIL), np.linspace(-HALF, HALF, 9)
     for half, count in ((1.5, 41), (1.4, 31)):
         found = response(used, half, count)
-    fresh = response(FiniteResponse(FOIL, HALF), half, count)
+    fresh = response(response_of(FOIL), half, count)
     for one, other in zip(found, fresh, strict=True):
         np.testing.assert_allclose(one(x), other(x), atol=2e-2 * np.abs(other(x)).max())

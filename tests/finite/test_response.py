@@ -34,6 +34,11 @@ COVERINGS = {
 }
 
 
+def response_of(roller, half_width=HALF):
+    surface = surface_kernels(roller, None, "second", covering_window((roller, BARE), None))
+    return FiniteResponse(roller, half_width, surface.displacement)
+
+
 def tractions(peak):
     """Nodes, and pressure and shear without a jump of their derivative inside."""
     nodes = HALF * np.sin(0.5 * np.pi * np.linspace(-1.0, 1.0, 61))
@@ -67,7 +72,7 @@ def test_begins_as_the_second_order(roller):
     """At small strains all orders are the second one, which is derived by other means."""
     nodes, p, q = tractions(0.004)
     x = np.linspace(-0.9, 0.9, 19) * HALF
-    all_orders = np.stack([f(x) for f in FiniteResponse(roller, HALF).displacement(nodes, p, q)])
+    all_orders = np.stack([f(x) for f in response_of(roller).displacement(nodes, p, q)])
     response = second_response(roller, None, HALF)
     surface = surface_kernels(roller, None, "second", covering_window((roller, BARE), None))
     inward = surface.inward_at(0.0, nodes, p, q) if response.is_short else None
@@ -82,7 +87,7 @@ def test_a_material_that_stiffens_gives_less():
         nodes, p, q = tractions(peak)
         for energy in (None, rn.Yeoh(0.5, 0.0)):
             rubber = rn.Elastic(modulus=1.0, poisson=0.5, energy=energy)
-            response = FiniteResponse(covered(rn.Layer(2.0, rubber)), HALF)
+            response = response_of(covered(rn.Layer(2.0, rubber)))
             u_z.append(response.displacement(nodes, p, q)[1](np.zeros(1))[0])
     assert u_z[1] < u_z[0] - 1e-3
     assert u_z[3] == pytest.approx(u_z[2], abs=2e-6)
@@ -92,29 +97,28 @@ def test_a_response_forgets_where_it_came_from():
     """Tractions have one answer, whatever others were asked before: to the tolerance of steps."""
     roller = COVERINGS["foam"]
     nodes, p, q = tractions(0.1)
-    fresh = FiniteResponse(roller, HALF)
-    used = FiniteResponse(roller, HALF)
+    fresh, used = response_of(roller), response_of(roller)
     used.displacement(1.1 * nodes - 0.2, 1.2 * p, -q)
     x = np.linspace(-1.0, 1.0, 9) * HALF
-    for one, other in zip(
-        fresh.displacement(nodes, p, q), used.displacement(nodes, p, q), strict=True
-    ):
+    for _ in range(3):  # each leaves a part of its step to the next
+        both = [response.displacement(nodes, p, q) for response in (fresh, used)]
+    for one, other in zip(*both, strict=True):
         np.testing.assert_allclose(one(x), other(x), atol=2e-5)
 
 
 def test_a_mirrored_load_has_a_mirrored_answer():
     nodes, p, q = tractions(0.15)
     x = np.linspace(-1.2, 1.2, 13) * HALF
-    response = [FiniteResponse(COVERINGS["rubber"], HALF) for _ in range(2)]
-    u_x, u_z = response[0].displacement(nodes, p, q)
-    v_x, v_z = response[1].displacement(-nodes[::-1], p[::-1], -q[::-1])
+    u, v = (response_of(COVERINGS["rubber"]) for _ in range(2))
+    u_x, u_z = u.displacement(nodes, p, q)
+    v_x, v_z = v.displacement(-nodes[::-1], p[::-1], -q[::-1])
     np.testing.assert_allclose(u_x(x), -v_x(-x), atol=1e-6)
     np.testing.assert_allclose(u_z(x), v_z(-x), atol=1e-6)
 
 
 def test_what_has_no_equilibrium_keeps_the_last_answer():
     nodes, p, q = tractions(0.1)
-    response = FiniteResponse(COVERINGS["rubber"], HALF)
+    response = response_of(COVERINGS["rubber"])
     before = response.displacement(nodes, p, q)
     assert response.is_found
     after = response.displacement(nodes, 1000.0 * p, 3000.0 * q)
@@ -126,24 +130,22 @@ def test_what_has_no_equilibrium_keeps_the_last_answer():
 
 def test_nothing_moves_without_pressure():
     nodes, p, q = tractions(0.1)
-    u_x, u_z = FiniteResponse(COVERINGS["rubber"], HALF).displacement(nodes, 0.0 * p, 0.0 * q)
+    u_x, u_z = response_of(COVERINGS["rubber"]).displacement(nodes, 0.0 * p, 0.0 * q)
     assert u_x(nodes) == pytest.approx(0.0)
     assert u_z(nodes) == pytest.approx(0.0)
 
 
 def test_a_mesh_that_lies_aside_gives_the_same(monkeypatch):
-    """Both meshes lie at the same present places: it matters little where.
+    """Elements are off alike at finite strain and in linear theory: it matters little where.
 
     The contact has moved by a hundredth of its width since the mesh was made, with dense columns
     where the edges were: 0.5 % of the largest correction.
     """
-    monkeypatch.setattr(response, "_ROUGHLY", response.STILL)
     monkeypatch.setattr(response, "_SHARE", 0.0)
-    monkeypatch.setattr(response, "_KEPT_ROUGHLY", 1.0)
     nodes, p, q = tractions(0.15)
-    kept, anew = (FiniteResponse(COVERINGS["rubber"], HALF) for _ in range(2))
-    kept.displacement(nodes - 0.02 * HALF, p, q, roughly=True)
+    kept, anew = (response_of(COVERINGS["rubber"]) for _ in range(2))
+    kept.displacement(nodes - 0.0198 * HALF, p, q)
     x = np.linspace(-0.98, 0.98, 99) * HALF
-    old = np.stack([f(x) for f in kept.displacement(nodes, p, q, roughly=True)])
-    new = np.stack([f(x) for f in anew.displacement(nodes, p, q, roughly=True)])
+    old, new = (np.stack([f(x) for f in one.displacement(nodes, p, q)]) for one in (kept, anew))
+    assert np.any(old != new)
     np.testing.assert_allclose(old, new, atol=5e-3 * np.abs(new).max())

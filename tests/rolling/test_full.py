@@ -10,7 +10,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.paper import configuration, figure_4
-from rollnip.rolling import beyond
+from rollnip.rolling import beyond, elements
 
 DATA = Path(__file__).parents[1] / "data"
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -231,9 +231,9 @@ def test_a_sweep_of_traction_has_no_step():
 @pytest.mark.slow
 def test_what_is_cut_is_claimed(monkeypatch):
     """With waves kept that are twice as short, and again, figures change by less than errors."""
-    given, found = beyond.CUT, []
+    given, found = elements.CUT, []
     for share in (0.5, 1.0, 2.0):
-        monkeypatch.setattr(beyond, "CUT", share * given)
+        monkeypatch.setattr(elements, "CUT", share * given)
         found.append(driven(0.53))
     assert all(one.converged and one.model.geometry == "finite" for one in found)
     assert found[2].final.cut < 0.8 * found[0].final.cut
@@ -246,11 +246,11 @@ def test_what_is_cut_is_claimed(monkeypatch):
 @pytest.mark.slow
 def test_a_creepage_that_crosses_zero_is_known_no_better(monkeypatch):
     """It claimed 0.5 % of itself: 25 times less than what half of the waves change."""
-    given, found = beyond.CUT, []
+    given, found = elements.CUT, []
     nip = configuration(3, driven=True)
     nip = replace(nip, tangential=rn.Traction(0.09 * nip.normal.load))
     for share in (1.0, 2.0):
-        monkeypatch.setattr(beyond, "CUT", share * given)
+        monkeypatch.setattr(elements, "CUT", share * given)
         found.append(rn.solve(nip, FULL))
     assert abs(found[0].creepage) < 1e-3
     change = abs(found[1].creepage - found[0].creepage)

@@ -11,7 +11,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.finite import NoEquilibriumError, columns
 from rollnip.rolling import surface_depths
-from rollnip.rolling.beyond import AllOrders
+from rollnip.rolling.elements import AllOrders
 from rollnip.sheet.lagged import creep_in_stick, pressed_gap
 
 ALL, SECOND = rn.Model(), rn.Model(geometry="second")

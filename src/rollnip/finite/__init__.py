@@ -1,6 +1,7 @@
 """Finite strain of all orders: equilibrium of a covering under given tractions."""
 
 from rollnip.finite._spline import Spline
+from rollnip.finite.acting import nodal
 from rollnip.finite.equilibrium import Body
 from rollnip.finite.pull import Tractions
 from rollnip.finite.response import (
@@ -9,7 +10,6 @@ from rollnip.finite.response import (
     FiniteResponse,
     deformed_surface,
     linear_surface,
-    nodal,
 )
 from rollnip.finite.state import NoEquilibriumError, State
 from rollnip.finite.stress import PARTS, element_fields, present_place

@@ -327,6 +327,12 @@ class Body:
         """
         return self.at_first.solved(Pull.undeformed(self.strip, tractions).loads, left)
 
+    def linear_state(self, tractions: Tractions, left: float = LEFT) -> State:
+        """Return the displacements of linear theory with their pressures, likewise."""
+        displacement = self.linear_displacements(tractions, left)
+        local = np.append(displacement, 0.0)[self.strip.unknowns]
+        return State(displacement, self.at_first.pressures(local))
+
     def equilibrium(
         self, tractions: Tractions, start: State, still: float = STILL, share: float = 0.0
     ) -> State:
@@ -358,9 +364,7 @@ class Body:
             step = tangent.solved(left_over, _LEFT_BY_A_STEP)
             part, deformation = self._part(deformation, step)
             local = np.append(part * step, 0.0)[self.strip.unknowns]
-            change = part * fields.step + (tangent.rate @ local[..., None])[..., 0]
-            if tangent.relaxing is not None:
-                change += tangent.relaxing.pressures(local)
+            change = part * fields.step + tangent.pressures(local)
             moved, pressed = state.displacement + part * step, state.pressure + change
             state = State(moved, pressed, tangent)
             size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())

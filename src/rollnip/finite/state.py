@@ -62,6 +62,13 @@ class Tangent:
             raise NoEquilibriumError
         return np.asarray(out)
 
+    def pressures(self, local: Array) -> Array:
+        """Return the pressures, (elements, 3), of the elements' displacements (elements, 18)."""
+        made = (self.rate @ local[..., None])[..., 0]
+        if self.relaxing is not None:
+            made += self.relaxing.pressures(local)
+        return np.asarray(made)
+
     def _near(self, loads: Array) -> Array:
         """Return the displacements without the memory of columns beyond the next."""
         if self.pivots is None:

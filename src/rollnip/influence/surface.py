@@ -50,11 +50,14 @@ class SurfaceKernels:
         """u_x of t_z."""
         return self.together.channel(2)
 
+    def displacement(self, x: Array, nodes: Array, t_z: Array, t_x: Array) -> tuple[Array, Array]:
+        """u_x and u_z at places under tractions at nodes[1:-1], linear between nodes [mm]."""
+        xx, zz, xz = displacement_under(self.together, x, nodes, np.stack([t_z, t_x], axis=1))
+        return xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]
+
     def inward_at(self, x: float, nodes: Array, t_z: Array, t_x: Array) -> float:
         """u_z at a place under tractions at nodes[1:-1], linear between nodes [mm]."""
-        made = displacement_under(self.together, np.array([x]), nodes, np.stack([t_z, t_x], axis=1))
-        _, zz, xz = made[:, 0]
-        return float(zz[0] - xz[1])
+        return float(self.displacement(np.array([x]), nodes, t_z, t_x)[1][0])
 
 
 def is_ring(roller: Roller, geometry: str) -> bool:

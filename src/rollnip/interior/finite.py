@@ -189,7 +189,7 @@ def _weak(acting: Tractions, curvature: float) -> Tractions:
     """Return the tractions of linear theory, small: at arcs, which do not move."""
 
     def at(x: Array) -> Array:
-        arcs = x if curvature == 0.0 else np.arcsin(curvature * x) / curvature
+        arcs = x if curvature == 0.0 else np.arcsin(np.clip(curvature * x, -1.0, 1.0)) / curvature
         made = _SMALL * acting(arcs)
         made[2:] = 0.0
         return made

@@ -8,6 +8,7 @@ few hundredths of the first-order terms, and a turn leaves a twentieth of its er
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from math import inf
 from typing import Generic, Literal, TypeVar
@@ -16,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import Layout, Safeguarded
-from rollnip.finite import CUT, FiniteResponse, NoEquilibriumError
+from rollnip.finite import NoEquilibriumError, Spline
 from rollnip.influence import KernelCache, SecondResponse
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
@@ -24,11 +25,11 @@ from rollnip.rollers import Roller
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claims import skin_thickness
-from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields
+from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, WeightedSum
+from rollnip.rolling.elements import EVERYWHERE, AllOrders
 from rollnip.rolling.free_ends import as_cosines, with_free_ends
 from rollnip.rolling.largest import largest
 from rollnip.rolling.placing import Placing
-from rollnip.rolling.powers import rates_of
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.search import SearchState
@@ -36,12 +37,10 @@ from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import STILL, change_of, solve_on_mesh, with_residual
 
 Array = NDArray[np.float64]
-Acting = tuple[Array, Array, Array]
-"""Nodes, and the pressure and the shear that act on a roller at all but the first and the last."""
 _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
 MOST_CORRECTIONS = 30  # of the correction and the contact
-_ENOUGH = 0.3  # violation of the contact conditions, or change to come, over the tolerance
+_ENOUGH = 0.3  # violation of the contact conditions, or last change, over the tolerance
 SMALL = 0.1  # change of a turn from which it may be the last one
 _LARGEST_RATIO = 0.9  # of changes
 _FAR = 0.1  # change from which a mesh of linear elements is graded anew
@@ -49,15 +48,14 @@ MOST_AFRESH = 10  # turns that are solved from the beginning
 # Of the wave numbers: with all of them turns may not come to rest beside an edge that slips at
 # strains of two and more. Which cut they need is not known before; what it costs is claimed.
 SHARES_KEPT = (1.0, 0.5, 0.25)
-_STRAIN = 0.6  # of a surface at which waves up to half the number are kept
 _COARSE = 24  # elements of the contact while its correction still changes
 NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
+_REFINED_FROM = 50.0  # change, over the tolerance, from which on the mesh of a bare nip is refined
 _COARSELY = 10.0  # times the tolerance
 _COARSEST = 1e-2  # at most
 # Tolerance that nips with a stiff skin are solved to at least: violations of the contact conditions
 # by 0.007 of the approach have changed the peak of pressure beside an edge by a half.
 UNDER_SKINS = 1e-3
-_EVERYWHERE = ((-inf, inf),) * 4
 _OFF = 0.01  # of the width of the contact: how far a correction moves the ends of zones, about
 
 
@@ -74,72 +72,6 @@ def with_second_order(
         return cache.second(roller, nip.speed, half_width)
 
     return replace(kernels, second_upper=response(nip.upper), second_lower=response(nip.lower))
-
-
-@dataclass(frozen=True)
-class AllOrders:
-    """Finite elements of both rollers; None for a rigid one."""
-
-    upper: FiniteResponse | None
-    lower: FiniteResponse | None
-
-    @classmethod
-    def of(cls, nip: Nip, half_width: float, strain: float, share: float = 1.0) -> AllOrders:
-        """Prepare elements for a contact of about that half-width [mm] and surface strain.
-
-        ``share``: of the wave numbers that are kept as a rule.
-        """
-        cut = share * CUT / (1.0 + strain / _STRAIN)
-
-        def response(roller: Roller) -> FiniteResponse | None:
-            return None if roller.is_rigid else FiniteResponse(roller, half_width, cut, nip.speed)
-
-        return cls(response(nip.upper), response(nip.lower))
-
-    def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, SecondFields, bool]:
-        """Return what all orders add to the linear displacements of a bare nip, see `under`."""
-        nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
-        sides = (nodes, pressure, shear), (nodes, pressure, -shear)
-        return self.under(sides, latest.state.creepage, roughly=roughly)
-
-    def under(
-        self, sides: tuple[Acting, Acting], creepage: float, *, roughly: bool
-    ) -> tuple[SecondFields, SecondFields, bool]:
-        """Return what all orders add to the linear displacements under tractions of both rollers.
-
-        Raises `NoEquilibriumError` where there is no equilibrium.
-
-        Parameters
-        ----------
-        sides : of the upper and of the lower roller: nodes (N+1,) [mm], and pressure and shear at
-            nodes[1:-1] as they act on that roller, (N-1,) [MPa].
-        creepage : of the upper roller against the lower one.
-        roughly : on a mesh of before as long as the contact has not moved far.
-
-        Returns
-        -------
-        The correction, the same before it was smoothed, and whether it is that of the tractions
-        themselves, not of some on the way to them.
-        """
-        functions: list[Field | None] = []
-        rough: list[Field | None] = []
-        lost, is_whole = [0.0, 0.0], True
-        rates = rates_of("finite", creepage)
-        for side, response in enumerate((self.upper, self.lower)):
-            if response is None:
-                functions += [None, None]
-                rough += [None, None]
-                continue
-            functions += response.displacement(*sides[side], rates[side], roughly=roughly)
-            rough += response.rough
-            lost[side] = response.lost
-            is_whole = is_whole and response.share == 1.0
-            if not response.is_found:
-                raise NoEquilibriumError
-        smooth = SecondFields(
-            tuple(functions), _EVERYWHERE, lost=(lost[0], lost[1]), rough=tuple(rough)
-        )
-        return smooth, smooth.uncut, is_whole
 
 
 def refine_all_orders(
@@ -163,7 +95,7 @@ def refine_all_orders(
     if latest.stands_still and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
         for share in SHARES_KEPT:
-            orders = AllOrders.of(nip, half_width, strain, share)
+            orders = AllOrders.of(nip, kernels, half_width, strain, share)
             found = _turns(nip, model, kernels, latest, orders, is_refined=is_refined)
             if not isinstance(found, Ended):
                 return found
@@ -204,10 +136,22 @@ class Past:
             return made
         steps = np.diff(np.array(self.off), axis=0)
         back = np.linalg.lstsq(steps.T, off, rcond=1e-3)[0]
-        shares = np.append(back, 1.0) - np.append(0.0, back)
-        others = tuple(zip(shares.tolist(), self.made, strict=True))
-        lost = shares @ np.array([one.lost for one in self.made])
-        return replace(NO_SECOND_ORDER, others=others, lost=(float(lost[0]), float(lost[1])))
+        return _mean(np.append(back, 1.0) - np.append(0.0, back), self.made)
+
+
+def _mean(shares: Array, fields: Sequence[SecondFields]) -> SecondFields:
+    """Return a weighted sum of corrections."""
+    functions: list[Field | None] = []
+    for several in zip(*(one.functions for one in fields), strict=True):
+        splines = [f for f in several if isinstance(f, Spline)]
+        functions.append(Spline.mean(shares, splines) if splines else None)
+    rough: list[Field | None] = []
+    for several in zip(*(one.rough for one in fields), strict=True):
+        given = tuple(f for f in several if f is not None)
+        rough.append(WeightedSum(tuple(shares.tolist()), given) if given else None)
+    lost = shares @ np.array([one.lost for one in fields])
+    both = float(lost[0]), float(lost[1])
+    return SecondFields(tuple(functions), EVERYWHERE, lost=both, rough=tuple(rough))
 
 
 Found = TypeVar("Found")
@@ -221,10 +165,12 @@ class Least(Generic[Found]):
     ----------
     found : that solution; None as long as all violate them by more than the tolerance.
     left : violation by the last solution, over the tolerance.
+    enough : violation from which turns need not go on, likewise.
     """
 
     found: Found | None = None
     left: float = inf
+    enough: float = 0.3
 
     def is_enough(self, found: Found, left: float, to_come: float) -> bool:
         """Take in a further solution; return whether there is one from which turns need not go on.
@@ -235,7 +181,7 @@ class Least(Generic[Found]):
         before, self.left = self.left, left
         if left <= min(1.0, before):
             self.found = found
-        return self.found is not None and (min(left, to_come) <= _ENOUGH or left > before)
+        return self.found is not None and (min(left, to_come) <= self.enough or left > before)
 
 
 def _turns(
@@ -253,8 +199,9 @@ def _turns(
     go on until the contact conditions are met with the correction that belongs to the solution
     itself.
     """
-    change, afresh, past = inf, 0, Past(even_places(_edges(latest)))
-    least, turns = Least[tuple[PairKernels, Round, SecondFields]](), 0
+    change, afresh, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
+    least = Least[tuple[PairKernels, Round, SecondFields]](enough=_ENOUGH)
+    turns = 0
     cause: Literal["balance", "contact", "turns"] = "turns"
     for turn in range(MOST_CORRECTIONS):
         is_coarse = not is_refined and latest.mesh.fine.values is not None
@@ -266,30 +213,27 @@ def _turns(
         turns = turn + 1
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
-        to_come = to_come_after(change, before) / model.tolerance
         if is_refined and change < SMALL and is_whole:
             checked = with_residual(nip, model, smooth, _with(latest, smooth))
             checked = replace(checked, geometry_change=largest(change, latest.geometry_change))
+            checked = replace(checked, stands_still=True)
             left = checked.residual / model.tolerance
-            # Small changes to come are not enough: the last one is still missing in the solution.
-            if least.is_enough((smooth, checked, rough), left, inf):
+            if least.is_enough((smooth, checked, rough), left, change / model.tolerance):
                 break
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
-        near = min(to_come, change / model.tolerance)
-        if not is_refined and is_whole and near <= (NEARLY if is_coarse else 1.0):
+        near = min(change, to_come_after(change, before)) / model.tolerance
+        if not is_refined and is_whole and near <= (_REFINED_FROM if is_coarse else 1.0):
             found, is_refined = _refined(nip, model, mixed, latest), True
             past = Past(places_by_the_edges(_edges(latest)))
-        elif is_coarse:
-            found = _solved_again(nip, coarsely(model), mixed, latest, change, _COARSE)
         else:
-            found = _solved_again(nip, model, mixed, latest, change, as_cosines(latest))
+            asked = coarsely(model) if is_coarse else model
+            found = _solved_again(nip, asked, mixed, latest, change)
         if not found.stands_still and afresh < MOST_AFRESH:
             afresh += 1
-            half_width = 0.5 * latest.figures.nip_width
-            again = _coarse(nip, model, mixed, half_width) if is_coarse else None
-            found = again or refine(nip, model, mixed, half_width)
-            is_refined = is_refined or (again is None and found.mesh.fine.values is not None)
+            kernels, found = _anew(nip, model, (mixed, smooth), latest, is_coarse=is_coarse)
+            is_cubic = found.mesh.fine.values is not None
+            is_refined = is_refined or (found.residual < inf and is_cubic)
         if not found.stands_still:
             cause = "contact"
             break
@@ -313,6 +257,21 @@ def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Rou
         if found is not None:
             return found
     return refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
+
+
+def _anew(
+    nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: Round, *, is_coarse: bool
+) -> tuple[PairKernels, Round]:
+    """Solve from the beginning: with a mean of corrections or, if it leads astray, the last one."""
+    half_width, mixed = 0.5 * latest.figures.nip_width, both[0]
+    again = _coarse(nip, model, mixed, half_width) if is_coarse else None
+    if again is not None:
+        return mixed, again
+    for kernels in both:
+        found = refine(nip, model, kernels, half_width)
+        if found.stands_still:
+            break
+    return kernels, found
 
 
 def _edges(latest: Round) -> tuple[float, float]:
@@ -364,13 +323,13 @@ def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> floa
 
 
 def _solved_again(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float, count: int
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float
 ) -> Round:
     """Solve with another correction; where that fails the round does not stand still.
 
-    Ends of zones are placed anew if they are free, on about ``count`` elements. Otherwise the mesh
-    stays, if the correction changed little: what meshes of linear elements differ in would keep
-    turns going.
+    Free ends of zones move to where the last solution put them; nodes that crowd at a boundary
+    layer need ends that are placed. A mesh of linear elements stays, if the correction changed
+    little: what such meshes differ in would keep turns going.
     """
     failed = replace(latest, stands_still=False)
     if latest.mesh.fine.values is None:
@@ -382,12 +341,17 @@ def _solved_again(
         layout = Layout.of(latest.zones)
         if layout is None:
             return failed
-        search = SearchState(layout, latest, off=_OFF)
+        placing = Placing(nip, model, kernels)
+        second = second_order(nip, model.geometry, latest.mesh, latest.state)
+        search = SearchState(layout, replace(latest, second=second), off=_OFF)
+        is_crowded = min(latest.mesh.fine.crowding) < 1.0
         try:
-            placed = Placing(nip, model, kernels).placed(search, count, known=True)
+            placed = None if is_crowded else placing.turned(search)
+            if placed is None:
+                placed = placing.placed(search, as_cosines(latest), known=True)
         except np.linalg.LinAlgError:
             return failed
         if placed is None:
             return failed
-        found = placed.before
+        found = replace(placed.before, stands_still=True)
     return replace(found, error=latest.error, further_error=latest.further_error)

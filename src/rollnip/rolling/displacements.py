@@ -20,6 +20,19 @@ class Field(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class WeightedSum:
+    """A function of the place that is a sum of others, each times its weight."""
+
+    weights: tuple[float, ...]
+    functions: tuple[Field, ...]
+
+    def __call__(self, x: Array, order: int = 0) -> Array:
+        """Value at ``x``, or with ``order`` 1 the derivative."""
+        both = zip(self.weights, self.functions, strict=True)
+        return np.asarray(sum(weight * f(x, order) for weight, f in both))
+
+
+@dataclass(frozen=True, slots=True)
 class Displacements:
     """Displacements of both surfaces, each in its own frame, at n points.
 
@@ -86,7 +99,6 @@ class SecondFields:
     ----------
     functions : u_x and u_z of the upper, u_x and u_z of the lower surface; None: zero.
     ends : the places between which they hold [mm]; beyond they keep their last value.
-    others : further fields, each with the factor by which it is added.
     lost : heat inside the upper and the lower roller beyond that of linear theory, per distance
         [N/mm].
     rough : the functions before waves were cut that no contact follows; empty: none were.
@@ -94,15 +106,13 @@ class SecondFields:
 
     functions: tuple[Field | None, ...]
     ends: tuple[tuple[float, float], ...]
-    others: tuple[tuple[float, SecondFields], ...] = ()
     lost: tuple[float, float] = (0.0, 0.0)
     rough: tuple[Field | None, ...] = ()
 
     @property
     def uncut(self) -> SecondFields:
         """The same with all waves."""
-        others = tuple((factor, other.uncut) for factor, other in self.others)
-        return replace(self, functions=self.rough or self.functions, others=others)
+        return replace(self, functions=self.rough or self.functions)
 
     def at(self, x: Array) -> Displacements:
         """Return the displacements at some places."""
@@ -110,8 +120,6 @@ class SecondFields:
         for row, f, ends in zip(four, self.functions, self.ends, strict=True):
             if f is not None:
                 row[:] = f(np.clip(x, *ends))
-        for factor, other in self.others:
-            four += factor * other.at(x).four
         return Displacements(four)
 
     def slopes_at(self, x: Array) -> Displacements:
@@ -120,8 +128,6 @@ class SecondFields:
         for row, f, ends in zip(four, self.functions, self.ends, strict=True):
             if f is not None:
                 row[:] = f(np.clip(x, *ends), 1) * ((x > ends[0]) & (x < ends[1]))
-        for factor, other in self.others:
-            four += factor * other.slopes_at(x).four
         return Displacements(four)
 
     def of_side(self, side: int) -> SecondFields:
@@ -130,8 +136,7 @@ class SecondFields:
             tuple(f if i // 2 == side else None for i, f in enumerate(four))
             for four in (self.functions, self.rough)
         )
-        others = tuple((factor, other.of_side(side)) for factor, other in self.others)
-        return replace(self, functions=functions, others=others, rough=rough)
+        return replace(self, functions=functions, rough=rough)
 
 
 NO_SECOND_ORDER = SecondFields((None,) * 4, ((0.0, 0.0),) * 4)

@@ -50,6 +50,8 @@ from rollnip.rolling.turns import (
 # nips one needed more, and those that failed would have taken 10 to 19.
 _MOST_MESHES = 8
 _NEARLY_PLACED = 0.008  # over the width of the contact
+_HARDLY_MOVED = 0.001  # likewise
+_WEAKEST_CONTRACTION = 0.7  # of how far ends are off, from mesh to mesh of a turn
 # Of the tolerance: what an end of a zone may be off, over the width of the contact.
 _PLACEMENT_TOLERANCE = 0.1
 COARSE_PLACEMENT_FACTOR = 3.0  # times `_PLACEMENT_TOLERANCE` on the first size of mesh
@@ -161,6 +163,34 @@ class Placing:
                 there = ends.next(layout, asked, is_still=latest.stands_still and is_quiet)
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
         return None
+
+    def turned(self, stand: SearchState) -> SearchState | None:
+        """Solve on meshes like the last one, with the ends of zones where the last one put them.
+
+        Once where ends hardly move, else twice; they need not be placed.
+
+        Returns
+        -------
+        None where the solution calls for other zones.
+        """
+        fine = stand.before.mesh.fine
+        shape, off = (np.array(fine.elements), fine.crowding), inf
+        for _ in range(2):
+            layout, before = stand.layout, off
+            latest, asked = self._solved_on(stand, shape, 0.0, _TURNS_WHILE_MOVING + 1)
+            off = asked.distance(layout)
+            is_placed = off <= _PLACEMENT_TOLERANCE * self.model.tolerance
+            if (
+                not asked.is_proper
+                or self.search.wanted(latest, layout, whole=is_placed) is not None
+            ):
+                return None
+            if off > max(_HARDLY_MOVED, _WEAKEST_CONTRACTION * before):
+                return None
+            stand = _standing_at(asked, latest, stand, off)
+            if off <= _HARDLY_MOVED:
+                break
+        return stand
 
     @cached_property
     def search(self) -> Search:

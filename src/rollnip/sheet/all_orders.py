@@ -25,8 +25,6 @@ from rollnip.rolling.beyond import (
     SHARES_KEPT,
     SMALL,
     UNDER_SKINS,
-    Acting,
-    AllOrders,
     Least,
     Past,
     coarsely,
@@ -36,6 +34,7 @@ from rollnip.rolling.beyond import (
 )
 from rollnip.rolling.claims import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.rolling.elements import Acting, AllOrders
 
 COARSE = 20
 """Elements of the contact while its corrections still change."""
@@ -133,7 +132,7 @@ def solve_in_turns(
     except np.linalg.LinAlgError:
         return None
     for share in SHARES_KEPT:
-        orders = AllOrders.of(nip, half_width, sheeted.strain(stand), share)
+        orders = AllOrders.of(nip, kernels, half_width, sheeted.strain(stand), share)
         try:
             found = _turned(kernels, _Contact(sheeted, model, stand), orders)
         except (NoEquilibriumError, np.linalg.LinAlgError):

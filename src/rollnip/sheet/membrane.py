@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels, stretch_excess
-from rollnip.rolling.beyond import Acting
+from rollnip.rolling.elements import Acting
 from rollnip.sheet.all_orders import COARSE
 from rollnip.sheet.lagged import change_of, lagged_terms, missed
 from rollnip.sheet.powers import friction_losses

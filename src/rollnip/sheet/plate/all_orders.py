@@ -9,7 +9,7 @@ import numpy as np
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels, stretch_excess
-from rollnip.rolling.beyond import Acting
+from rollnip.rolling.elements import Acting
 from rollnip.sheet.all_orders import COARSE
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import change_of, displacements_of, lagged_terms, missed

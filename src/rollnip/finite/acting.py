@@ -1,0 +1,84 @@
+"""Tractions of a contact: at present places, at arcs, and what they do in linear theory."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from rollnip.finite.pull import Tractions
+from rollnip.finite.strip import Array
+
+Linear = Callable[[Array, Array, Array, Array], tuple[Array, Array]]
+"""u_x and u_z of linear theory at some places, under tractions that are linear between nodes.
+
+Its arguments are the places, the nodes (N+1,), and pressure and shear at nodes[1:-1]."""
+
+
+def nodal(nodes: Array, pressure: Array, shear: Array) -> Tractions:
+    """Return tractions that are linear between nodes, given at all but the first and the last."""
+    values = np.zeros((2, nodes.size))
+    values[0, 1:-1], values[1, 1:-1] = pressure, shear
+    slopes = np.diff(values) / np.diff(nodes)
+    # p, q and their slopes in every interval, and zero on either side
+    pieces = np.zeros((4, nodes.size + 1))
+    pieces[:2, 1:-1], pieces[2:, 1:-1] = values[:, :-1], slopes
+    starts = np.concatenate([nodes[:1], nodes])
+
+    def at(x: Array) -> Array:
+        piece = np.searchsorted(nodes, x)
+        out = pieces.take(piece, axis=1)
+        out[:2] += out[2:] * (x - starts[piece])
+        return out
+
+    return at
+
+
+@dataclass(frozen=True)
+class Acting:
+    """Tractions on a surface, linear between nodes, or a mean of several of them.
+
+    Attributes
+    ----------
+    parts : share, nodes (N+1,), pressure and shear at nodes[1:-1] of each.
+    """
+
+    parts: tuple[tuple[float, Array, Array, Array], ...]
+
+    @classmethod
+    def on(cls, nodes: Array, pressure: Array, shear: Array) -> Acting:
+        """Return tractions between some nodes."""
+        return cls(((1.0, nodes, pressure, shear),))
+
+    def towards(self, other: Acting, share: float) -> Acting:
+        """Return tractions that are a share of the way to others."""
+        return Acting(self.times(1.0 - share).parts + other.times(share).parts)
+
+    def times(self, factor: float) -> Acting:
+        """Return a multiple of the tractions."""
+        return Acting(tuple((factor * share, nodes, p, q) for share, nodes, p, q in self.parts))
+
+    def moved(self, x: Array, arcs: Array) -> Acting:
+        """Return the same with the nodes where the material is that is at them now.
+
+        ``x`` (n,) are increasing places, ``arcs`` those of the material there; beyond them nodes
+        keep their distances.
+        """
+
+        def at(nodes: Array) -> Array:
+            return np.interp(nodes, x, arcs) + nodes - np.clip(nodes, x[0], x[-1])
+
+        return Acting(tuple((share, at(nodes), p, q) for share, nodes, p, q in self.parts))
+
+    @property
+    def tractions(self) -> Tractions:
+        """Pressure, shear and their derivatives as a function of the place."""
+        parts = [(share, nodal(*rest)) for share, *rest in self.parts]
+        if len(parts) == 1 and parts[0][0] == 1.0:
+            return parts[0][1]
+        return lambda x: np.asarray(sum(share * one(x) for share, one in parts))
+
+    def linear_displacement(self, linear: Linear, x: Array) -> Array:
+        """Return u_x and u_z of linear theory at some places, (2, n)."""
+        return np.asarray(sum(share * np.stack(linear(x, *rest)) for share, *rest in self.parts))

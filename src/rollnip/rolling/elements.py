@@ -1,0 +1,115 @@
+"""Finite elements of both rollers: what they give beyond the linear displacements of a nip."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.finite import CUT, FiniteResponse, NoEquilibriumError
+from rollnip.influence import SurfaceKernels
+from rollnip.interior import SurfaceTractions, loss_per_distance
+from rollnip.nip import Nip
+from rollnip.rollers import Roller
+from rollnip.rolling.displacements import Field, SecondFields
+from rollnip.rolling.powers import rates_of
+from rollnip.rolling.round import Round
+from rollnip.rolling.surfaces import PairKernels
+
+Array = NDArray[np.float64]
+Acting = tuple[Array, Array, Array]
+"""Nodes, and the pressure and the shear that act on a roller at all but the first and the last."""
+_STRAIN = 0.6  # of a surface at which waves up to half the number are kept
+EVERYWHERE = ((-inf, inf),) * 4
+"""Where a correction of both surfaces holds."""
+
+
+@dataclass(frozen=True)
+class AllOrders:
+    """Finite elements of both rollers; None for a rigid one."""
+
+    nip: Nip
+    upper: FiniteResponse | None
+    lower: FiniteResponse | None
+
+    @classmethod
+    def of(
+        cls, nip: Nip, kernels: PairKernels, half_width: float, strain: float, share: float = 1.0
+    ) -> AllOrders:
+        """Prepare elements for a contact of about that half-width [mm] and surface strain.
+
+        ``share``: of the wave numbers that are kept as a rule.
+        """
+        cut = share * CUT / (1.0 + strain / _STRAIN)
+
+        def response(roller: Roller, surface: SurfaceKernels | None) -> FiniteResponse | None:
+            if surface is None:
+                return None
+            return FiniteResponse(roller, half_width, surface.displacement, cut, nip.speed)
+
+        return cls(nip, response(nip.upper, kernels.upper), response(nip.lower, kernels.lower))
+
+    def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, SecondFields, bool]:
+        """Return what all orders add to the linear displacements of a bare nip, see `under`."""
+        nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
+        sides = (nodes, pressure, shear), (nodes, pressure, -shear)
+        return self.under(sides, latest.state.creepage, roughly=roughly)
+
+    def under(
+        self, sides: tuple[Acting, Acting], creepage: float, *, roughly: bool
+    ) -> tuple[SecondFields, SecondFields, bool]:
+        """Return what all orders add to the linear displacements under tractions of both rollers.
+
+        Raises `NoEquilibriumError` where there is no equilibrium.
+
+        Parameters
+        ----------
+        sides : of the upper and of the lower roller: nodes (N+1,) [mm], and pressure and shear at
+            nodes[1:-1] as they act on that roller, (N-1,) [MPa].
+        creepage : of the upper roller against the lower one.
+        roughly : on a mesh of before as long as the contact has not moved far.
+
+        Returns
+        -------
+        The correction, the same before it was smoothed, and whether it is that of the tractions
+        themselves, not of some on the way to them.
+        """
+        functions: list[Field | None] = []
+        rough: list[Field | None] = []
+        lost, is_whole = [0.0, 0.0], True
+        rates, rollers = rates_of("finite", creepage), (self.nip.upper, self.nip.lower)
+        for side, response in enumerate((self.upper, self.lower)):
+            if response is None:
+                functions += [None, None]
+                rough += [None, None]
+                continue
+            functions += response.displacement(*sides[side], rates[side], roughly=roughly)
+            rough += response.rough
+            lost[side] = response.lost
+            if not roughly:
+                lost[side] += _lost_aside(rollers[side], self.nip.speed, response, sides[side])
+            is_whole = is_whole and response.share == 1.0
+            if not response.is_found:
+                raise NoEquilibriumError
+        smooth = SecondFields(
+            tuple(functions), EVERYWHERE, lost=(lost[0], lost[1]), rough=tuple(rough)
+        )
+        return smooth, smooth.uncut, is_whole
+
+
+def _lost_aside(
+    roller: Roller, speed: float | None, response: FiniteResponse, acting: Acting
+) -> float:
+    """Return the heat of linear theory under tractions at the arcs of the material, less theirs.
+
+    Elements give what is beyond linear theory under the former.
+    """
+    if not roller.is_viscoelastic or response.moved is None:
+        return 0.0
+    linear = []
+    for nodes, pressure, shear in (response.moved.parts[-1][1:], acting):
+        tractions = SurfaceTractions.on_inner(nodes, shear, pressure)
+        linear.append(loss_per_distance(roller, tractions, "finite", speed))
+    return linear[0] - linear[1]

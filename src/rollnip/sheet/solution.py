@@ -169,6 +169,7 @@ class SheetSolution(SmoothSolution):
         def power(value: float) -> float | None:
             return None if speed is None else speed * value
 
+        pulls = self._figure("traction_upper"), self.traction
         return SheetResult(
             creepage_upper=state.creepage,
             creepage_lower=state.creepage_lower,
@@ -190,27 +191,18 @@ class SheetSolution(SmoothSolution):
             bends=self._bends,
             nip_width_lower=self._lower[0],
             peak_pressure_lower=self._lower[1],
-            grip=grip_of(
-                self.nip,
-                self.load,
-                (self._figure("traction_upper"), self.traction),
-                self._sliding(),
-            ),
+            grip=grip_of(self.nip, self.load, pulls, self._sliding()),
             profiles=self._sheet_profiles(),
             error=self._sheet_errors(),
         )
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
-        sheet, problem = self.nip.sheet, self.refined.stand.problem
-        assert sheet is not None
-        mesh, state = problem.mesh, self._state
-        tension = self._tension(x)
+        shear = self.refined.stand.problem.mesh.acting(self._state.shear_lower)
         pressure = self._at(x, self.final.pressure)
-        strain = sheet.stretch_by_tension * tension + sheet.stretch_by_pressure * pressure
-        lower = self._at(x, mesh.acting(state.shear_lower))
         surfaces = self.deformed_surfaces
-        height = 0.5 * (surfaces.upper + surfaces.lower)
+        lower, height = self._at(x, shear), 0.5 * (surfaces.upper + surfaces.lower)
+        tension, strain = self._tension(x), self._strain_of_sheet(x)
         return SheetProfiles(x, lower, tension, strain, self._slip(1), pressure, height)
 
     @property
@@ -340,6 +332,13 @@ class SheetSolution(SmoothSolution):
         values = sheet.tension_in - beyond
         return np.interp(x, nodes, values, left=sheet.tension_out, right=sheet.tension_in)
 
+    def _strain_of_sheet(self, x: Array) -> Array:
+        """Return how far the sheet is stretched by its tension and the pressure on it."""
+        sheet = self.nip.sheet
+        assert sheet is not None
+        pressure = self._at(x, self.final.pressure)
+        return sheet.stretch_by_tension * self._tension(x) + sheet.stretch_by_pressure * pressure
+
     def _thinned(self, x: Array) -> Array:
         """Return by how much the sheet is thinner than without load [mm]."""
         sheet = self.nip.sheet
@@ -386,10 +385,7 @@ class SheetSolution(SmoothSolution):
         stand = self.refined.stand
         dx, state = np.diff(x), self._state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
-        sheet = self.nip.sheet
-        assert sheet is not None
-        strain = sheet.stretch_by_tension * self._tension(x)
-        strain += sheet.stretch_by_pressure * self._at(x, self.final.pressure)
+        strain = self._strain_of_sheet(x)
         mean = 0.5 * (strain[1:] + strain[:-1])
         sign = 1.0 if side == 0 else -1.0
         creepage = state.creepage if side == 0 else state.creepage_lower
@@ -397,8 +393,7 @@ class SheetSolution(SmoothSolution):
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
         for zone in stand.zones.sides[side].zones:
-            out[inside_zone(x, zone)] = 0.0
-            if zone.state != State.STICK:
-                within = inside_zone(x, zone)
-                out[within] = -speed * np.interp(x[within], middle, rate)
+            within = inside_zone(x, zone)
+            sticks = zone.state == State.STICK
+            out[within] = 0.0 if sticks else -speed * np.interp(x[within], middle, rate)
         return out

@@ -1,4 +1,4 @@
-"""Zones whose ends are free, on ever finer meshes: few nodes, edges by Newton's method.
+"""Zones whose ends are free, on ever finer meshes: few nodes, ends by secants.
 
 Tractions between nodes at cosine places are cubic in the number of the node. With edges and
 transitions at nodes, a dozen such nodes in a zone are as accurate as a hundred nodes with linear

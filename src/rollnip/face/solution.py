@@ -21,7 +21,7 @@ from rollnip.shafts import Face
 Array = NDArray[np.float64]
 
 _EVEN = 0.1  # of the mean load: the share of the face that is even is counted within this
-_ROUNDING = 1e-9  # of the largest load: what a balance leaves of a traction
+_ROUNDING = 1e-7  # of the largest load: what balances and turns of "finite" leave of a traction
 _FINE = 2001  # places of an even grid, by which shares of the face are counted
 
 

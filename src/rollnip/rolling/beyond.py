@@ -100,8 +100,8 @@ def refine_all_orders(
             if not isinstance(found, Ended):
                 return found
             ended = found
-            if ended.cause == "balance":
-                break
+            if ended.cause == "balance" and ended.turns == 0:
+                break  # the tractions to begin with have none, whatever waves are kept
     return kernels, replace(latest, stands_still=False, ended=ended)
 
 

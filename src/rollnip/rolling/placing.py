@@ -1,4 +1,4 @@
-"""The ends of zones, by Newton's method on meshes of one size whose nodes lie at the ends.
+"""The ends of zones, by secants on meshes of one size whose nodes lie at the ends.
 
 The tractions at the first nodes beside each end say where it moves (`contact.Layout.moved`). Once
 the ends are about right, a solution tells whether its zones are right too (`search.Search`).

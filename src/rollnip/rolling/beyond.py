@@ -200,13 +200,13 @@ def _turns(
     itself.
     """
     change, afresh, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
-    least = Least[tuple[PairKernels, Round, SecondFields]](enough=_ENOUGH)
+    least = Least[tuple[PairKernels, Round]](enough=_ENOUGH)
     turns = 0
     cause: Literal["balance", "contact", "turns"] = "turns"
     for turn in range(MOST_CORRECTIONS):
         is_coarse = not is_refined and latest.mesh.fine.values is not None
         try:
-            made, rough, is_whole = orders.beyond(latest, roughly=is_coarse)
+            made, is_whole = orders.beyond(latest, roughly=is_coarse)
         except NoEquilibriumError:
             cause, turns = "balance", turn
             break
@@ -218,7 +218,7 @@ def _turns(
             checked = replace(checked, geometry_change=largest(change, latest.geometry_change))
             checked = replace(checked, stands_still=True)
             left = checked.residual / model.tolerance
-            if least.is_enough((smooth, checked, rough), left, change / model.tolerance):
+            if least.is_enough((smooth, checked), left, change / model.tolerance):
                 break
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
@@ -294,10 +294,11 @@ def places_by_the_edges(edges: tuple[float, float]) -> Array:
 
 
 def _with_cut(
-    nip: Nip, model: Model, kernels: PairKernels, checked: Round, rough: SecondFields
+    nip: Nip, model: Model, kernels: PairKernels, checked: Round
 ) -> tuple[PairKernels, Round]:
     """Add to a solution the violation of the contact conditions by what was cut."""
-    uncut = replace(kernels, held=rough)
+    assert kernels.held is not None
+    uncut = replace(kernels, held=kernels.held.uncut)
     cut = with_residual(nip, model, uncut, _with(checked, uncut)).residual
     return kernels, replace(checked, cut=cut)
 

@@ -111,7 +111,7 @@ class SecondFields:
 
     @property
     def uncut(self) -> SecondFields:
-        """The same with all waves."""
+        """Return the fields with the waves that were cut."""
         return replace(self, functions=self.rough or self.functions)
 
     def at(self, x: Array) -> Displacements:

@@ -51,7 +51,7 @@ class AllOrders:
 
         return cls(nip, response(nip.upper, kernels.upper), response(nip.lower, kernels.lower))
 
-    def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, SecondFields, bool]:
+    def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, bool]:
         """Return what all orders add to the linear displacements of a bare nip, see `under`."""
         nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
         sides = (nodes, pressure, shear), (nodes, pressure, -shear)
@@ -59,7 +59,7 @@ class AllOrders:
 
     def under(
         self, sides: tuple[Acting, Acting], creepage: float, *, roughly: bool
-    ) -> tuple[SecondFields, SecondFields, bool]:
+    ) -> tuple[SecondFields, bool]:
         """Return what all orders add to the linear displacements under tractions of both rollers.
 
         Raises `NoEquilibriumError` where there is no equilibrium.
@@ -73,8 +73,8 @@ class AllOrders:
 
         Returns
         -------
-        The correction, the same before it was smoothed, and whether it is that of the tractions
-        themselves, not of some on the way to them.
+        The correction, and whether it is that of the tractions themselves, not of some on the way
+        to them.
         """
         functions: list[Field | None] = []
         rough: list[Field | None] = []
@@ -96,7 +96,7 @@ class AllOrders:
         smooth = SecondFields(
             tuple(functions), EVERYWHERE, lost=(lost[0], lost[1]), rough=tuple(rough)
         )
-        return smooth, smooth.uncut, is_whole
+        return smooth, is_whole
 
 
 def _lost_aside(

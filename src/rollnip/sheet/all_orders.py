@@ -196,7 +196,7 @@ def _turned(
     for _ in range(MOST_CORRECTIONS):
         stand, refined = contact.stand, contact.refined
         sides, creepage = sheeted.sides(stand), sheeted.creepage(stand)
-        made, _, is_whole = orders.under(sides, creepage, roughly=refined is None)
+        made, is_whole = orders.under(sides, creepage, roughly=refined is None)
         smooth = replace(kernels, held=made)
         own = sheeted.holding(stand, smooth)
         before, change = change, own.change

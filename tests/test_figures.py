@@ -17,10 +17,10 @@ from rollnip.face.figures import (
     SHEET_FACE_PROFILES,
 )
 from rollnip.figure import ROUNDING, Dimension
-from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PROFILES, PULL
+from rollnip.figures import CLAIMED, FIELDS, FIGURES, INTERFACE_FIGURES, PROFILES, PULL
 from rollnip.heat.figures import BALANCE_FIGURES, COURSES, ROLLER_FIGURES
 from rollnip.io import result_dict
-from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
+from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES, PATCH_PLACES
 from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 from rollnip.solution import Profiles, Solution
 from rollnip.sweeps import SCALARS
@@ -35,6 +35,8 @@ REGISTRIES = {
     "heat, courses": COURSES,
     "patch": PATCH_FIGURES,
     "patch, fields": PATCH_FIELDS,
+    "patch, places": PATCH_PLACES,
+    "inside": FIELDS,
 }
 SOURCE = Path(str(files("rollnip")))
 READERS = (
@@ -53,6 +55,17 @@ READERS = (
     "web/static/js/heatview.js",
     "web/static/js/patchplots.js",
     "web/static/js/units.js",
+)
+PICTURES = (
+    "face",
+    "field",
+    "heat",
+    "overview",
+    "patch",
+    "pressure",
+    "section",
+    "sheet",
+    "surfaces",
 )
 
 
@@ -114,6 +127,21 @@ def test_no_reader_has_units_of_its_own(reader):
     """Of figures; bearing forces and fixed errors are no figures of a registry."""
     text = (SOURCE / reader).read_text(encoding="utf-8")
     assert not re.findall(r'"(?:mm|N/mm|MPa|degC|mW/mm|W/m|%)"', text)
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_pictures_and_files_read_units_from_the_registry(name):
+    """No text of a picture ends in a unit; docstrings name units without quotation marks."""
+    text = (SOURCE / "plots" / f"{name}.py").read_text(encoding="utf-8")
+    assert not re.findall(r"""\[(?:mm|µm|MPa|N/mm|%|mm/s|mm/m|degC|°C|mW/mm³)\]["']""", text)
+    assert not re.findall(r"[0-9}] (?:degC|MPa)[\"',]", text.replace("_plain", ""))
+
+
+def test_files_of_fields_read_the_registry():
+    for name in ("fields", "patch_files"):
+        text = (SOURCE / "io" / f"{name}.py").read_text(encoding="utf-8")
+        assert '"MPa"' not in text
+        assert '"mm"' not in text
 
 
 @pytest.mark.parametrize("reader", READERS)

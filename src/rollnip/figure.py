@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
-from math import isfinite
+from math import isfinite, pi
 from typing import Any, Literal, NamedTuple, TypeVar
 
 from rollnip._units import format_quantity
@@ -35,6 +35,10 @@ Dimension = Literal[
     "feed per metre",
     "temperature",
     "temperature difference",
+    "angle",
+    "energy per volume",
+    "power per volume",
+    "power per area",
 ]
 Section = Literal["nip", "drive", "losses", "sheet"]
 
@@ -70,11 +74,15 @@ _UNITS: Mapping[Dimension, _Units] = {
     "power per length": _Units("N/s", "mW/mm", 1.0),
     "heat per length": _Units("mW/mm", "W/m", 1.0),
     "power": _Units("mW", "W", 1e-3),
-    "area": _Units("mm2", "mm2", 1.0),
+    "area": _Units("mm2", "mm²", 1.0),
     "turn per length": _Units("1/mm", "1/mm", 1.0),
     "feed per metre": _Units("mm/m", "mm/m", 1.0),
-    "temperature": _Units("degC", "degC", 1.0),
+    "temperature": _Units("degC", "°C", 1.0),
     "temperature difference": _Units("K", "K", 1.0),
+    "angle": _Units("rad", "°", 180.0 / pi),
+    "energy per volume": _Units("mJ/mm3", "mJ/mm³", 1.0),
+    "power per volume": _Units("mW/mm3", "mW/mm³", 1.0),
+    "power per area": _Units("mW/mm2", "mW/mm²", 1.0),
 }
 
 
@@ -182,7 +190,11 @@ class Figure:
     @property
     def axis(self) -> str:
         """Label of an axis in a picture: the label and the unit shown."""
-        return f"{self.label} [{self.shown_unit}]" if self.shown_unit else self.label
+        return self.axis_for(self.label)
+
+    def axis_for(self, name: str) -> str:
+        """Return the label of an axis that several curves of this dimension share."""
+        return f"{name} [{self.shown_unit}]" if self.shown_unit else name
 
     @property
     def described(self) -> dict[str, str]:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 from rollnip.figure import Dimension, FaceTotal, Figure, by_key
 
-__all__ = ["CLAIMED", "FIGURES", "INTERFACE_FIGURES", "PROFILES", "PULL"]
+__all__ = ["CLAIMED", "FIELDS", "FIGURES", "INTERFACE_FIGURES", "PROFILES", "PULL"]
 
 _NEWTON, _NEWTON_METRE, _WATT = FaceTotal("N", 1.0), FaceTotal("N m", 1e-3), FaceTotal("W", 1e-3)
 _UPPER_DRIVES = "Positive where the upper roller drives."
@@ -237,7 +237,7 @@ _AT = "Where it is, along x."
 _PULL = "Positive in tension."
 _CYCLE = "Largest less smallest of one revolution, 0 far from the nip included."
 INTERFACE_FIGURES: Mapping[str, Figure] = by_key(
-    Figure("depth", "depth", "length", "Depth of the interface below the surface.", symbol="z"),
+    Figure("depth", "depth", "length", "Depth below the surface.", symbol="z"),
     Figure("shear_min", "smallest shear", "pressure", "Smallest shear stress along x."),
     Figure("shear_min_x", "place of the smallest shear", "length", _AT),
     Figure("shear_max", "largest shear", "pressure", "Largest shear stress along x."),
@@ -256,3 +256,64 @@ INTERFACE_FIGURES: Mapping[str, Figure] = by_key(
 
 PULL = Figure("pull", "largest pull", "pressure", "Largest tension across the interface, or 0.")
 """The pull on an interface: of summaries and pictures; files have the peel stress."""
+
+
+def _field(
+    key: str, symbol: str, label: str, dimension: Dimension, sentence: str, sign: str = ""
+) -> Figure:
+    return Figure(
+        key=key, symbol=symbol, label=label, dimension=dimension, sentence=sentence, sign=sign
+    )
+
+
+_TENSION = "Positive in tension."
+_STRETCH = "Positive where it is stretched."
+_PLANE = "In the plane of x and z."
+FIELDS: Mapping[str, Figure] = by_key(
+    _field("u_x", "u_x", "displacement along x", "length", "Displacement along the nip."),
+    _field("u_z", "u_z", "displacement along z", "length", "Displacement into the roller."),
+    _field("s_xx", "s_{xx}", "stress along x", "pressure", "Stress along the nip.", _TENSION),
+    _field("s_yy", "s_{yy}", "axial stress", "pressure", "Stress along the axes.", _TENSION),
+    _field("s_zz", "s_{zz}", "normal stress", "pressure", "Stress along the depth.", _TENSION),
+    _field("s_xy", "s_{xy}", "shear stress in the surface", "pressure", "Of x and y."),
+    _field("s_xz", "s_{xz}", "shear stress", "pressure", "Of x and z."),
+    _field("s_yz", "s_{yz}", "shear stress along y", "pressure", "Of y and z."),
+    _field("s_1", "s_1", "larger principal stress", "pressure", _PLANE, _TENSION),
+    _field("s_2", "s_2", "smaller principal stress", "pressure", _PLANE, _TENSION),
+    _field("principal_angle", "", "direction of s_1", "angle", "From x towards z."),
+    _field("max_shear", "", "largest shear stress", "pressure", "Largest of all directions."),
+    _field("von_mises", "", "von Mises stress", "pressure", "Equivalent stress, all directions."),
+    _field(
+        "pressure",
+        "",
+        "hydrostatic pressure",
+        "pressure",
+        "Mean of the three normal stresses, its sign turned.",
+        "Positive in compression.",
+    ),
+    _field("e_xx", "e_{xx}", "strain along x", "share", "Strain along the nip.", _STRETCH),
+    _field("e_zz", "e_{zz}", "strain along z", "share", "Strain along the depth.", _STRETCH),
+    _field("e_xz", "e_{xz}", "shear strain", "share", "Half the change of the right angle."),
+    _field(
+        "energy_density",
+        "",
+        "strain energy density",
+        "energy per volume",
+        "Half of stress times strain; at finite strain the strain energy.",
+    ),
+    _field(
+        "loss_density",
+        "",
+        "stress power, loss density",
+        "power per volume",
+        "Power that stress puts into the passing material; its integral along x is heat.",
+    ),
+    _field(
+        "loss_per_depth",
+        "",
+        "heat per depth",
+        "power per area",
+        "Heat made per depth and per width of the face.",
+    ),
+)
+"""The fields inside a roller by key; z points from its surface into its body."""

@@ -230,7 +230,7 @@ SHEET_PROFILES: Mapping[str, Figure] = {
         _curve(
             "height",
             "y",
-            "path of the sheet",
+            "height of the sheet",
             "length",
             "Height of the sheet, its thickness left out.",
         ),

@@ -271,7 +271,7 @@ def test_the_picture_names_its_axes(straight, style):
     )
     assert title.get_color() == palette_of(style).ink
     labels = [ax.get_ylabel() for ax in figure.axes]
-    assert labels == ["nip width [mm]", "line load [N/mm]", "traction [N/mm]", "over the ends [µm]"]
+    assert labels == ["nip width [mm]", "line load [N/mm]", "traction [N/mm]", "over the ends [mm]"]
 
 
 def test_netcdf_holds_the_face(tmp_path):

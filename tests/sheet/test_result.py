@@ -182,11 +182,11 @@ def test_the_picture_of_the_path_reads_its_height_on_the_right(pulled):
     ax.figure.draw_without_rendering()
     lines = {one.get_label(): one.get_ydata() for one in ax.lines}
     sheet = pulled.sheet.profiles
-    assert np.array_equal(lines["pressure on the upper roller"], pulled.profiles.pressure)
-    assert np.array_equal(lines["pressure on the lower roller"], sheet.pressure_lower)
+    assert np.array_equal(lines["pressure, upper side"], pulled.profiles.pressure)
+    assert np.array_equal(lines["pressure, lower side"], sheet.pressure_lower)
     low, high = ax.get_ylim()
     bottom, top = right.get_ylim()
-    drawn = bottom + (lines["path of the sheet (right)"] - low) * (top - bottom) / (high - low)
+    drawn = bottom + (lines["height of the sheet (right)"] - low) * (top - bottom) / (high - low)
     assert drawn == pytest.approx(sheet.height, abs=1e-9)
 
 

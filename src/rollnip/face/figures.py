@@ -199,7 +199,7 @@ SHEET_FACE_PROFILES: Mapping[str, Figure] = by_key(
     ),
     _F(
         "traction_upper",
-        "traction, upper",
+        "traction, upper roller",
         "line load",
         "What the upper roller gives to the sheet.",
     ),

@@ -19,6 +19,7 @@ from rollnip.solution import Solution
 
 _SWEPT = ("hot_spot", "bond_temperature", "surface_temperature", "power", "growth")
 _TEMPERATURES = ("hot_spot", "hot_spot_depth", "surface_temperature", "bond_temperature", "growth")
+_HOT = ROLLER_FIGURES["hot_spot"]
 _POWERS = ("viscous", "friction", "to_air", "to_core", "to_nip")
 HEAT_SCALARS: Mapping[str, str] = {
     **{f"{side}.{name}": ROLLER_FIGURES[name].unit for side in SIDES for name in _SWEPT},
@@ -179,7 +180,7 @@ def warm_up_lines(course: WarmUp) -> Iterator[str]:
         row: list[float | None] = [
             float(np.interp(time, course.time, hottest[side])) for side in SIDES
         ]
-        yield _line(_span(time), row, ROLLER_FIGURES["hot_spot"].shown_unit)
+        yield _line(_span(time), row, _HOT.shown_unit)
     if course.half_time is not None:
         yield f"  half of the rise after {_span(course.half_time)}"
 
@@ -191,7 +192,7 @@ def _span(seconds: float) -> str:
 def branch_lines(branch: Branch, value: float | None) -> Iterator[str]:
     """Yield the summary of a branch, line by line; ``value``: that of the case."""
     yield f"\nSteady states by {branch.parameter}: {branch.status}"
-    yield f"  {branch.parameter + ' [' + branch.unit + ']':24s} {'hot spot':>12s} {'heat':>12s}"
+    yield f"  {branch.parameter + ' [' + branch.unit + ']':24s} {_HOT.label:>12s} {'heat':>12s}"
     for point in branch.points:
         mark = "" if point.stable else "  not stable"
         yield f"  {point.value:<24.5g} {point.hot_spot:12.4g} {point.power:12.4g}{mark}"
@@ -201,7 +202,7 @@ def branch_lines(branch: Branch, value: float | None) -> Iterator[str]:
     turning = branch.turning
     yield (
         f"  thermal runaway at {turning.value:.4g} {branch.unit}, "
-        f"where the hot spot has {turning.hot_spot:.4g} degC"
+        f"where the {_HOT.label} has {_HOT.text(turning.hot_spot)}"
     )
     margin = None if value is None else branch.margin(value)
     if margin is not None and value is not None:

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._files import check_target, write_whole
+from rollnip.figures import FIELDS, INTERFACE_FIGURES, PROFILES
 from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
 from rollnip.io.paraview import rectilinear
 from rollnip.io.result import result_dict
@@ -24,25 +25,10 @@ SUFFIXES = (".nc", ".vtr")
 _ROWS = 33  # depths in each layer, both faces included
 _CORE_ROWS = 65
 _CORE_DEPTH = 2.0  # nip widths below the layers that are shown of a half-space core
-_QUANTITIES = {
-    "u_x": ("mm", "displacement along x"),
-    "u_z": ("mm", "displacement along z"),
-    "s_xx": ("MPa", "stress along x, tension positive"),
-    "s_yy": ("MPa", "axial stress of plane strain"),
-    "s_zz": ("MPa", "stress along z, tension positive"),
-    "s_xz": ("MPa", "shear stress"),
-    "s_1": ("MPa", "larger principal stress in the plane"),
-    "s_2": ("MPa", "smaller principal stress in the plane"),
-    "principal_angle": ("rad", "direction of s_1 from x towards z"),
-    "max_shear": ("MPa", "maximum shear stress"),
-    "von_mises": ("MPa", "von Mises stress"),
-    "pressure": ("MPa", "hydrostatic pressure"),
-    "e_xx": ("1", "strain along x"),
-    "e_zz": ("1", "strain along z"),
-    "e_xz": ("1", "shear strain, half the angle"),
-    "energy_density": ("mJ mm-3", "half of stress times strain"),
-    "loss_density": ("mW mm-3", "stress power of the passing material"),
-}
+_KEYS = (
+    *("u_x", "u_z", "s_xx", "s_yy", "s_zz", "s_xz", "s_1", "s_2", "principal_angle", "max_shear"),
+    *("von_mises", "pressure", "e_xx", "e_zz", "e_xz", "energy_density", "loss_density"),
+)  # of `FIELDS`
 _POINT_DATA = (
     "s_xx", "s_yy", "s_zz", "s_xz", "max_shear", "von_mises", "pressure", "energy_density",
     "loss_density",
@@ -142,7 +128,7 @@ def _section(solution: Solution, name: Name) -> RollerSection:
         x=above.x,
         z=z,
         layer=merged("layer"),
-        values={quantity: merged(quantity) for quantity in _QUANTITIES},
+        values={quantity: merged(quantity) for quantity in _KEYS},
         loss_per_depth=merged("loss_per_depth"),
     )
 
@@ -170,16 +156,14 @@ def _dataset(solution: Solution, section: RollerSection) -> Any:
     import xarray as xr
 
     variables: dict[str, Any] = {
-        name: (("z", "x"), section.values[name], {"units": unit, "long_name": text})
-        for name, (unit, text) in _QUANTITIES.items()
+        name: (("z", "x"), section.values[name], FIELDS[name].described) for name in _KEYS
     }
     text = "number of the layer, 0 at the surface; the number of layers: the core"
     variables["layer"] = ("z", section.layer, {"units": "1", "long_name": text})
-    text = "heat per depth and axial length"
-    loss = ("z", section.loss_per_depth, {"units": "mW mm-2", "long_name": text})
-    variables["loss_per_depth"] = loss
-    along = {"units": "mm", "long_name": "place along the nip, towards the leading edge"}
-    depth = {"units": "mm", "long_name": "depth below the surface", "positive": "down"}
+    loss = "loss_per_depth"
+    variables[loss] = ("z", section.loss_per_depth, FIELDS[loss].described)
+    along = PROFILES["x"].described
+    depth = INTERFACE_FIGURES["depth"].described | {"positive": "down"}
     return xr.Dataset(
         variables,
         coords={"x": ("x", section.x, along), "z": ("z", section.z, depth)},

@@ -11,10 +11,11 @@ from typing import Any
 import numpy as np
 
 from rollnip._files import check_target, write_whole
+from rollnip.figures import FIELDS, INTERFACE_FIGURES
 from rollnip.io.netcdf import require_netcdf, write_netcdf
 from rollnip.io.paraview import rectilinear
 from rollnip.patch.depth import STRESSES, PatchStress, Side
-from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
+from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES, PATCH_PLACES
 from rollnip.patch.report import fields_of, patch_dict
 from rollnip.patch.solution import PatchSolution
 
@@ -122,16 +123,16 @@ def _stress_dataset(solution: PatchSolution, side: Side, field: PatchStress) -> 
     """Return the stresses in one roller as an xarray dataset."""
     import xarray
 
-    millimetres = {"units": "mm"}
+    depth = INTERFACE_FIGURES["depth"].described | {"positive": "down"}
     return xarray.Dataset(
         {
-            name: (("z", "y", "x"), getattr(field, name), {"units": "MPa", "long_name": text})
-            for name, text in STRESSES.items()
+            name: (("z", "y", "x"), getattr(field, name), FIELDS[name].described)
+            for name in STRESSES
         },
         coords={
-            "x": ("x", field.x, millimetres),
-            "y": ("y", field.y, millimetres),
-            "z": ("z", field.z, {"units": "mm", "long_name": "depth", "positive": "down"}),
+            "x": ("x", field.x, PATCH_PLACES["x"].described),
+            "y": ("y", field.y, PATCH_PLACES["y"].described),
+            "z": ("z", field.z, depth),
         },
         attrs={"title": solution.patch.title, "roller": side, "status": solution.status},
     )
@@ -149,11 +150,13 @@ def _dataset(solution: PatchSolution) -> Any:
         value, error = figure.value(solution), figure.error(solution)
         scalars[key] = ((), nan if value is None else value, figure.described)
         if error is not None:
-            scalars[f"{key}_error"] = ((), error, {"units": figure.unit})
-    places = {"units": "mm"}
+            about = {"units": figure.unit, "long_name": f"estimated error of the {figure.label}"}
+            scalars[f"{key}_error"] = ((), error, about)
     return xarray.Dataset(
         values | scalars,
-        coords={"x": ("x", solution.x, places), "y": ("y", solution.y, places)},
+        coords={
+            key: (key, getattr(solution, key), one.described) for key, one in PATCH_PLACES.items()
+        },
         attrs={
             "title": solution.patch.title,
             "status": solution.status,

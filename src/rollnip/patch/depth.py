@@ -52,17 +52,8 @@ class PatchResult(Protocol):
         """Width of the patch [mm]."""
 
 
-STRESSES = {
-    "s_xx": "stress along x, tension positive",
-    "s_yy": "stress along y, tension positive",
-    "s_zz": "stress along z, tension positive",
-    "s_xy": "shear stress in the plane of the surface",
-    "s_xz": "shear stress along x",
-    "s_yz": "shear stress along y",
-    "von_mises": "equivalent stress of von Mises",
-    "max_shear": "largest shear stress",
-}
-"""The stresses under a patch by name."""
+STRESSES = ("s_xx", "s_yy", "s_zz", "s_xy", "s_xz", "s_yz", "von_mises", "max_shear")
+"""The stresses under a patch: keys of `rollnip.figures.FIELDS`."""
 
 _ROOM = 4
 """Sides of the window over those of the grid: images of the patch lie at least three grids away."""

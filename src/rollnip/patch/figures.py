@@ -209,9 +209,7 @@ CLAIMED: Mapping[str, PatchFigure] = {k: one for k, one in PATCH_FIGURES.items()
 """Those whose error is estimated."""
 
 PATCH_FIELDS: Mapping[str, PatchFigure] = by_key(
-    _F(
-        "pressure", "contact pressure", "pressure", "Pressure, positive in compression.", symbol="p"
-    ),
+    _F("pressure", "pressure", "pressure", "Pressure, positive in compression.", symbol="p"),
     _F(
         "shear_x",
         "shear along x",
@@ -244,6 +242,12 @@ PATCH_FIELDS: Mapping[str, PatchFigure] = by_key(
     _F("state", "state", "ratio", "0 apart, 1 stick, 2 slip."),
 )
 """The fields of a patch over its grid by key, in the order of the JSON."""
+
+PATCH_PLACES: Mapping[str, PatchFigure] = by_key(
+    _F("x", "x", "length", "Place along rolling, towards the leading edge (inlet)."),
+    _F("y", "y", "length", "Place along the axis."),
+)
+"""The coordinates of a patch by key."""
 
 
 def is_shown(figure: PatchFigure, solution: Any) -> bool:

@@ -6,10 +6,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from rollnip.face.figures import FACE_PROFILES, SHEET_FACE_PROFILES
+from rollnip.face.figures import FACE_PROFILES, SHEET_FACE_FIGURES, SHEET_FACE_PROFILES
 from rollnip.face.sheet_solution import SheetFaceSolution
 from rollnip.face.solution import FaceSolution
 from rollnip.plots.style import Palette, Style, palette_of
+from rollnip.sheet_figures import SHEET_FIGURES
 
 _SIZE, _SHEET_SIZE = (10.0, 8.0), (10.0, 11.5)  # inches
 
@@ -40,7 +41,7 @@ def plot_face(solution: FaceSolution, *, style: Style = "light") -> Figure:
     if isinstance(solution, SheetFaceSolution):
         _sheet(axes[3], axes[4], scrub, solution, palette)
     _shapes(shape, solution, palette)
-    shape.set_xlabel("y along the face [mm]")
+    shape.set_xlabel(FACE_PROFILES["y"].axis_for("y along the face"))
     for ax in figure.axes:
         for text in (ax.title, ax.xaxis.label, ax.yaxis.label):
             text.set_color(palette.ink)
@@ -62,8 +63,8 @@ def _impression(ax: Axes, solution: FaceSolution, palette: Palette) -> None:
     for y, width, side in zip(places, widths, sides, strict=True):
         shift = {"left": 6, "center": 0, "right": -6}[side]  # points, away from the end
         ax.annotate(
-            f"{width:.2f} mm", (y, 0.0), (shift, 0), textcoords="offset points",
-            color=palette.ground, ha=side, va="center", size=9,
+            FACE_PROFILES["nip_width"].text(width), (y, 0.0), (shift, 0),
+            textcoords="offset points", color=palette.ground, ha=side, va="center", size=9,
         )  # fmt: skip
     ax.set_title("impression", loc="left", size=10, color=palette.ink)
 
@@ -86,16 +87,16 @@ def _sheet(
     feed: Axes, tension: Axes, scrub: Axes, solution: SheetFaceSolution, palette: Palette
 ) -> None:
     """Draw what the sheet does: its feed, its tension at the inlet, and both tractions."""
-    scrub.lines[0].set_label("lower roller takes")
+    scrub.lines[0].set_label(SHEET_FIGURES["sheet.traction_lower"].label)
     scrub.plot(
         solution.y, solution.traction_upper, color=palette.upper, linewidth=1.8,
-        label="upper roller gives",
+        label=SHEET_FACE_PROFILES["traction_upper"].label,
     )  # fmt: skip
     scrub.legend(frameon=False, fontsize=9, loc="best", labelcolor="linecolor")
     ahead = 1e3 * ((1.0 + solution.feed_upper) / (1.0 + solution.mean_feed) - 1.0)
     feed.plot(solution.y, ahead, color=palette.lower, linewidth=1.8)
     feed.axhline(0.0, color="0.5", linewidth=0.6)
-    feed.set_ylabel("feed over mean [mm/m]")
+    feed.set_ylabel(SHEET_FACE_FIGURES["feed_difference"].axis_for("feed over mean"))
     span = max(float(np.max(np.abs(ahead))), 0.01)
     feed.set_ylim(-1.2 * span, 1.2 * span)
     inlet = solution.tension_in
@@ -118,6 +119,6 @@ def _shapes(ax: Axes, solution: FaceSolution, palette: Palette) -> None:
         (crown, palette.lower, "--", "crowns and skew fill"),
     )
     for values, color, dashes, name in lines:
-        ax.plot(solution.y, 1e3 * values, color=color, linewidth=1.8, linestyle=dashes, label=name)
-    ax.set_ylabel("over the ends [µm]")
+        ax.plot(solution.y, values, color=color, linewidth=1.8, linestyle=dashes, label=name)
+    ax.set_ylabel(FACE_PROFILES["deflection_upper"].axis_for("over the ends"))
     ax.legend(frameon=False, fontsize=9, loc="best", labelcolor="linecolor")

@@ -15,6 +15,7 @@ from matplotlib.transforms import Affine2D, ScaledTranslation, blended_transform
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, require_positive
+from rollnip.figures import INTERFACE_FIGURES, PROFILES
 from rollnip.plots.section import QUANTITIES, Name, Piece, Scale, roller_of, section_pieces
 from rollnip.plots.style import (
     Look,
@@ -32,6 +33,7 @@ from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
 
+_DEPTH = INTERFACE_FIGURES["depth"]
 _WINDOW = {"stretched": 0.35, "equal": 0.35}  # shown on either side, in nip widths
 _LEVELS = 14
 _TAIL = 0.97  # part of the area whose values the colours cover where the rest is far larger
@@ -278,12 +280,14 @@ def _frame(ax: Axes, look: Look, pieces: list[Piece], scale: Scale) -> None:
     right = min(float(piece.x[0, -1]) for piece in pieces)
     ax.set_xlim(left, right)
     ax.set_ylim(*_seen(pieces, left, right))
-    quantity = "height [mm]" if scale == "equal" else "depth [mm]"
+    quantity = _DEPTH.axis_for("height") if scale == "equal" else _DEPTH.axis
     if scale == "equal":
         ax.set_aspect("equal", adjustable="box")
     else:
         ax.yaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{abs(value):g}"))
-    label(ax, look, "x [mm]", quantity if len(names) == 1 else f"lower ← {quantity} → upper")
+    label(
+        ax, look, PROFILES["x"].axis, quantity if len(names) == 1 else f"lower ← {quantity} → upper"
+    )
     _mark_inlet(ax, look)
 
 

@@ -8,11 +8,14 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rollnip.figures import INTERFACE_FIGURES
 from rollnip.heat import Branch, BranchPoint, HeatSolution, WarmUp
+from rollnip.heat.figures import COURSES, ROLLER_FIGURES
 from rollnip.plots.style import Palette, Style, palette_of
 
 _WIDTH, _HEIGHT = 9.0, 3.4  # inches, of one picture
 _SIDES = ("upper", "lower")
+_HOT = ROLLER_FIGURES["hot_spot"]
 
 
 def plot_heat(
@@ -61,6 +64,10 @@ def _dressed(ax: Axes, palette: Palette) -> None:
         spine.set_visible(name in ("left", "bottom"))
 
 
+def _degrees(value: float) -> str:
+    return f"{value:.1f} {_HOT.shown_unit}"
+
+
 def _color(palette: Palette, side: str) -> str:
     return palette.upper if side == "upper" else palette.lower
 
@@ -76,13 +83,13 @@ def _depth(ax: Axes, solution: HeatSolution, palette: Palette) -> None:
                 color=color,
                 linewidth=1.8,
                 linestyle="--",
-                label=f"{side} roller, {roller.surface_temperature:.1f} degC throughout",
+                label=f"{side} roller, {_degrees(roller.surface_temperature)} throughout",
             )
             continue
         depth = roller.r[-1] - roller.r
         bond = roller.bond_temperature
-        held = "" if bond is None else f", bond {bond:.1f} degC"
-        label = f"{side} roller: hot spot {roller.hot_spot:.1f} degC{held}"
+        held = "" if bond is None else f", bond {_degrees(bond)}"
+        label = f"{side} roller: {_HOT.label} {_degrees(roller.hot_spot)}{held}"
         ax.plot(depth, roller.temperature, color=color, linewidth=1.8, label=label)
         ax.plot(roller.hot_spot_depth, roller.hot_spot, "o", color=color, clip_on=False)
         one = solution.nip.upper if side == "upper" else solution.nip.lower
@@ -90,8 +97,8 @@ def _depth(ax: Axes, solution: HeatSolution, palette: Palette) -> None:
             ax.axvline(interface, color=color, linewidth=0.7, linestyle=":")
     ax.axhline(solution.heat.ambient, color=palette.muted, linewidth=0.8, linestyle=":")
     ax.set_xlim(left=0.0)
-    ax.set_xlabel("depth [mm]")
-    ax.set_ylabel("temperature [degC]")
+    ax.set_xlabel(INTERFACE_FIGURES["depth"].axis)
+    ax.set_ylabel(COURSES["temperature"].axis)
     _legend(ax)
 
 
@@ -102,12 +109,21 @@ def _course(ax: Axes, course: WarmUp, palette: Palette) -> None:
     time = course.time / (60.0 if long else 1.0)
     for side in ("upper", "lower"):
         color = _color(palette, side)
-        ax.plot(time, course.hot_spot(side), color=color, linewidth=1.8, label=f"{side}, hot spot")
+        ax.plot(
+            time, course.hot_spot(side), color=color, linewidth=1.8, label=f"{side}, {_HOT.label}"
+        )
         surface = course.surface(side)
-        ax.plot(time, surface, color=color, linewidth=1.2, linestyle="--", label=f"{side}, surface")
+        ax.plot(
+            time,
+            surface,
+            color=color,
+            linewidth=1.2,
+            linestyle="--",
+            label=f"{side}, {ROLLER_FIGURES['surface_temperature'].label}",
+        )
     ax.set_xlim(0.0, time[-1])
-    ax.set_xlabel(f"time [{'min' if long else 's'}]")
-    ax.set_ylabel("temperature [degC]")
+    ax.set_xlabel(f"{COURSES['time'].label} [{'min' if long else 's'}]")
+    ax.set_ylabel(COURSES["temperature"].axis)
     _legend(ax)
 
 
@@ -137,7 +153,7 @@ def _branch(ax: Axes, branch: Branch, solution: HeatSolution, palette: Palette) 
         hot = max(solution.upper.hot_spot, solution.lower.hot_spot)
         ax.plot(here, hot, "D", color=palette.shear, label="this case")
     ax.set_xlabel(f"{branch.parameter} [{branch.unit}]")
-    ax.set_ylabel("hot spot [degC]")
+    ax.set_ylabel(_HOT.axis)
     _legend(ax)
 
 

@@ -11,10 +11,12 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch as Swatch
 
+from rollnip.patch.figures import PATCH_FIELDS, PATCH_PLACES
 from rollnip.patch.solution import PatchSolution
 from rollnip.plots.style import Palette, Style, palette_of
 
 _SIZE = (10.0, 7.0)  # inches
+_X = PATCH_PLACES["x"].axis_for("x, rolling to the right")
 _ARROWS = 17
 
 
@@ -37,17 +39,17 @@ def plot_patch(solution: PatchSolution, *, style: Style = "light") -> Figure:
         (solution.x, solution.pressure[row], solution.shear_x[row]),
         solution,
         palette,
-        "shear along x",
+        PATCH_FIELDS["shear_x"].label,
     )
     _line(
         across,
         (solution.y, solution.pressure[:, column], solution.shear_y[:, column]),
         solution,
         palette,
-        "shear along y",
+        PATCH_FIELDS["shear_y"].label,
     )
-    along.set_xlabel("x, rolling to the right [mm]")
-    across.set_xlabel("y, along the axis [mm]")
+    along.set_xlabel(_X)
+    across.set_xlabel(PATCH_PLACES["y"].axis_for("y, along the axis"))
     along.set_title(
         f"along x at y = {solution.y[row]:.3g} mm", loc="left", size=10, color=palette.ink
     )
@@ -82,8 +84,8 @@ def _frame(ax: Axes, solution: PatchSolution, palette: Palette) -> None:
     ax.set_ylim(grid.y[0] - 0.5 * grid.hy, grid.y[-1] + 0.5 * grid.hy)
     if 0.5 < solution.length / max(solution.width, 1e-300) < 2.0:
         ax.set_aspect("equal")
-    ax.set_xlabel("x, rolling to the right [mm]")
-    ax.set_ylabel("y [mm]")
+    ax.set_xlabel(_X)
+    ax.set_ylabel(PATCH_PLACES["y"].axis)
 
 
 def _pressure(figure: Figure, ax: Axes, solution: PatchSolution, palette: Palette) -> None:
@@ -92,8 +94,8 @@ def _pressure(figure: Figure, ax: Axes, solution: PatchSolution, palette: Palett
         solution.x, solution.y, values, cmap=palette.sequential, shading="nearest", rasterized=True
     )
     bar = figure.colorbar(filled, ax=ax)
-    bar.set_label("pressure [MPa]", color=palette.ink)
-    ax.set_title("pressure", loc="left", size=10, color=palette.ink)
+    bar.set_label(PATCH_FIELDS["pressure"].axis, color=palette.ink)
+    ax.set_title(PATCH_FIELDS["pressure"].label, loc="left", size=10, color=palette.ink)
     _frame(ax, solution, palette)
 
 
@@ -152,12 +154,18 @@ def _line(
     places, pressure, shear = curves
     bound = solution.patch.friction * pressure
     ax.set_facecolor(palette.ground)
-    ax.plot(places, pressure, color=palette.pressure, linewidth=1.8, label="pressure")
+    ax.plot(
+        places,
+        pressure,
+        color=palette.pressure,
+        linewidth=1.8,
+        label=PATCH_FIELDS["pressure"].label,
+    )
     if solution.patch.friction > 0.0:
         ax.plot(places, shear, color=palette.shear, linewidth=1.8, label=name)
         for side, label in ((bound, "traction bound"), (-bound, None)):
             ax.plot(places, side, color=palette.muted, linewidth=0.8, linestyle=":", label=label)
-    ax.set_ylabel("stress [MPa]")
+    ax.set_ylabel(PATCH_FIELDS["pressure"].axis_for("stress"))
     _legend_below(ax, palette, -0.24)
 
 

@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.artist import Artist
 from matplotlib.axes import Axes
 
+from rollnip.figures import PROFILES
 from rollnip.plots.style import (
     Look,
     Style,
@@ -20,6 +21,7 @@ from rollnip.plots.style import (
     title,
     view,
 )
+from rollnip.sheet_figures import SHEET_PROFILES
 from rollnip.solution import Solution
 
 _SIDE = 0.35  # shown on either side, in nip widths
@@ -62,7 +64,7 @@ def plot_pressure(
             profiles.pressure,
             color=look.palette.pressure,
             linewidth=look.line,
-            label="pressure p",
+            label=f"{PROFILES['pressure'].label} p",
         )
     ]
     high = float(np.max(profiles.pressure))
@@ -71,7 +73,7 @@ def plot_pressure(
         dashes: dict[str, Any] = {
             "linewidth": look.line,
             "linestyle": "-.",
-            "label": "pressure below the sheet",
+            "label": SHEET_PROFILES["pressure_lower"].label,
         }
         curves += ax.plot(profiles.x, below, color=look.palette.pressure, **dashes)
         high = max(high, float(np.max(below)))
@@ -81,7 +83,7 @@ def plot_pressure(
     # the bound of a high friction may leave the picture
     low, most = float(np.min(profiles.shear)), float(np.max(profiles.shear))
     heights(ax, min(0.0, low), max(most, high))
-    label(ax, look, "x [mm]", "stress [MPa]")
+    label(ax, look, PROFILES["x"].axis, PROFILES["pressure"].axis_for("stress"))
     title(ax, look, solution, "Pressure and shear in the nip")
     mark_direction(ax, look, solution)
     legend(ax, look, curves + zones)
@@ -104,7 +106,7 @@ def _shear(ax: Axes, look: Look, solution: Solution) -> list[Artist]:
             color=look.palette.shear,
             linewidth=look.line,
             linestyle="--",
-            label="shear q on the upper roller",
+            label=f"{PROFILES['shear'].label} q on the upper roller",
         )
     ]
     name = f"traction bound ±µp, µ = {friction:g}"

@@ -10,6 +10,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.figure import Figure
+from rollnip.figures import FIELDS
 from rollnip.materials import Material
 from rollnip.rollers import Roller
 from rollnip.solution import Solution
@@ -32,36 +34,41 @@ class FieldComponent:
 
     Attributes
     ----------
-    label : with its unit.
-    factor : from the field's unit to the label's.
+    figure : its entry in the registry.
     positive : whether it has one sign.
     odd : whether it changes its sign where the lower roller's frame is turned upwards.
+    upwards : its name in the frame of the picture, where z points upwards; empty: that of the
+        registry.
     """
 
-    label: str
-    factor: float = 1.0
+    figure: Figure
     positive: bool = False
     odd: bool = False
+    upwards: str = ""
+
+    @property
+    def label(self) -> str:
+        """Its name, with its key where that is its symbol, and the unit."""
+        name = self.upwards or self.figure.label
+        return self.figure.axis_for(f"{name}, {self.figure.key}" if self.figure.symbol else name)
 
 
+_POSITIVE = ("max_shear", "von_mises", "energy_density")
+_ODD = ("u_z", "s_xz", "e_xz")
+_KEYS = (
+    *("u_x", "u_z", "s_xx", "s_yy", "s_zz", "s_xz", "s_1", "s_2", "max_shear", "von_mises"),
+    *("pressure", "e_xx", "e_zz", "e_xz", "energy_density", "loss_density"),
+)
 QUANTITIES = {
-    "u_x": FieldComponent("displacement along x, u_x [mm]"),
-    "u_z": FieldComponent("displacement upwards, u_z [mm]", odd=True),
-    "s_xx": FieldComponent("stress along x, s_xx [MPa]"),
-    "s_yy": FieldComponent("axial stress, s_yy [MPa]"),
-    "s_zz": FieldComponent("normal stress, s_zz [MPa]"),
-    "s_xz": FieldComponent("shear stress, s_xz [MPa]", odd=True),
-    "s_1": FieldComponent("larger principal stress, s_1 [MPa]"),
-    "s_2": FieldComponent("smaller principal stress, s_2 [MPa]"),
-    "max_shear": FieldComponent("maximum shear stress [MPa]", positive=True),
-    "von_mises": FieldComponent("von Mises stress [MPa]", positive=True),
-    "pressure": FieldComponent("hydrostatic pressure [MPa]"),
-    "e_xx": FieldComponent("strain along x, e_xx [%]", 100.0),
-    "e_zz": FieldComponent("strain along z, e_zz [%]", 100.0),
-    "e_xz": FieldComponent("shear strain, e_xz [%]", 100.0, odd=True),
-    "energy_density": FieldComponent("strain energy density [mJ/mm³]", positive=True),
-    "loss_density": FieldComponent("stress power, loss density [mW/mm³]"),
+    key: FieldComponent(
+        FIELDS[key],
+        positive=key in _POSITIVE,
+        odd=key in _ODD,
+        upwards="displacement upwards" if key == "u_z" else "",
+    )
+    for key in _KEYS
 }
+"""The components that can be drawn, by key."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +148,7 @@ def _layers(
     if len(rows) > 1:
         below = solution.interior(frame.name, faces[1:-1], x, side="below")
         values[starts[1:-1]] = getattr(below, component)
-    values *= quantity.factor * (-1.0 if quantity.odd and frame.name == "lower" else 1.0)
+    values *= quantity.figure.factor * (-1.0 if quantity.odd and frame.name == "lower" else 1.0)
     texts = layer_texts(roller_of(solution, frame.name))
     pieces = []
     for i, z in enumerate(rows):

@@ -30,6 +30,7 @@ from rollnip.solution import Solution
 
 _Row = tuple[Any, str, str, str]  # values, colour, dashes and name of a curve
 
+_UPPER = {key: f"{PROFILES[key].label}, upper side" for key in ("pressure", "shear")}
 _SIDE = 0.35  # shown on either side, in nip widths
 _FLAT = 1e-3  # of the nip width: what the scale of a straight path spans
 
@@ -63,9 +64,14 @@ def plot_sheet(solution: Solution, ax: Axes | None = None, *, style: Style | Non
         solution.profiles.shear, sheet.profiles.shear_lower
     )
     rows: tuple[_Row, ...] = (
-        (solution.profiles.shear, look.palette.shear, "--", "shear of the upper roller"),
-        (sheet.profiles.shear_lower, look.palette.shear, ":", "shear on the underside"),
-        (sheet.profiles.tension / times, look.palette.pressure, "-", "tension (right)"),
+        (solution.profiles.shear, look.palette.shear, "--", _UPPER["shear"]),
+        (sheet.profiles.shear_lower, look.palette.shear, ":", SHEET_PROFILES["shear_lower"].label),
+        (
+            sheet.profiles.tension / times,
+            look.palette.pressure,
+            "-",
+            f"{SHEET_PROFILES['tension'].label} (right)",
+        ),
     )
     lowest = min(0.0, *(float(np.min(row[0])) for row in rows))
     highest = max(0.0, *(float(np.max(row[0])) for row in rows))
@@ -103,17 +109,22 @@ def plot_sheet_path(
     first, last = _both_contacts(solution)
     shown = (x >= first) & (x <= last)
     rows: tuple[_Row, ...] = (
-        (solution.profiles.pressure, colours.upper, "-", "pressure on the upper roller"),
-        (sheet.profiles.pressure_lower, colours.lower, "--", "pressure on the lower roller"),
+        (solution.profiles.pressure, colours.upper, "-", _UPPER["pressure"]),
+        (
+            sheet.profiles.pressure_lower,
+            colours.lower,
+            "--",
+            SHEET_PROFILES["pressure_lower"].label,
+        ),
     )
     high = max(float(np.max(row[0])) for row in rows)
     height = sheet.profiles.height
     low, rise = float(np.min(height[shown])), float(np.ptp(height[shown]))
     times = (rise or _FLAT * solution.nip_width) / high
-    path = ((height - low) / times, colours.ink, "-", "path of the sheet (right)")
+    path = ((height - low) / times, colours.ink, "-", f"{SHEET_PROFILES['height'].label} (right)")
     _draw(ax, look, solution, (*rows, path), (first, last), (0.0, high))
     label(ax, look, PROFILES["x"].axis, PROFILES["pressure"].axis)
-    _on_right(ax, look, "height of the sheet [mm]", (low, times), colours.ink)
+    _on_right(ax, look, SHEET_PROFILES["height"].axis, (low, times), colours.ink)
     title(ax, look, solution, "Pressures on the sheet, and its path")
     return ax
 

@@ -11,6 +11,7 @@ from matplotlib.layout_engine import ConstrainedLayoutEngine
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, require_positive
+from rollnip.figures import PROFILES
 from rollnip.geometry import sagitta
 from rollnip.plots.style import (
     Look,
@@ -31,6 +32,7 @@ from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
 
+_X = PROFILES["x"].axis
 _SIDE = 0.8  # shown of strain and speed on either side, in nip widths
 _NEAR = 0.45  # of gap and surfaces
 _LEFT = 0.8
@@ -78,7 +80,7 @@ def plot_strain(solution: Solution, ax: Axes | None = None, *, style: Style | No
     strains = (100.0 * profiles.strain_upper, 100.0 * profiles.strain_lower)
     curves = _pair(ax, look, solution, *strains)
     _finish(ax, look, solution, strains, _SIDE)
-    label(ax, look, "x [mm]", "surface strain [%]")
+    label(ax, look, _X, PROFILES["strain_upper"].axis_for("surface strain"))
     title(ax, look, solution, "Strain of the surfaces")
     legend(ax, look, curves + zones)
     return ax
@@ -119,7 +121,7 @@ def plot_speed(solution: Solution, ax: Axes | None = None, *, style: Style | Non
         ax.axhline(float(speed[0]), color=colour, linewidth=look.thin, linestyle=(0, (6, 3)))
     curves = _pair(ax, look, solution, upper, lower)
     _finish(ax, look, solution, (upper, lower), _SIDE)
-    label(ax, look, "x [mm]", "surface speed [mm/s]")
+    label(ax, look, _X, PROFILES["speed_upper"].axis_for("surface speed"))
     ax.ticklabel_format(axis="y", useOffset=False)
     title(ax, look, solution, "Speed of the surfaces")
     rim = ax.plot(
@@ -152,7 +154,13 @@ def plot_gap(solution: Solution, ax: Axes | None = None, *, style: Style | None 
     colours = look.palette
     ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
     curves: list[Artist] = [
-        *ax.plot(profiles.x, profiles.gap, color=colours.pressure, linewidth=look.line, label="gap")
+        *ax.plot(
+            profiles.x,
+            profiles.gap,
+            color=colours.pressure,
+            linewidth=look.line,
+            label=PROFILES["gap"].label,
+        )
     ]
     if solution.approach is not None:
         upper, lower = _outlines(solution, profiles.x)
@@ -164,7 +172,7 @@ def plot_gap(solution: Solution, ax: Axes | None = None, *, style: Style | None 
     else:
         _finish(ax, look, solution, (profiles.gap,), _NEAR)
     ax.set_ylim(top=1.18 * float(np.max(_within(solution, profiles.gap, _NEAR))))
-    label(ax, look, "x [mm]", "gap [mm]")
+    label(ax, look, _X, PROFILES["gap"].axis)
     title(ax, look, solution, "Gap between the surfaces")
     legend(ax, look, curves + zones)
     return ax
@@ -224,7 +232,7 @@ def plot_deformed_surfaces(
         ax.fill_between(x, line, edge, color=colour, alpha=0.16, linewidth=0.0)
     factor = _stretch(ax, view(solution, _NEAR), (low, high), exaggeration)
     scale = "to scale" if factor == 1.0 else f"stretched {factor:g} times"
-    label(ax, look, "x [mm]", f"height [mm], {scale}")
+    label(ax, look, _X, f"{PROFILES['gap'].axis_for('height')}, {scale}")
     title(ax, look, solution, "Deformed surfaces")
     mark_direction(ax, look, solution)
     legend(ax, look, curves)

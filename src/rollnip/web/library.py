@@ -19,12 +19,12 @@ from rollnip.face.figures import (
     SHEET_FACE_PROFILES,
 )
 from rollnip.figure import ROUNDING, Figure
-from rollnip.figures import FIGURES
-from rollnip.heat.figures import BALANCE_FIGURES, ROLLER_FIGURES
+from rollnip.figures import FIELDS, FIGURES, INTERFACE_FIGURES, PROFILES, PULL
+from rollnip.heat.figures import BALANCE_FIGURES, COURSES, ROLLER_FIGURES
 from rollnip.materials import SOURCES as THERMAL_SOURCES
 from rollnip.materials import TYPICAL, shore_a_band, shore_a_modulus
-from rollnip.patch.figures import PATCH_FIGURES
-from rollnip.sheet_figures import SHEET_FIGURES
+from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
+from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 from rollnip.sheets import SHEETS, Sheet
 from rollnip.web.answers import as_json
 
@@ -73,12 +73,20 @@ _SHOWN_TOTALS = {
     "N m": {"metric": ["N·m", 1.0], "us": ["lbf·in", 0.11298482902762]},
     "W": {"metric": ["W", 1.0], "us": ["hp", _HORSEPOWER]},
 }
-# Registries of the other views, by the word that their German names begin with.
+_INSIDE = ("von_mises", "max_shear", "s_zz", "s_xx", "s_xz", "u_x", "u_z", "loss_density")
+_BOND = ("depth", "shear_max", "shear_range")
+# Registries of the curves and of the other views, by the word that their German names begin with.
 MORE_FIGURES: Mapping[str, Mapping[str, Figure]] = {
     "face": {**FACE_FIGURES, **SHEET_FACE_FIGURES},
     "curve": {**FACE_PROFILES, **SHEET_FACE_PROFILES},
     "heat": {**BALANCE_FIGURES, **ROLLER_FIGURES},
     "patch": PATCH_FIGURES,
+    "field": PATCH_FIELDS,
+    "profile": PROFILES,
+    "web": SHEET_PROFILES,
+    "inside": {key: FIELDS[key] for key in _INSIDE},
+    "course": {key: COURSES[key] for key in ("temperature", "time")},
+    "bond": {**{key: INTERFACE_FIGURES[key] for key in _BOND}, "pull": PULL},
 }
 # In the order of the page: what is read first stands first.
 _FIRST = ("nip_width", "approach", "load", "peak_pressure", "mean_pressure", "dwell_time")

@@ -5,7 +5,7 @@ import { Chart } from "./charts.js";
 import { nameOf } from "./design.js";
 import { button, el, select } from "./dom.js";
 import { letter, overlay } from "./plots.js";
-import { ANSWERS, flat } from "./quantities.js";
+import { ANSWERS, figureIn, flat } from "./quantities.js";
 import { number } from "./units.js";
 import { say } from "./texts.js";
 
@@ -16,13 +16,10 @@ const SOUND = new Map([
   [false, say("compare.no")],
   [undefined, say("compare.no-answer")],
 ]);
-const PROFILES = [
-  { key: "pressure", title: say("tab.pressure"), dimension: "pressure" },
-  { key: "shear", title: say("compare.shear"), dimension: "pressure" },
-  { key: "gap", title: say("tab.gap"), dimension: "length" },
-  { key: "strain_upper", title: say("compare.strain-upper"), dimension: "share" },
-  { key: "strain_lower", title: say("compare.strain-lower"), dimension: "share" },
-];
+const PROFILES = ["pressure", "shear", "gap", "strain_upper", "strain_lower"].map((key) => {
+  const { label: title, dimension } = figureIn("profile", key);
+  return { key, title, dimension };
+});
 
 /** The view say("tab.compare"). */
 export class CompareView {

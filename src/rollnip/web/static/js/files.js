@@ -6,25 +6,20 @@ import { pairPicture, words } from "./drawing.js";
 import { svg } from "./dom.js";
 import { facePaths } from "./face.js";
 import { faceRows } from "./faceview.js";
+import { MORE_FIGURES } from "./figures.js";
 import { heatPaths } from "./heat.js";
 import { heatRows } from "./heatview.js";
 import { bandOf } from "./known.js";
 import { getAt } from "./paths.js";
-import { ANSWERS, faceLabel, flat, inputAt, inputsOf, totalsOf } from "./quantities.js";
+import { ANSWERS, curveName, faceLabel, flat, inputAt, inputsOf, totalsOf } from "./quantities.js";
 import { sectionCaption, sectionPicture, windowOf } from "./section.js";
 import { say } from "./texts.js";
 
-const PROFILES = [
-  ["x", "x", "length"],
-  [say("curve.pressure"), "pressure", "pressure"],
-  [say("curve.shear"), "shear", "pressure"],
-  [say("curve.gap"), "gap", "length"],
-  [say("csv.slip"), "slip_velocity", "speed"],
-  [say("csv.strain-upper"), "strain_upper", "share"],
-  [say("csv.strain-lower"), "strain_lower", "share"],
-  [say("csv.speed-upper"), "speed_upper", "speed"],
-  [say("csv.speed-lower"), "speed_lower", "speed"],
-];
+const PROFILES = Object.entries(MORE_FIGURES.profile).map(([key, { dimension }]) => [
+  key === "x" ? key : curveName("profile", key),
+  key,
+  dimension,
+]);
 
 /** Give a text or blob to the user as a file. */
 export function download(name, content, type = "text/plain") {

@@ -1,6 +1,7 @@
 // The charts of heat: temperature over depth, warm-up, steady states over speed or load.
 
 import { layoutOf, line, titled } from "./charts.js";
+import { curveName, figureIn, figureOfNip } from "./quantities.js";
 import { say } from "./texts.js";
 
 const SIDES = ["upper", "lower"];
@@ -21,17 +22,22 @@ export function depthChart(heat, tree, units, palette) {
     const style = isOne ? { dash: "dash", ...hover } : { width: 2.6, ...hover };
     const lines = [line(say(isOne ? `heat.whole-${side}` : `roller.${side}`), x, y, palette[side], style)];
     const { hot_spot: hot, hot_spot_depth: at } = heat[side];
-    if (!isOne) lines.push(mark(say(`heat.hottest-${side}`), [units.shown(at, "length")], [units.shown(hot, DEGREES)], palette[side], "circle"));
+    if (!isOne) lines.push(mark(named(side, "hot_spot"), [units.shown(at, "length")], [units.shown(hot, DEGREES)], palette[side], "circle"));
     return lines;
   });
   const bonds = SIDES.flatMap((side, i) => (curves[i].isOne ? [] : facesOf(tree[side])).map((depth) => bond(units.shown(depth, "length"), palette[side])));
-  const layout = layoutOf(palette, titled(say("axis.depth"), units.name("length")), titled(say("heat.temperature"), unit), {
+  const layout = layoutOf(palette, titled(say("axis.depth"), units.name("length")), titled(figureIn("course", "temperature").label, unit), {
     along: units.name("length"),
     xaxis: { rangemode: "tozero" },
     shapes: bonds,
   });
   const spots = Object.fromEntries(SIDES.map((side) => [side, units.text(heat[side].hot_spot, DEGREES)]));
   return { data, layout, label: say("heat.chart-depth", spots) };
+}
+
+/** A figure of one roller in a legend. */
+function named(side, key) {
+  return `${say(`roller.${side}`)}, ${curveName("heat", key)}`;
 }
 
 /** Depths from the surface to the inside, and the temperatures there. */
@@ -64,10 +70,10 @@ export function warmChart(course, units, palette) {
   const along = isLong ? "min" : "s";
   const hover = { hovertemplate: `%{y:.4~g} ${unit}` };
   const data = SIDES.flatMap((side) => [
-    line(say(`heat.hot-${side}`), x, units.list(course[side].hot_spot, DEGREES), palette[side], { width: 2.6, ...hover }),
-    line(say(`heat.surface-${side}`), x, units.list(course[side].surface, DEGREES), palette[side], { dash: "dash", ...hover }),
+    line(named(side, "hot_spot"), x, units.list(course[side].hot_spot, DEGREES), palette[side], { width: 2.6, ...hover }),
+    line(named(side, "surface_temperature"), x, units.list(course[side].surface, DEGREES), palette[side], { dash: "dash", ...hover }),
   ]);
-  const layout = layoutOf(palette, titled(say("axis.time"), along), titled(say("heat.temperature"), unit), { along });
+  const layout = layoutOf(palette, titled(figureIn("course", "time").label, along), titled(figureIn("course", "temperature").label, unit), { along });
   return { data, layout, label: say("heat.chart-warm") };
 }
 
@@ -94,8 +100,8 @@ export function branchChart(branch, heat, units, palette) {
     const hot = Math.max(...SIDES.map((side) => heat[side].hot_spot));
     data.push(mark(say("heat.here"), ...shown([{ value: branch.value, hot_spot: hot }]), palette.shear, "diamond"));
   }
-  const name = say(branch.parameter === "speed" ? "input.speed" : "heat.load");
-  const layout = layoutOf(palette, titled(name, along), titled(say("heat.hottest"), unit), { along, hovermode: "closest" });
+  const name = branch.parameter === "speed" ? say("input.speed") : figureOfNip("load").label;
+  const layout = layoutOf(palette, titled(name, along), titled(figureIn("heat", "hot_spot").label, unit), { along, hovermode: "closest" });
   return { data, layout, label: say("heat.chart-branch") };
 }
 
@@ -116,7 +122,7 @@ export function depthRows(heat, tree, units) {
   const head = [
     say("csv.roller"),
     `${say("axis.depth")} [${units.of("length").name}]`,
-    `${say("heat.temperature")} [${units.of(DEGREES).name}]`,
+    `${figureIn("course", "temperature").label} [${units.of(DEGREES).name}]`,
   ];
   const rows = SIDES.flatMap((side) => {
     const { depth, temperature } = depthsOf(heat[side], side, tree);

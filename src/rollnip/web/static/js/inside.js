@@ -3,21 +3,21 @@
 import { isAbort, post } from "./api.js";
 import { Chart, layoutOf, line, titled } from "./charts.js";
 import { button, el, select } from "./dom.js";
+import { MORE_FIGURES } from "./figures.js";
 import { same } from "./paths.js";
 import { Probe, bondTable, fieldRows } from "./probe.js";
+import { curveName } from "./quantities.js";
 import { say } from "./texts.js";
 
 const POINTS = { nx: 120, nz: 40 };
-const FIELDS = [
-  { key: "mises", title: say("field.mises"), dimension: "pressure" },
-  { key: "max_shear", title: say("field.max-shear"), dimension: "pressure" },
-  { key: "s_zz", title: say("field.s-zz"), dimension: "pressure", signed: true },
-  { key: "s_xx", title: say("field.s-xx"), dimension: "pressure", signed: true },
-  { key: "s_xz", title: say("field.s-xz"), dimension: "pressure", signed: true },
-  { key: "u_x", title: say("field.u-x"), dimension: "length", signed: true },
-  { key: "u_z", title: say("field.u-z"), dimension: "length", signed: true },
-  { key: "loss", title: say("field.loss"), dimension: "power per volume" },
-];
+const SIGNED = ["s_zz", "s_xx", "s_xz", "u_x", "u_z"];
+const SENT = { von_mises: "mises", loss_density: "loss" }; // keys of the answer that differ
+const FIELDS = Object.entries(MORE_FIGURES.inside).map(([key, { dimension }]) => ({
+  key: SENT[key] ?? key,
+  title: curveName("inside", key),
+  dimension,
+  signed: SIGNED.includes(key),
+}));
 
 /** The view say("tab.inside"). */
 export class InsideView {

@@ -1,7 +1,7 @@
 // The pictures and figures of a patch: pressure with isolines, stick and slip with the shear.
 
 import { layoutOf, line, titled } from "./charts.js";
-import { figureIn } from "./quantities.js";
+import { curveName, figureIn } from "./quantities.js";
 import { say } from "./texts.js";
 
 const ARROWS = 13; // lines of shear along the longer side of the patch
@@ -45,7 +45,7 @@ export function pressureMap({ patch, fields }, units, palette) {
   const length = units.name("length");
   const map = {
     type: "contour",
-    name: say("curve.pressure"),
+    name: curveName("field", "pressure"),
     ...places(fields, units),
     z: fields.pressure.map((row) => units.list(row, "pressure")),
     zmin: 0,
@@ -53,7 +53,7 @@ export function pressureMap({ patch, fields }, units, palette) {
     colorscale: palette.sequential,
     contours: { coloring: "fill", showlines: true, showlabels: true, labelfont: { size: 10.5 } },
     line: { width: 0.8, color: `${palette.ink}99` },
-    colorbar: { title: { text: titled(say("curve.pressure"), unit), side: "right" }, thickness: 12, outlinewidth: 0 },
+    colorbar: { title: { text: titled(curveName("field", "pressure"), unit), side: "right" }, thickness: 12, outlinewidth: 0 },
     hovertemplate: `x %{x:.4~g}, y %{y:.4~g} ${length}: %{z:.4~g} ${unit}<extra></extra>`,
   };
   const text = (key, dimension) => units.text(patch[key], dimension);
@@ -168,12 +168,12 @@ export function patchColumns({ fields }, units) {
   const head = [
     `x [${length}]`,
     `y [${length}]`,
-    `${say("curve.pressure")} [${pressure}]`,
-    `${say("patch.shear-along")} [${pressure}]`,
-    `${say("patch.shear-across")} [${pressure}]`,
+    `${curveName("field", "pressure")} [${pressure}]`,
+    `${curveName("field", "shear_x")} [${pressure}]`,
+    `${curveName("field", "shear_y")} [${pressure}]`,
     say("patch.state"),
     say("patch.slip-column"),
-    `${say("patch.gap")} [${length}]`,
+    `${curveName("field", "gap")} [${length}]`,
   ];
   const shown = (value, dimension) => units.shown(value, dimension);
   const rows = fields.y.flatMap((y, i) =>

@@ -2,6 +2,7 @@
 
 import { layoutOf, line, titled } from "./charts.js";
 import { nameOf } from "./design.js";
+import { curveName, figureIn } from "./quantities.js";
 import { say } from "./texts.js";
 
 const ALONG = say("axis.along");
@@ -18,23 +19,24 @@ function pressurePlot(result, units, palette, tree) {
   const pressure = units.list(profiles.pressure, "pressure");
   const shear = units.list(profiles.shear, "pressure");
   data.push(
-    line(say("curve.pressure"), x, pressure, palette.pressure, {
+    line(curveName("profile", "pressure"), x, pressure, palette.pressure, {
       width: 2.6,
       fill: "tozeroy",
       fillcolor: `${palette.pressure}14`,
       hovertemplate: `%{y:.4~g} ${name}`,
     }),
   );
-  data.push(line(say(result.sheet ? "curve.shear-upper" : "curve.shear"), x, shear, palette.shear, { hovertemplate: `%{y:.4~g} ${name}` }));
+  const curve = curveName("profile", "shear");
+  data.push(line(result.sheet ? say("curve.upper", { curve }) : curve, x, shear, palette.shear, { hovertemplate: `%{y:.4~g} ${name}` }));
   const lower = result.sheet ? units.list(result.sheet.profiles.shear_lower, "pressure") : [];
   if (lower.length) {
     const style = { dash: "longdash", hovertemplate: `%{y:.4~g} ${name}` };
-    data.push(line(say("curve.shear-lower"), x, lower, palette.lower, style));
+    data.push(line(curveName("web", "shear_lower"), x, lower, palette.lower, style));
   }
   const below = result.sheet?.bends ? units.list(result.sheet.profiles.pressure_lower, "pressure") : [];
   if (below.length) {
     const style = { dash: "dashdot", hovertemplate: `%{y:.4~g} ${name}` };
-    data.push(line(say("curve.pressure-lower"), x, below, palette.pressure, style));
+    data.push(line(curveName("web", "pressure_lower"), x, below, palette.pressure, style));
   }
   data.push(...boundsOf(result, tree, units, x, palette));
   const [low, high] = span([...pressure, ...below], [...shear, ...lower]);
@@ -56,8 +58,8 @@ function gapPlot(result, units, palette) {
   const { x, data } = begin(result, units);
   const unit = units.name("length");
   const gap = units.list(result.profiles.gap, "length");
-  data.push(line(say("curve.gap"), x, gap, palette.upper, { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` }));
-  const layout = layoutOf(palette, along(units), titled(say("axis.gap"), unit), {
+  data.push(line(curveName("profile", "gap"), x, gap, palette.upper, { width: 2.6, hovertemplate: `%{y:.4~g} ${unit}` }));
+  const layout = layoutOf(palette, along(units), titled(figureIn("profile", "gap").label, unit), {
     along: units.name("length"),
     xaxis: { range: reach(result, units) },
     yaxis: { rangemode: "tozero", range: upTo(x, gap, reach(result, units)) },
@@ -81,7 +83,7 @@ function strainPlot(result, units, palette) {
       }),
     );
   }
-  const layout = layoutOf(palette, along(units), say("axis.strain"), {
+  const layout = layoutOf(palette, along(units), titled(say("axis.strain"), "%"), {
     along: units.name("length"),
     xaxis: { range: reach(result, units) },
     shapes: zonesOf(result, units, palette),
@@ -142,18 +144,18 @@ function sheetPlot(result, units, palette) {
   const x = units.list(profiles.x, "length");
   const unit = units.name("line load");
   const data = [
-    line(say("curve.tension"), x, units.list(profiles.tension, "line load"), palette.pressure, {
+    line(curveName("web", "tension"), x, units.list(profiles.tension, "line load"), palette.pressure, {
       width: 2.6,
       hovertemplate: `%{y:.4~g} ${unit}`,
     }),
-    line(say("curve.strain"), x, units.list(profiles.strain, "share"), palette.shear, {
+    line(curveName("web", "strain"), x, units.list(profiles.strain, "share"), palette.shear, {
       dash: "dash",
       yaxis: "y2",
       hovertemplate: "%{y:.3~g} %",
     }),
   ];
-  const second = { text: titled(say("axis.sheet-strain"), "%"), standoff: 8 };
-  const layout = layoutOf(palette, along(units), titled(say("axis.tension"), unit), {
+  const second = { text: titled(figureIn("web", "strain").label, "%"), standoff: 8 };
+  const layout = layoutOf(palette, along(units), titled(figureIn("web", "tension").label, unit), {
     along: units.name("length"),
     xaxis: { range: reach(result, units) },
     yaxis2: {

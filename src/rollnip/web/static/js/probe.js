@@ -3,6 +3,7 @@
 import { isAbort, post } from "./api.js";
 import { questionOf } from "./control.js";
 import { el } from "./dom.js";
+import { figureIn } from "./quantities.js";
 import { say } from "./texts.js";
 
 /** The values of every field at one computed point; `fields` are {key, title, dimension}. */
@@ -90,9 +91,8 @@ function nearest(list, value) {
 /** Shear and tension on every bond and interface, as a table; `interfaces` as the result has them. */
 export function bondTable(interfaces, units) {
   if (interfaces.length === 0) return el("p", { class: "hint", text: say("bond.none") });
-  const head = ["bond.where", "bond.depth", "bond.shear", "bond.range", "bond.peel"].map((key) =>
-    el("th", { scope: "col", text: say(key) }),
-  );
+  const figures = ["depth", "shear_max", "shear_range", "pull"].map((key) => figureIn("bond", key).label);
+  const head = [say("bond.where"), ...figures].map((text) => el("th", { scope: "col", text }));
   const rows = interfaces.map((one) => {
     const shear = Math.max(Math.abs(one.shear_min), Math.abs(one.shear_max));
     const name = say(one.bond ? "bond.core" : "bond.between", { roller: say(`side.${one.roller}`) });

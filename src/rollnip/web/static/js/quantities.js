@@ -74,9 +74,14 @@ function said(figure) {
   return { ...figure, label: sayOr(`figure.${figure.key}`, figure.label), hint };
 }
 
-/** A figure of another view in the language of the page; `kind`: face, curve, heat or patch. */
+/** A figure or curve in the language of the page; `kind`: a registry of `MORE_FIGURES`. */
 export function figureIn(kind, key) {
   return said({ ...MORE_FIGURES[kind][key], key: `${kind}_${key}` });
+}
+
+/** The name of a curve or field in a legend. */
+export function curveName(kind, key) {
+  return firstInText(figureIn(kind, key).label);
 }
 
 /** A figure of the nip in the language of the page. */

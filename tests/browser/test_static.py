@@ -127,6 +127,13 @@ def test_the_german_names_of_figures_are_of_figures_that_there_are():
     names |= {f"{kind}_{key}" for kind, registry in MORE_FIGURES.items() for key in registry}
     german = {key.split(".")[1] for key in messages("de") if key.startswith("figure.")}
     assert german <= names
+    # coordinates are called x and y; the place of the peak is not shown
+    assert names - german == {"curve_y", "profile_x", "web_x", "peak_pressure_x"}
+    explained = {figure.name for figure in figures} | {
+        f"face_{key}" for key in MORE_FIGURES["face"]
+    }
+    hints = {key.split(".")[1] for key in messages("de") if key.endswith(".hint")}
+    assert explained - {"peak_pressure_x"} <= hints
 
 
 def test_the_german_names_of_the_library_are_of_entries_that_there_are():

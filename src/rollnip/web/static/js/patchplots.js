@@ -67,15 +67,15 @@ export function pressureMap({ patch, fields }, units, palette) {
 
 /** The gap between the surfaces beside the patch; none where a face does not reach. */
 export function gapMap({ fields }, units, palette) {
-  return fieldMap("gap", "length", fields.gap, { fields, units, palette });
+  return fieldMap("gap", curveName("field", "gap"), "length", fields.gap, { fields, units, palette });
 }
 
 /** How fast the surfaces slip over each other, as a share of the rolling speed. */
 export function slipMap({ fields }, units, palette) {
-  return fieldMap("slipping", "share", fields.slip, { fields, units, palette });
+  return fieldMap("slipping", say("patch.slipping"), "share", fields.slip, { fields, units, palette });
 }
 
-function fieldMap(name, dimension, rows, { fields, units, palette }) {
+function fieldMap(name, title, dimension, rows, { fields, units, palette }) {
   const unit = units.name(dimension);
   const length = units.name("length");
   const map = {
@@ -85,7 +85,7 @@ function fieldMap(name, dimension, rows, { fields, units, palette }) {
     zmin: 0,
     zsmooth: false,
     colorscale: palette.sequential,
-    colorbar: { title: { text: titled(say(`patch.${name}`), unit), side: "right" }, thickness: 12, outlinewidth: 0 },
+    colorbar: { title: { text: titled(title, unit), side: "right" }, thickness: 12, outlinewidth: 0 },
     hovertemplate: `x %{x:.4~g}, y %{y:.4~g} ${length}: %{z:.4~g} ${unit}<extra></extra>`,
   };
   return { data: [map], layout: mapLayout(units, palette), label: say(`patch.map-${name}`) };

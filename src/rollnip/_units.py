@@ -39,7 +39,7 @@ Dimension = Literal[
 
 
 @dataclass(frozen=True, slots=True)
-class _Kind:
+class _DimensionUnits:
     """A dimension: how it is called, its base unit, an example, its units as (scale, offset)."""
 
     called: str
@@ -189,29 +189,35 @@ _DENSITY = _units(
 _TURN = _units({"1/mm": 1, "1/m": "1e-3", "rad/mm": 1, "rad/m": "1e-3", "1/in": 1 / _IN})
 _MOLAR = _units({"kJ/mol": 1, "J/mol": "1e-3", "kcal/mol": "4.184", "cal/mol": "4.184e-3"})
 
-_KINDS: dict[Dimension, _Kind] = {
-    "length": _Kind("a length", "mm", "4.5 mm", _LENGTH),
-    "line load": _Kind("a force per length", "N/mm", "1.78 N/mm", _LINE_LOAD),
-    "force": _Kind("a force (or torque per length)", "N", "27.8 N", _FORCE),
-    "pressure": _Kind("a pressure or modulus", "MPa", "0.91 MPa", _PRESSURE),
-    "speed": _Kind("a speed", "mm/s", "20 m/min", _SPEED),
-    "time": _Kind("a time", "s", "7 ms", _TIME),
-    "temperature": _Kind("a temperature", "degC", "23 degC", _TEMPERATURE),
-    "temperature difference": _Kind("a temperature difference", "K", "51.6 K", _units({"K": 1})),
-    "ratio": _Kind("a plain number", "", "0.5 %", _RATIO),
-    "frequency": _Kind("a frequency", "Hz", "10 Hz", _FREQUENCY),
-    "angle": _Kind("an angle", "rad", "10 deg", _ANGLE),
-    "density": _Kind("a density", "kg/m3", "7850 kg/m3", _DENSITY),
-    "turn per length": _Kind("an angle per length", "1/mm", "0.1 1/m", _TURN),
-    "thermal conductivity": _Kind(
+_KINDS: dict[Dimension, _DimensionUnits] = {
+    "length": _DimensionUnits("a length", "mm", "4.5 mm", _LENGTH),
+    "line load": _DimensionUnits("a force per length", "N/mm", "1.78 N/mm", _LINE_LOAD),
+    "force": _DimensionUnits("a force (or torque per length)", "N", "27.8 N", _FORCE),
+    "pressure": _DimensionUnits("a pressure or modulus", "MPa", "0.91 MPa", _PRESSURE),
+    "speed": _DimensionUnits("a speed", "mm/s", "20 m/min", _SPEED),
+    "time": _DimensionUnits("a time", "s", "7 ms", _TIME),
+    "temperature": _DimensionUnits("a temperature", "degC", "23 degC", _TEMPERATURE),
+    "temperature difference": _DimensionUnits(
+        "a temperature difference", "K", "51.6 K", _units({"K": 1})
+    ),
+    "ratio": _DimensionUnits("a plain number", "", "0.5 %", _RATIO),
+    "frequency": _DimensionUnits("a frequency", "Hz", "10 Hz", _FREQUENCY),
+    "angle": _DimensionUnits("an angle", "rad", "10 deg", _ANGLE),
+    "density": _DimensionUnits("a density", "kg/m3", "7850 kg/m3", _DENSITY),
+    "turn per length": _DimensionUnits("an angle per length", "1/mm", "0.1 1/m", _TURN),
+    "thermal conductivity": _DimensionUnits(
         "a thermal conductivity", "W/(m K)", "0.25 W/(m K)", _units(CONDUCTIVITY)
     ),
-    "heat capacity": _Kind(
+    "heat capacity": _DimensionUnits(
         "a heat capacity per mass", "J/(kg K)", "1900 J/(kg K)", _units(HEAT_CAPACITY)
     ),
-    "film coefficient": _Kind("a film coefficient", "W/(m2 K)", "30 W/(m2 K)", _units(FILM)),
-    "thermal expansion": _Kind("a thermal expansion", "1/K", "2e-4 1/K", _units(EXPANSION)),
-    "molar energy": _Kind("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
+    "film coefficient": _DimensionUnits(
+        "a film coefficient", "W/(m2 K)", "30 W/(m2 K)", _units(FILM)
+    ),
+    "thermal expansion": _DimensionUnits(
+        "a thermal expansion", "1/K", "2e-4 1/K", _units(EXPANSION)
+    ),
+    "molar energy": _DimensionUnits("an energy per mole", "kJ/mol", "60 kJ/mol", _MOLAR),
 }
 
 _MASS_OR_FORCE = 'may be a mass or a force; write "lbf", "pli" (= lbf/in), "kgf" or newtons'
@@ -368,7 +374,7 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
     raise _refusal(dimension, value, f'"{written}" is not a known unit' + _nearest(unit, kind))
 
 
-def _nearest(unit: str, kind: _Kind) -> str:
+def _nearest(unit: str, kind: _DimensionUnits) -> str:
     names = [name for name in kind.units if name]
     folded = [name for name in names if name.casefold() == unit.casefold()]
     if not folded:

@@ -49,7 +49,7 @@ def test_points_in_the_nip_alone_feel_what_all_points_of_the_way_do():
     k = np.pi / (0.5 * points) * np.arange(points)
     roller = covered((12.0, 4.0, 0.45))
     whole = EndedCovering.of(roller, y, 0.15, ends=True).compliance(k)
-    few = module._Products.of(inside, points, whole[:60], [(np.ones(30), whole[60])])
+    few = module._MeanDisplacements.of(inside, points, whole[:60], [(np.ones(30), whole[60])])
     whole[60:] = whole[60]
     pressure = np.random.default_rng(3).random((inside, y.size))
     waves = dct(pressure, n=points, axis=0)
@@ -204,7 +204,7 @@ def test_one_covering_that_ends_lacks_less_than_both():
 def test_the_pressure_on_a_covering_that_goes_on_is_that_of_a_patch(poisson):
     roller = covered((6.0, 4.0, poisson))
     patch = face_end(roller, BARE, 0.4)
-    pair = module._Pair(roller, BARE, 0.4)
+    pair = module._PressedRollers(roller, BARE, 0.4)
     edge = module._solved(pair, "lower", pair.half_width(), 1.0)  # the bare one ends
     assert edge.added == pytest.approx(patch.added_length, abs=1.2 * patch.error)
 
@@ -212,7 +212,7 @@ def test_the_pressure_on_a_covering_that_goes_on_is_that_of_a_patch(poisson):
 @pytest.mark.slow
 def test_refinement_changes_less_than_the_error():
     roller = covered((6.0, 4.0, 0.5))
-    pair = module._Pair(roller, BARE, 0.4)
+    pair = module._PressedRollers(roller, BARE, 0.4)
     half = pair.half_width()
     coarse, usual, fine = (module._solved(pair, "both", half, n).added for n in (0.5, 1.0, 2.0))
     assert abs(fine - usual) < abs(usual - coarse) < 0.005 * abs(fine)

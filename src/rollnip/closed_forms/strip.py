@@ -42,7 +42,7 @@ class ViscoelasticStrip:
     approach: float
     centroid: float
     rolling_resistance: float
-    _law: _Law = field(repr=False)
+    _law: _PressureLaw = field(repr=False)
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
         """p(x) [MPa], 0 outside the contact; x [mm] of any shape."""
@@ -53,7 +53,7 @@ class ViscoelasticStrip:
 
 
 @dataclass(frozen=True, slots=True)
-class _Law:
+class _PressureLaw:
     """Pressure after a path through the nip."""
 
     foundation: float
@@ -150,14 +150,16 @@ def viscoelastic_strip(
     return _contact(law, float(leading))
 
 
-def _law(radius: float, foundation: float, ratio: float, time: float, speed: float) -> _Law:
+def _law(radius: float, foundation: float, ratio: float, time: float, speed: float) -> _PressureLaw:
     values = {"radius": radius, "foundation": foundation, "relaxation_time": time, "speed": speed}
     require_all_positive(values)
     require_not_negative("stiffening_ratio", ratio)
-    return _Law(foundation=foundation, curvature=1.0 / radius, ratio=ratio, length=speed * time)
+    return _PressureLaw(
+        foundation=foundation, curvature=1.0 / radius, ratio=ratio, length=speed * time
+    )
 
 
-def _contact(law: _Law, leading: float) -> ViscoelasticStrip:
+def _contact(law: _PressureLaw, leading: float) -> ViscoelasticStrip:
     path = _path(law, leading)
     load, moment = _load_and_moment(law, leading, path)
     peak = minimize_scalar(
@@ -178,7 +180,7 @@ def _contact(law: _Law, leading: float) -> ViscoelasticStrip:
     )
 
 
-def _path(law: _Law, leading: float) -> float:
+def _path(law: _PressureLaw, leading: float) -> float:
     """Return the width of the contact: the path after which the pressure is spent."""
     return float(
         brentq(
@@ -191,7 +193,7 @@ def _path(law: _Law, leading: float) -> float:
     )
 
 
-def _load_and_moment(law: _Law, leading: float, path: float) -> tuple[float, float]:
+def _load_and_moment(law: _PressureLaw, leading: float, path: float) -> tuple[float, float]:
     nodes, weights = graded_rule()
     pressure = law.pressure(path * nodes, leading)
     load = path * float(weights @ pressure)

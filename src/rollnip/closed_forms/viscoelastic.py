@@ -152,7 +152,7 @@ def hunter(
     )
 
 
-class _Terms(NamedTuple):
+class _ContactLengths(NamedTuple):
     """Lengths over the relaxed Hertz half-width, at a trial half-width."""
 
     widening: float  # a0^2/a^2 - 1
@@ -161,7 +161,7 @@ class _Terms(NamedTuple):
     excess: tuple[float, float]
 
 
-def _terms(size: float, length: float, ratio: float) -> _Terms:
+def _terms(size: float, length: float, ratio: float) -> _ContactLengths:
     """Return the Bessel terms; the scaled functions' factors cancel in every quotient."""
     kappa, kappa_creep = size / length, size / (length * (1.0 + ratio))
     difference = length * ratio
@@ -173,7 +173,7 @@ def _terms(size: float, length: float, ratio: float) -> _Terms:
     widening = 2.0 * difference / size * bessel_i1 * bessel_k1 / denominator
     centre = difference * bessel_i1 * bessel_k0 / denominator
     lean = difference * (bessel_i2 * bessel_k1 + bessel_i1 * bessel_k0) / denominator
-    return _Terms(
+    return _ContactLengths(
         widening=widening,
         centre=centre,
         centroid=(lean + centre * widening) / (1.0 + widening),

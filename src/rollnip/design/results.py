@@ -131,7 +131,7 @@ def open_results(path: Path) -> ResultTable:
     reading(path)
     if path.suffix.lower() == ".parquet":
         return _Parquet(path)
-    return _Sheet(path) if path.suffix.lower() in EXCEL else _Text(path)
+    return _Worksheet(path) if path.suffix.lower() in EXCEL else _Text(path)
 
 
 class _Text(ResultTable):
@@ -182,7 +182,7 @@ class _Text(ResultTable):
         return cell.replace(",", ".") if is_decimal else cell
 
 
-class _Sheet(ResultTable):
+class _Worksheet(ResultTable):
     def __init__(self, path: Path) -> None:
         self._table = read_columns(path)
         self.source, self.names, self.units = str(path), self._table.names, self._table.units

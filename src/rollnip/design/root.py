@@ -109,7 +109,7 @@ def _result(value: float | None, unit: str) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class _Question:
+class _FindQuestion:
     """The question in base units."""
 
     tree: Mapping[str, Any]
@@ -210,7 +210,7 @@ def _question(
     values: tuple[float | str, float | str, float | str],
     tolerance: float,
     evaluate: Evaluate,
-) -> _Question:
+) -> _FindQuestion:
     require_quantity(quantity)
     dimension = parameter_dimension(case, path)
     wanted = read_result("wanted", values[0], quantity)
@@ -225,10 +225,10 @@ def _question(
     if not 1e-9 <= tolerance <= 0.1:
         raise InvalidInputError(f"`tolerance` must lie between 1e-9 and 0.1, got {tolerance!r}.")
     with_values(case, {path: low})  # refuses a path to nowhere before anything is solved
-    return _Question(case, path, unit, quantity, wanted, low, high, tolerance, evaluate)
+    return _FindQuestion(case, path, unit, quantity, wanted, low, high, tolerance, evaluate)
 
 
-def _require_some(question: _Question, points: Sequence[Point]) -> None:
+def _require_some(question: _FindQuestion, points: Sequence[Point]) -> None:
     if any(point.y is not None for point in points):
         return
     first = points[0]
@@ -239,7 +239,7 @@ def _require_some(question: _Question, points: Sequence[Point]) -> None:
     )
 
 
-def _size(question: _Question, points: Sequence[Point]) -> float:
+def _size(question: _FindQuestion, points: Sequence[Point]) -> float:
     return abs(question.wanted) or max(abs(point.y or 0.0) for point in points) or 1.0
 
 
@@ -249,7 +249,7 @@ def _is_flat(points: Sequence[Point]) -> bool:
     return len(results) > 1 and max(results) - min(results) <= _FLAT * size
 
 
-def _no_influence(question: _Question, curve: Curve) -> str:
+def _no_influence(question: _FindQuestion, curve: Curve) -> str:
     y = curve.solved[0].y
     return (
         f"{question.quantity} does not change with {question.path} between "
@@ -258,24 +258,24 @@ def _no_influence(question: _Question, curve: Curve) -> str:
     )
 
 
-def _fresh(question: _Question, root: Point) -> Point:
+def _fresh(question: _FindQuestion, root: Point) -> Point:
     """The case at the value found, rounded, solved once more."""
     return question.solve(float(f"{root.x:.{_DIGITS}g}"))
 
 
-def _is_reached(question: _Question, final: Point, near: float) -> bool:
+def _is_reached(question: _FindQuestion, final: Point, near: float) -> bool:
     if final.y is None:
         return False
     allowed = max(2.0 * near, result_error(final.row, question.quantity) or 0.0)
     return abs(final.y - question.wanted) <= allowed
 
 
-def _unconfirmed(question: _Question, final: Point) -> str:
+def _unconfirmed(question: _FindQuestion, final: Point) -> str:
     got = final.message if final.y is None else f"{question.quantity} is {question.shown(final.y)}"
     return f"Not confirmed: solved afresh at {question.said(final.x)}, {got}."
 
 
-def _jump(question: _Question, jump: Jump) -> str:
+def _jump(question: _FindQuestion, jump: Jump) -> str:
     left, right = jump.left, jump.right
     text = (
         f"At {question.said(left.x, 8)} {question.quantity} jumps from {question.shown(left.y)} "
@@ -291,7 +291,7 @@ def _jump(question: _Question, jump: Jump) -> str:
 
 
 def _answer(
-    question: _Question,
+    question: _FindQuestion,
     curve: Curve,
     final: Point | None,
     roots: Sequence[Point],
@@ -329,7 +329,7 @@ def _answer(
 
 
 def _error(
-    question: _Question, final: Point | None, noise: float | None, slope: float | None
+    question: _FindQuestion, final: Point | None, noise: float | None, slope: float | None
 ) -> float | None:
     if final is None or final.y is None or noise is None or slope is None:
         return None
@@ -342,7 +342,7 @@ def _bracket(points: Sequence[Point], root: float) -> tuple[float, float] | None
     return (max(below), min(above)) if below and above else None
 
 
-def _nothing(question: _Question, curve: Curve) -> str:
+def _nothing(question: _FindQuestion, curve: Curve) -> str:
     results = sorted(point.y for point in curve.solved if point.y is not None)
     return (
         f"No {question.path} between {question.said(question.low)} and "
@@ -353,7 +353,7 @@ def _nothing(question: _Question, curve: Curve) -> str:
 
 
 def _sentences(
-    question: _Question, final: Point, error: float | None, others: Sequence[float]
+    question: _FindQuestion, final: Point, error: float | None, others: Sequence[float]
 ) -> list[str]:
     doubt = "" if error is None else f" ± {format_quantity(error, digits=2)}"
     wanted = f"{question.quantity} = {question.shown(question.wanted)}"
@@ -366,7 +366,7 @@ def _sentences(
     return said
 
 
-def _failed(question: _Question, failures: Sequence[tuple[float, str]]) -> list[str]:
+def _failed(question: _FindQuestion, failures: Sequence[tuple[float, str]]) -> list[str]:
     if not failures:
         return []
     x, message = failures[0]

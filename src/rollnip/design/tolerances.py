@@ -41,7 +41,7 @@ _MOST_PARAMETERS = 20
 
 
 @dataclass(frozen=True, slots=True)
-class _Question:
+class _ToleranceQuestion:
     case: Mapping[str, Any]
     paths: tuple[str, ...]
     units: tuple[str, ...]
@@ -138,7 +138,7 @@ def _question(
     wanted: tuple[Sequence[str], Sequence[Limit], Sequence[Correlation]],
     sampling: Sampling,
     solve: Solver,
-) -> _Question:
+) -> _ToleranceQuestion:
     results, limits, correlations = wanted
     if not 1 <= len(parameters) <= _MOST_PARAMETERS:
         raise InvalidInputError(
@@ -167,13 +167,13 @@ def _question(
             "`sobol` must be 0 where parameters are correlated: the shares would have no meaning."
         )
     units = tuple(base_unit(kind) for kind in kinds)
-    return _Question(
+    return _ToleranceQuestion(
         case, paths, units, tuple(drawn), names, tuple(limits), scores, sampling, solve
     )
 
 
 def _failures(
-    question: _Question, samples: Array, table: Table, is_solved: Any
+    question: _ToleranceQuestion, samples: Array, table: Table, is_solved: Any
 ) -> tuple[tuple[Mapping[str, float], str], ...]:
     found = []
     for row in np.flatnonzero(~is_solved):
@@ -182,7 +182,9 @@ def _failures(
     return tuple(found)
 
 
-def _scatter(question: _Question, name: str, samples: Array, values: Array, sobol: Any) -> Scatter:
+def _scatter(
+    question: _ToleranceQuestion, name: str, samples: Array, values: Array, sobol: Any
+) -> Scatter:
     plan = question.sampling
     plane = regression(samples, values)
     shares = tuple(
@@ -229,7 +231,9 @@ def quantile(values: Array, probability: float, confidence: float) -> Quantile:
     )
 
 
-def _chance(question: _Question, table: Table, is_solved: Any, limits: tuple[Limit, ...]) -> Chance:
+def _chance(
+    question: _ToleranceQuestion, table: Table, is_solved: Any, limits: tuple[Limit, ...]
+) -> Chance:
     is_met = np.array(is_solved)
     is_near = np.zeros_like(is_met)
     for limit in limits:
@@ -250,7 +254,7 @@ def _chance(question: _Question, table: Table, is_solved: Any, limits: tuple[Lim
     )
 
 
-def _mixed(question: _Question) -> Array:
+def _mixed(question: _ToleranceQuestion) -> Array:
     """Return the samples that Sobol indices need; none where they are not wanted."""
     plan, dimensions = question.sampling, len(question.paths)
     if not plan.sobol:
@@ -264,7 +268,7 @@ def _rows(table: Table, which: slice) -> Table:
     return replace(table, columns=columns)
 
 
-def _sobol(question: _Question, table: Table) -> tuple[dict[str, SobolIndices], list[str]]:
+def _sobol(question: _ToleranceQuestion, table: Table) -> tuple[dict[str, SobolIndices], list[str]]:
     plan = question.sampling
     if not plan.sobol:
         return {}, []
@@ -284,7 +288,9 @@ def _sobol(question: _Question, table: Table) -> tuple[dict[str, SobolIndices], 
     return found, notes
 
 
-def _notes(question: _Question, scatters: Sequence[Scatter], failures: Sequence[Any]) -> list[str]:
+def _notes(
+    question: _ToleranceQuestion, scatters: Sequence[Scatter], failures: Sequence[Any]
+) -> list[str]:
     notes = []
     if failures:
         notes.append(

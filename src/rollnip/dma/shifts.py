@@ -77,7 +77,7 @@ def fit_law(master: Master, law: Law, *, levels: bool = False) -> ShiftFit:
             )
         return ShiftFit(None, (), (), (), master)
     _require_two_frequencies(master)
-    shape = _Wlf(master) if law == "wlf" else _Energy(master)
+    shape = _Wlf(master) if law == "wlf" else _ArrheniusShift(master)
     found = _searched(master, shape, levels=levels)
     size = shape.bounds[0].size
     x, vertical = found.x[:size], master.vertical.copy()
@@ -112,10 +112,12 @@ def _between(master: Master, law: Law, x: Array) -> Array:
     for k in range(count):
         kept = np.flatnonzero(np.arange(master.temperatures.size) % count != k)
         part = master.at(kept)
-        shape = _Wlf(part) if law == "wlf" else _Energy(part)
+        shape = _Wlf(part) if law == "wlf" else _ArrheniusShift(part)
         shape.least = least  # the same variables: the bound on C2 stays that of all isotherms
 
-        def residuals(y: Array, part: Master = part, shape: _Wlf | _Energy = shape) -> Array:
+        def residuals(
+            y: Array, part: Master = part, shape: _Wlf | _ArrheniusShift = shape
+        ) -> Array:
             return non_negative(replace(part, horizontal=shape.shifts(y)).reduced, times)[1]
 
         end = least_squares(
@@ -165,7 +167,7 @@ def _times(master: Master, margin: float) -> Array:
     return relaxation_times(wide, count)
 
 
-def _searched(master: Master, shape: _Wlf | _Energy, *, levels: bool) -> OptimizeResult:
+def _searched(master: Master, shape: _Wlf | _ArrheniusShift, *, levels: bool) -> OptimizeResult:
     """Constants of a law, then levels where wanted: the best of the starts, followed."""
     size = shape.bounds[0].size
     moved = _moved(master)
@@ -264,7 +266,7 @@ class _Wlf:
         return WLF(values[0], values[1], self.reference)
 
 
-class _Energy:
+class _ArrheniusShift:
     """Arrhenius with x = (ln of the activation energy,)."""
 
     names = ("activation_energy",)

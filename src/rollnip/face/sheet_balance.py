@@ -58,7 +58,7 @@ class SheetBalance:
 
 
 @dataclass(frozen=True, slots=True)
-class _State:
+class _FaceState:
     """The cross-sections at all places, with derivatives by ln F, s_u and s_l.
 
     Attributes
@@ -75,7 +75,7 @@ class _State:
     rates: tuple[Array, Array]
 
 
-def _state(problem: FaceProblem, law: SheetLaw, points: Array) -> _State:
+def _state(problem: FaceProblem, law: SheetLaw, points: Array) -> _FaceState:
     load = np.exp(points[0])
     logarithm, slopes = law.surface("approach", points)
     approach = np.exp(logarithm)
@@ -87,7 +87,7 @@ def _state(problem: FaceProblem, law: SheetLaw, points: Array) -> _State:
         sides.append((values, by))
     found = [law.surface(name, points) for name in ("feed_upper", "feed_lower")]
     rates = np.array([value for value, _ in found]) + np.log1p(problem.rise)
-    return _State(
+    return _FaceState(
         load,
         (approach, approach * slopes),
         sides[0],
@@ -189,7 +189,7 @@ def _mean(row: int, n: int, weight: Array, by: Array, slopes: Array, factor: flo
 
 
 def _carry(
-    problem: FaceProblem, state: _State, pose: tuple[float, float], wrong: Array, slopes: Array
+    problem: FaceProblem, state: _FaceState, pose: tuple[float, float], wrong: Array, slopes: Array
 ) -> None:
     """Write the equations of load and moment, or of approach and tilt, into their rows."""
     grid, n = problem.grid, problem.grid.y.size
@@ -216,7 +216,7 @@ def _carry(
 def _drive(
     problem: FaceProblem,
     law: SheetLaw,
-    state: _State,
+    state: _FaceState,
     points: Array,
     speeds: tuple[float, float],
     wrong: Array,

@@ -153,7 +153,9 @@ def follow(
     return walk.branch(found, high, status)
 
 
-def _end(found: Sequence[_Found], low: float, high: float, largest_rise: float, unit: str) -> str:
+def _end(
+    found: Sequence[_BranchState], low: float, high: float, largest_rise: float, unit: str
+) -> str:
     """Return why a branch need not go on; "" where it goes on."""
     last = found[-1]
     if last.value >= high * (1.0 - 1e-9):
@@ -167,7 +169,7 @@ def _end(found: Sequence[_Found], low: float, high: float, largest_rise: float, 
 
 
 @dataclass(frozen=True, slots=True)
-class _Found:
+class _BranchState:
     """A state of the branch: parameter, rise [K], and the nip."""
 
     value: float
@@ -181,7 +183,7 @@ class _Walk:
     def __init__(self, thermal: HeatProblem, parameter: Parameter) -> None:
         self.thermal, self.parameter = thermal, parameter
 
-    def first(self, value: float) -> _Found:
+    def first(self, value: float) -> _BranchState:
         """Return the steady state from cold at a parameter that is near the given one."""
         thermal = self.thermal
         nip = thermal.with_parameter(self.parameter, value)
@@ -192,9 +194,9 @@ class _Walk:
                 "`nip` must make heat for a branch to follow; it has neither loss nor slip."
             )
         near = from_cold(thermal, last, nip)
-        return self.at_rise(_Found(value, near.hottest, near), near.hottest, value)
+        return self.at_rise(_BranchState(value, near.hottest, near), near.hottest, value)
 
-    def next(self, found: Sequence[_Found], step: float, high: float) -> _Found:
+    def next(self, found: Sequence[_BranchState], step: float, high: float) -> _BranchState:
         """Return the state a step further along the branch, at most at the end of the parameter."""
         last = found[-1]
         along, up = 1.0, 1.0 / _EXPONENT[self.parameter]
@@ -208,7 +210,7 @@ class _Walk:
         value = min(last.value * exp(step * along), high)
         return self.at_value(last, value, last.rise * (value / last.value) ** (up / along))
 
-    def at_value(self, near: _Found, value: float, guess: float) -> _Found:
+    def at_value(self, near: _BranchState, value: float, guess: float) -> _BranchState:
         """Return the state at a parameter, from one near it and a guess of its rise [K]."""
         thermal = self.thermal
         nip = thermal.with_parameter(self.parameter, value)
@@ -228,9 +230,9 @@ class _Walk:
         )
         if not done.converged:
             raise ConvergenceError(f"no state at {value:.5g} {_UNITS[self.parameter]} was found")
-        return _Found(value, states[-1].hottest, states[-1])
+        return _BranchState(value, states[-1].hottest, states[-1])
 
-    def at_rise(self, near: _Found, rise: float, guess: float) -> _Found:
+    def at_rise(self, near: _BranchState, rise: float, guess: float) -> _BranchState:
         """Return the state of a given rise [K], from one that is near it."""
         thermal, exponent = self.thermal, _EXPONENT[self.parameter]
         shape = near.state.rise / near.state.hottest
@@ -256,9 +258,9 @@ class _Walk:
         )
         if not done.converged:
             raise ConvergenceError(f"no state of a rise of {rise:.4g} K was found")
-        return _Found(exp(float(done.value[0]) / rise), rise, states[-1])
+        return _BranchState(exp(float(done.value[0]) / rise), rise, states[-1])
 
-    def branch(self, found: list[_Found], high: float, status: str) -> Branch:
+    def branch(self, found: list[_BranchState], high: float, status: str) -> Branch:
         """Return the branch with its turning point."""
         peak = _first_peak(found)
         turning = None
@@ -285,7 +287,7 @@ class _Walk:
             self.thermal.solves,
         )
 
-    def _turning(self, three: Sequence[_Found]) -> _Found | None:
+    def _turning(self, three: Sequence[_BranchState]) -> _BranchState | None:
         """Return the state at the top of the parabola through three; None where it is one."""
         x = np.log([one.rise for one in three])
         y = np.log([one.value for one in three])
@@ -299,7 +301,7 @@ class _Walk:
         except RollnipError:
             return None
 
-    def _point(self, found: Sequence[_Found], i: int) -> BranchPoint:
+    def _point(self, found: Sequence[_BranchState], i: int) -> BranchPoint:
         one, conduction = found[i], self.thermal.conduction
         state = one.state
         before, after = found[max(i - 1, 0)], found[min(i + 1, len(found) - 1)]
@@ -318,7 +320,7 @@ class _Walk:
         )
 
 
-def _first_peak(found: Sequence[_Found]) -> int | None:
+def _first_peak(found: Sequence[_BranchState]) -> int | None:
     """Return the first inner point whose parameter is larger than those of its neighbours."""
     for i in range(1, len(found) - 1):
         if found[i].value > found[i - 1].value and found[i].value >= found[i + 1].value:

@@ -189,7 +189,7 @@ def fitted(
     ends = several_starts(misfit, method.tried, method.followed)
     misfit, best, noise = _with_noise(misfit, ends[0], noise)
     plain = straightened(misfit, best)
-    scatter = _Scatter.of(misfit, plain, noise, method.confidence)
+    scatter = _ChiSquare.of(misfit, plain, noise, method.confidence)
     weights = misfit.row_weights
     if method.loss == "huber":
         spread = robust_covariance(plain.jacobian, plain.residuals)
@@ -245,7 +245,7 @@ def fitted(
 
 
 @dataclass(frozen=True, slots=True)
-class _Scatter:
+class _ChiSquare:
     """The chi-square of a fit, and what follows from it for the intervals."""
 
     chi_square: float
@@ -256,7 +256,7 @@ class _Scatter:
     given: bool
 
     @classmethod
-    def of(cls, misfit: Misfit, best: Local, noise: Noise, confidence: float) -> _Scatter:
+    def of(cls, misfit: Misfit, best: Local, noise: Noise, confidence: float) -> _ChiSquare:
         plain = best.residuals / np.sqrt(misfit.row_weights)  # straight ones
         total = float(plain @ plain)
         nuisances = sum(part.nuisances for part in misfit.parts)
@@ -330,7 +330,7 @@ def _estimates(
     misfit: Misfit,
     best: Local,
     spread: Array,
-    scatter: _Scatter,
+    scatter: _ChiSquare,
     profiles: Sequence[tuple[IntervalEnd, IntervalEnd] | None],
 ) -> tuple[Estimate, ...]:
     found = []

@@ -85,11 +85,11 @@ def read_fit(path: str | Path) -> FitStudy:
         where a table of measurements is wrong, with file, line and column.
     """
     folder = folder_of(path)
-    reader = _Reader(parse_fit(read_document(path), str(path)), str(path), folder)
+    reader = _FitReader(parse_fit(read_document(path), str(path)), str(path), folder)
     return reader.study()
 
 
-class _Reader:
+class _FitReader:
     def __init__(self, table: FitTable, source: str, folder: Path) -> None:
         self.table, self.source, self.folder = table, source, folder
         self.case = self._case()

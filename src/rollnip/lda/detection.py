@@ -43,7 +43,7 @@ class Burst:
 
 
 @dataclass(frozen=True, slots=True)
-class _Attempt:
+class _Candidate:
     """A burst before it is validated: with the frequency of its second part less the first's."""
 
     time: float
@@ -135,7 +135,7 @@ def _tried(
     speed: float,
     band: tuple[float, float],
     noise: float,
-) -> _Attempt | None:
+) -> _Candidate | None:
     """The burst about a peak of power, or None where the record cuts it off."""
     rate = instrument.sample_rate
     centre = peak / rate
@@ -156,7 +156,7 @@ def _tried(
     part, side = _PART * envelope, _SIDE * envelope
     early, late = tone(envelope, part, -side), tone(envelope, part, side)
     expected = frequency_scatter(snr, rate, envelope, window=part, offset=side)
-    return _Attempt(
+    return _Candidate(
         time=centre,
         frequency=whole.frequency,
         snr=snr,

@@ -74,7 +74,7 @@ def covering_end(upper: Roller, lower: Roller, approach: float, ending: Ending =
     """
     approach = require_positive("approach", approach)
     _require_ends(upper, lower, approach, ending)
-    pair = _Pair(upper, lower, approach)
+    pair = _PressedRollers(upper, lower, approach)
     with one_blas_thread():
         half = pair.half_width()
         coarse = _solved(pair, ending, half, 0.5)
@@ -114,7 +114,7 @@ def _require_ends(upper: Roller, lower: Roller, approach: float, ending: Ending)
 
 
 @dataclass(frozen=True)
-class _Products:
+class _MeanDisplacements:
     """Mean displacements under pressures, both scaled by the root of the length of their place.
 
     Pressures act at a few points x only; the covering feels them over a far longer way.
@@ -132,7 +132,7 @@ class _Products:
     @classmethod
     def of(
         cls, count: int, points: int, long: Array, short: Sequence[tuple[Array, Array]] = ()
-    ) -> _Products:
+    ) -> _MeanDisplacements:
         """Take the part for ``count`` points out of the compliance over a longer way.
 
         Parameters
@@ -161,13 +161,13 @@ class _Products:
         """Area that stands for one value: 1, as no force is given."""
         return 1.0
 
-    def symmetric(self) -> _Products:
+    def symmetric(self) -> _MeanDisplacements:
         """Return itself: elastic coverings."""
         return self
 
 
 @dataclass(frozen=True)
-class _End:
+class _CoveringEnd:
     """Pressure near the end of a covering.
 
     Attributes
@@ -217,7 +217,7 @@ def _means(y: Array, values: Array, edges: Array) -> Array:
     return np.asarray(np.diff(at_edges) / np.diff(edges))
 
 
-def _solved(pair: _Pair, ending: Ending, half: float, fine: float) -> _End:
+def _solved(pair: _PressedRollers, ending: Ending, half: float, fine: float) -> _CoveringEnd:
     """Return the pressure near the end, on ``fine`` times as many places in each direction."""
     y = pair.places(2.0 * half, fine)
     step = half / (_ALONG * fine)
@@ -233,14 +233,16 @@ def _solved(pair: _Pair, ending: Ending, half: float, fine: float) -> _End:
             slow += one.compliance(k[long]) / scaled
             at_top = one.compliance(np.array([one.top]))[0] / scaled
             fast.append((one.beyond(k[~long]), at_top))
-    flat = _Products.of(x.size, k.size, pair.plane(k))
+    flat = _MeanDisplacements.of(x.size, k.size, pair.plane(k))
     plane = pair.pressed(x, flat, np.ones(1), pair.first(x, half))
-    pressure = pair.pressed(x, _Products.of(x.size, k.size, slow, fast), root, plane * root)
-    return _End(step, y, pressure / root, plane)
+    pressure = pair.pressed(
+        x, _MeanDisplacements.of(x.size, k.size, slow, fast), root, plane * root
+    )
+    return _CoveringEnd(step, y, pressure / root, plane)
 
 
 @dataclass(frozen=True)
-class _Pair:
+class _PressedRollers:
     """Two rollers at an approach [mm]."""
 
     upper: Roller
@@ -262,7 +264,7 @@ class _Pair:
         half = _WIDEST * sqrt(2.0 * self.approach / self.curvature)
         for _ in range(2):
             x, k = self.grid(half / _ALONG, half)
-            products = _Products.of(x.size, k.size, self.plane(k))
+            products = _MeanDisplacements.of(x.size, k.size, self.plane(k))
             pressure = self.pressed(x, products, np.ones(1), self.first(x, half))
             half = float(x[np.flatnonzero(pressure[:, 0] > 0.0)[-1]] + 0.5 * (x[1] - x[0]))
         return half
@@ -296,7 +298,7 @@ class _Pair:
         parts = np.concatenate([growing, np.full(even, rest / even)])
         return np.concatenate([[0.0], np.cumsum(parts)])
 
-    def pressed(self, x: Array, products: _Products, root: Array, start: Array) -> Array:
+    def pressed(self, x: Array, products: _MeanDisplacements, root: Array, start: Array) -> Array:
         """Return pressures times the roots of the lengths of their places, (n, m)."""
         gap = (0.5 * self.curvature * x**2 - self.approach)[:, None] * root
         scale = float(np.vdot(start, -gap) / np.vdot(start, products.normal(start)))

@@ -153,13 +153,13 @@ def stress_at_depth(
                 f"`z` must be at least half a rectangle of the grid, {least:.3g} mm, got {z:g} mm; "
                 "solve on a finer grid to come closer to the surface."
             )
-    window = _Window(grid, tractions)
+    window = _TransformedTractions(grid, tractions)
     parts = np.stack([window.stresses(roller, float(z), speed) for z in depths], axis=1)
     return PatchStress(np.array(depths, dtype=float), grid.y, grid.x, *parts)
 
 
 @dataclass(frozen=True)
-class _Waves:
+class _WaveVectors:
     """Wave vectors and the tractions that go with each, shapes that broadcast together.
 
     Attributes
@@ -172,7 +172,7 @@ class _Waves:
     ky: Array
     tractions: tuple[ComplexArray, ComplexArray, ComplexArray]
 
-    def stresses(self, medium: _Medium) -> tuple[ComplexArray, ...]:
+    def stresses(self, medium: _LayersAtDepth) -> tuple[ComplexArray, ...]:
         """Return s_xx, s_yy, s_zz, s_xy, s_xz and s_yz of every wave vector."""
         k = np.hypot(self.kx, self.ky)
         c, s = self.kx / k, self.ky / k
@@ -196,7 +196,7 @@ class _Waves:
         )
 
 
-class _Window:
+class _TransformedTractions:
     """Transformed tractions on a window around the grid.
 
     Over a half-space the wave of length 0 stands for a cell of wave vectors around it, in which
@@ -219,13 +219,13 @@ class _Window:
         spread = np.sinc(wide_x * grid.hx / (2.0 * np.pi))
         spread = spread * np.sinc(wide_y * grid.hy / (2.0 * np.pi))
         x, y, inward = (rfft2(t, self.shape, workers=1) * spread for t in tractions)
-        self.waves = _Waves(wide_x, wide_y, (x, y, inward))
+        self.waves = _WaveVectors(wide_x, wide_y, (x, y, inward))
         cell_x, cell_y = np.meshgrid(fine * steps[0], fine * steps[1])
-        self.cell = _Waves(cell_x, cell_y, (x[:1, :1], y[:1, :1], inward[:1, :1]))
+        self.cell = _WaveVectors(cell_x, cell_y, (x[:1, :1], y[:1, :1], inward[:1, :1]))
 
     def stresses(self, roller: Roller, z: float, speed: float) -> Array:
         """Return s_xx, s_yy, s_zz, s_xy, s_xz, s_yz at one depth, (6, ny, nx)."""
-        medium = _Medium(roller, z, speed)
+        medium = _LayersAtDepth(roller, z, speed)
         spectra = self.waves.stresses(medium)
         rows, columns = self.grid.ny, self.grid.nx
         fields = []
@@ -237,7 +237,7 @@ class _Window:
 
 
 @dataclass(frozen=True, slots=True)
-class _Medium:
+class _LayersAtDepth:
     """The layers of a roller as seen at one depth.
 
     Attributes

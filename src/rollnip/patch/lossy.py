@@ -54,7 +54,7 @@ def solve_lossy(
     steps, products, worst = 0, 0, np.inf
     while np.any(contact):
         steps += 1
-        inside = _Contact(problem, contact, symbols)
+        inside = _ContactSystem(problem, contact, symbols)
         pressure, delta = inside.closed(pressure * contact, delta, clearance, tolerance)
         products += inside.products
         rest = clearance + problem.products.normal(pressure) - delta
@@ -71,7 +71,7 @@ def solve_lossy(
     return NormalState(pressure, delta, gap, steps + products, worst, worst < tolerance)
 
 
-class _Contact:
+class _ContactSystem:
     """The linear system of pressures that close the gap over a given contact.
 
     Attributes

@@ -97,8 +97,8 @@ class EndedCovering:
         thickness = roller.coating_thickness
         depths, owner = _depths(roller, least, fine)
         before = np.empty(0) if ends else -y[:0:-1]
-        strip = _Strip(roller, np.concatenate([before, y]), depths, owner, not ends)
-        column = _Strip(roller, np.array([0.0, thickness]), depths, owner, True)
+        strip = _CrossSection(roller, np.concatenate([before, y]), depths, owner, not ends)
+        column = _CrossSection(roller, np.array([0.0, thickness]), depths, owner, True)
         top = 1.0 / least
         count = int(np.ceil(np.arcsinh(top * thickness) / _STEP))
         places = np.linspace(0.0, np.arcsinh(top * thickness), count + 1)
@@ -203,7 +203,7 @@ def _strains(half_y: Array, half_z: Array) -> tuple[Array, Array]:
     return np.concatenate(plain, axis=1), np.concatenate(waved, axis=1)
 
 
-class _Strip:
+class _CrossSection:
     """Finite elements over y and z; the last side over y is a plane of symmetry.
 
     Parameters

@@ -102,7 +102,7 @@ def section_pieces(
     total = sum(depths[-1] for depths in faces.values())
     pieces: list[Piece] = []
     for name, depths in faces.items():
-        frame = _Frame.of(solution, name, scale)
+        frame = _RollerPlace.of(solution, name, scale)
         if len(depths) > 1:
             pieces += _layers(solution, frame, depths, component, x)
         roller = roller_of(solution, name)
@@ -137,7 +137,7 @@ def _places(solution: Solution, window: float) -> Array:
 
 
 def _layers(
-    solution: Solution, frame: _Frame, faces: list[float], component: str, x: Array
+    solution: Solution, frame: _RollerPlace, faces: list[float], component: str, x: Array
 ) -> list[Piece]:
     """Pieces of the layers; at an interface each has its own value."""
     quantity = QUANTITIES[component]
@@ -184,7 +184,7 @@ def _plain(value: float) -> str:
 
 
 @dataclass(frozen=True, slots=True)
-class _Frame:
+class _RollerPlace:
     """The position of a roller in the drawing.
 
     ``sign`` is 1 where its z points upwards; ``round`` bends and deforms; ``lift`` is the height
@@ -198,7 +198,7 @@ class _Frame:
     lift: float = 0.0
 
     @classmethod
-    def of(cls, solution: Solution, name: Name, scale: Scale) -> _Frame:
+    def of(cls, solution: Solution, name: Name, scale: Scale) -> _RollerPlace:
         """Frame of a roller; rounded, its surface lies where the solution's does at the peak."""
         sign = 1.0 if name == "upper" else -1.0
         frame = cls(name, sign, roller_of(solution, name).curvature, scale == "equal")

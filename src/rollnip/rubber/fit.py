@@ -117,7 +117,7 @@ def fit_rubber(
     if not 1 <= terms <= _MOST_TERMS:
         raise InvalidInputError(f"`terms` must lie between 1 and {_MOST_TERMS}, got {terms!r}.")
     _require_strain_and_stress(data)
-    problem = _Problem(data)
+    problem = _EnergyResiduals(data)
     number = {"neo-hookean": 1, "yeoh": 3, "gent": 2, "ogden": 2 * terms}[law]
     if data.stress.size <= number:
         raise InvalidInputError(
@@ -166,7 +166,7 @@ def _wrong_way(data: RubberData, shear: float) -> InvalidInputError:
     )
 
 
-class _Problem:
+class _EnergyResiduals:
     """Residuals of energies on given data."""
 
     def __init__(self, data: RubberData) -> None:
@@ -211,7 +211,9 @@ class _Problem:
         return [start for _, start in tried[:_STARTS]]
 
 
-def _parts(law: Law, terms: int, problem: _Problem) -> tuple[_Model, list[Array], list[str]]:
+def _parts(
+    law: Law, terms: int, problem: _EnergyResiduals
+) -> tuple[_Model, list[Array], list[str]]:
     """Return the energy as a function of coordinates, starts, and the names of the constants."""
     shear = problem.neo_hookean
     if law == "neo-hookean":
@@ -250,7 +252,7 @@ def _largest_excess(data: RubberData) -> float:
 
 
 def _constants(
-    problem: _Problem, model: _Model, best: Array, names: list[str]
+    problem: _EnergyResiduals, model: _Model, best: Array, names: list[str]
 ) -> tuple[Constant, ...]:
     """Return the constants with intervals from the derivatives of the residuals at the best fit.
 

@@ -46,12 +46,12 @@ def read_study(study: str | Path | Mapping[str, Any]) -> Study:
         where a table of designs is wrong, with file, line and column.
     """
     if isinstance(study, Mapping):
-        return _Reader(study, "study", Path()).study()
+        return _StudyReader(study, "study", Path()).study()
     folder = folder_of(study)
-    return _Reader(read_document(study), str(study), folder).study()
+    return _StudyReader(read_document(study), str(study), folder).study()
 
 
-class _Reader:
+class _StudyReader:
     def __init__(self, tree: Mapping[str, Any], source: str, folder: Path) -> None:
         if "nip" in tree and "parameters" not in tree:
             raise CaseFileError(

@@ -211,7 +211,7 @@ def _over_cold(found: HeatSolution) -> float:
 
 
 @dataclass(frozen=True)
-class _State:
+class _UniformState:
     """A state of one temperature, as the branch reads it."""
 
     temperatures: Array
@@ -260,10 +260,10 @@ class _Lumped:
     def divided(self, *_: object) -> None:
         return None
 
-    def at(self, temperatures: Array, _cut: None, value: float) -> _State:
+    def at(self, temperatures: Array, _cut: None, value: float) -> _UniformState:
         self.solves += 1
         rise = _LOSS * value * exp(_BETA * float(np.max(temperatures)))
-        return _State(temperatures, np.full(2, rise))
+        return _UniformState(temperatures, np.full(2, rise))
 
 
 def _runaway() -> tuple[VerificationCase, ...]:

@@ -50,6 +50,26 @@ def test_the_bond_is_that_of_the_summary(driven):
         assert bond.pull == max(0.0, bond.peel.max())
 
 
+def test_a_sheet_has_its_feed_tension_and_grip_among_the_figures():
+    rubber = rn.Roller(radius=50.0, layers=[rn.Layer(2.0, rn.Elastic(modulus=0.91, poisson=0.5))])
+    paper = rn.Sheet(thickness=0.1, modulus=3500.0, tension_in=0.2, bending=False)
+    nip = rn.Nip(upper=rubber, lower=rubber, normal=rn.LineLoad(1.78), friction=0.5, sheet=paper)
+    solution = rn.solve(nip, rn.Model(geometry="linear"))
+    texts = [text.get_text() for text in plot_overview(solution).findobj(Text)]
+    sheet = solution.sheet
+    shown = {
+        "feed over upper roller": 100.0 * sheet.feed_upper,
+        "feed over lower roller": 100.0 * sheet.feed_lower,
+        "largest tension": sheet.tension_max,
+        "smallest tension": sheet.tension_min,
+        "grip reserve": sheet.grip_reserve,
+    }
+    for name, value in shown.items():
+        number = float(texts[texts.index(name) + 1].replace("−", "-"))
+        assert number == pytest.approx(value, rel=1e-3, abs=1e-9), name
+    assert "slides first where pulled: upper side" in texts
+
+
 def test_what_is_not_defined_is_a_dash(skin):
     assert "–" in words(plot_overview(skin))
 

@@ -51,6 +51,16 @@ def test_friction_of_the_sheet_may_stand_in_for_that_of_the_nip():
     assert solution.converged
 
 
+def test_a_friction_of_the_nip_that_no_side_has_changes_nothing():
+    soft = replace(paper(friction_upper=0.4, friction_lower=0.3), modulus=5.0)
+    one, two = (
+        rn.solve(nip_with(soft, friction=mu), rn.Model(geometry="linear")) for mu in (0.0, 0.9)
+    )
+    assert one.sheet.feed_upper == two.sheet.feed_upper
+    # errors are claimed over what friction carries on either side
+    assert one.sheet.error == pytest.approx(two.sheet.error, nan_ok=True)
+
+
 def test_a_torque_that_friction_cannot_hold_is_refused():
     nip = nip_with(paper(), friction=0.1, tangential=rn.Torque(-50.0))
     with pytest.raises(rn.InvalidInputError, match=r"^`torque_lower` asks the sheet"):

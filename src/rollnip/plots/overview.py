@@ -28,6 +28,7 @@ from rollnip.plots.style import (
 )
 from rollnip.plots.surfaces import plot_deformed_surfaces, plot_strain
 from rollnip.rollers import Roller
+from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.solution import Solution
 
 _WIDTH, _HEIGHT = 297.0, 186.0  # mm, 16:10, as wide as a sheet of A4
@@ -50,6 +51,7 @@ _KEYS = {
     "Drive": ("traction", "creepage", "torque_upper", "torque_lower"),
     "Losses": ("rolling_resistance", "dissipation.friction", "dissipation.viscous"),
 }
+_OF_SHEET = ("feed_upper", "feed_lower", "tension_max", "tension_min", "grip_reserve")
 _SIGNS = (
     "x points to the inlet",
     "traction, creepage > 0: upper drives",
@@ -60,7 +62,8 @@ _SIGNS = (
 def plot_overview(solution: Solution, *, style: Style = "light") -> Figure:
     """Draw one page: pressure, normal stress inside, deformed surfaces, strain, key figures.
 
-    With a sheet the shears on its faces and its tension take the place of the strain.
+    With a sheet the shears on its faces and its tension take the place of the strain, and its
+    feed, tension and grip are among the figures.
 
     Parameters
     ----------
@@ -139,7 +142,7 @@ def _number(name: str, value: float, unit: str = "", size: float = 0.0) -> _Row:
 
 def _figure(key: str, solution: Solution) -> _Row:
     """A figure of the registry; a dash where it is not defined."""
-    one = line(FIGURES[key], solution)
+    one = line(FIGURES[key] if key in FIGURES else SHEET_FIGURES[key], solution)
     return _Row(one.label, "–" if one.value == "-" else one.value.replace("-", "−"), one.unit)
 
 
@@ -147,6 +150,11 @@ def _rows(solution: Solution) -> Iterator[_Row]:
     for heading, keys in _KEYS.items():
         yield _Row(heading)
         yield from (_figure(key, solution) for key in keys)
+    if solution.sheet is not None:
+        yield _Row("Sheet")
+        for row in (_figure(f"sheet.{key}", solution) for key in _OF_SHEET):
+            yield row._replace(name=row.name.replace("over the", "over"))  # room for the number
+        yield _Row(f"slides first where pulled: {solution.sheet.grip.first} side", "")
     yield from _bond_rows(solution)
     yield from _roller_rows("Upper roller", solution.nip.upper)
     yield from _roller_rows("Lower roller", solution.nip.lower)

@@ -6,13 +6,12 @@ from dataclasses import replace
 from math import sqrt
 
 import numpy as np
-from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from rollnip.contact import State, States
 from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
-from rollnip.nip import Nip, Torque, Traction
+from rollnip.nip import Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
 from rollnip.rolling.largest import largest
@@ -21,8 +20,6 @@ from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
-
-_DEGREE = 8  # of the polynomial along the path of the sheet
 
 
 def first_lagged(problem: SheetProblem) -> Lagged:
@@ -119,26 +116,18 @@ def sheet_rate(creepage_upper: float, creepage_lower: float) -> float:
     return 1.0 + 0.5 * (creepage_lower - creepage_upper)
 
 
-def path_turn(mesh: Mesh, nip: Nip, u: Displacements) -> Array:
+def path_turn(problem: SheetProblem, u: Displacements) -> Array:
     """Return the change of the slope of the sheet's middle over each interval of nodes[1:], (n,).
 
     The middle lies halfway between both surfaces: y = [(1/R_u - 1/R_l) x^2/2 + u_z,u - u_z,l]/2,
     and its curvature d^2y/dx^2 is positive where its centre is on the upper side. A bare rigid
-    roller has the curvature itself. Elsewhere it is that of a polynomial through the displacements:
-    the path is as smooth as the sheet's bending stiffness makes it, and its curvature matters on
-    the scale of the nip.
+    roller has the curvature itself. ``u``: displacements at nodes[1:].
     """
+    nip, mesh = problem.nip, problem.mesh
     if nip.upper.is_rigid or nip.lower.is_rigid:
         own = nip.upper.curvature if nip.upper.is_rigid else -nip.lower.curvature
         return np.asarray(own * mesh.dx)
-    fine = mesh.finer(u)
-    x, height = mesh.fine.nodes[1:-1], (fine.z_upper - fine.z_lower)[:-1]
-    middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
-    basis = legendre.legvander((x - middle) / half, _DEGREE)
-    weighted = basis * np.gradient(x)[:, None]
-    path = np.linalg.solve(weighted.T @ basis, height @ weighted)  # least squares
-    slopes = legendre.legval((mesh.inner - middle) / half, legendre.legder(path) / half)
-    bent = np.append(slopes[1:] - slopes[:-1], 0.0)  # the last interval lies outside
+    bent = problem.turns @ (u.z_upper - u.z_lower)
     return np.asarray(0.5 * ((nip.upper.curvature - nip.lower.curvature) * mesh.dx + bent))
 
 
@@ -161,7 +150,7 @@ def _offsets(
     linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)
     half = 0.5 * (state.creepage + state.creepage_lower)
     rate = sheet_rate(state.creepage, state.creepage_lower)
-    turn = path_turn(mesh, nip, u)
+    turn = path_turn(problem, u)
     bend = 0.5 * rate * problem.sheet.thickness * turn
     strained = (rate - 1.0) * problem.strain_over(state)
     upper = mesh.sums((1.0 + half) * excess[0] - linear[0])

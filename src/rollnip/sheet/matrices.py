@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE
@@ -15,6 +16,7 @@ from rollnip.sheets import Sheet
 Array = NDArray[np.float64]
 
 _STEEP = 4.0  # how fast the integral of the tension changes its kind
+_DEGREE = 8  # of the polynomial along the path of the sheet
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,3 +112,25 @@ def _stretch(mesh: Mesh, u_x: Array, u_z: Array, hoop: float) -> Array:
         dx = np.diff(mesh.fine.nodes[1:])[:, None]
         out = out - hoop * (mesh.sums(dx * means) @ u_z)
     return np.asarray(out)
+
+
+def path_turns(mesh: Mesh) -> Array:
+    """Return the change of a path's slope over each interval of nodes[1:] per height there, (n, N).
+
+    The slope is that of a polynomial through the heights at the finer nodes: the path is as smooth
+    as the sheet's bending stiffness makes it, and its curvature matters on the scale of the nip.
+    """
+    x, n = mesh.fine.nodes[1:-1], mesh.inner.size
+    middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
+    basis = legendre.legvander((x - middle) / half, _DEGREE)
+    weighted = basis * np.gradient(x)[:, None]
+    path = np.linalg.solve(weighted.T @ basis, weighted.T)  # least squares
+    if mesh.fine.values is not None:
+        path = path @ mesh.fine.values[1:-1, 1:]
+    else:
+        path = np.pad(path, ((0, 0), (0, 1)))
+    of_slopes = legendre.legder(np.eye(_DEGREE + 1)) / half
+    slopes = legendre.legvander((mesh.inner - middle) / half, _DEGREE - 1) @ of_slopes
+    out = np.zeros((n, n + 1))  # the last interval lies outside
+    out[:-1] = np.diff(slopes, axis=0) @ path
+    return out

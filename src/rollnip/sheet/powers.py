@@ -108,7 +108,7 @@ def _into_sheet(problem: SheetProblem, geometry: Geometry, state: SheetState) ->
     taken = rate * float(pushed.sum())
     if geometry == "linear":
         return taken + float(pushed @ strain)
-    turn = path_turn(mesh, problem.nip, mesh.displacements(state))[:-1] / mesh.dx[:-1]
+    turn = path_turn(problem, mesh.displacements(state))[:-1] / mesh.dx[:-1]
     bent = 0.5 * problem.sheet.thickness * float(sheared @ turn)
     return taken + rate * (float(pushed @ strain) - bent)
 

@@ -17,6 +17,7 @@ from rollnip.rolling import Figures, PairKernels
 from rollnip.rolling.round import peak_pressure, scale_of_creepage
 from rollnip.sheet.powers import SheetPowers, sheet_powers
 from rollnip.sheet.search import SheetAttempt, SheetSearch, overlap, violation
+from rollnip.sheet.system import frictions_of
 from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
@@ -229,14 +230,15 @@ def scales(nip: Nip, figures: SheetFigures) -> Array:
     """
     values = np.abs(figures.values)
     load, slope = values[1], 0.5 * values[3] * nip.curvature
-    grip, work = 0.05 * load * min(nip.friction, 1.0), load * slope
+    carried = 0.05 * np.minimum(frictions_of(nip), 1.0)  # of either side, over the load
+    work = load * slope
     viscous = [roller.is_viscoelastic for roller in (nip.upper, nip.lower)]
     out = values.copy()
     out[2] = scale_of_creepage(values[2], slope)
     out[5:7] = scale_of_creepage(max(values[5], values[6]), slope)
-    out[7:9] = np.maximum(values[7:9], grip)
-    out[9:11] = max(values[9], values[10], grip)
-    out[11:13] = np.maximum(values[11:13], 0.05 * work * min(nip.friction, 1.0))
+    out[7:9] = np.maximum(values[7:9], load * carried)
+    out[9:11] = max(values[9], values[10], load * float(carried.max()))
+    out[11:13] = np.maximum(values[11:13], work * carried)
     out[13:15] = np.where(viscous, np.maximum(values[13:15], 0.0025 * work), 0.0)
     out[15:18] = np.maximum(values[15:18], work)
     out[18] = values[3]

@@ -111,8 +111,9 @@ class SheetSearch:
         ``closely``: what an end may be off, of the tolerance times the width.
         """
         placed = closely * self.model.tolerance
-        steps, changes, off = (0 if before is None else before.steps), 0, inf
-        known = 1.0 if before is None else min(before.off, 1.0)
+        steps, changes, off = (0, 0, inf) if before is None else (before.steps, 0, before.off)
+        known = min(off, 1.0)
+        near = min(off, _NEARLY_PLACED)  # on the first mesh, whose terms are those of a solution
         elements: NDArray[np.intp] | None = None
         crowding: tuple[float, ...] = ()
         stand = before
@@ -128,12 +129,12 @@ class SheetSearch:
                 elements, crowding = elements_of_zones(breaks, count, crowd), crowd
             problem = self._problem(zones, (elements, crowding), stand)
             start = first_lagged(problem) if stand is None else carried(stand, problem)
-            stand = self._solved(problem, zones, start, steps, (known, off))
+            stand = self._solved(problem, zones, start, steps, (near, off))
             steps = stand.steps
             called = _Called(stand, self._slack)
             asked, are_clear = zones.moved(problem, stand.state, called)
             off = asked.distance(zones)
-            known = min(known, off)
+            near = known = min(known, off)
             is_met = violation(stand) <= self._slack
             rough = off > _FAIRLY_PLACED and not changes
             # Without a violation zones are doubted once; with one, as soon as no end moves.
@@ -211,7 +212,7 @@ class SheetSearch:
         """
         system = Factorised.of(problem, zones.states_on(problem.mesh.inner))
         change, still = 0.0, _STILL * self.model.tolerance
-        most = 2 if off[1] > _FAIRLY_PLACED else _MOST_TURNS
+        most = _MOST_TURNS if off[1] < _NEARLY_PLACED else 2
         for _ in range(most):
             state = system.solved(lagged)
             steps += 1

@@ -25,15 +25,11 @@ from __future__ import annotations
 
 from functools import lru_cache
 from math import pi
-from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.sheets import Sheet
-
-if TYPE_CHECKING:
-    from scipy.interpolate import CubicSpline
 
 Array = NDArray[np.float64]
 
@@ -94,12 +90,16 @@ def _spread(away: Array, near: NDArray[np.bool_], shares: tuple[float, float]) -
     ``away``: distances over h; ``near``: where they are below `_FAR`, beyond which it is 0.
     """
     out = np.zeros(away.shape)
-    out[near] = _table(shares)(np.cbrt(away[near] / _FAR))
+    place = (_PLACES - 1) * np.cbrt(away[near] / _FAR)
+    piece = np.minimum(place.astype(np.intp), _PLACES - 2)
+    cubic, beyond = _table(shares).take(piece, axis=1), place - piece
+    out[near] = ((cubic[0] * beyond + cubic[1]) * beyond + cubic[2]) * beyond + cubic[3]
     return out
 
 
 @lru_cache(maxsize=3)
-def _table(shares: tuple[float, float]) -> CubicSpline:
+def _table(shares: tuple[float, float]) -> Array:
+    """Return the cubics between the places of the table, highest power first, (4, places - 1)."""
     # loads more than 200 modules, which a nip without a sheet does not need
     from scipy.interpolate import CubicSpline
 
@@ -109,7 +109,7 @@ def _table(shares: tuple[float, float]) -> CubicSpline:
         for share, sign in zip(shares, (1.0, -1.0), strict=True)
         if share
     )
-    return CubicSpline(place, values)
+    return np.asarray(CubicSpline(np.arange(_PLACES), values).c)
 
 
 def _summed(sign: float, away: Array) -> Array:

@@ -20,6 +20,7 @@ Slip: q = mu p sign(creep) on each interface, with its own coefficient mu.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,7 @@ from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import Displacements, PairKernels
 from rollnip.rolling.displacements import SecondFields
 from rollnip.rolling.surfaces import Mesh, mesh_on
-from rollnip.sheet.matrices import Integrals, influence, stable
+from rollnip.sheet.matrices import Integrals, influence, path_turns, stable
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -202,6 +203,11 @@ class SheetProblem:
     def dx(self) -> Array:
         """Return the lengths of the intervals [mm], (n,)."""
         return self.mesh.dx
+
+    @cached_property
+    def turns(self) -> Array:
+        """Change of the path's slope over each interval per height at nodes[1:], (n, N) [1/mm]."""
+        return path_turns(self.mesh)
 
     def right(self, lagged: Lagged) -> Array:
         """Return what the tractions must make up for: (3, n) gaps and creeps, without unknowns."""

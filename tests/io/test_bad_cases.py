@@ -134,6 +134,15 @@ def test_one_error_is_one_line_with_its_path(tree, path, value, expected):
     assert expected in lines[0]
 
 
+def test_friction_of_the_nip_may_be_left_out_where_both_sides_of_a_sheet_have_their_own(tree):
+    change(tree, ("nip", "friction"), DELETE)
+    tree["sheet"] = {"kind": "office paper", "friction_upper": 2.0}
+    assert errors(tree) == ["nip.friction: is missing."]
+    tree["sheet"]["friction_lower"] = 1.5
+    nip = parse_case(tree, source="case.toml").nip
+    assert (nip.friction_on("upper"), nip.friction_on("lower")) == (2.0, 1.5)
+
+
 def test_all_errors_at_once(tree):
     change(tree, ("nip", "frction"), 1)
     change(tree, ("nip", "load"), DELETE)

@@ -67,6 +67,18 @@ def test_a_torque_that_friction_cannot_hold_is_refused():
         rn.solve(nip, rn.Model(geometry="linear"))
 
 
+def test_a_torque_and_tensions_that_the_upper_friction_cannot_hold_are_refused():
+    # 44 N over 25 mm and a pull of 0.5 N/mm: 2.26 N/mm, where friction carries 1.78
+    sheet = paper(tension_in=0.5, friction_upper=1.0, friction_lower=2.0)
+    nip = nip_with(sheet, tangential=rn.Torque(-44.0))
+    with pytest.raises(rn.InvalidInputError, match="tensions ask the upper roller for 2"):
+        rn.solve(nip, rn.Model(geometry="linear"))
+    # a little beyond what it carries
+    nip = nip_with(sheet, tangential=rn.Torque(-33.0))
+    with pytest.raises(rn.InvalidInputError, match="tensions ask the upper roller for 1"):
+        rn.solve(nip, rn.Model(geometry="linear"))
+
+
 def test_the_corrected_geometry_is_refused():
     with pytest.raises(rn.InvalidInputError, match="with a sheet"):
         rn.solve(nip_with(paper()), rn.Model(geometry="corrected"))

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Annotated, Any, Literal
 
-from pydantic import ConfigDict, Discriminator, Field, Tag
+from pydantic import ConfigDict, Discriminator, Field, Tag, model_validator
 
 from rollnip.io.forms import (
     FileTable,
@@ -309,7 +309,9 @@ class NipTable(FileTable):
     traction: LineLoad | None = None
     creepage: Ratio | None = None
     torque_lower: Force | None = None
-    friction: Ratio
+    friction: Ratio = Field(
+        description="May be left out where the sheet has its own on both sides."
+    )
     speed: Speed | None = None
     face_width: Length | None = None
 
@@ -341,6 +343,16 @@ class CaseTable(FileTable):
     upper: RollerTable
     lower: RollerTable
     materials: dict[str, Material] = Field(default={})
+
+    @model_validator(mode="before")
+    @classmethod
+    def _with_friction(cls, tree: dict[str, Any]) -> dict[str, Any]:
+        """Return the tree with a friction of the nip where both sides of a sheet have their own."""
+        nip, sheet = tree.get("nip"), tree.get("sheet")
+        if not (isinstance(nip, dict) and isinstance(sheet, dict)) or "friction" in nip:
+            return tree
+        sides = [sheet.get(f"friction_{side}") for side in ("upper", "lower")]
+        return tree if None in sides else {**tree, "nip": {**nip, "friction": sides[0]}}
 
 
 TABLES: dict[str, type[FileTable]] = {f"<{name}>": table for name, table in MATERIALS.items()} | {

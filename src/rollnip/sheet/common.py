@@ -72,17 +72,26 @@ def half_width_with_sheet(nip: Nip, half_width: float) -> float:
     return float(np.cbrt(half_width**3 + squeezed))
 
 
-def require_torque(nip: Nip) -> None:
-    """Raise where a torque clearly asks for more than the friction below carries."""
+def require_torque(nip: Nip, share: float = _CLEARLY) -> None:
+    """Raise where a torque asks for more than so many times what friction carries on either side.
+
+    About, for a torque also turns against the pressure.
+    """
     if not (isinstance(nip.tangential, Torque) and isinstance(nip.normal, LineLoad)):
         return
-    limit = nip.friction_on("lower") * nip.normal.load
-    wanted = abs(nip.tangential.torque_lower) * nip.lower.curvature
-    if wanted > _CLEARLY * limit:
+    sheet, load = nip.sheet, nip.normal.load
+    assert sheet is not None
+    lower = -nip.tangential.torque_lower * nip.lower.curvature
+    limit = nip.friction_on("lower") * load
+    if abs(lower) > share * limit:
         raise InvalidInputError(
-            f"`torque_lower` asks the sheet for some {wanted:.4g} N/mm, but its friction on the "
-            f"lower roller carries {limit:.4g} N/mm; lower it, or raise the load or the friction."
+            f"`torque_lower` asks the sheet for some {abs(lower):.4g} N/mm, but its friction on "
+            f"the lower roller carries {limit:.4g} N/mm; lower it, or raise the load or the "
+            "friction."
         )
+    upper, limit = lower + sheet.tension_in - sheet.tension_out, nip.friction_on("upper") * load
+    if abs(upper) > share * limit:
+        raise InvalidInputError(_slips_through("torque_lower", "upper", upper, limit))
 
 
 def require_grip(nip: Nip, refined: Refined) -> None:
@@ -99,11 +108,15 @@ def require_grip(nip: Nip, refined: Refined) -> None:
         if abs(pull) >= friction * load and (
             refined.stand.stands_still or isinstance(nip.tangential, Traction)
         ):
-            raise InvalidInputError(
-                f"`{name}` and the tensions ask the {side} roller for {pull:.6g} N/mm, but its "
-                f"friction on the sheet carries less than {friction * load:.6g} N/mm: the sheet "
-                "slips through; lower them, or raise the load or the friction."
-            )
+            raise InvalidInputError(_slips_through(name, side, pull, friction * load))
+
+
+def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
+    return (
+        f"`{name}` and the tensions ask the {side} roller for {pull:.6g} N/mm, but its "
+        f"friction on the sheet carries less than {limit:.6g} N/mm: the sheet "
+        "slips through; lower them, or raise the load or the friction."
+    )
 
 
 def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:

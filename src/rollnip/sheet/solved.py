@@ -125,6 +125,7 @@ def _refined(
         if found is not None and (simpler is None or found[1].stand.stands_still):
             return model, *found, instead_of(left, model.geometry)
         if simpler is None:
+            require_torque(nip, 1.0)
             raise ConvergenceError(
                 "No solution with this sheet was found; try a larger load or other tensions."
             )

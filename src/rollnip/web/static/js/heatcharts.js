@@ -37,7 +37,7 @@ export function depthChart(heat, tree, units, palette) {
 
 /** A figure of one roller in a legend. */
 function named(side, key) {
-  return `${say(`roller.${side}`)}, ${curveName("heat", key)}`;
+  return `${say(`roller.${side}`)}: ${curveName("heat", key)}`;
 }
 
 /** Depths from the surface to the inside, and the temperatures there. */

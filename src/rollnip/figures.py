@@ -306,14 +306,14 @@ FIELDS: Mapping[str, Figure] = by_key(
         "",
         "stress power, loss density",
         "power per volume",
-        "Power that stress puts into the passing material; its integral along x is heat.",
+        "Power that linear stress puts into the passing material; its integral along x is heat.",
     ),
     _field(
         "loss_per_depth",
         "",
         "heat per depth",
         "power per area",
-        "Heat made per depth and per width of the face.",
+        "Heat of linear theory made per depth and per width of the face.",
     ),
 )
 """The fields inside a roller by key; z points from its surface into its body."""

@@ -25,6 +25,12 @@ def test_every_component_is_drawn_with_its_unit(viscoelastic, component):
     assert ax.get_ylabel() == "lower ← depth [mm] → upper"
 
 
+def test_the_stress_power_is_said_to_be_linear_at_finite_strain(viscoelastic):
+    finite = replace(viscoelastic, model=rn.Model(geometry="finite"))
+    name = colour_bar(plot_field(finite, "loss_density")).get_xlabel()
+    assert name == "stress power, loss density [mW/mm³], linear theory"
+
+
 def test_layers_are_named(skin):
     names = texts(plot_field(skin))
     assert {"0.1 mm\n5500 MPa", "4 mm\n2 MPa", "rigid core", "rigid roller", "inlet"} <= set(names)

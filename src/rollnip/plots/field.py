@@ -102,7 +102,7 @@ def plot_field(
     _frame(ax, look, pieces, scale)
     _name_layers(ax, look, pieces)
     text = QUANTITIES[component].label + ("" if rollers == "both" else f", {rollers} roller")
-    _colour_bar(ax, look, drawn[0], shades, text + _theory(solution, names))
+    _colour_bar(ax, look, drawn[0], shades, text + _theory(solution, names, component))
     title(ax, look, solution, "Inside the layers", room=0.5)
     engine = figure_of(ax).get_layout_engine()
     if scale == "equal" and isinstance(engine, ConstrainedLayoutEngine):
@@ -111,10 +111,12 @@ def plot_field(
     return ax
 
 
-def _theory(solution: Solution, names: tuple[Name, ...]) -> str:
+def _theory(solution: Solution, names: tuple[Name, ...], component: str) -> str:
     """Return whether what is drawn in geometry "finite" is of finite strain."""
     if solution.model.geometry != "finite":
         return ""
+    if component == "loss_density":
+        return ", linear theory"
     soft = [name for name in names if not roller_of(solution, name).is_rigid]
     linear = [name for name in soft if not solution.is_finite_inside(name)]
     if not linear:

@@ -3,6 +3,7 @@
 import re
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -184,8 +185,12 @@ def test_what_a_face_with_a_sheet_holds_in_files(one_speed, free):
 
 
 def test_the_picture_has_feed_and_tension(one_speed):
-    labels = [ax.get_ylabel() for ax in plot_face(one_speed).axes]
+    figure = plot_face(one_speed)
+    labels = [ax.get_ylabel() for ax in figure.axes]
     assert labels[3:5] == ["feed over mean [mm/m]", "tension at the inlet [N/mm]"]
+    figure.draw_without_rendering()
+    boxes = [ax.yaxis.label.get_window_extent() for ax in figure.axes]
+    assert all(above.y0 > below.y1 for above, below in pairwise(boxes))
 
 
 def test_how_the_sheet_runs_is_read_and_written_again(one_speed):

@@ -10,7 +10,7 @@ from typing import Any
 from rollnip._results.case import problem_hash
 from rollnip.cooling import HeatBalance
 from rollnip.io.build import Builder
-from rollnip.io.document import folder_of, parse_document, read_document
+from rollnip.io.document import folder_of, read_document, tree_of
 from rollnip.io.messages import checked_form, refuse, wrong_controls
 from rollnip.io.tables import TABLES, CaseTable
 from rollnip.model import Model
@@ -66,8 +66,7 @@ def parse_case(case: str | Mapping[str, Any], *, source: str = "case") -> Case:
     ``source`` names it in messages. Raises CaseFileError as `read_case` does, and where the case
     names a file: none is ever read.
     """
-    tree = parse_document(case, source) if isinstance(case, str) else dict(case)
-    return built_case(tree, source, folder=None)
+    return built_case(tree_of(case, source), source, folder=None)
 
 
 def built_case(tree: dict[str, Any], source: str, folder: Path | None) -> Case:

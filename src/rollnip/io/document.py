@@ -6,6 +6,7 @@ import json
 import re
 import sys
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -51,6 +52,11 @@ def parse_document(text: str, name: str) -> dict[str, Any]:
     if not isinstance(tree, dict):
         raise CaseFileError(f"{name}: must hold a table (an object), got {type(tree).__name__}.")
     return tree
+
+
+def tree_of(case: str | Mapping[str, Any], name: str) -> dict[str, Any]:
+    """Return the tree of a case that is a text (TOML or JSON) or that tree itself."""
+    return parse_document(case, name) if isinstance(case, str) else dict(case)
 
 
 def _has_deep_key(text: str) -> bool:

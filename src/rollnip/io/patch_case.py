@@ -11,7 +11,7 @@ from typing import Any
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.io.build import Builder
 from rollnip.io.case import Case, built_case
-from rollnip.io.document import folder_of, parse_document, read_document
+from rollnip.io.document import folder_of, read_document, tree_of
 from rollnip.io.messages import checked_form, more_than_one, placed, refuse
 from rollnip.io.profile import read_profile
 from rollnip.io.tables import CaseTable, NipTable, RollerTable
@@ -58,16 +58,7 @@ class PatchCase:
 def read_patch_case(path: str | Path) -> PatchCase:
     """Read a case file in three dimensions, one with a table ``[patch]``.
 
-    Parameters
-    ----------
-    path :
-        the file; ``-`` is the standard input. Profiles are looked for in its folder.
-
-    Raises
-    ------
-    CaseFileError
-        where the file cannot be read or does not describe a patch; one line for each error, with
-        the name of the file and the path of the key.
+    Parameters and errors are those of `rollnip.io.read_case`; a case without that table is refused.
     """
     return _built(read_document(path), str(path), folder_of(path))
 
@@ -77,8 +68,7 @@ def parse_patch_case(case: str | Mapping[str, Any], *, source: str = "case") -> 
 
     Raises CaseFileError as `read_patch_case` does, and where the case names a file.
     """
-    tree = parse_document(case, source) if isinstance(case, str) else dict(case)
-    return _built(tree, source, None)
+    return _built(tree_of(case, source), source, None)
 
 
 def read_any_case(path: str | Path) -> Case | PatchCase:

@@ -72,7 +72,7 @@ def _shown(figure: Any, solution: PatchSolution) -> str:
     if error is None:
         return f"{value * figure.factor:12.5g}{unit}"
     shown = 0.0 if abs(value) <= error and figure.when != "always" else value
-    return f"{shown * figure.factor:12.5g}{unit}  (+- {error * figure.factor:.1g})"
+    return f"{shown * figure.factor:12.5g}{unit}  (± {error * figure.factor:.1g})"
 
 
 def stress_rows(field: PatchStress) -> list[dict[str, float]]:
@@ -124,7 +124,7 @@ def end_dict(end: FaceEnd) -> dict[str, Any]:
 def end_lines(end: FaceEnd) -> Iterator[str]:
     """Yield the end of a face, line by line."""
     yield f"Line load far from the end: {end.line_load:.4g} N/mm"
-    yield f"Length that the end adds to the load: {end.added_length:.3g} mm (+- {end.error:.1g})"
+    yield f"Length that the end adds to the load: {end.added_length:.3g} mm (± {end.error:.1g})"
     yield "  distance [mm]  load  peak pressure (over those far from the end)"
     for share in _ENDS:
         i = int(np.searchsorted(end.distance, share * end.distance[-1]))

@@ -12,7 +12,7 @@ from rollnip.face.solution import FaceSolution
 from rollnip.plots.style import Palette, Style, palette_of
 from rollnip.sheet_figures import SHEET_FIGURES
 
-_SIZE, _SHEET_SIZE = (10.0, 8.0), (10.0, 11.5)  # inches
+_SIZE, _SHEET_SIZE = (10.0, 8.0), (10.0, 14.0)  # inches
 
 
 def plot_face(solution: FaceSolution, *, style: Style = "light") -> Figure:

@@ -143,7 +143,7 @@ class Figures(Markup):
 def registries() -> dict[str, Any]:
     """Return every registry of figures by the word that a page asks for it with."""
     from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES, SHEET_FACE_FIGURES
-    from rollnip.figures import FIGURES, INTERFACE_FIGURES, PROFILES
+    from rollnip.figures import FIELDS, FIGURES, INTERFACE_FIGURES, PROFILES
     from rollnip.heat.figures import ROLLER_FIGURES
     from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
     from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
@@ -152,6 +152,7 @@ def registries() -> dict[str, Any]:
         "nip": FIGURES,
         "profiles": PROFILES,
         "interfaces": INTERFACE_FIGURES,
+        "inside": {key: one for key, one in FIELDS.items() if key not in ("s_xy", "s_yz")},
         "sheet": SHEET_FIGURES,
         "sheet-profiles": SHEET_PROFILES,
         "face": FACE_FIGURES,

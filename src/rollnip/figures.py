@@ -268,21 +268,48 @@ def _field(
 
 _TENSION = "Positive in tension."
 _STRETCH = "Positive where it is stretched."
-_PLANE = "In the plane of x and z."
 FIELDS: Mapping[str, Figure] = by_key(
     _field("u_x", "u_x", "displacement along x", "length", "Displacement along the nip."),
     _field("u_z", "u_z", "displacement along z", "length", "Displacement into the roller."),
     _field("s_xx", "s_{xx}", "stress along x", "pressure", "Stress along the nip.", _TENSION),
     _field("s_yy", "s_{yy}", "axial stress", "pressure", "Stress along the axes.", _TENSION),
     _field("s_zz", "s_{zz}", "normal stress", "pressure", "Stress along the depth.", _TENSION),
-    _field("s_xy", "s_{xy}", "shear stress in the surface", "pressure", "Of x and y."),
-    _field("s_xz", "s_{xz}", "shear stress", "pressure", "Of x and z."),
-    _field("s_yz", "s_{yz}", "shear stress along y", "pressure", "Of y and z."),
-    _field("s_1", "s_1", "larger principal stress", "pressure", _PLANE, _TENSION),
-    _field("s_2", "s_2", "smaller principal stress", "pressure", _PLANE, _TENSION),
-    _field("principal_angle", "", "direction of s_1", "angle", "From x towards z."),
-    _field("max_shear", "", "largest shear stress", "pressure", "Largest of all directions."),
-    _field("von_mises", "", "von Mises stress", "pressure", "Equivalent stress, all directions."),
+    _field("s_xy", "s_{xy}", "shear stress in the surface", "pressure", "Shear stress of x and y."),
+    _field("s_xz", "s_{xz}", "shear stress", "pressure", "Shear stress of x and z."),
+    _field("s_yz", "s_{yz}", "shear stress along y", "pressure", "Shear stress of y and z."),
+    _field(
+        "s_1",
+        "s_1",
+        "larger principal stress",
+        "pressure",
+        "Larger principal stress in the plane of x and z.",
+        _TENSION,
+    ),
+    _field(
+        "s_2",
+        "s_2",
+        "smaller principal stress",
+        "pressure",
+        "Smaller principal stress in the plane of x and z.",
+        _TENSION,
+    ),
+    _field(
+        "principal_angle", "", "direction of s_1", "angle", "Direction of s_1, from x towards z."
+    ),
+    _field(
+        "max_shear",
+        "",
+        "largest shear stress",
+        "pressure",
+        "Half of the largest less the smallest principal stress, the axial one included.",
+    ),
+    _field(
+        "von_mises",
+        "",
+        "von Mises stress",
+        "pressure",
+        "Equivalent stress of von Mises, the axial stress included.",
+    ),
     _field(
         "pressure",
         "",
@@ -293,7 +320,13 @@ FIELDS: Mapping[str, Figure] = by_key(
     ),
     _field("e_xx", "e_{xx}", "strain along x", "share", "Strain along the nip.", _STRETCH),
     _field("e_zz", "e_{zz}", "strain along z", "share", "Strain along the depth.", _STRETCH),
-    _field("e_xz", "e_{xz}", "shear strain", "share", "Half the change of the right angle."),
+    _field(
+        "e_xz",
+        "e_{xz}",
+        "shear strain",
+        "share",
+        "Half the change of the right angle between x and z.",
+    ),
     _field(
         "energy_density",
         "",

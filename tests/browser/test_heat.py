@@ -156,7 +156,7 @@ def test_what_does_not_fit_is_said(heat, box, text, wanted):
 
 def test_the_warm_up_is_drawn_and_goes_with_another_design(heat):
     heat.page.click("#warm-up-go")
-    drawn = heat.trace("chart-warm-up", "Upper roller, hottest place")
+    drawn = heat.trace("chart-warm-up", "Upper roller: hot spot")
     # five time constants leave 1 % of the rise
     assert drawn["y"][-1] == pytest.approx(cell(heat, "hot_spot", 1), rel=0.01)
     assert "Half of the rise comes within" in heat.page.inner_text("#warm-up-said")

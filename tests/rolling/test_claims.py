@@ -120,3 +120,20 @@ def test_every_figure_of_the_result_claims_an_error():
     without = {one.name for one in FIGURES.values()} - set(CLAIMED)
     assert without == {"max_surface_strain"}
     assert set(CLAIMED) == set(rn.solve(NIP).error)
+
+
+@pytest.mark.parametrize("geometry", ["second", "finite"])
+def test_a_given_creepage_leaves_the_traction_open_by_as_much_as_a_given_traction_leaves_it(
+    geometry,
+):
+    """Of 24 random nips with a given creepage six had tractions up to ten times beyond claims."""
+    model = rn.Model(geometry=geometry)
+    driven = rn.solve(NIP, model)
+    open_by = driven.error["creepage"]
+    beside = replace(NIP, tangential=rn.Creepage(driven.creepage + open_by))
+    found = rn.solve(beside, model)
+    moved = abs(found.traction - driven.traction)
+    assert moved < 1.2 * found.error["traction"]
+    assert found.error["traction"] < 3.0 * moved  # and no more than that is claimed
+    for roller, name in ((NIP.upper, "torque_upper"), (NIP.lower, "torque_lower")):
+        assert found.error[name] > 0.8 * roller.radius * moved

@@ -16,15 +16,41 @@ from typing import Any
 
 import numpy as np
 
-from finite_elements.case import Nip, nip_of
+from finite_elements.case import Nip, Sheet, nip_of
 from finite_elements.edges import Solved, solve
 from finite_elements.figures import checks, entry, figures
 from finite_elements.mesh import Grading
 from finite_elements.newton import NoConvergenceError
+from finite_elements.sheet_figures import sheet_entry, sheet_figures
 
 GRADING = Grading(edge=0.002, inside=0.05, plies=3)
 FACTOR = 1.5
-INPUTS = ("case", "upper", "lower", "load", "friction", "traction", "profile")
+COARSE_EDGE = 0.02  # elements at the edges on which a sheet is first pulled
+MOST_STEPS = 50
+INPUTS = ("case", "upper", "lower", "load", "friction", "traction", "sheet", "profile")
+
+
+def with_sheet(nip: Nip, sheet: Sheet, grading: Grading) -> Solved:
+    """Pull the sheet step by step on a coarse mesh, then take finer ones, last let it wrap."""
+    coarse = replace(grading, edge=COARSE_EDGE, inside=2.0 * grading.inside)
+    share, step, found = 0.0, 1.0 / 3.0, None
+    while found is None or share < 1.0:
+        to = 0.0 if found is None else min(1.0, share + step)
+        plain = replace(
+            sheet, wraps=False, tension_in=to * sheet.tension_in, tension_out=to * sheet.tension_out
+        )
+        pulled = replace(nip, traction=to * nip.traction, sheet=plain)
+        try:
+            found, share = solve(pulled, coarse, found, tolerance=0.02), to
+        except NoConvergenceError:
+            step *= 0.5
+            if found is None or step < MOST_STEPS**-1:
+                raise
+    for between in np.geomspace(COARSE_EDGE, grading.edge, 5)[1:]:
+        found = solve(
+            found.problem.nip, replace(grading, edge=float(between)), found, tolerance=0.02
+        )
+    return solve(nip, grading, found)
 
 
 @dataclass
@@ -36,6 +62,8 @@ class Chain:
 
     def solve(self, nip: Nip) -> Solved:
         """Go from the nearest traction that is known by steps of at most a tenth of the load."""
+        if nip.sheet:
+            return with_sheet(nip, nip.sheet, self.grading)
         known = self.known.setdefault(replace(nip, traction=0.0), {})
         if not known:
             free = replace(nip, traction=0.0)
@@ -53,6 +81,9 @@ def run(case: Mapping[str, Any], coarse: Chain, fine: Chain) -> tuple[dict[str, 
     """Solve one case on both meshes; return its entry and the solution on the finer."""
     nip = nip_of(case)
     first, second = coarse.solve(nip), fine.solve(nip)
+    if nip.sheet:
+        at_limit, off = sheet_figures(first).extrapolated(sheet_figures(second), FACTOR)
+        return sheet_entry(str(case["case"]), nip, at_limit, off, second), second
     limit, error = figures(first).extrapolated(figures(second), FACTOR)
     return entry(str(case["case"]), nip, limit, error, second), second
 
@@ -78,7 +109,7 @@ def main() -> None:
             continue
         began = time.process_time()
         traction = case.get("traction", 0.0)
-        print(f"{case['case']}, mu {case['friction']:g}, T {traction:g}:", end=" ")
+        print(f"{case['case']}, mu {case.get('friction', '-')}, T {traction:g}:", end=" ")
         try:
             found, second = run(case, coarse, fine)
         except NoConvergenceError as error:

@@ -50,11 +50,29 @@ class Roller:
 
 
 @dataclass(frozen=True)
+class Sheet:
+    """A membrane between the rollers; of its thickness nothing counts but the stiffness.
+
+    ``stiffness``: tension per strain along it, E h/(1 - nu^2) [N/mm]; ``friction`` on the upper and
+    on the lower roller; tensions at the inlet (x > 0) and at the outlet [N/mm]. ``wraps``: whether
+    the pressures on its faces differ by tension times curvature, as they must; False: they do not.
+    """
+
+    stiffness: float
+    friction: tuple[float, float]
+    tension_in: float = 0.0
+    tension_out: float = 0.0
+    wraps: bool = True
+
+
+@dataclass(frozen=True)
 class Nip:
     """Two rollers under a load; the upper one is coated. T > 0: the upper roller drives.
 
     ``load`` is the vertical force per length, ``traction`` the integral of the shear over the
-    deformed interface.
+    deformed interface. With a sheet the load is the mean of both rollers' (they differ by what the
+    tensions outside pull across), ``traction`` the force along x that the lower roller takes, and
+    ``friction`` is not used.
     """
 
     upper: Roller
@@ -62,6 +80,7 @@ class Nip:
     load: float
     friction: float = 0.0
     traction: float = 0.0
+    sheet: Sheet | None = None
 
     def __post_init__(self) -> None:
         if not self.upper.layers:
@@ -76,10 +95,14 @@ def nip_of(case: Mapping[str, Any]) -> Nip:
             float(entry["radius"]), tuple(Layer(**layer) for layer in entry.get("layers", ()))
         )
 
+    sheet = case.get("sheet")
+    if sheet:
+        sheet = Sheet(**{**sheet, "friction": tuple(sheet["friction"])})
     return Nip(
         upper=roller(case["upper"]),
         lower=roller(case["lower"]),
         load=float(case["load"]),
-        friction=float(case["friction"]),
+        friction=float(case.get("friction", 0.0)),
         traction=float(case.get("traction", 0.0)),
+        sheet=sheet,
     )

@@ -11,10 +11,14 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.interpolate import RegularGridInterpolator
 
 from finite_elements.case import Nip
-from finite_elements.mesh import Array, Grading, Places, ring
+from finite_elements.mesh import Array, Grading, Places, Ring, ring
 from finite_elements.newton import NoConvergenceError, Problem, State
+from finite_elements.sheet import SheetProblem
+
+_FINE = 0.006  # elements at the edges below which a solution begins with one on coarser elements
 
 
 @dataclass(frozen=True)
@@ -24,6 +28,7 @@ class Solved:
     problem: Problem
     state: State
     places: Places
+    grading: Grading
 
     @property
     def mean_pressure(self) -> float:
@@ -64,12 +69,13 @@ def meshed(
         # the same places in space; the arcs of the two rollers differ by strains only
         lower = ring(nip.lower, places, grading, like.lower if like else None)
     upper = ring(nip.upper, places, grading, like.upper if like else None)
-    return Problem(nip, upper, lower, 1.5 * half_plane_width(nip) + places.half_width, report)
+    kind = SheetProblem if nip.sheet else Problem
+    return kind(nip, upper, lower, 1.5 * half_plane_width(nip) + places.half_width, report)
 
 
 def first_guess(nip: Nip, report: Callable[[str], None] = _quiet) -> Places:
     """Return the contact without friction on a coarse mesh."""
-    nip = replace(nip, friction=0.0, traction=0.0)
+    nip = replace(nip, friction=0.0, traction=0.0, sheet=None)
     half = 0.8 * half_plane_width(nip)
     grading = Grading(edge=0.05, inside=0.1, surface=0.05, growth=0.3, growth_depth=0.6)
     for _ in range(2):
@@ -78,6 +84,64 @@ def first_guess(nip: Nip, report: Callable[[str], None] = _quiet) -> Places:
         at = problem.interface.ends[np.flatnonzero(state.closed)[[0, -1]]]
         half = 0.5 * (at[1] - at[0])
     return Places(-half, half)
+
+
+def carried(start: Solved, problem: Problem) -> State:
+    """Return a solution interpolated to another mesh of the same contact."""
+    old, was = start.problem, start.state
+    at, to = old.interface.ends, problem.interface.ends
+    new = problem.start(start.places.trailing, start.places.leading)
+
+    def moved(values: Array) -> Array:
+        return np.array([np.interp(to, at, row) for row in np.atleast_2d(values)])
+
+    nearest = np.clip(np.searchsorted(at, to, side="right") - 1, 0, at.size - 1)
+    shape = new.shear.shape
+    lower = old.lower is not None and problem.lower is not None
+    return replace(
+        new,
+        upper=_nodal(old.upper, was.upper, problem.upper),
+        pi_upper=_by_element(old.upper, was.pi_upper, problem.upper),
+        lower=_nodal(old.lower, was.lower, problem.lower) if lower else new.lower,
+        pi_lower=_by_element(old.lower, was.pi_lower, problem.lower) if lower else new.pi_lower,
+        pressure=np.where(new.closed, moved(was.pressure)[0], 0.0),
+        shear=np.where(new.closed, moved(was.shear).reshape(shape), 0.0),
+        slip=np.where(new.closed, was.slip[..., nearest], 0),
+        tension=moved(was.tension)[0] if was.tension.size else was.tension,
+        approach=was.approach,
+        creepage=was.creepage,
+    )
+
+
+def _nodal(old: Ring, displacement: Array, new: Ring) -> Array:
+    """Interpolate displacements between the nodes of a mesh."""
+    values = np.append(displacement, 0.0)[old.dofs].reshape(old.columns, old.rows, 2)
+    arcs = np.append(old.arc, old.arc[0] + 2.0 * np.pi * old.roller.radius)
+    around = np.concatenate((values, values[:1]))
+    at = np.meshgrid(new.arc, new.depth[:-1], indexing="ij")
+    found = RegularGridInterpolator((arcs, old.depth), around)(np.stack(at, axis=-1))
+    return np.asarray(found).reshape(-1)
+
+
+def _by_element(old: Ring, values: Array, new: Ring) -> Array:
+    """Carry what is linear in each element (mean, and halves of the changes) to other elements."""
+    rows = old.depth_ends.size - 1
+    place, to = [], []
+    for mesh in (old, new):
+        at = np.meshgrid(mesh.arc[1::2], mesh.depth[1::2], indexing="ij")
+        half = np.meshgrid(
+            0.5 * np.diff(mesh.arc_ends), 0.5 * np.diff(mesh.depth_ends), indexing="ij"
+        )
+        (place if mesh is old else to).extend([*at, *half])
+    i = np.clip(np.searchsorted(old.arc_ends, to[0], side="right") - 1, 0, old.arc_ends.size - 2)
+    j = np.clip(np.searchsorted(old.depth_ends, to[1], side="right") - 1, 0, rows - 1)
+    own = values.reshape(-1, rows, 3)[i, j]
+    along = (to[0] - place[0][i, j]) / place[2][i, j]
+    down = (to[1] - place[1][i, j]) / place[3][i, j]
+    mean = own[..., 0] + own[..., 1] * along + own[..., 2] * down
+    ratio = (to[2] / place[2][i, j], to[3] / place[3][i, j])
+    parts = (mean, own[..., 1] * ratio[0], own[..., 2] * ratio[1])
+    return np.stack(parts, axis=-1).reshape(-1, 3)
 
 
 def solve(
@@ -89,10 +153,15 @@ def solve(
     most: int = 25,
 ) -> Solved:
     """Solve a nip; start from a contact, or from the solution of one like it on such a mesh."""
-    if start is None:
-        rough = grading.refined(0.5)
+    rough = grading.refined(0.5)
+    if start is None and grading.edge < _FINE:
+        start = solve(nip, rough, None, report, 0.03)
+    elif start is None:
         start = solve(nip, rough, first_guess(nip, report), report, 0.03).places
-    if isinstance(start, Solved):
+    if isinstance(start, Solved) and start.grading != grading:
+        places, like = start.places, None
+        state = carried(start, meshed(nip, places, grading, None, report))
+    elif isinstance(start, Solved):
         places, like, state = start.places, start.problem, start.state
     else:
         places, like, state = start, None, None
@@ -101,7 +170,7 @@ def solve(
         problem = meshed(nip, places, grading, like, report)
         like = problem
         state = problem.solve(state or problem.start(places.trailing, places.leading))
-        found = Solved(problem, state, places)
+        found = Solved(problem, state, places, grading)
         at, end = np.array([-places.trailing, places.leading]), found.ends
         report(f"    ends {-at[0]:.6f} {at[1]:.6f} pressure there {end[0]:+.4f} {end[1]:+.4f}")
         if np.max(np.abs(end)) < tolerance:

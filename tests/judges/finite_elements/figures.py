@@ -11,7 +11,7 @@ from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from finite_elements.case import Nip
+from finite_elements.case import Nip, Roller
 from finite_elements.edges import Solved
 from finite_elements.mesh import Array
 
@@ -40,7 +40,8 @@ class Figures:
         coarse, fine = asdict(self), asdict(finer)
         change = {name: (fine[name] - coarse[name]) / (factor - 1.0) for name in fine}
         limit = {name: fine[name] + change[name] for name in fine}
-        return Figures(**limit), Figures(**{name: abs(value) for name, value in change.items()})
+        error = {name: abs(value) for name, value in change.items()}
+        return type(self)(**limit), type(self)(**error)
 
 
 def figures(solved: Solved) -> Figures:
@@ -58,7 +59,7 @@ def figures(solved: Solved) -> Figures:
         leading=float(x[at[-1]]),
         trailing_arc=float(ends[0]),
         leading_arc=float(ends[1]),
-        peak_pressure=_peak(x[at], state.pressure[at]),
+        peak_pressure=peak(x[at], state.pressure[at]),
         torque_upper=torques[0],
         torque_lower=torques[1],
         power_in=power,
@@ -66,7 +67,7 @@ def figures(solved: Solved) -> Figures:
     )
 
 
-def _peak(x: Array, pressure: Array) -> float:
+def peak(x: Array, pressure: Array) -> float:
     """Largest pressure, by the parabola through the three largest neighbours."""
     k = int(np.clip(np.argmax(pressure), 1, pressure.size - 2))
     a, b, c = np.polyfit(x[k - 1 : k + 2] - x[k], pressure[k - 1 : k + 2], 2)
@@ -134,25 +135,36 @@ def profile(solved: Solved, count: int = 21) -> dict[str, list[float]]:
     return {name: [float(f"{v:.6g}") for v in values] for name, values in columns.items()}
 
 
-def entry(name: str, nip: Nip, limit: Figures, error: Figures, shown: Solved) -> dict[str, object]:
-    """Return one result in the layout of tests/data/finite_strain_*.json."""
+def short(value: float) -> float:
+    """Round as stored values are."""
+    return float(f"{value:.7g}")
 
-    def short(value: float) -> float:
-        return float(f"{value:.7g}")
 
-    def layers(roller: object) -> list[dict[str, float]]:
-        return [
-            {"thickness": a.thickness, "modulus": a.modulus, "poisson": a.poisson}
-            for a in roller.layers  # type: ignore[attr-defined]
-        ]
+def layers_of(roller: Roller) -> list[dict[str, object]]:
+    """Return the layers in the layout of tests/data."""
+    return [
+        {"thickness": a.thickness, "modulus": a.modulus, "poisson": a.poisson}
+        | ({} if a.volumetric == "log" else {"volumetric": a.volumetric})
+        for a in roller.layers
+    ]
 
+
+def inputs(name: str, nip: Nip) -> dict[str, object]:
+    """Return what is rolled in the layout of tests/data."""
     lower: dict[str, object] = {"radius": nip.lower.radius}
-    lower |= {"layers": layers(nip.lower)} if nip.lower.layers else {"rigid": True}
-    out: dict[str, object] = {
+    lower |= {"layers": layers_of(nip.lower)} if nip.lower.layers else {"rigid": True}
+    return {
         "case": name,
-        "upper": {"radius": nip.upper.radius, "layers": layers(nip.upper)},
+        "upper": {"radius": nip.upper.radius, "layers": layers_of(nip.upper)},
         "lower": lower,
         "load": nip.load,
+    }
+
+
+def entry(name: str, nip: Nip, limit: Figures, error: Figures, shown: Solved) -> dict[str, object]:
+    """Return one result in the layout of tests/data/finite_strain_*.json."""
+    out: dict[str, object] = {
+        **inputs(name, nip),
         "friction": nip.friction,
         "approach": short(limit.approach),
         "contact_x": [short(limit.trailing), short(limit.leading)],

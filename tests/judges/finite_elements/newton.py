@@ -49,6 +49,8 @@ class State:
     creepage: float
     closed: NDArray[np.bool_]
     slip: NDArray[np.int_]  # sign of the shear where a column slips, 0 where it sticks
+    # with a sheet (sheet.py) shear and slip are (2, ends), creepage is (2,), upper and lower
+    tension: Array = field(default_factory=lambda: np.zeros(0))
 
 
 @dataclass(frozen=True)
@@ -255,6 +257,10 @@ class Problem:
         )
         return moved, float(np.max(np.abs(move[:total])))
 
+    def rubs(self) -> bool:
+        """Return whether there is friction."""
+        return self.nip.friction > 0.0
+
     def sorted_anew(self, state: State, free: bool) -> State:
         """Let slip and stick what the state asks for; if `free`, open and close too."""
         near = np.flatnonzero(np.abs(self.interface.ends) < self.reach)
@@ -264,7 +270,7 @@ class Problem:
         closed = state.closed
         if free:
             closed = np.where(closed, state.pressure > 0.0, gap < -tiny) & np.isfinite(gap)
-        slip = self._slipping(state, closed) if self.nip.friction > 0.0 else state.slip
+        slip = self._slipping(state, closed) if self.rubs() else state.slip
         kept = np.where(closed, 1.0, 0.0)
         return replace(
             state,
@@ -279,19 +285,9 @@ class Problem:
         at = np.flatnonzero(closed)
         delay = np.zeros(closed.size)
         delay[at] = self.delays(state, at)
+        lengths = np.diff(self.upper.arc_ends)
         limit = self.nip.friction * state.pressure
-        over = closed & (np.abs(state.shear) > limit * (1.0 + 1e-9))
-        # where many ends begin to slip side by side they do so with the sign of their sum: beside
-        # a misplaced end of the contact single shears alternate
-        run = np.cumsum(np.diff(over.astype(int), prepend=0) != 0)
-        total = np.bincount(run, state.shear * np.diff(self.upper.arc_ends))[run]
-        begins = np.where(over, np.sign(total).astype(int), 0)
-        goes_on = np.where(delay * state.slip >= 0.0, state.slip, 0)
-        slip = np.where(state.slip != 0, goes_on, begins)
-        if np.all(slip[at] != 0):  # nothing would fix the creepage: the better half sticks
-            ratio = np.abs(state.shear) / np.maximum(limit, 1e-12 * limit.max())
-            slip[closed & (ratio <= np.median(ratio[at]))] = 0
-        return slip
+        return slipping(closed, state.shear, state.slip, delay, limit, lengths)
 
     def _unfolded(self, state: State, moved: State) -> tuple[State, float]:
         """Return as much of a step as turns no element inside out, and that share of it."""
@@ -310,7 +306,7 @@ class Problem:
         self, state: State, free: bool = False, tolerance: float = 1e-6, most: int = 40
     ) -> State:
         """Iterate until no end changes and no node moves by more than the tolerance [mm]."""
-        step, turns = np.inf, np.zeros(state.slip.size, dtype=int)
+        step, turns = np.inf, np.zeros(state.slip.shape, dtype=int)
         for number in range(most):
             moved, step = self.step(state)
             moved, share = self._unfolded(state, moved)
@@ -324,12 +320,36 @@ class Problem:
             self.report(
                 f"{number:3d} step {step:9.2e} share {share:.3f} closed {new.closed.sum():4d} "
                 f"changed {changed:3d} turned {turned:3d} "
-                f"delta {new.approach:.6f} xi {new.creepage:+.6f}"
+                f"delta {new.approach:.6f} xi {np.sum(new.creepage):+.6f}"
             )
             state = new
             if calm and step < tolerance and not changed and not turned:
                 return state
         raise NoConvergenceError(f"not converged after {most} iterations, last step {step:.1e}")
+
+
+def slipping(
+    closed: NDArray[np.bool_],
+    shear: Array,
+    slip: NDArray[np.int_],
+    delay: Array,
+    limit: Array,
+    lengths: Array,
+) -> NDArray[np.int_]:
+    """Return the sign of the shear where an end of one interface slips, 0 where it sticks."""
+    at = np.flatnonzero(closed)
+    over = closed & (np.abs(shear) > limit * (1.0 + 1e-9))
+    # where many ends begin to slip side by side they do so with the sign of their sum: beside
+    # a misplaced end of the contact single shears alternate
+    run = np.cumsum(np.diff(over.astype(int), prepend=0) != 0)
+    total = np.bincount(run, shear * lengths)[run]
+    begins = np.where(over, np.sign(total).astype(int), 0)
+    goes_on = np.where(delay * slip >= 0.0, slip, 0)
+    slip = np.where(slip != 0, goes_on, begins)
+    if np.all(slip[at] != 0):  # nothing would fix the creepage: the better half sticks
+        ratio = np.abs(shear) / np.maximum(limit, 1e-12 * limit.max())
+        slip[closed & (ratio <= np.median(ratio[at]))] = 0
+    return slip
 
 
 @dataclass(frozen=True)
@@ -346,5 +366,6 @@ class Friction:
 def _between(a: State, b: State, share: float) -> State:
     names = (
         "upper", "lower", "pi_upper", "pi_lower", "pressure", "shear", "approach", "creepage",
+        "tension",
     )  # fmt: skip
     return replace(b, **{n: getattr(a, n) + share * (getattr(b, n) - getattr(a, n)) for n in names})

@@ -18,7 +18,7 @@ from finite_elements.mesh import Array
 
 Indices = NDArray[np.int_]
 Entries = tuple[Array, Indices, Indices]  # values, rows, columns, all of one shape
-_LOWER = np.array([-1.0, 1.0])  # what acts upwards on the upper roller does so on the lower one
+LOWER = np.array([-1.0, 1.0])  # what acts upwards on the upper roller does so on the lower one
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ def loads(
     pair = np.stack((points.element, (points.element + 1) % interface.ends.size), axis=-1)
     p = np.einsum("pj,pj->p", points.hats, pressure[pair])
     q = np.einsum("pj,pj->p", points.hats, shear[pair])
-    acting = _Acting.of(points, p, q)
+    acting = Acting.of(points, p, q)
     size = ring.unknowns + interface.lower.unknowns
     dofs = ring.surface_dofs[points.upper.nodes]
     found = acting.on(points.upper, dofs, dofs, np.ones(2), pair)
@@ -63,7 +63,7 @@ def loads(
         there = interface.lower.ring.surface_dofs[below.nodes] + ring.unknowns
         found = [
             [*one, *other]
-            for one, other in zip(found, acting.on(below, there, dofs, _LOWER, pair), strict=True)
+            for one, other in zip(found, acting.on(below, there, dofs, LOWER, pair), strict=True)
         ]
         found[1] += acting.moving(below, there, dofs)
     forces, by_u, by_p, by_q = found
@@ -73,15 +73,15 @@ def loads(
     ends = pressure.size
     return Loads(
         force=force,
-        by_displacement=_sparse(by_u, (size, size)),
-        by_pressure=_sparse(by_p, (size, ends)),
-        by_shear=_sparse(by_q, (size, ends)),
-        **_totals(points, p, q, dofs, pair, (size, ends)),
+        by_displacement=sparse(by_u, (size, size)),
+        by_pressure=sparse(by_p, (size, ends)),
+        by_shear=sparse(by_q, (size, ends)),
+        **totals_of(points, p, q, dofs, pair, (size, ends)),
     )
 
 
 @dataclass(frozen=True)
-class _Acting:
+class Acting:
     """Force on the upper roller per ds at the points, (points, 2), and its derivatives."""
 
     points: Points
@@ -91,10 +91,10 @@ class _Acting:
     by_u: Array  # (points, 2, 3, 2): by the displacements of the three nodes
 
     @staticmethod
-    def of(points: Points, p: Array, q: Array) -> _Acting:
+    def of(points: Points, p: Array, q: Array) -> Acting:
         along, up = points.upper.along, points.upper.up
         turn = np.stack((np.stack((q, -p), axis=-1), np.stack((p, q), axis=-1)), axis=1)
-        return _Acting(
+        return Acting(
             points,
             force=np.stack((q * along - p * up, p * along + q * up), axis=-1),
             by_p=np.stack((-up, along), axis=-1),
@@ -109,7 +109,7 @@ class _Acting:
         scaled = surface.shape * self.points.weight[:, None]
         force = scaled[..., None] * (self.force * sign)[:, None, :]
         out: list[list[Entries]] = [[(force, rows, rows)]]
-        out.append([_block(scaled, self.by_u * sign[:, None, None], rows, columns)])
+        out.append([block(scaled, self.by_u * sign[:, None, None], rows, columns)])
         for rate in (self.by_p, self.by_q):
             value = scaled[:, :, None, None] * (rate * sign)[:, None, :, None]
             value = value * self.points.hats[:, None, None, :]
@@ -126,12 +126,12 @@ class _Acting:
             (below.shape, there, -1.0),
         ):
             rate = np.zeros((shape.shape[0], 2, 3, 2))
-            rate[..., 0] = sign * (self.force * _LOWER)[:, :, None] * shape[:, None, :]
-            out.append(_block(moved, rate, there, dofs))
+            rate[..., 0] = sign * (self.force * LOWER)[:, :, None] * shape[:, None, :]
+            out.append(block(moved, rate, there, dofs))
         return out
 
 
-def _totals(
+def totals_of(
     points: Points, p: Array, q: Array, dofs: Indices, pair: Indices, shape: tuple[int, int]
 ) -> dict[str, Any]:
     """Vertical force and the shear over the deformed length, with their derivatives."""
@@ -155,13 +155,13 @@ def _totals(
     }
 
 
-def _block(shape: Array, rate: Array, rows: Indices, columns: Indices) -> Entries:
+def block(shape: Array, rate: Array, rows: Indices, columns: Indices) -> Entries:
     """Entries shape_a rate_i,bj at rows (a, i) and columns (b, j), all per point."""
     value = shape[:, :, None, None, None] * rate[:, None]
     row, column = np.broadcast_arrays(rows[:, :, :, None, None], columns[:, None, None])
     return value, row, column
 
 
-def _sparse(blocks: list[Entries], shape: tuple[int, int]) -> csr_array:
+def sparse(blocks: list[Entries], shape: tuple[int, int]) -> csr_array:
     values, rows, columns = (np.concatenate([np.ravel(b[k]) for b in blocks]) for k in range(3))
     return csr_array((values, (rows, columns)), shape=shape)

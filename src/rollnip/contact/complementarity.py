@@ -27,7 +27,7 @@ _SMALLEST, _SMALL = 1e-11, 1e-6
 _FIRST = 0.1  # gap and creep to begin with, over their sizes
 _SHORT_OF = 0.95  # of the step on which the first part of a condition would vanish
 _MOST_STEPS = 40
-_DIVERGED = 1e6  # what is left of the conditions, where there is no solution
+_DIVERGED = 1e6  # times what was left at first or 1: there is no solution
 
 
 @dataclass(frozen=True, slots=True)
@@ -78,13 +78,14 @@ class Complementary:
     steps: int
 
 
-def interior_point(problem: Inequalities, start: Array) -> Complementary:
+def interior_point(problem: Inequalities, start: Array, enough: float = _SMALL) -> Complementary:
     """Return tractions that meet all conditions.
 
     Parameters
     ----------
     problem : gaps, creeps and what bounds them.
     start : (m,) unknowns to begin with, pressures positive and shears within their bounds.
+    enough : what may be left of the conditions, where no step gains any more.
 
     Raises
     ------
@@ -92,12 +93,13 @@ def interior_point(problem: Inequalities, start: Array) -> Complementary:
         where there are none, or a system is singular.
     """
     iterate, best = _Iterate.of(problem, start), inf
+    diverged = _DIVERGED * max(iterate.left, 1.0)
     solution: Complementary | None = None
     for steps in range(_MOST_STEPS):
         left = iterate.left
-        if left < min(best, _SMALL):
+        if left < min(best, enough):
             best, solution = left, iterate.solution(steps)
-        if best < _SMALLEST or (solution is not None and left > best) or not left < _DIVERGED:
+        if best < _SMALLEST or best < min(left, _SMALL) or not left < diverged:
             break
         iterate.advance()
     if solution is None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import inf, isfinite
+from math import isfinite
 from typing import Protocol
 
 import numpy as np
@@ -11,7 +11,6 @@ import numpy as np
 from rollnip._errors import InvalidInputError
 from rollnip.model import Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque, Traction
-from rollnip.rollers import Roller
 from rollnip.rolling import Round, impossible, verdict
 from rollnip.sheet.refine import SheetFigures, scales
 from rollnip.sheet.system import frictions_of
@@ -175,25 +174,3 @@ def instead_of(left: Sequence[Geometry], geometry: Geometry) -> tuple[str, ...]:
         for one in left
     ]
     return (*out[:-1], f'{out[-1]} All figures are those of geometry "{geometry}".') if out else ()
-
-
-def bending_length(nip: Nip) -> float:
-    """Return (D d/E)^(1/4) on the softer covering, over which bending stiffness counts [mm].
-
-    D is the bending stiffness of the sheet, d and E thickness and relaxed modulus of the covering.
-    A half-space core takes the length (D/E)^(1/3).
-    """
-    assert nip.sheet is not None
-    stiffness = nip.sheet.bending_stiffness
-    lengths = [_on_covering(roller, stiffness) for roller in (nip.upper, nip.lower)]
-    return max(length for length in lengths if length < inf)
-
-
-def _on_covering(roller: Roller, stiffness: float) -> float:
-    if roller.is_rigid:
-        return inf
-    if not roller.layers:
-        assert roller.core is not None
-        return float((stiffness / roller.core.relaxed_modulus) ** (1.0 / 3.0))
-    yielding = sum(layer.thickness / layer.material.relaxed_modulus for layer in roller.layers)
-    return float((stiffness * yielding) ** 0.25)

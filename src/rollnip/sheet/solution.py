@@ -29,7 +29,7 @@ from rollnip.rolling import (
 )
 from rollnip.rolling.claims import SHARE_OF_CUT_LOSS
 from rollnip.rolling.surfaces import pair_displacements
-from rollnip.sheet.common import bending_length
+from rollnip.sheet.bending import bending_length
 from rollnip.sheet.grip import grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates

@@ -15,6 +15,7 @@ from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import change_of, displacements_of, lagged_terms, missed
 from rollnip.sheet.plate.refine import (
     PlateRefined,
+    first_count,
     friction_losses,
     of_lower,
     plate_figures,
@@ -32,15 +33,20 @@ class Bending:
 
     def begun(self, model: Model, kernels: PairKernels, half_width: float) -> PlateAttempt:
         """Return a solution of a coarse contact, from no other one."""
-        search = PlateSearch(self.nip, model, kernels)
-        stand = search.begun(half_width, COARSE)
-        return search.placed(stand.zones, COARSE, stand)
+        search, count = PlateSearch(self.nip, model, kernels), self._count(half_width, COARSE)
+        stand = search.begun(half_width, count)
+        return search.placed(stand.zones, count, stand)
 
     def placed(
         self, model: Model, kernels: PairKernels, before: PlateAttempt, count: int
     ) -> PlateAttempt:
         """Return the solution on meshes of some size, from one before."""
+        count = self._count(0.5 * before.zones.width, count)
         return PlateSearch(self.nip, model, kernels).placed(before.zones, count, before)
+
+    def _count(self, half_width: float, count: int) -> int:
+        """Return a size of mesh that resolves the bending length."""
+        return max(count, round(first_count(self.nip, half_width)))
 
     def refined(
         self, model: Model, kernels: PairKernels, before: PlateAttempt

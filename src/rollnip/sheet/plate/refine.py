@@ -12,6 +12,7 @@ from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.round import peak_pressure
+from rollnip.sheet.bending import bending_length
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import lost_inside, pull_of, uncut_terms
@@ -33,6 +34,8 @@ from rollnip.sheet.refine import (
 Array = NDArray[np.float64]
 
 _MOST_COUNT = 340
+_FIRST_PER_LENGTH = 1.6  # elements of the first size over the bending lengths in the width
+_MOST_FIRST = 60.0  # of the first size
 _MOST_FAILED = 3  # sizes of mesh in a row on which zones do not come to rest
 
 
@@ -68,6 +71,12 @@ class PlateRefined:
         return max(ratio(nip, *side) for side in sides)
 
 
+def first_count(nip: Nip, half_width: float) -> float:
+    """Return the first size of mesh: its elements are about as long as the bending length."""
+    share = bending_length(nip) / (2.0 * half_width)
+    return float(np.clip(_FIRST_PER_LENGTH / share, FIRST_COUNT, _MOST_FIRST))
+
+
 def refine_plate(
     nip: Nip,
     model: Model,
@@ -88,11 +97,11 @@ def refine_plate(
     numpy.linalg.LinAlgError
         where no solution is found at all.
     """
-    search, count = PlateSearch(nip, model, kernels), float(FIRST_COUNT)
+    search, count = PlateSearch(nip, model, kernels), first_count(nip, half_width)
     history: list[tuple[float, SheetFigures, PlateZones]] = []
     below: list[tuple[float, SheetFigures, PlateZones]] = []
     best: PlateRefined | None = None
-    stand = search.begun(half_width, FIRST_COUNT) if before is None else before
+    stand = search.begun(half_width, round(count)) if before is None else before
     failed = 0
     while count <= _MOST_COUNT:
         if history or failed or model.geometry != "linear":

@@ -1,7 +1,7 @@
 """The search for the zones of both interfaces of a plate and their ends, on meshes of one size.
 
 Zones begin on meshes that reach beyond the contacts, with the states of all nodes found at once
-(`settled`). Edges and transitions then lie at nodes of the interface that they belong to, and the
+(`first`). Edges and transitions then lie at nodes of the interface that they belong to, and the
 tractions at the first nodes beside them say where they move (`contact.Layout.moved`). Where a
 solution violates its conditions, the states of its nodes are found once more.
 """
@@ -15,9 +15,9 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import State, cosine_nodes, crowding_of, elements_of_zones, subdivided
+from rollnip.contact import cosine_nodes, crowding_of, elements_of_zones, subdivided
 from rollnip.model import FINITE, Model
-from rollnip.nip import Nip, Torque
+from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
@@ -25,6 +25,7 @@ from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.plate.attempt import PlateAttempt, carried, shear_over, violation
 from rollnip.sheet.plate.factorised import FactorisedPlate
+from rollnip.sheet.plate.first import FirstZones
 from rollnip.sheet.plate.lagged import (
     change_of,
     displacements_of,
@@ -32,9 +33,9 @@ from rollnip.sheet.plate.lagged import (
     has_none,
     lagged_terms,
 )
-from rollnip.sheet.plate.settled import Edges, settled
+from rollnip.sheet.plate.settled import settled
 from rollnip.sheet.plate.sides import path_ratio, side_mesh
-from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
+from rollnip.sheet.plate.system import LaggedPlate, PlateProblem
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.search import SHORTEST_LAYER, sheet_layer, squeeze_layer
 
@@ -45,15 +46,9 @@ _FAIRLY_PLACED = 2e-3  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
 _CLOSELY = 0.03  # of the tolerance: what an end may be off, over the width
 _ROUGHLY = 1.0  # the same where a solution only begins another one
-_ELEMENTS = 40  # of a mesh that reaches beyond the contact
-_MOST_SOUGHT = 100  # the same at most, where zones are sought once more
-_REACH = 1.6  # half of the first mesh over the half-width of a sheet that bends freely
-_WIDER = 1.5  # times the reach, where the contact does not fit in
-_MOST_REACHES = 4
 _OF_THICKNESS = 0.25  # of the sheet: the boundary layer of the pressure on a rigid roller
-_MARGIN = 0.15  # of the width, beyond edges that are about known
 _MOST_MESHES = 18
-_MOST_ROUGH = 12  # meshes in a row on which ends only move
+_MOST_ROUGH = 6  # meshes in a row on which ends only move
 _MOST_NODES = 320  # of a mesh whose states are sought all at once
 _MOST_CHANGES = 3  # of zones, before contact, stick and slip are sought together
 _MOST_TURNS = 25
@@ -77,63 +72,14 @@ class PlateSearch:
         """Find a first solution, without terms that depend on it but a traction for a torque."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
         closely = _CLOSELY if self.model.geometry == "linear" else _ROUGHLY
-        stand = plain.placed(plain._first_zones(half_width), count, None, closely)
+        zones = plain._first.around(half_width, count)
+        stand = plain.placed(zones, count, None, closely)
         lagged = lagged_terms(stand.problem, self.model.geometry, stand.state)
         return replace(stand, lagged=lagged)
 
-    def _first_zones(self, half_width: float) -> PlateZones:
-        """Return zones of meshes that reach beyond the contacts.
-
-        ``half_width``: about that of a sheet that bends freely [mm].
-        """
-        reach = _REACH * half_width
-        for _ in range(_MOST_REACHES):
-            problem = self._even(PlateZones.sticking(reach), 0.0)
-            around = (-half_width, half_width)
-            state = self._settled(problem, first_lagged(problem), (around, around))
-            if all(one[0] == one[-1] == State.FREE for one in state.states):
-                break
-            reach *= _WIDER
-        zones = PlateZones.around(problem, state)
-        for _ in range(_MOST_REACHES):
-            closer = self._closer(zones, None)
-            if closer.edges_off(zones) < _MARGIN:
-                break
-            zones = closer
-        return closer
-
-    def _closer(
-        self, zones: PlateZones, lagged: LaggedPlate | None, elements: int = _ELEMENTS
-    ) -> PlateZones:
-        """Return zones from some whose edges are about right, on meshes that end beyond these.
-
-        ``lagged`` : whose traction and load are taken; None: none that depend on a solution.
-        """
-        problem = self._even(zones, _MARGIN, elements)
-        first = first_lagged(problem)
-        if lagged is not None:
-            first = replace(first, traction=lagged.traction, lean=lagged.lean)
-        return PlateZones.around(problem, self._settled(problem, first, zones.edges))
-
-    def _settled(self, problem: PlateProblem, lagged: LaggedPlate, edges: Edges) -> PlateState:
-        """Return a solution with contact, stick and slip; with a wanted torque on the way too."""
-        state, _ = settled(problem, lagged, edges)
-        if isinstance(self.nip.tangential, Torque):
-            wanted = lagged_terms(problem, "linear", state).traction
-            state, _ = settled(problem, replace(lagged, traction=wanted), edges)
-        return state
-
-    def _even(self, zones: PlateZones, margin: float, count: int = _ELEMENTS) -> PlateProblem:
-        """Assemble the problem on meshes that end a share of the width beyond the edges."""
-        meshes = []
-        for number, side in enumerate(zones.sides):
-            beyond, (trailing, leading) = margin * side.width, side.edges
-            ends = np.array([trailing - beyond, leading + beyond])
-            elements = np.array([count])
-            nodes = cosine_nodes(ends, elements, (1.0,))
-            fine = subdivided(nodes, elements, (1.0,))
-            meshes.append(side_mesh(nodes, fine, self._holding(None, number), number))
-        return PlateProblem.on(self.nip, (meshes[0], meshes[1]))
+    @property
+    def _first(self) -> FirstZones:
+        return FirstZones(self.nip, self.kernels)
 
     def placed(
         self,
@@ -157,7 +103,7 @@ class PlateSearch:
             return stand
         start = stand.zones if stand.zones.is_proper else zones
         try:
-            found = self._closer(start, stand.lagged, int(np.clip(count, _ELEMENTS, _MOST_SOUGHT)))
+            found = self._first.again(start, stand.lagged, count)
             again = self._moved_until(found, count, stand, placed)
         except np.linalg.LinAlgError:
             return stand
@@ -195,7 +141,7 @@ class PlateSearch:
                 fair = replace(stand, zones=asked, off=off)
             rough = off > _FAIRLY_PLACED and rough_ones < _MOST_ROUGH
             rough_ones = rough_ones + 1 if rough else 0
-            if not (rough or is_met):
+            if not (rough or is_met or (is_fair and not is_placed)):
                 found = self._found(stand, asked)
                 if found is None:
                     break
@@ -263,7 +209,8 @@ class PlateSearch:
         meshes, is_fine, (count, shapes) = [], True, sizes
         for number, side in enumerate(zones.sides):
             least = max(self._boundary_of(number), SHORTEST_LAYER * side.width)
-            breaks = zones.breaks_of_mesh(number, self._thickness)
+            is_rigid = (self.nip.upper, self.nip.lower)[number].is_rigid
+            breaks = zones.breaks_of_mesh(number, self._thickness, peaks=is_rigid)
             crowding = crowding_of(breaks, max(least, known * side.width))
             is_fine = is_fine and crowding == crowding_of(breaks, least)
             kept = shapes.get((number, crowding))

@@ -8,12 +8,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, States, interior_point
+from rollnip.nip import LineLoad
 from rollnip.sheet.plate.factorised import FURTHER, equations, given
 from rollnip.sheet.plate.system import LaggedPlate, Pair, PlateProblem, PlateState
 
 Array = NDArray[np.float64]
 Edges = tuple[tuple[float, float], tuple[float, float]]
 
+_ENOUGH = 1e-4  # left of the conditions, where states are taken although they gain no more
 _LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
 
 
@@ -34,7 +36,7 @@ def settled(problem: PlateProblem, lagged: LaggedPlate, edges: Edges) -> tuple[P
     numpy.linalg.LinAlgError
         where none is found.
     """
-    found = interior_point(*_inequalities(problem, lagged, edges))
+    found = interior_point(*_inequalities(problem, lagged, edges), _ENOUGH)
     end, n = problem.starts[-1], problem.meshes[0].inner.size
     p_u, q_u, p_l, q_l = np.split(found.unknowns[:end], problem.starts[1:-1])
     approach, upper, lower, height, rotation = found.unknowns[end:].tolist()
@@ -96,23 +98,31 @@ def _inequalities(
 
 
 def _guessed(problem: PlateProblem, edges: Edges, depth: float) -> tuple[Pair, float]:
-    """Return pressures like ellipses that press the rollers as deep as they overlap, and the load.
+    """Return pressures like ellipses and the load; the forces of both are alike.
 
-    The forces of both are alike.
+    A load that is not given is the one that presses the rollers as deep as they overlap.
     """
-    a, b, c, d, _ = problem.starts
-    x_u, x_l = (mesh.inner for mesh in problem.meshes)
+    normal = problem.nip.normal
     upper, lower = (
         _ellipse(mesh.inner, *one) for mesh, one in zip(problem.meshes, edges, strict=True)
     )
-    matrix = problem.matrix[:, np.r_[a:b, c:d]]
-    under = matrix @ np.concatenate([upper, lower])
-    pressed = under[a:b] + np.interp(x_u, x_l, under[c:d])
-    inside = np.flatnonzero(upper)
-    rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
-    force = depth / (rise if rise > 0.0 else float(np.abs(pressed).max()))
+    if isinstance(normal, LineLoad):
+        force = normal.load
+    else:
+        rises = [
+            _rise(mesh.per_traction[3 * side + 1][:-1] @ one, one)
+            for side, (mesh, one) in enumerate(zip(problem.meshes, (upper, lower), strict=True))
+        ]
+        force = depth / sum(rises)
     first, second = (force * np.maximum(one, _LEAST * one.max()) for one in (upper, lower))
     return (first, second), force
+
+
+def _rise(pressed: Array, pressure: Array) -> float:
+    """Return how much deeper a surface is pressed in the contact than at its edges [mm]."""
+    inside = np.flatnonzero(pressure)
+    rise = float(pressed[inside].max() - 0.5 * (pressed[inside[0]] + pressed[inside[-1]]))
+    return rise if rise > 0.0 else float(np.abs(pressed).max())
 
 
 def _ellipse(x: Array, trailing: float, leading: float) -> Array:

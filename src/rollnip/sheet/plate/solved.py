@@ -21,10 +21,10 @@ from rollnip.rolling import (
     with_second_order,
 )
 from rollnip.sheet.all_orders import solve_in_turns
+from rollnip.sheet.bending import bending_length
 from rollnip.sheet.common import (
     SIMPLER,
     SLACK,
-    bending_length,
     half_width_with_sheet,
     instead_of,
     require_grip,

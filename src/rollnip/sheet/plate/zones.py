@@ -31,18 +31,20 @@ class PlateZones(SideZones):
         """Return whether all breaks are finite and every zone has a length."""
         return self.upper.is_proper and self.lower.is_proper
 
-    def breaks_of_mesh(self, number: int, thickness: float) -> Array:
+    def breaks_of_mesh(self, number: int, thickness: float, *, peaks: bool = False) -> Array:
         """Return the places where nodes of one interface crowd: its breaks, and some opposite.
 
         Opposite an edge of the other contact, and opposite a place where its slip turns to stick,
         where the couple of its shear rises steeply, the pressure turns over about the thickness of
         the sheet, which the nodes of a wide contact do not resolve by themselves. A place nearer
-        than that to another one has the nodes of that one.
+        than that to another one has the nodes of that one. Where the pressure ends in peaks about
+        as long as the sheet is thick, nodes crowd at either side of them.
 
         Parameters
         ----------
         number : of the interface.
         thickness : of the sheet [mm].
+        peaks : whether the pressure ends in such peaks, as on a rigid roller.
         """
         own, opposite = self.sides[number], self.sides[1 - number]
         first, last = own.edges
@@ -53,6 +55,10 @@ class PlateZones(SideZones):
         for x in opposite.breaks[begins].tolist():
             if first < x < last and float(np.abs(breaks - x).min()) > thickness:
                 breaks = np.append(breaks, x)
+        if peaks:
+            for x in (first + thickness, last - thickness):
+                if first < x < last and float(np.abs(breaks - x).min()) > 0.5 * thickness:
+                    breaks = np.append(breaks, x)
         return np.sort(breaks)
 
     def distance(self, other: PlateZones) -> float:
@@ -144,4 +150,7 @@ class PlateZones(SideZones):
             )
         ]
         upper, lower = sides
-        return None if upper is None or lower is None else PlateZones(upper, lower)
+        if upper is None or lower is None:
+            return None
+        in_pieces = any(State.FREE in side.states for side in (upper, lower))
+        return None if in_pieces else PlateZones(upper, lower)

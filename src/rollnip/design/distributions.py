@@ -193,10 +193,10 @@ def hypercube(distributions: Sequence[Any], count: int, scores: Array | None, se
         wanted = norm.ppf(shares) @ np.linalg.cholesky(scores).T
         ranks = np.argsort(np.argsort(wanted, axis=0), axis=0)
         shares = np.take_along_axis(np.sort(shares, axis=0), ranks, axis=0)
-    return placed(distributions, shares)
+    return quantiles_at(distributions, shares)
 
 
-def placed(distributions: Sequence[Any], shares: Array) -> Array:
+def quantiles_at(distributions: Sequence[Any], shares: Array) -> Array:
     """Return the values (n, d) at which the distributions reach the given probabilities (n, d)."""
     inside = np.clip(shares, _EDGE, 1.0 - _EDGE)
     return np.column_stack([one.ppf(inside[:, i]) for i, one in enumerate(distributions)])

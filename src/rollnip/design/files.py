@@ -31,7 +31,7 @@ from rollnip.design.distributions import (
     frozen,
 )
 from rollnip.design.posteriors import posterior
-from rollnip.design.problem import Bounds, interval
+from rollnip.design.problem import Bounds, limits_of
 from rollnip.design.quantities import parameter_dimension, require_quantity
 from rollnip.design.scatter import Sampling
 from rollnip.design.search import Search
@@ -204,7 +204,7 @@ def _objective(table: ObjectiveTable, source: str) -> Objective:
 
 def _bounds(case: Mapping[str, Any], table: BoundsTable) -> Bounds:
     bounds = Bounds(table.path, table.low, table.high)
-    interval(case, bounds)
+    limits_of(case, bounds)
     return bounds
 
 

@@ -61,7 +61,7 @@ class Problem:
         if twice is not None:
             raise InvalidInputError(f"`parameters` must not name {twice} twice.")
         self.units = tuple(base_unit(parameter_dimension(case, path)) for path in self.paths)
-        bounds = [interval(case, one) for one in parameters]
+        bounds = [limits_of(case, one) for one in parameters]
         with_values(case, dict(zip(self.paths, (low for low, _ in bounds), strict=True)))
         self.low, self.high = (np.array(ends) for ends in zip(*bounds, strict=True))
 
@@ -171,7 +171,7 @@ def _number_at(case: Mapping[str, Any], path: str) -> float:
     return number
 
 
-def interval(case: Mapping[str, Any], bounds: Bounds) -> tuple[float, float]:
+def limits_of(case: Mapping[str, Any], bounds: Bounds) -> tuple[float, float]:
     """Return both bounds in base units. Raises InvalidInputError."""
     dimension = parameter_dimension(case, bounds.path)
     low = read_parameter("low", bounds.low, dimension)

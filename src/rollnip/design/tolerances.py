@@ -19,7 +19,7 @@ from rollnip.design.distributions import (
     Varied,
     frozen,
     hypercube,
-    placed,
+    quantiles_at,
     score_matrix,
 )
 from rollnip.design.quantities import QUANTITIES, parameter_dimension, require_quantity
@@ -259,7 +259,7 @@ def _mixed(question: _ToleranceQuestion) -> Array:
     plan, dimensions = question.sampling, len(question.paths)
     if not plan.sobol:
         return np.empty((0, dimensions))
-    return placed(question.distributions, sobol_places(plan.sobol, dimensions, plan.seed))
+    return quantiles_at(question.distributions, sobol_places(plan.sobol, dimensions, plan.seed))
 
 
 def _rows(table: Table, which: slice) -> Table:

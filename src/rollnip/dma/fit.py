@@ -212,7 +212,7 @@ def _material(
     temperature = None if law is None else master.reference
     data, poisson = master.reduced, master.data.poisson
     if method.model == "fractional-zener":
-        modulus, stiffening, time, order = (rounded(v) for v in fractional_zener(data))
+        modulus, stiffening, time, order = (to_six_digits(v) for v in fractional_zener(data))
         zener = FractionalZener(
             modulus=modulus,
             stiffening=stiffening,
@@ -230,13 +230,13 @@ def _material(
     moduli, _ = non_negative(data, times, strength)
     least = max(_NO_PLATEAU * float(np.min(data.storage)), _SOFTEST)
     terms = [
-        (rounded(float(e)), rounded(float(t)))
+        (to_six_digits(float(e)), to_six_digits(float(t)))
         for e, t in zip(moduli[1:], times, strict=True)
         if e > 1e-9 * float(np.max(moduli))
     ]
     prony = Prony(
-        modulus=rounded(max(float(moduli[0]), least)),
-        terms=tuple(terms) or ((0.0, rounded(float(times[0]))),),
+        modulus=to_six_digits(max(float(moduli[0]), least)),
+        terms=tuple(terms) or ((0.0, to_six_digits(float(times[0]))),),
         poisson=poisson,
         temperature=temperature,
         shift=rounded_law(law),
@@ -256,7 +256,8 @@ def with_levels(
     if not float(temperatures[0]) <= master.reference <= float(temperatures[-1]):
         return None
     levels = zip(temperatures, np.exp(master.vertical), strict=True)
-    return replace(law, vertical=tuple((rounded(float(t)), rounded(float(b))) for t, b in levels))
+    pairs = tuple((to_six_digits(float(t)), to_six_digits(float(b))) for t, b in levels)
+    return replace(law, vertical=pairs)
 
 
 def fractional_zener(data: Reduced) -> tuple[float, float, float, float]:
@@ -373,12 +374,12 @@ def _model_warnings(
 def rounded_law(law: WLF | Arrhenius | None) -> WLF | Arrhenius | None:
     """The law with six digits in its constants."""
     if isinstance(law, WLF):
-        return replace(law, c1=rounded(law.c1), c2=rounded(law.c2))
+        return replace(law, c1=to_six_digits(law.c1), c2=to_six_digits(law.c2))
     if isinstance(law, Arrhenius):
-        return replace(law, activation_energy=rounded(law.activation_energy))
+        return replace(law, activation_energy=to_six_digits(law.activation_energy))
     return None
 
 
-def rounded(value: float) -> float:
+def to_six_digits(value: float) -> float:
     """The value with six digits."""
     return float(f"{value:.{_DIGITS - 1}e}")

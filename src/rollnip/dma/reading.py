@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip.dma.heads import SHOWN, Head, MeasuredQuantity, Modulus, scale_of
-from rollnip.dma.shown import KINDS, UNITS, counted, named_lines, shown, table_tree
+from rollnip.dma.shown import KINDS, UNITS, counted, description_lines, named_lines, table_tree
 from rollnip.dma.tables import RawTable, column, find_tables, has_decimal_commas
 from rollnip.io.cells import Cells, read_cells
 
@@ -116,7 +116,7 @@ class Reading:
 
     def text(self) -> str:
         """Return a description of the file as it was understood, for people."""
-        return "\n".join(shown(self)) + "\n"
+        return "\n".join(description_lines(self)) + "\n"
 
     def as_dict(self) -> dict[str, Any]:
         """Return the description as plain values, for JSON: ranges in base units."""

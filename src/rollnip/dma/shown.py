@@ -24,7 +24,7 @@ UNITS = {"frequency": "Hz", "temperature": "degC", "time": "s", "phase": "rad", 
 _NAMED = 6  # lines, of those left out
 
 
-def shown(reading: Reading) -> Iterator[str]:
+def description_lines(reading: Reading) -> Iterator[str]:
     """Yield the lines of a description, for people."""
     how = [
         one

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from scipy.optimize import brentq
 
 from rollnip._errors import InvalidInputError
-from rollnip.dma.fit import DmaMethod, rounded, rounded_law, shifted, with_levels
+from rollnip.dma.fit import DmaMethod, rounded_law, shifted, to_six_digits, with_levels
 from rollnip.dma.master import Master, robust_weights, unshifted
 from rollnip.dma.quality import RMS_LIMIT, ROW_LIMIT, outlying_rows, row_of
 from rollnip.dma.shifts import ShiftFit
@@ -157,10 +157,11 @@ def _material(master: Master, shift: ShiftFit, method: DmaMethod) -> Prony:
         moduli, times = relaxation_of_creep(moduli, times) if times.size else (1.0 / moduli, times)
     law = with_levels(shift.law, master, method.vertical)
     terms = tuple(
-        (rounded(float(e)), rounded(float(t))) for e, t in zip(moduli[1:], times, strict=True)
+        (to_six_digits(float(e)), to_six_digits(float(t)))
+        for e, t in zip(moduli[1:], times, strict=True)
     )
     return Prony(
-        modulus=rounded(float(moduli[0])),
+        modulus=to_six_digits(float(moduli[0])),
         terms=terms or ((0.0, 1.0),),
         poisson=master.data.poisson,
         temperature=None if law is None else master.reference,

@@ -38,7 +38,7 @@ from rollnip.identification.search import (
     Local,
     Misfit,
     local_search,
-    rescaled,
+    reweighted,
     several_starts,
     straightened,
 )
@@ -319,7 +319,7 @@ def _with_noise(misfit: Misfit, best: Local, noise: Noise) -> tuple[Misfit, Loca
         factors = np.concatenate([*scale, priors])
         noise = found
         misfit = misfit.with_errors(found.errors)
-        best = rescaled(misfit, plain, factors)
+        best = reweighted(misfit, plain, factors)
         if change < _STILL and not (priors.size and np.any(np.abs(factors - 1.0) > _STILL)):
             break
         best = replace(local_search(misfit, best.ended), begun=best.begun)

@@ -59,7 +59,7 @@ def fit_case(fit: Fit) -> str:
     for one in fit.estimates:
         unit = fit.units.get(one.path, "")
         texts[one.path] = format_quantity(one.value, unit) if unit else one.value
-        low, high = interval(one)
+        low, high = interval_texts(one)
         lines.append(
             f"#   {one.path} = {_with_error(one)} {unit}".rstrip() + f" ({level}: {low} to {high})"
         )
@@ -67,7 +67,7 @@ def fit_case(fit: Fit) -> str:
     return "\n".join(lines) + "\n\n" + case_toml(with_values(fit.case, texts))
 
 
-def interval(one: Estimate) -> tuple[str, str]:
+def interval_texts(one: Estimate) -> tuple[str, str]:
     """The interval to report, as texts: the profile's where there is one.
 
     An end that is only the bound is written with the sign of the inequality.
@@ -113,7 +113,7 @@ def _table(fit: Fit) -> Iterator[str]:
     for one in fit.estimates:
         digits = _decimals(one)
         error = f"{one.standard_error:.{digits}f}" if one.is_told else "unknown"
-        low, high = interval(one)
+        low, high = interval_texts(one)
         value = f"{one.value:.{digits}f}"
         unit = fit.units.get(one.path, "")
         yield f"{one.path:{width}}  {value:>12} {error:>12}  {unit:6} {low} to {high}"

@@ -160,7 +160,7 @@ def straightened(misfit: Misfit, end: Local) -> Local:
     return replace(end, residuals=weights * residuals, jacobian=jacobian)
 
 
-def rescaled(misfit: Misfit, end: Local, factors: Array) -> Local:
+def reweighted(misfit: Misfit, end: Local, factors: Array) -> Local:
     """Return an end with every residual and its derivatives multiplied, its cost counted anew.
 
     Parameters

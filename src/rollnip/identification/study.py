@@ -32,7 +32,7 @@ from rollnip.identification.impressions import Impressions
 from rollnip.identification.quality import row_names
 from rollnip.identification.surface import Strains, Velocities
 from rollnip.identification.unknowns import Prior, Unknown
-from rollnip.io import Columns, dimension_at, read_columns
+from rollnip.io import TableColumns, dimension_at, read_columns
 from rollnip.io.document import folder_of, read_document
 from rollnip.io.fitting import DataTable, FitTable, UnknownTable, parse_fit
 from rollnip.io.velocities import Settings, read_velocities
@@ -178,7 +178,7 @@ class _FitReader:
             )
 
     def _impressions(
-        self, where: str, table: DataTable, columns: Columns, at: dict[str, Any]
+        self, where: str, table: DataTable, columns: TableColumns, at: dict[str, Any]
     ) -> Impressions:
         if "face" not in self.case:
             raise CaseFileError(
@@ -202,7 +202,7 @@ class _FitReader:
                 rows=row_names(Path(columns.source).name, columns.lines),
             )
 
-    def _require_on_face(self, columns: Columns, y: NDArray[np.float64]) -> None:
+    def _require_on_face(self, columns: TableColumns, y: NDArray[np.float64]) -> None:
         """Raise where a place lies outside the face of the case."""
         with self._placed("case: face.length"):
             half = 0.5 * parse_quantity(
@@ -216,7 +216,7 @@ class _FitReader:
                 )
 
     def _strains(
-        self, where: str, table: DataTable, columns: Columns, at: dict[str, Any]
+        self, where: str, table: DataTable, columns: TableColumns, at: dict[str, Any]
     ) -> Strains:
         column = table.column or "strain"
         self._conditions(columns, {"x", column, _ERROR, *table.ignore}, allowed=False)
@@ -246,7 +246,9 @@ class _FitReader:
                 width=table.width or settings.averaging_width,
             )
 
-    def _errors(self, where: str, table: DataTable, columns: Columns, dimension: Dimension) -> Any:
+    def _errors(
+        self, where: str, table: DataTable, columns: TableColumns, dimension: Dimension
+    ) -> Any:
         """Return the standard errors from the key or the column; None where there is neither."""
         if table.standard_error is not None:
             with self._placed(f"{where}.standard_error"):
@@ -254,7 +256,7 @@ class _FitReader:
         return columns.numbers(_ERROR, dimension) if _ERROR in columns.names else None
 
     def _conditions(
-        self, columns: Columns, known: set[str], *, allowed: bool = True
+        self, columns: TableColumns, known: set[str], *, allowed: bool = True
     ) -> dict[str, Any]:
         """All other columns: values of the case by path, short names for those of [nip]."""
         found: dict[str, Any] = {}
@@ -293,7 +295,7 @@ class _FitReader:
             raise InvalidInputError(f"{self.source}: {where}: {problem}") from None
 
 
-def _require_positive(columns: Columns, name: str, values: NDArray[np.float64]) -> None:
+def _require_positive(columns: TableColumns, name: str, values: NDArray[np.float64]) -> None:
     for line, value in zip(columns.lines, values, strict=True):
         if not value > 0.0:
             raise InvalidInputError(

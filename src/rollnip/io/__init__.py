@@ -1,7 +1,7 @@
 """Case files in, results out: the only place that knows files, keys and pydantic."""
 
 from rollnip.io.case import Case, case_hash, case_schema, parse_case, read_case
-from rollnip.io.columns import Columns, read_columns
+from rollnip.io.columns import TableColumns, read_columns
 from rollnip.io.fields import check_fields_target, write_fields
 from rollnip.io.heat import heat_text, write_heat
 from rollnip.io.parts import case_parts
@@ -13,8 +13,8 @@ from rollnip.io.script import base_tree, case_python, case_toml, units_of
 
 __all__ = [
     "Case",
-    "Columns",
     "PatchCase",
+    "TableColumns",
     "base_tree",
     "case_hash",
     "case_parts",

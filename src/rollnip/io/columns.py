@@ -39,7 +39,7 @@ EXCEL = (".xlsx", ".xls", ".xlsb", ".ods")
 
 
 @dataclass(frozen=True, slots=True)
-class Columns:
+class TableColumns:
     """A table as read: texts and numbers, each column with a name and, maybe, a unit.
 
     Attributes
@@ -151,7 +151,7 @@ class Columns:
             raise InvalidInputError(f"{where} {problem}") from None
 
 
-def read_columns(path: str | Path, *, sheet: str | None = None) -> Columns:
+def read_columns(path: str | Path, *, sheet: str | None = None) -> TableColumns:
     """Read a table from a text file (CSV) or an Excel or OpenDocument sheet.
 
     Parameters
@@ -254,7 +254,7 @@ def cell_of(value: object) -> Cell:
     return str(value).strip()
 
 
-def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> Columns:
+def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> TableColumns:
     comments = tuple(
         (number, " ".join(map(str, cells)).strip().lstrip("#").strip())
         for number, cells in lines
@@ -271,7 +271,7 @@ def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> Column
     if twice is not None:
         raise InvalidInputError(f'{source}: column "{twice}" must not be there twice.')
     rows = [_row(source, line, cells, len(names)) for line, cells in numbered[1:]]
-    return Columns(
+    return TableColumns(
         source=source,
         names=names,
         units=units,

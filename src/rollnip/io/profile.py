@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from rollnip._errors import InvalidInputError
-from rollnip.io.columns import Columns, read_columns
+from rollnip.io.columns import TableColumns, read_columns
 from rollnip.materials import Material, stiffness_of_hardness
 from rollnip.rollers import Profile
 from rollnip.shafts import CoveringTable, CrownTable
@@ -98,7 +98,7 @@ def read_covering(path: str | Path, material: Material | None) -> CoveringTable:
 
 
 def _stiffness(
-    table: Columns, name: str, material: Material | None
+    table: TableColumns, name: str, material: Material | None
 ) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
     """Return the modulus over that of the material, (n,)."""
     if name == "stiffness":

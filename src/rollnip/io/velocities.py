@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension, parse_quantity
-from rollnip.io.columns import Columns, read_columns
+from rollnip.io.columns import TableColumns, read_columns
 from rollnip.lda import (
     Instrument,
     Scan,
@@ -247,7 +247,7 @@ _SAID: Mapping[str, Callable[[str], float | str]] = {
 }
 
 
-def _settings(table: Columns) -> Settings:
+def _settings(table: TableColumns) -> Settings:
     """Return the settings in comment lines of the form ``key: value``."""
     said: dict[str, float | str] = {}
     for number, line in table.comments:
@@ -262,7 +262,7 @@ def _settings(table: Columns) -> Settings:
     return Settings(**said)  # type: ignore[arg-type]
 
 
-def _heads(table: Columns) -> dict[str, str]:
+def _heads(table: TableColumns) -> dict[str, str]:
     """Names of the columns as they stand in the table, by what they hold."""
     heads: dict[str, str] = {}
     for head in table.names:

@@ -20,7 +20,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
-from rollnip.io.columns import Columns, read_columns
+from rollnip.io.columns import TableColumns, read_columns
 
 Array = NDArray[np.float64]
 Test = Literal["tension", "compression", "equibiaxial", "planar", "shear"]
@@ -179,7 +179,7 @@ def read_rubber(
         raise InvalidInputError(f"{path}: {error}") from None
 
 
-def _tests(table: Columns, test: Test | None, path: str) -> tuple[Test, ...]:
+def _tests(table: TableColumns, test: Test | None, path: str) -> tuple[Test, ...]:
     if test is not None and test not in TESTS:
         raise InvalidInputError(f"`test` must be one of {', '.join(TESTS)}, got {test!r}.")
     if "test" not in table.names:

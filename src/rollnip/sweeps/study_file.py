@@ -15,7 +15,7 @@ import numpy as np
 from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
 from rollnip._units import Dimension, base_unit, parse_quantity
 from rollnip.figures import PROFILES
-from rollnip.io import Columns, dimension_at, read_columns, value_at
+from rollnip.io import TableColumns, dimension_at, read_columns, value_at
 from rollnip.io.document import folder_of, read_document
 from rollnip.io.patch_case import any_case
 from rollnip.io.study import ParameterTable, StudyTable, parse_study
@@ -319,7 +319,7 @@ def _unit(dimension: Dimension | None) -> str:
     return "" if dimension is None else base_unit(dimension) or "1"
 
 
-def _column(table: Columns, path: str, dimension: Dimension | None) -> Column:
+def _column(table: TableColumns, path: str, dimension: Dimension | None) -> Column:
     if dimension is not None:
         return table.numbers(path, dimension)
     if table.unit(path):

@@ -14,8 +14,8 @@ from rollnip.design.problem import Bounds, Problem
 from rollnip.design.quantities import QUANTITIES, json_tree, result_error
 from rollnip.design.root import Evaluate
 from rollnip.design.search import (
-    Descent,
     Each,
+    LocalSearch,
     Search,
     Searched,
     Trial,
@@ -227,7 +227,7 @@ def _answer(problem: Problem, found: Searched, row: Mapping[str, Any]) -> Optimu
     )
 
 
-def _end(problem: Problem, one: Descent, sign: float, best: float) -> SearchEnd:
+def _end(problem: Problem, one: LocalSearch, sign: float, best: float) -> SearchEnd:
     kept = one.best.violation == 0.0
     return SearchEnd(
         values=problem.by_path(one.best),

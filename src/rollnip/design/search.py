@@ -121,7 +121,7 @@ class Trial:
 
 
 @dataclass(frozen=True, slots=True)
-class Descent:
+class LocalSearch:
     """One search by COBYQA.
 
     Attributes
@@ -142,7 +142,7 @@ class Searched:
 
     best: Trial
     trials: tuple[Trial, ...]
-    ends: tuple[Descent, ...]
+    ends: tuple[LocalSearch, ...]
 
     @property
     def is_finished(self) -> bool:
@@ -258,7 +258,7 @@ def _apart(ranked: Sequence[Trial], count: int) -> list[Trial]:
 
 def _locally(
     judge: Callable[[Array], Trial], begin: Trial, solves: int, worst: float, search: Search
-) -> tuple[Descent, tuple[Trial, ...]]:
+) -> tuple[LocalSearch, tuple[Trial, ...]]:
     """COBYQA from one place; how it ended, and what it tried, the place itself left out."""
     log = _Log(judge, solves + 1, in_turn)
     log.trials[begin.at.tobytes()] = begin
@@ -281,4 +281,4 @@ def _locally(
         is_finished = found.status in (0, 2)  # the radius came down, or there is no room to move
     except _Spent:
         pass
-    return Descent(begin.at, log.ranked[0], is_finished), tuple(log.trials.values())[1:]
+    return LocalSearch(begin.at, log.ranked[0], is_finished), tuple(log.trials.values())[1:]

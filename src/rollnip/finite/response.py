@@ -282,6 +282,8 @@ class FiniteResponse:
         surface = deformed_surface(mesh.body, mesh.state)
         strip, state = mesh.body.strip, mesh.state
         front = np.abs(surface.arcs) < _FRONT / max(strip.depths.roller.curvature, 1e-300)
+        if not front.any():
+            raise NoEquilibriumError
         under = np.interp(places[loaded], surface.x[front], surface.arcs[front])
         flat, body = self._on(places, loaded, under)
         displacement = strip.moved_to(body.strip, state.displacement)
@@ -290,11 +292,17 @@ class FiniteResponse:
         return flat, body, State(displacement, state.pressure, state.tangent)
 
     def _on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
-        """Return a mesh whose loaded columns are at some arcs, of linear theory and as it is."""
+        """Return a mesh whose loaded columns are at some arcs, of linear theory and as it is.
+
+        Raises `NoEquilibriumError` where they do not increase: material has passed by other
+        material, or has left the places of the tractions.
+        """
         arcs = places.copy()
         arcs[: loaded.start] += under[0] - places[loaded.start]
         arcs[loaded.stop :] += under[-1] - places[loaded.stop - 1]
         arcs[loaded] = under
+        if not np.all(np.diff(arcs) > 0.0):
+            raise NoEquilibriumError
         flat = Body(Strip(self._depths, arcs), self._speed)
         return flat, flat if self._speed is None else replace(flat, speed=self._speed_now)
 

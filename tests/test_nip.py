@@ -93,6 +93,12 @@ def test_defaults():
     assert not GOOD.has_half_space
 
 
+def test_friction_is_not_absurd():
+    message = refusal(replace, GOOD, friction=1e308)
+    assert message == "`friction` must be at most 1e6 here, got 1e+308."
+    assert replace(GOOD, friction=1e6).friction == 1e6
+
+
 @pytest.mark.parametrize("friction", [-0.1, nan, inf, "0.3", None])
 def test_friction(friction):
     assert refusal(replace, GOOD, friction=friction) == (

@@ -29,6 +29,8 @@ def test_thickness_is_positive(thickness):
 def test_thickness_is_not_absurd():
     message = refusal(Layer, 1e30, RUBBER)
     assert message == "`thickness` must be at most 1e7 mm, got 1e+30."
+    message = refusal(Layer, 1e-300, RUBBER)
+    assert message == "`thickness` must be at least 1e-9 mm, got 1e-300."
 
 
 @pytest.mark.parametrize("material", [None, 2.0, "rubber", Elastic])
@@ -57,6 +59,17 @@ def test_coating_is_thinner_than_the_radius(thickness):
     assert message == (
         f"`layers` must be thinner in all than the radius 5 mm, got {thickness:g} mm."
     )
+
+
+def test_layers_leave_a_core():
+    """Of 0.001 mm it gave a creepage of -1.7 that counted as verified, or broke off the program."""
+    message = refusal(Roller, radius=60.0, layers=(Layer(59.999, RUBBER),))
+    assert message == (
+        "`layers` must leave a rigid core with a radius of at least 0.06 mm, a thousandth of that "
+        "of the roller, got 0.001 mm; give thinner layers."
+    )
+    assert Roller(radius=60.0, layers=(Layer(59.9, RUBBER),)).layers
+    assert Roller(radius=60.0, layers=(Layer(59.999, RUBBER),), core=BLACK).layers
 
 
 def test_layers_are_layers():

@@ -13,6 +13,7 @@ from math import inf, nan
 from typing import Any, TypeVar, get_args
 
 T = TypeVar("T")
+_LARGEST_FRICTION = 1e6  # no surfaces come near it; far beyond it numbers run over
 
 
 class RollnipError(Exception):
@@ -60,6 +61,14 @@ def require_not_negative(name: str, value: float) -> float:
         raise InvalidInputError(
             f"`{name}` must be zero or positive and finite, got {shown(value)}."
         )
+    return number
+
+
+def require_friction(name: str, value: float) -> float:
+    """Return ``value`` as a float, or raise InvalidInputError unless 0 <= value <= 1e6."""
+    number = require_not_negative(name, value)
+    if number > _LARGEST_FRICTION:
+        raise InvalidInputError(f"`{name}` must be at most 1e6 here, got {shown(value)}.")
     return number
 
 

@@ -8,7 +8,7 @@ from types import NoneType
 from rollnip._errors import (
     InvalidInputError,
     require_finite,
-    require_not_negative,
+    require_friction,
     require_positive,
     with_hints,
 )
@@ -130,7 +130,7 @@ class Nip:
     def __post_init__(self) -> None:
         self._check_types()
         _check_title(self.title)
-        friction = require_not_negative("friction", self.friction)
+        friction = require_friction("friction", self.friction)
         object.__setattr__(self, "friction", friction)
         for name in ("speed", "face_width"):
             value = getattr(self, name)

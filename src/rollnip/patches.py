@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from rollnip._errors import (
     InvalidInputError,
     require_finite,
+    require_friction,
     require_not_negative,
     require_positive,
     with_hints,
@@ -166,7 +167,7 @@ class Patch:
 
     def __post_init__(self) -> None:
         self._check_types()
-        object.__setattr__(self, "friction", require_not_negative("friction", self.friction))
+        object.__setattr__(self, "friction", require_friction("friction", self.friction))
         object.__setattr__(self, "spin", require_finite("spin", self.spin))
         if self.speed is not None:
             object.__setattr__(self, "speed", require_positive("speed", self.speed))

@@ -18,6 +18,8 @@ from rollnip.shafts import Shaft
 _MOST_SAMPLES = 2**18
 _ROUNDING = 1e-9  # of the length of a profile
 _LARGEST_LENGTH = 1e7  # mm; ten kilometres: beyond it a unit was mistaken
+_SMALLEST_THICKNESS = 1e-9  # mm; a hundredth of an atom
+_LEAST_CORE = 1e-3  # of the radius: on a thinner one the ring is lost in rounding
 
 
 @with_hints(
@@ -31,14 +33,14 @@ class Layer:
     Parameters
     ----------
     thickness :
-        radial thickness [mm], positive and finite.
+        radial thickness [mm], from 1e-9 to 1e7.
     material :
         what it is made of.
 
     Raises
     ------
     InvalidInputError
-        where the thickness is not positive and finite, or the material is not one.
+        where the thickness is outside its range, or the material is not one.
     """
 
     thickness: float
@@ -48,6 +50,8 @@ class Layer:
         thickness = require_positive("thickness", self.thickness)
         if thickness > _LARGEST_LENGTH:
             raise InvalidInputError(f"`thickness` must be at most 1e7 mm, got {self.thickness!r}.")
+        if thickness < _SMALLEST_THICKNESS:
+            raise InvalidInputError(f"`thickness` must be at least 1e-9 mm, got {thickness!r}.")
         object.__setattr__(self, "thickness", thickness)
         _require_material("material", self.material)
 
@@ -141,7 +145,8 @@ class Roller:
     Raises
     ------
     InvalidInputError
-        where the radius is not positive or the coating is not thinner than the radius.
+        where the radius is not positive, the coating is not thinner than the radius, or it leaves
+        a rigid core of less than a thousandth of the radius.
     """
 
     radius: float
@@ -183,6 +188,12 @@ class Roller:
             raise InvalidInputError(
                 f"`layers` must be thinner in all than the radius {self.radius:g} mm, "
                 f"got {self.coating_thickness:g} mm."
+            )
+        core, least = self.radius - self.coating_thickness, _LEAST_CORE * self.radius
+        if self.layers and self.core is None and core < least:
+            raise InvalidInputError(
+                f"`layers` must leave a rigid core with a radius of at least {least:g} mm, a "
+                f"thousandth of that of the roller, got {core:.3g} mm; give thinner layers."
             )
 
     @property

@@ -8,10 +8,12 @@ from dataclasses import dataclass
 from rollnip._errors import (
     InvalidInputError,
     require_finite,
+    require_friction,
     require_not_negative,
     require_positive,
     with_hints,
 )
+from rollnip.materials.base import checked_modulus
 
 
 @with_hints(
@@ -59,12 +61,16 @@ class Sheet:
     bending: bool | None = None
 
     def __post_init__(self) -> None:
-        for name in ("thickness", "modulus"):
-            object.__setattr__(self, name, require_positive(name, getattr(self, name)))
-        for name in ("modulus_thickness", "friction_upper", "friction_lower"):
+        object.__setattr__(self, "thickness", require_positive("thickness", self.thickness))
+        object.__setattr__(self, "modulus", checked_modulus("modulus", self.modulus))
+        if self.modulus_thickness is not None:
+            across = checked_modulus("modulus_thickness", self.modulus_thickness)
+            object.__setattr__(self, "modulus_thickness", across)
+        for name in ("friction_upper", "friction_lower"):
             value = getattr(self, name)
             if value is not None:
-                object.__setattr__(self, name, require_positive(name, value))
+                friction = require_friction(name, require_positive(name, value))
+                object.__setattr__(self, name, friction)
         if self.bending is not None and not isinstance(self.bending, bool):
             raise InvalidInputError(
                 f"`bending` must be true or false, or be left out, got {self.bending!r}."

@@ -149,3 +149,12 @@ def test_a_mesh_that_lies_aside_gives_the_same(monkeypatch):
     old, new = (np.stack([f(x) for f in one.displacement(nodes, p, q)]) for one in (kept, anew))
     assert np.any(old != new)
     np.testing.assert_allclose(old, new, atol=5e-3 * np.abs(new).max())
+
+
+@pytest.mark.parametrize("peak", [0.1, 1.0])
+def test_a_roller_that_winds_up_on_a_thin_core_has_no_equilibrium(peak):
+    """Columns pass each other, or none is left in front: this broke off the program."""
+    wound = covered(rn.Layer(6.0, RUBBER), radius=6.1)
+    response = response_of(wound)
+    response.displacement(*tractions(peak))
+    assert not response.is_found

@@ -39,6 +39,7 @@ BAD = [
     (("lower", "radius"), DELETE, "lower.radius: is missing."),
     (("nip", "friction"), DELETE, "nip.friction: is missing."),
     (("nip", "load"), DELETE, "nip: must hold load or approach, got neither."),
+    (("nip", "load"), None, "nip: must hold load or approach, got neither."),
     ((*LAYER, "thickness"), DELETE, "upper.layers[0].thickness: is missing."),
     ((*LAYER, "material"), DELETE, "upper.layers[0].material: is missing."),
     ((*LAYER, "material", "poisson"), DELETE, "upper.layers[0].material.poisson: is missing."),

@@ -20,6 +20,9 @@ from rollnip.solver import geometry_for
         ("tension_out", -0.1),
         ("friction_upper", 0.0),
         ("friction_lower", -0.3),
+        ("friction_upper", 1e308),
+        ("modulus", 1e308),
+        ("modulus_thickness", 1e308),
     ],
 )
 def test_values_outside_their_range_are_refused(name, value):

@@ -23,7 +23,8 @@ def feed(
     case: Annotated[str, typer.Argument(help="Case file with [sheet]; - is the standard input.")],
     json: Json = False,
     geometry: Annotated[
-        str | None, typer.Option(help="Geometry: linear, curved or second; overrides the file.")
+        str | None,
+        typer.Option(help="Geometry: linear, curved, second or finite; overrides the file."),
     ] = None,
     tolerance: Tolerance = None,
 ) -> None:

@@ -268,7 +268,8 @@ def _normal(table: NipTable, face: Face | None) -> LineLoad | Approach:
         return LineLoad(sum(face.end_loads) / face.length)
     if table.approach is not None:
         return Approach(table.approach)
-    return LineLoad(table.load if table.load is not None else 0.0)
+    assert table.load is not None  # `wrong_controls` refuses a nip with neither
+    return LineLoad(table.load)
 
 
 def _tangential(table: NipTable) -> Traction | Creepage | Torque:

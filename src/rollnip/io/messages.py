@@ -38,10 +38,11 @@ def more_than_one(choices: Iterable[tuple[str, ...]], nip: Container[str]) -> li
 
 
 def wrong_controls(tree: Mapping[str, Any]) -> list[str]:
-    """Lines about the keys of which [nip] takes exactly one."""
-    nip = tree.get("nip")
-    if not isinstance(nip, dict):
+    """Lines about the keys of which [nip] takes exactly one; null in JSON is a key left out."""
+    table = tree.get("nip")
+    if not isinstance(table, dict):
         return []
+    nip = [name for name, value in table.items() if value is not None]
     lines = more_than_one(_CONTROLS, nip)
     face = tree.get("face")
     named = [one for one in ("end_loads", "arms") if isinstance(face, dict) and one in face]

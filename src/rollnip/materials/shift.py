@@ -71,7 +71,7 @@ class WLF:
         if checked <= pole:
             raise InvalidInputError(
                 f"`temperature` must be above the pole of the WLF law, reference - c2 = "
-                f"{pole:g} degC, got {temperature!r}."
+                f"{pole:g} degC, got {checked:.10g}."
             )
         difference = checked - self.reference
         return _power_of_ten(-self.c1 * difference / (checked - pole), temperature)

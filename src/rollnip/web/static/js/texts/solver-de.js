@@ -89,6 +89,8 @@ export const SOLVER_DE = {
   "solver.shore-left": "muss höher sein: Nach {after} s hält der Werkstoff noch {left} MPa über seinem relaxierten Modul, und eine Härte von {shore} entspricht {modulus} MPa.",
   "solver.poisson": "muss größer als -1 und höchstens 0.5 sein, gegeben ist {got}.",
   "solver.modulus": "muss zwischen 1e-9 und 1e12 MPa liegen, gegeben ist {got}.",
+  "solver.core-left": "müssen einen starren Kern mit einem Radius von mindestens {least} mm lassen, einem Tausendstel des Radius der Walze, gegeben ist {got} mm; geben Sie dünnere Schichten an.",
+  "solver.least-thick": "muss mindestens 1e-9 mm sein, gegeben ist {got}.",
   "solver.time-range": "muss zwischen 1e-30 und 1e30 s liegen, gegeben ist {got}.",
   "solver.size-range": "muss hier zwischen {low} mm und {high} mm liegen, gegeben ist {got}.",
   "solver.order": "muss größer als 0 und höchstens 1 sein, gegeben ist {got}.",

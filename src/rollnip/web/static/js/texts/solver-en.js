@@ -89,6 +89,8 @@ export const SOLVER_EN = {
   "solver.shore-left": "must be higher: after {after} s the material still holds {left} MPa beyond its relaxed modulus, and a hardness of {shore} is {modulus} MPa.",
   "solver.poisson": "must lie in (-1, 0.5], got {got}.",
   "solver.modulus": "must lie between 1e-9 and 1e12 MPa, got {got}.",
+  "solver.core-left": "must leave a rigid core with a radius of at least {least} mm, a thousandth of that of the roller, got {got} mm; give thinner layers.",
+  "solver.least-thick": "must be at least 1e-9 mm, got {got}.",
   "solver.time-range": "must lie between 1e-30 and 1e30 s, got {got}.",
   "solver.size-range": "must lie between {low} mm and {high} mm here, got {got}.",
   "solver.order": "must lie in (0, 1], got {got}.",

@@ -82,6 +82,8 @@ def test_pictures_of_executed_pages_are_pictures(html: Path) -> None:
     # A figure that no formatter took is shown as its repr.
     left = [page.name for page in html.rglob("*.html") if "&lt;Figure size" in page.read_text()]
     assert not left
+    # Nor the bar of a command's progress.
+    assert not [page.name for page in html.rglob("*.html") if "\u2501" in page.read_text()]
 
 
 def test_mathematics_and_pictures_are_there(html: Path) -> None:

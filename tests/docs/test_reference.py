@@ -104,6 +104,16 @@ def test_case_files_in_the_pages_can_be_read(block: str) -> None:
     parse_case(block)
 
 
+def test_no_page_shows_the_bars_of_a_command() -> None:
+    """A page that is executed is a terminal to the command: its progress goes elsewhere."""
+    pages = [path.read_text(encoding="utf-8") for path in DOCS.rglob("*.md")]
+    run = [line for page in pages for line in re.findall(r"^!rollnip .*$", page, re.M)]
+    long = ("face", "find", "optimise", "tolerance", "sweep", "fit")
+    shown = [line for line in run if line.split()[1] in long]
+    assert len(shown) >= 5
+    assert [line for line in shown if not line.endswith(" 2>/dev/null")] == []
+
+
 @pytest.mark.parametrize("page", ["getting-started.md", "tutorial.md"])
 def test_python_in_these_pages_is_all_executed(page: str) -> None:
     text = (DOCS / page).read_text(encoding="utf-8")

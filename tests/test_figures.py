@@ -61,6 +61,7 @@ PICTURES = (
     "field",
     "heat",
     "overview",
+    "paper",
     "patch",
     "pressure",
     "section",

@@ -10,6 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rollnip._files import check_target, write_whole
+from rollnip.figures import PROFILES
 from rollnip.lda import Comparison, Scan, VelocityProfile, detect_bursts
 
 _SUFFIXES = (".png", ".svg", ".pdf")
@@ -131,7 +132,7 @@ def _axes(ax: Axes | None) -> Axes:
 
 def _finished(ax: Axes, quantity: str) -> Axes:
     ax.margins(x=0.01)
-    ax.set_xlabel("x [mm]  (← outlet, inlet →)")
+    ax.set_xlabel(f"{PROFILES['x'].axis}  (← outlet, inlet →)")
     ax.set_ylabel(quantity)
     ax.legend(frameon=False, fontsize="small", loc="best")
     return ax

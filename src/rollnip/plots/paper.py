@@ -11,6 +11,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rollnip._files import write_whole
+from rollnip.figures import FIELDS, INTERFACE_FIGURES, PROFILES
 from rollnip.interior import InteriorField
 from rollnip.model import Geometry
 from rollnip.paper import (
@@ -31,6 +32,8 @@ _STYLES: dict[Geometry, tuple[str, str]] = {
     "corrected": ("#009e73", "-."),
     "curved": ("#0072b2", "-"),
 }
+_ALONG = f"{PROFILES['x'].axis}  (← outlet, inlet →)"
+_STRESS = FIELDS["s_zz"].axis_for(f"{FIELDS['s_zz'].label} ${FIELDS['s_zz'].symbol}$")
 _STEP = 0.1  # MPa between contour lines
 _WIDE = (11.0, 4.6)  # inches
 _BESIDE = 0.75  # shown on either side of the contact, in nip widths
@@ -80,7 +83,7 @@ def draw_pressure(data: PressureFigure) -> Figure:
         label = f"d = {thickness:g} mm, peak {solution.peak_pressure:.2f} MPa"
         ax.plot(x, pressure, color=color, linewidth=1.6, label=label)
     ax.axhline(0.0, color=_GREY, linewidth=0.8)
-    ax.set_ylabel("pressure p [MPa]")
+    ax.set_ylabel(PROFILES["pressure"].axis_for("pressure p"))
     ax.set_title(
         "Figure 4: a hard top layer on a soft one (load and radii assumed)", loc="left", size=11
     )
@@ -98,10 +101,10 @@ def draw_contours(data: ContourFigure) -> Figure:
         _contours(ax, solution, field)
         ax.plot(centre, field.z, color=_COLORS[3], linestyle="--", linewidth=1.6)
         ax.set_title(title, loc="left", size=11)
-    axes[0].set_ylabel("depth z [mm]")
+    axes[0].set_ylabel(INTERFACE_FIGURES["depth"].axis_for("depth z"))
     axes[0].invert_yaxis()
     figure.suptitle(
-        "Figure 5: normal stress $s_{zz}$ [MPa]; dashed: its centre, dotted: middle of the contact",
+        f"Figure 5: {_STRESS}; dashed: its centre, dotted: middle of the contact",
         size=11,
     )
     return figure
@@ -138,7 +141,7 @@ def _contours(ax: Axes, solution: Solution, field: InteriorField) -> None:
         ax.plot([edge], [0.0], marker="v", color=_GREY, markersize=7, clip_on=False)
     middle = 0.5 * (solution.contact[0][0] + solution.contact[-1][1])
     ax.axvline(middle, color=_GREY, linewidth=0.8, linestyle=":")
-    ax.set_xlabel("x [mm]  (← outlet, inlet →)")
+    ax.set_xlabel(_ALONG)
 
 
 def _strain(ax: Axes, panel: StrainPanel) -> None:
@@ -183,5 +186,5 @@ def _enlarged(ax: Axes, panel: StrainPanel) -> None:
 
 
 def _placed(ax: Axes, figure: Figure) -> Figure:
-    ax.set_xlabel("x [mm]  (← outlet, inlet →)")
+    ax.set_xlabel(_ALONG)
     return figure

@@ -80,7 +80,8 @@ def draw_pressure(data: PressureFigure) -> Figure:
         first, last = solution.contact[0][0], solution.contact[-1][1]
         inside = (solution.profiles.x >= first) & (solution.profiles.x <= last)
         x, pressure = solution.profiles.x[inside], solution.profiles.pressure[inside]
-        label = f"d = {thickness:g} mm, peak {solution.peak_pressure:.2f} MPa"
+        peak = f"{solution.peak_pressure:.2f} {PROFILES['pressure'].shown_unit}"
+        label = f"d = {thickness:g} mm, peak {peak}"
         ax.plot(x, pressure, color=color, linewidth=1.6, label=label)
     ax.axhline(0.0, color=_GREY, linewidth=0.8)
     ax.set_ylabel(PROFILES["pressure"].axis_for("pressure p"))

@@ -67,6 +67,7 @@ _SHEET_CLAIMED = (
     *("creepage_upper", "creepage_lower", "feed_upper", "feed_lower"),
     *("traction_upper", "traction_lower", "tension_max", "tension_min", "strain_max"),
     *("friction_upper", "friction_lower", "nip_width_lower", "peak_pressure_lower"),
+    *("speed", "power", "grip_reserve"),
 )
 _FED = "Positive where the sheet is longer than what rolled off the roller."
 _SHEET = (

@@ -234,7 +234,7 @@ def test_plain_values_for_json():
         (("nip.load", "nip_width", 8, 1, 1), "`low` must be below `high`"),
         (("nip.load", "nip_width", 8, -2, -1), "not one of 5 cases"),
         (("nip.load", "dwell_time", 8, 1, 2), "`dwell_time` is not defined there"),
-        (("nip.load", "dissipation.viscous", "8 mm", 1, 2), "must be a finite number in N/s"),
+        (("nip.load", "dissipation.viscous", "8 mm", 1, 2), "must be a finite number in mW/mm"),
     ],
 )
 def test_wrong_questions(arguments, message):

@@ -5,6 +5,7 @@ from sheet_nips import SOFT, nip_with, paper
 
 import rollnip as rn
 from rollnip.design import QUANTITIES, find
+from rollnip.design.quantities import read_result
 from rollnip.identification import Feeds, LeastSquares, Unknown, identify, read_fit
 from rollnip.identification.forward import Forward, Numbers
 from rollnip.sweeps import evaluate
@@ -54,6 +55,11 @@ def test_the_tension_at_which_a_given_share_slips():
     solution = rn.solve(case, rn.Model(geometry="linear"))
     # by another door; the place where slip ends is known to the tolerance
     assert solution.sheet.slip_share_upper == pytest.approx(0.3, abs=1e-3)
+
+
+def test_a_power_is_wanted_in_the_unit_that_the_summary_shows():
+    for value in ("1.2 mW/mm", "1.2 N/s", 1.2):
+        assert read_result("wanted", value, "sheet.friction_upper") == 1.2
 
 
 @pytest.mark.slow

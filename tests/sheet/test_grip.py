@@ -101,3 +101,12 @@ def test_the_first_of_geared_rollers_to_slide_is_named_at_a_small_pull(frictions
     assert pulled(nip, 0.1).sheet.grip.first == "lower"
     far = pulled(nip, 0.95 * (above + below) * 1.78).sheet
     assert far.slip_share_lower > far.slip_share_upper
+
+
+def test_of_equal_sides_the_upper_one_is_named():
+    # whatever rounding makes of them, in the mirror image too
+    equal = paper(friction_upper=0.3, friction_lower=0.3)
+    for share in (1.0, 1.01, 1.02):
+        load = rn.LineLoad(1.78 * share)
+        nip = nip_with(equal, upper=HARD, normal=load, tangential=rn.Creepage(0.0))
+        assert pulled(nip, 0.1).sheet.grip.first == "upper"

@@ -52,6 +52,19 @@ def test_grip_is_what_friction_leaves(pulled):
     assert ["slides", "first", "where", "pulled", "upper", "side"] in lines
 
 
+def test_speed_power_and_grip_have_errors_that_hold():
+    # an approach is given, so that the load and the grip have errors; geared, and driven
+    sheet = paper(tension_in=0.2, tension_out=0.05)
+    for tangential in (rn.Creepage(0.0), rn.Traction(0.1)):
+        nip = nip_with(sheet, normal=rn.Approach(0.28), speed=100.0, tangential=tangential)
+        rough, fine = (
+            rn.solve(nip, rn.Model(geometry="linear", tolerance=tol)).sheet for tol in (1e-3, 5e-5)
+        )
+        for name in ("speed", "power", "grip_reserve"):
+            off = abs(getattr(rough, name) - getattr(fine, name))
+            assert off <= rough.error[name] <= 5e-3 * abs(getattr(rough, name)), name
+
+
 def test_just_below_the_grip_there_is_a_solution_and_the_upper_side_slides():
     sheet = paper(tension_in=0.98 * 0.3 * 1.78)
     solution = rn.solve(nip_with(sheet, friction=0.3), rn.Model(geometry="linear"))

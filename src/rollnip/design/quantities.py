@@ -20,6 +20,8 @@ QUANTITIES: Mapping[str, str] = {
 }
 """The results that can be asked for, with their base units; empty for a ratio."""
 
+# Units that a reader is shown, where they have another name and the same size.
+_SHOWN = {"N/s": "mW/mm"}
 # Results whose error follows from that of another by proportion.
 _PROPORTIONAL = {"dwell_time": "nip_width", "mean_pressure": "nip_width"}
 
@@ -55,10 +57,12 @@ def read_result(said: str, value: object, quantity: str) -> float:
     dimension = next((one for one in get_args(Dimension) if base_unit(one) == unit), None)
     if dimension is not None:
         return read_parameter(said, value, dimension)
+    shown = _SHOWN.get(unit, unit)
     if isinstance(value, str):
-        value = _plain(value.strip().removesuffix(unit).strip())
+        value = _plain(value.strip().removesuffix(unit).removesuffix(shown).strip())
     if not isinstance(value, int | float) or isinstance(value, bool) or not isfinite(value):
-        raise InvalidInputError(f"`{said}` must be a finite number in {unit}, got {value!r}.")
+        units = unit if shown == unit else f"{shown} (= {unit})"
+        raise InvalidInputError(f"`{said}` must be a finite number in {units}, got {value!r}.")
     return float(value)
 
 

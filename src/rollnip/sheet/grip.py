@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Literal
 
 import numpy as np
@@ -12,6 +13,8 @@ from rollnip.sheet.result import Grip
 from rollnip.sheet.system import frictions_of
 
 Array = NDArray[np.float64]
+
+_ALIKE = 1e-4  # of a creepage, by which meshes make equal sides differ
 
 
 def grip_of(
@@ -43,6 +46,17 @@ def grip_of(
     )
 
 
+def grip_error(nip: Nip, errors: Mapping[str, float]) -> float:
+    """Return the estimated error of the pulls that a nip holds [N/mm].
+
+    ``errors``: of the load and of T_l, by name.
+    """
+    mu_u, mu_l = frictions_of(nip)
+    if isinstance(nip.tangential, Creepage):
+        return (mu_u + mu_l) * errors["load"]
+    return mu_u * errors["load"] + errors["traction_lower"]
+
+
 def first_to_slide(sliding: tuple[Array, Array], creepage: float) -> Literal["upper", "lower"]:
     """Return the side of geared rollers that slides all over first where the pull is raised.
 
@@ -56,6 +70,11 @@ def first_to_slide(sliding: tuple[Array, Array], creepage: float) -> Literal["up
     sliding : creep over length on the upper and on the lower interface, for creepages of zero and
         shears of friction times pressure that pull the sheet backwards.
     creepage : the sum of both.
+
+    Returns
+    -------
+    "upper" where both sides slide at the same pull.
     """
     upper, lower = sliding
-    return "upper" if float(np.max(-upper)) < creepage + float(np.max(lower)) else "lower"
+    above, below = float(np.max(-upper)), creepage + float(np.max(lower))
+    return "upper" if above <= below + _ALIKE * abs(below) else "lower"

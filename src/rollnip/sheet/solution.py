@@ -30,7 +30,7 @@ from rollnip.rolling import (
 from rollnip.rolling.claims import SHARE_OF_CUT_LOSS
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
-from rollnip.sheet.grip import grip_of
+from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
 from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, SheetFigures, SheetRefined, scales
@@ -222,18 +222,18 @@ class SheetSolution(SmoothSolution):
 
     def _sheet_errors(self) -> dict[str, float]:
         """Return the errors of the figures of the sheet, by their names."""
-        mine, half = self._errors, 0.5 * self.creepage
+        mine, state, half = self._errors, self._state, 0.5 * self.creepage
         speed = nan if self.nip.speed is None else self.nip.speed
         names = ("creepage_upper", "creepage_lower", "traction_upper", "traction_lower")
         out = {name: mine[name] for name in (*names, "tension_max", "tension_min", "strain_max")}
-        for name in ("friction_upper", "friction_lower"):
-            out[name] = speed * mine[name]
+        out |= {name: speed * mine[name] for name in ("friction_upper", "friction_lower")}
         out["nip_width_lower"], out["peak_pressure_lower"] = self._lower_errors
         both = mine["creepage_upper"] + mine["creepage_lower"]
-        share = 0.5 * abs(self._state.creepage) * both
-        out["feed_upper"] = mine["creepage_upper"] / (1.0 + half) + share
-        share = 0.5 * abs(self._state.creepage_lower) * both
-        out["feed_lower"] = mine["creepage_lower"] / (1.0 - half) + share
+        out["speed"], out["power"] = 0.5 * speed * both, speed * mine["into_sheet"]
+        out["grip_reserve"] = grip_error(self.nip, mine)
+        rates = ("upper", 1.0 + half, state.creepage), ("lower", 1.0 - half, state.creepage_lower)
+        for side, rate, creepage in rates:
+            out[f"feed_{side}"] = mine[f"creepage_{side}"] / rate + 0.5 * abs(creepage) * both
         return out
 
     @cached_property

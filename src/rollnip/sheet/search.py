@@ -131,7 +131,7 @@ class SheetSearch:
             start = first_lagged(problem) if stand is None else carried(stand, problem)
             stand = self._solved(problem, zones, start, steps, (near, off))
             steps = stand.steps
-            called = _Called(stand, self._slack)
+            called = _ZonesCalledFor(stand, self._slack)
             asked, are_clear = zones.moved(problem, stand.state, called)
             off = asked.distance(zones)
             near = known = min(known, off)
@@ -254,7 +254,7 @@ class SheetSearch:
 
 
 @dataclass(frozen=True)
-class _Called:
+class _ZonesCalledFor:
     """Zones that a solution calls for by the states of its nodes, worked out when asked for.
 
     Attributes

@@ -22,7 +22,7 @@ LONGEST_MOVE = 0.04  # of an edge, over the width
 _OF_TRANSITIONS = 10.0  # times the squared distance of transitions, beside that of edges
 
 
-class Called(Protocol):
+class LazyZones(Protocol):
     """Zones that are worked out where they are asked for."""
 
     @property
@@ -123,7 +123,9 @@ class Zones(SideZones):
         upper, lower = (Layout(p, s.states) for p, s in zip(places, self.sides, strict=True))
         return Zones(upper, lower)
 
-    def moved(self, problem: SheetProblem, state: SheetState, called: Called) -> tuple[Zones, bool]:
+    def moved(
+        self, problem: SheetProblem, state: SheetState, called: LazyZones
+    ) -> tuple[Zones, bool]:
         """Return the zones with their breaks moved to where a solution with them puts them.
 
         ``called``: like zones, of the states that the solution calls for. They say where a

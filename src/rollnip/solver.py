@@ -22,6 +22,7 @@ from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.rolling import (
     Ended,
+    Nearby,
     PairKernels,
     Round,
     half_width_guess,
@@ -53,6 +54,7 @@ def solve(
     model: Model | None = None,
     *,
     cache: KernelCache | None = None,
+    near: Solution | None = None,
     on_failure: Literal["raise", "return"] = "return",
 ) -> Solution:
     """Solve the steady rolling contact of two coated rollers.
@@ -65,6 +67,10 @@ def solve(
         geometry and accuracy; ``Model()`` by default.
     cache :
         influence functions of solves before, to be used again where coverings are the same.
+    near :
+        the solution of a nip much like this one, from which to start in geometry "finite"; of other
+        kinds it does not count. In small steps it saves a quarter to two thirds of the finite
+        elements; figures differ by less than both solutions claim together.
     on_failure :
         "return" a solution whose ``converged`` is False, or "raise" ConvergenceError.
 
@@ -85,6 +91,10 @@ def solve(
     start = perf_counter()
     model = Model() if model is None else model
     _require_kinds(nip, model, on_failure)
+    if near is not None and not isinstance(near, Solution):
+        raise InvalidInputError(
+            f"`near` must be a Solution of a nip much like this one, got a {type(near).__name__}."
+        )
     if nip.has_profile:
         from rollnip.rough import solve_rough  # few nips need it; loading it takes time
 
@@ -94,7 +104,7 @@ def solve(
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore"):
         solution: Solution
         if nip.sheet is None:
-            solution = _solved(nip, model, cache, start)
+            solution = _solved(nip, model, cache, near, start)
         else:
             from rollnip.sheet import solve_sheet  # likewise
 
@@ -133,16 +143,18 @@ def _require_kinds(nip: object, model: object, on_failure: object) -> None:
         raise InvalidInputError(f'`on_failure` must be "raise" or "return", got {on_failure!r}.')
 
 
-def _solved(nip: Nip, model: Model, cache: KernelCache, start: float) -> Solution:
+def _solved(
+    nip: Nip, model: Model, cache: KernelCache, near: Solution | None, start: float
+) -> Solution:
     """Solve one nip; ``start``: the clock at the call, from which the solver time counts [s]."""
     left: tuple[str, ...] = ()
     model = replace(model, geometry=geometry_for(nip, model))
-    kernels, final = _refined(nip, model, cache)
+    kernels, final = _refined(nip, model, cache, near)
     causes = []
     while model.geometry in FINITE and (cause := _without_solution(model, final)):
         causes.append(f'No solution of geometry "{model.geometry}" was found: {cause}.')
         model = replace(model, geometry=_SIMPLER[model.geometry])
-        kernels, final = _refined(nip, model, cache)
+        kernels, final = _refined(nip, model, cache, None)
     if causes:
         causes[-1] += f' All figures are those of geometry "{model.geometry}".'
         left = (*left, *causes)
@@ -213,14 +225,23 @@ def _how_far(ended: Ended) -> str:
     )
 
 
-def _refined(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, Round]:
+def _refined(
+    nip: Nip, model: Model, cache: KernelCache, near: Solution | None
+) -> tuple[PairKernels, Round]:
     """Return the influence functions and the last round of refinement."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     if model.geometry == "finite":
-        return refine_all_orders(nip, model, kernels, half_width)
+        return refine_all_orders(nip, model, kernels, half_width, _nearby(near))
     return kernels, refine(nip, model, kernels, half_width)
+
+
+def _nearby(near: Solution | None) -> Nearby | None:
+    """Return a solution as a start for others; None where it is not one of that kind."""
+    if not isinstance(near, SmoothSolution) or not near.converged:
+        return None
+    return Nearby(near.nip, near.kernels, near.final) if near.model.geometry == "finite" else None
 
 
 def _require_grip(nip: Nip, final: Round) -> None:

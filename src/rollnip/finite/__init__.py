@@ -7,6 +7,7 @@ from rollnip.finite.pull import Tractions
 from rollnip.finite.response import (
     CUT,
     DeformedSurface,
+    Equilibrium,
     FiniteResponse,
     deformed_surface,
     linear_surface,
@@ -21,6 +22,7 @@ __all__ = [
     "Body",
     "DeformedSurface",
     "Depths",
+    "Equilibrium",
     "FiniteResponse",
     "NoEquilibriumError",
     "Spline",

@@ -61,6 +61,28 @@ class DeformedSurface:
     u_z: Array
 
 
+@dataclass(frozen=True)
+class Equilibrium:
+    """An equilibrium of a covering, from which that of one much like it is found.
+
+    Attributes
+    ----------
+    ends : (columns + 1,) arcs of the ends of elements [mm].
+    loaded : the columns under the tractions.
+    displacement : (unknowns,) [mm].
+    pressure : (elements, 3), see `State` [MPa].
+    acting : the tractions.
+    speed : V at which viscoelastic layers pass [mm/s].
+    """
+
+    ends: Array
+    loaded: slice
+    displacement: Array
+    pressure: Array
+    acting: Acting
+    speed: float | None
+
+
 def deformed_surface(body: Body, state: State) -> DeformedSurface:
     """Return where the surface of a mesh is."""
     strip, curvature = body.strip, body.strip.depths.roller.curvature
@@ -81,8 +103,9 @@ def linear_surface(body: Body, displacement: Array) -> tuple[Array, Array]:
 class FiniteResponse:
     """Displacement beyond the linear one of a covering under tractions, evaluated time and again.
 
-    Each equilibrium starts from the one before. Where none is found, that under tractions between
-    the last and the new ones is looked for; the first ones begin at a share of themselves.
+    Each equilibrium starts from the one before, the first from one given, if any. Where none is
+    found, that under tractions between the last and the new ones is looked for; the first ones
+    begin at a share of themselves.
 
     Attributes
     ----------
@@ -106,6 +129,8 @@ class FiniteResponse:
         skin.
     speed :
         V at which the covering passes [mm/s]; needed for viscoelastic layers alone.
+    start :
+        an equilibrium of a covering much like this one; it counts where it has as many elements.
     """
 
     def __init__(
@@ -115,6 +140,7 @@ class FiniteResponse:
         linear: Linear,
         cut: float = CUT,
         speed: float | None = None,
+        start: Equilibrium | None = None,
     ) -> None:
         self._linear = linear
         self._speed = self._speed_now = speed
@@ -124,7 +150,7 @@ class FiniteResponse:
         self._near = _NEAR * half_width
         if roller.curvature > 0.0:
             self._near = min(self._near, _FRONT * roller.radius)
-        self._mesh: _Mesh | None = None
+        self._mesh = None if start is None else self._begun(start)
         self._share_kept = 1.0
         self._loosely, self._left = 1.0, LEFT
         self._most_loosely = _LOOSELY_WITH_MEMORY if roller.is_viscoelastic else _LOOSELY
@@ -137,6 +163,29 @@ class FiniteResponse:
         self.share = 1.0
         self.lost = 0.0
         self.moved: Acting | None = None
+
+    @property
+    def equilibrium(self) -> Equilibrium | None:
+        """The last equilibrium; None: there was none."""
+        if self._mesh is None:
+            return None
+        body, state = self._mesh.body, self._mesh.state
+        return Equilibrium(
+            body.strip.ends,
+            self._mesh.loaded,
+            state.displacement,
+            state.pressure,
+            self._mesh.acting,
+            body.speed,
+        )
+
+    def _begun(self, start: Equilibrium) -> _Mesh | None:
+        flat = Body(Strip(self._depths, start.ends), self._speed)
+        if flat.strip.size != start.displacement.size:
+            return None
+        body = flat if self._speed is None else replace(flat, speed=start.speed)
+        state = State(start.displacement, start.pressure)
+        return _Mesh(flat, body, state, start.loaded, start.acting)
 
     def displacement(
         self,

@@ -242,6 +242,25 @@ def _slots(columns: int, elements: int) -> Indices:
 
 
 @lru_cache(maxsize=_MESHES_KEPT)
+def near_slots(columns: int, elements: int) -> Indices:
+    """Return places of the entries of every element, and of every element with the next of its row.
+
+    In banded storage with twice as many diagonals above the main one; beyond it if fixed.
+    """
+    unknowns = _unknowns(columns, elements)
+    size, band = _size_and_band(columns, elements)
+    slots = []
+    for rows, others in ((unknowns, unknowns), (unknowns[:-elements], unknowns[elements:])):
+        row, column = rows[:, :, None], others[:, None, :]
+        places = column * (4 * band + 1) + 3 * band + row - column
+        places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = (4 * band + 1) * size
+        slots.append(places.ravel())
+    both = np.concatenate(slots)
+    both.setflags(write=False)
+    return both
+
+
+@lru_cache(maxsize=_MESHES_KEPT)
 def _lower_slots(columns: int, elements: int) -> tuple[Indices, Indices]:
     """Return `Strip.lower_slots` of such a mesh."""
     unknowns = _unknowns(columns, elements)

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 
 from rollnip.finite.memory import Memory
-from rollnip.finite.strip import LINEAR, Array
+from rollnip.finite.strip import LINEAR, Array, near_slots
 from rollnip.materials import Energy
 
 
@@ -228,16 +228,14 @@ class Relaxing:
         band, count, ahead = strip.band, self.by.shape[0], strip.depths.owner.size
         out = np.zeros((strip.size, 4 * band + 1))
         out[:, band:] = stored
-        places, entries = [], []
+        entries = []
         for share, step in zip(self.memory.near, (0, ahead), strict=True):
             rate = np.roll(self.rate, -step, axis=0).reshape(count, 3, -1)
             made = self.by.transpose(0, 2, 1) @ (share @ rate).reshape(count, -1, 18)
-            row, column = strip.unknowns[:, :, None], np.roll(strip.unknowns, -step, axis=0)
-            column = column[:, None, :]
-            is_free = (row >= 0) & (column >= 0) & (made != 0.0)
-            places.append((column * (4 * band + 1) + 3 * band + row - column)[is_free])
-            entries.append(made[is_free])
-        np.add.at(out.ravel(), np.concatenate(places), np.concatenate(entries))
+            entries.append(made[: count - step].ravel())
+        places = near_slots(strip.columns, ahead)
+        added = np.bincount(places, np.concatenate(entries), minlength=out.size + 1)
+        out += added[: out.size].reshape(out.shape)
         return out
 
     def from_far(self, displacement: Array) -> Array:

@@ -86,6 +86,7 @@ class HeatProblem:
         ]
         self.conduction = Conduction((grids[0], grids[1]), heat.ambient)
         self.solves = 0
+        self._last: Solution | None = None
 
     @property
     def follows(self) -> bool:
@@ -131,7 +132,7 @@ class HeatProblem:
         cold = self.nip if nip is None else nip
         grown = growths(self.conduction, temperatures, self.heat.ambient)
         warm = warm_nip(cold, self.conduction, temperatures, cut, grown)
-        solution = solve(warm, self.model, cache=self.cache)
+        solution = self._last = solve(warm, self.model, cache=self.cache, near=self._last)
         self.solves += 1
         sources = self._sources(solution, grown)
         return ThermalState(

@@ -14,6 +14,7 @@ from rollnip.rolling.claims import claims, further_claims, verdict
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.further import further_figures, further_sizes
 from rollnip.rolling.impossible import MOST_PRESSED_IN, impossible
+from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.powers import Powers, powers, rates_of
 from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
@@ -44,6 +45,7 @@ __all__ = [
     "Fields",
     "Figures",
     "Further",
+    "Nearby",
     "PairKernels",
     "Powers",
     "Profiles",

@@ -29,6 +29,7 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, 
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
 from rollnip.rolling.free_ends import as_cosines, with_free_ends
 from rollnip.rolling.largest import largest
+from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Ended, Round
@@ -50,7 +51,11 @@ MOST_AFRESH = 10  # turns that are solved from the beginning
 SHARES_KEPT = (1.0, 0.5, 0.25)
 _COARSE = 24  # elements of the contact while its correction still changes
 NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
-_REFINED_FROM = 50.0  # change, over the tolerance, from which on the mesh of a bare nip is refined
+# Change, over the tolerance, from which on the mesh of a bare nip is refined: at once where the
+# correction is moderate, later where a layer is viscoelastic (coarse turns are cheap then) or a
+# skin needs a correction that nearly fits to find its edges.
+_REFINED_FROM = 400.0
+_REFINED_LATER_FROM = 50.0
 _COARSELY = 10.0  # times the tolerance
 _COARSEST = 1e-2  # at most
 # Tolerance that nips with a stiff skin are solved to at least: violations of the contact conditions
@@ -75,9 +80,11 @@ def with_second_order(
 
 
 def refine_all_orders(
-    nip: Nip, model: Model, kernels: PairKernels, half_width: float
+    nip: Nip, model: Model, kernels: PairKernels, half_width: float, near: Nearby | None = None
 ) -> tuple[PairKernels, Round]:
     """Solve a coarse contact in turns with the correction of all orders, then refine it.
+
+    Where a nip much like it has been solved, turns start from that solution.
 
     Returns
     -------
@@ -94,6 +101,12 @@ def refine_all_orders(
     ended: Ended | None = None
     if latest.stands_still and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
+        begun = None if near is None else near.begun(nip, model, kernels, half_width)
+        if near is not None and begun is not None:
+            orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)
+            found = _turns(nip, model, *begun, orders, is_refined=True)
+            if not isinstance(found, Ended):
+                return found
         for share in SHARES_KEPT:
             orders = AllOrders.of(nip, kernels, half_width, strain, share)
             found = _turns(nip, model, kernels, latest, orders, is_refined=is_refined)
@@ -203,6 +216,8 @@ def _turns(
     least = Least[tuple[PairKernels, Round]](enough=_ENOUGH)
     turns = 0
     cause: Literal["balance", "contact", "turns"] = "turns"
+    waits = nip.is_viscoelastic or skin_thickness(nip) > 0.0
+    moderate = _REFINED_LATER_FROM if waits else _REFINED_FROM
     for turn in range(MOST_CORRECTIONS):
         is_coarse = not is_refined and latest.mesh.fine.values is not None
         try:
@@ -220,10 +235,12 @@ def _turns(
             left = checked.residual / model.tolerance
             if least.is_enough((smooth, checked), left, change / model.tolerance):
                 break
+            if turn == 0:  # of another nip's correction, later ones may well violate them more
+                least = Least(enough=_ENOUGH)
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
         near = min(change, to_come_after(change, before)) / model.tolerance
-        if not is_refined and is_whole and near <= (_REFINED_FROM if is_coarse else 1.0):
+        if not is_refined and is_whole and near <= (moderate if is_coarse else 1.0):
             found, is_refined = _refined(nip, model, mixed, latest), True
             past = Past(places_by_the_edges(_edges(latest)))
         else:

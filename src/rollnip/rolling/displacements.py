@@ -8,6 +8,8 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.finite import Equilibrium
+
 Array = NDArray[np.float64]
 
 
@@ -102,12 +104,16 @@ class SecondFields:
     lost : heat inside the upper and the lower roller beyond that of linear theory, per distance
         [N/mm].
     rough : the functions before waves were cut that no contact follows; empty: none were.
+    bodies : equilibria of the upper and the lower roller; None where there are none.
+    share : of the wave numbers that are kept as a rule.
     """
 
     functions: tuple[Field | None, ...]
     ends: tuple[tuple[float, float], ...]
     lost: tuple[float, float] = (0.0, 0.0)
     rough: tuple[Field | None, ...] = ()
+    bodies: tuple[Equilibrium | None, Equilibrium | None] = (None, None)
+    share: float = 1.0
 
     @property
     def uncut(self) -> SecondFields:

@@ -8,7 +8,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.finite import CUT, FiniteResponse, NoEquilibriumError
+from rollnip.finite import CUT, Equilibrium, FiniteResponse, NoEquilibriumError
 from rollnip.influence import SurfaceKernels
 from rollnip.interior import SurfaceTractions, loss_per_distance
 from rollnip.nip import Nip
@@ -28,28 +28,43 @@ EVERYWHERE = ((-inf, inf),) * 4
 
 @dataclass(frozen=True)
 class AllOrders:
-    """Finite elements of both rollers; None for a rigid one."""
+    """Finite elements of both rollers; None for a rigid one.
+
+    ``share``: of the wave numbers that are kept as a rule.
+    """
 
     nip: Nip
     upper: FiniteResponse | None
     lower: FiniteResponse | None
+    share: float = 1.0
 
     @classmethod
     def of(
-        cls, nip: Nip, kernels: PairKernels, half_width: float, strain: float, share: float = 1.0
+        cls,
+        nip: Nip,
+        kernels: PairKernels,
+        half_width: float,
+        strain: float,
+        share: float = 1.0,
+        bodies: tuple[Equilibrium | None, Equilibrium | None] = (None, None),
     ) -> AllOrders:
         """Prepare elements for a contact of about that half-width [mm] and surface strain.
 
-        ``share``: of the wave numbers that are kept as a rule.
+        ``share``: of the wave numbers that are kept as a rule; ``bodies``: equilibria of the upper
+        and the lower roller of a nip much like this one.
         """
         cut = share * CUT / (1.0 + strain / _STRAIN)
 
-        def response(roller: Roller, surface: SurfaceKernels | None) -> FiniteResponse | None:
+        def response(
+            roller: Roller, surface: SurfaceKernels | None, start: Equilibrium | None
+        ) -> FiniteResponse | None:
             if surface is None:
                 return None
-            return FiniteResponse(roller, half_width, surface.displacement, cut, nip.speed)
+            linear = surface.displacement
+            return FiniteResponse(roller, half_width, linear, cut, nip.speed, start)
 
-        return cls(nip, response(nip.upper, kernels.upper), response(nip.lower, kernels.lower))
+        upper = response(nip.upper, kernels.upper, bodies[0])
+        return cls(nip, upper, response(nip.lower, kernels.lower, bodies[1]), share)
 
     def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, bool]:
         """Return what all orders add to the linear displacements of a bare nip, see `under`."""
@@ -94,9 +109,18 @@ class AllOrders:
             if not response.is_found:
                 raise NoEquilibriumError
         smooth = SecondFields(
-            tuple(functions), EVERYWHERE, lost=(lost[0], lost[1]), rough=tuple(rough)
+            functions=tuple(functions),
+            ends=EVERYWHERE,
+            lost=(lost[0], lost[1]),
+            rough=tuple(rough),
+            bodies=(_equilibrium(self.upper), _equilibrium(self.lower)),
+            share=self.share,
         )
         return smooth, is_whole
+
+
+def _equilibrium(response: FiniteResponse | None) -> Equilibrium | None:
+    return None if response is None else response.equilibrium
 
 
 def _lost_aside(

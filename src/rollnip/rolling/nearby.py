@@ -1,0 +1,75 @@
+"""A nip that has been solved, as a start for one that is much like it.
+
+The correction of all orders that belongs to the old solution is held while the new contact is
+solved, and its elements start from their old equilibrium. The turns that follow end as any others
+do: where the contact conditions are met with the correction of the solution itself.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import log
+
+from rollnip.contact import Layout
+from rollnip.finite import Equilibrium
+from rollnip.model import Model
+from rollnip.nip import Nip
+from rollnip.rolling.free_ends import with_free_ends
+from rollnip.rolling.round import Round
+from rollnip.rolling.start import half_width_guess
+from rollnip.rolling.surfaces import PairKernels
+
+_NEAR = 0.1  # change of the half-width that is guessed, relative
+_OFF = 0.05  # of the width of the contact: how far the ends of zones may be off
+
+
+@dataclass(frozen=True, slots=True)
+class Nearby:
+    """A nip with its solution in geometry "finite".
+
+    Attributes
+    ----------
+    nip : that was solved.
+    kernels : its influence functions, with the correction of the solution.
+    final : the solution.
+    """
+
+    nip: Nip
+    kernels: PairKernels
+    final: Round
+
+    @property
+    def bodies(self) -> tuple[Equilibrium | None, Equilibrium | None]:
+        """Equilibria of the upper and the lower roller."""
+        held = self.kernels.held
+        return (None, None) if held is None else held.bodies
+
+    def begun(
+        self, nip: Nip, model: Model, kernels: PairKernels, half_width: float
+    ) -> tuple[PairKernels, Round] | None:
+        """Return the contact of another nip with the correction held, and what holds it.
+
+        None where the nips are not much alike, or where that has no solution.
+        """
+        held, layout = self.kernels.held, Layout.of(self.final.zones)
+        is_cubic = self.final.mesh.fine.values is not None
+        if held is None or held.share < 1.0 or layout is None or not is_cubic:
+            return None
+        if not self._is_like(nip, half_width):
+            return None
+        kernels = replace(kernels, held=held)
+        before = replace(self.final, mesh=self.final.mesh.holding(kernels), steps=0)
+        found = with_free_ends(nip, model, kernels, layout, before, _OFF).found
+        return None if found is None else (kernels, found)
+
+    def _is_like(self, nip: Nip, half_width: float) -> bool:
+        own = self.nip
+        if _kind(own) != _kind(nip):
+            return False
+        return abs(log(half_width_guess(own, self.kernels) / half_width)) < _NEAR
+
+
+def _kind(nip: Nip) -> tuple[object, ...]:
+    """Return what is alike in nips of a family: what is given, and what moves."""
+    given = type(nip.normal), type(nip.tangential), nip.friction > 0.0
+    return *given, nip.upper.is_rigid, nip.lower.is_rigid

@@ -22,9 +22,10 @@ STYLES = {
     "linear": {"color": "#E69F00", "linestyle": ":", "linewidth": 2.0},
     "corrected": {"color": "#009E73", "linestyle": "-.", "linewidth": 1.4},
     "curved": {"color": "#0072B2", "linestyle": "--", "linewidth": 1.6},
-    "second": {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4},
+    "second": {"color": "#CC79A7", "linestyle": (0, (4, 1, 1, 1, 1, 1)), "linewidth": 1.4},
+    "finite": {"color": "#D55E00", "linestyle": "-", "linewidth": 1.4},
 }
-MODELS = [name for name in STYLES if name in get_args(Geometry)]
+MODELS = [name for name in get_args(Geometry) if name != "full"]
 PICTURES = {
     "I_free": ("finite_strain_fe.json", "I", 0.0),
     "I_driven": ("finite_strain_fe.json", "I", 0.05),

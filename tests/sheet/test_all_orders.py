@@ -29,7 +29,7 @@ REMEMBERS = rn.Roller(
 
 def _thin(stiffness, **more):
     """A sheet of vanishing thickness with E h = ``stiffness`` [N/mm]."""
-    return rn.Sheet(thickness=1e-7, modulus=stiffness * 1e7, poisson=0.0, bending=False, **more)
+    return rn.Sheet(thickness=1e-6, modulus=stiffness * 1e6, poisson=0.0, bending=False, **more)
 
 
 def _apart(one, two, name):

@@ -13,7 +13,7 @@ LINEAR = rn.Model(geometry="linear", tolerance=1e-4)
 
 def _thin(stiffness, *, poisson=0.5, **more):
     """A sheet of vanishing thickness with E h = ``stiffness`` [N/mm]."""
-    return rn.Sheet(thickness=1e-7, modulus=stiffness * 1e7, poisson=poisson, **more)
+    return rn.Sheet(thickness=1e-5, modulus=stiffness * 1e5, poisson=poisson, **more)
 
 
 # approach, leading edge, creepages of both interfaces, largest tension: an independent prototype

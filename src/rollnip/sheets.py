@@ -42,7 +42,7 @@ class Sheet:
         Coulomb coefficient of the sheet on either roller, positive; None: that of the nip.
     bending :
         whether its stiffness against bending is counted; False: it bends freely; None: counted
-        where it acts over more than a fifth of the nip width, if that solution is verified.
+        where it acts over more than a twentieth of the nip width, if that solution is verified.
 
     Raises
     ------

@@ -48,7 +48,7 @@ def judged_nip(case, **sheet):
             tension_out=outlet,
             friction_upper=upper,
             friction_lower=lower,
-            **sheet,
+            **{"bending": False, **sheet},
         ),
     )
 

@@ -25,8 +25,8 @@ CASE = {
 
 
 def test_slip_shares_are_those_of_the_zones(pulled):
-    width = pulled.nip_width
     for side, zones in (("upper", pulled.zones), ("lower", pulled.sheet.zones_lower)):
+        width = pulled.nip_width if side == "upper" else pulled.sheet.nip_width_lower
         slipping = sum(zone.stop - zone.start for zone in zones if zone.state == "slip")
         assert 0.0 < slipping < width
         share = getattr(pulled.sheet, f"slip_share_{side}")

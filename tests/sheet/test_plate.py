@@ -142,7 +142,7 @@ def test_power_balances(on_bare_roller):
 def test_stiffness_counts_where_it_shows():
     stiff = rn.solve(nip_with(replace(BOARD, bending=None)), LINEAR)
     assert stiff.sheet.bends
-    thin = rn.solve(nip_with(rn.Sheet.usual("aluminium foil")), LINEAR)
+    thin = rn.solve(nip_with(rn.Sheet.usual("PE film")), LINEAR)
     assert not thin.sheet.bends
     # what bends freely has one pressure, and a path halfway between the surfaces
     profiles, surfaces = thin.sheet.profiles, thin.deformed_surfaces
@@ -152,7 +152,7 @@ def test_stiffness_counts_where_it_shows():
 
 
 def test_a_warning_says_how_stiffness_is_counted():
-    thick = rn.Sheet(thickness=0.12, modulus=6000.0, poisson=0.3, modulus_thickness=40.0)
+    thick = rn.Sheet(thickness=0.02, modulus=6000.0, poisson=0.3, modulus_thickness=40.0)
     left = rn.solve(nip_with(thick), LINEAR)
     assert any("`bending = true` in the sheet counts it" in line for line in left.warnings)
     assert any("off, one too small, the other too large" in line for line in left.warnings)
@@ -253,6 +253,54 @@ def test_zones_of_a_contact_in_pieces_are_no_zones_to_go_on_with():
     assert stand.zones.found(stand.problem, stand.state) is not None
     states[1][states[1].size // 2] = State.FREE
     assert stand.zones.found(stand.problem, replace(stand.state, states=states)) is None
+
+
+def _with_share(nip, share):
+    """The nip whose sheet is as thick as gives a bending length of a share of the width."""
+    rough = rn.Model(geometry="linear", tolerance=1e-2)
+    for _ in range(3):
+        freely = rn.solve(replace(nip, sheet=replace(nip.sheet, bending=False)), rough)
+        grown = (share * freely.nip_width / freely.sheet.bending_length) ** (4.0 / 3.0)
+        nip = replace(nip, sheet=replace(nip.sheet, thickness=grown * nip.sheet.thickness))
+    return replace(nip, sheet=replace(nip.sheet, bending=None))
+
+
+THIN = rn.Sheet(thickness=0.04, modulus=3000.0, poisson=0.3, modulus_thickness=40.0)
+
+
+def _thin(name):
+    if name in ("rubber", "bare"):
+        return nip_with(THIN, lower=HARD if name == "rubber" else RIGID)
+    return rn.read_case(HERE.parent / "examples" / f"sheet-{name}.toml").nip
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "rubber",
+        *(pytest.param(one, marks=pytest.mark.slow) for one in ("bare", "laminator", "feed-nip")),
+    ],
+)
+def test_figures_step_by_no_more_than_is_claimed_where_stiffness_begins_to_be_counted(name):
+    thicker, thinner = (_with_share(_thin(name), share) for share in (0.056, 0.045))
+    counted, left_out = rn.solve(thicker, LINEAR), rn.solve(thinner, LINEAR)
+    assert (counted.sheet.bends, left_out.sheet.bends) == (True, False)
+    assert counted.converged
+    assert left_out.converged
+    both = rn.solve(replace(thinner, sheet=replace(thinner.sheet, bending=True)), LINEAR)
+    assert both.converged
+    for key in ("approach", "nip_width", "peak_pressure"):
+        change = abs(getattr(both, key) - getattr(left_out, key))
+        assert change <= left_out.error[key] + both.error[key], key
+    for key in (
+        *("creepage_upper", "creepage_lower", "feed_upper", "feed_lower"),
+        *("tension_max", "tension_min", "nip_width_lower", "peak_pressure_lower"),
+    ):
+        change = abs(getattr(both.sheet, key) - getattr(left_out.sheet, key))
+        assert change <= left_out.sheet.error[key] + both.sheet.error[key], key
+    # who asks for a sheet that bends freely is told the errors of that
+    freely = rn.solve(replace(thinner, sheet=replace(thinner.sheet, bending=False)), LINEAR)
+    assert freely.error["nip_width"] < 2e-3 * freely.nip_width < left_out.error["nip_width"]
 
 
 def test_bending_is_true_or_false():

@@ -15,7 +15,12 @@ def test_paper_pulled_against_a_bare_roller_is_solved():
         normal=rn.LineLoad(1.0),
         friction=0.3,
         sheet=rn.Sheet(
-            thickness=0.1, modulus=3500.0, poisson=0.3, tension_in=0.2, friction_upper=0.35
+            thickness=0.1,
+            modulus=3500.0,
+            poisson=0.3,
+            tension_in=0.2,
+            friction_upper=0.35,
+            bending=False,
         ),
     )
     solution = rn.solve(nip, rn.Model(geometry="linear"))

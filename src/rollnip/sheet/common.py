@@ -10,7 +10,7 @@ import numpy as np
 
 from rollnip._errors import InvalidInputError
 from rollnip.model import Geometry, Model
-from rollnip.nip import LineLoad, Nip, Torque, Traction
+from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling import Round, impossible, verdict
 from rollnip.sheet.refine import SheetFigures, scales
 from rollnip.sheet.system import frictions_of
@@ -174,3 +174,11 @@ def instead_of(left: Sequence[Geometry], geometry: Geometry) -> tuple[str, ...]:
         for one in left
     ]
     return (*out[:-1], f'{out[-1]} All figures are those of geometry "{geometry}".') if out else ()
+
+
+def not_prescribed(nip: Nip) -> tuple[str, ...]:
+    """Return which of approach, creepage, nip width and highest pressure are not given."""
+    given = {"approach": not isinstance(nip.normal, LineLoad)}
+    given["creepage"] = isinstance(nip.tangential, Creepage)
+    names = ("approach", "creepage", "nip_width", "peak_pressure")
+    return tuple(name for name in names if not given.get(name, False))

@@ -29,7 +29,8 @@ from rollnip.rolling import (
 )
 from rollnip.rolling.claims import SHARE_OF_CUT_LOSS
 from rollnip.rolling.surfaces import pair_displacements
-from rollnip.sheet.bending import bending_length
+from rollnip.sheet.bending import bending_length, left_by_stiffness
+from rollnip.sheet.common import not_prescribed
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
@@ -106,11 +107,10 @@ class SheetSolution(SmoothSolution):
         speed = nan if nip.speed is None else nip.speed
         load, length = self.load, self.nip_width
         lost = mine["lost_upper"] + mine["lost_lower"]
-        torques = {"torque_upper": "upper", "torque_lower": "lower"}
-        for name, side in torques.items():
-            radius = nip.upper.radius if side == "upper" else nip.lower.radius
+        out |= {name: max(out[name], mine[name]) for name in not_prescribed(nip)}
+        for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
             off = mine[f"pull_{side}"] + mine[f"lost_{side}"]
-            out[name] = nan if isinf(radius) else radius * off
+            out[f"torque_{side}"] = nan if isinf(roller.radius) else roller.radius * off
         half = 0.5 * self.creepage
         traction = mine["traction_lower"]
         if isinstance(nip.tangential, Traction):
@@ -255,6 +255,7 @@ class SheetSolution(SmoothSolution):
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, none less than what the model's own order leaves open."""
         shares = SHARES_OF_MODEL.get(self.model.geometry, np.zeros(len(NAMES))).copy()
+        shares += (not self._bends) * left_by_stiffness(self.nip, figures.nip_width, figures.load)
         for name in ("creepage_upper", "creepage_lower"):
             shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)
         least = shares * scales(self.nip, figures)

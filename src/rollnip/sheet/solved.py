@@ -38,7 +38,7 @@ from rollnip.sheet.refine import SheetRefined, refine_sheet
 from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import StrainSizes, validity_warnings
 
-_STIFF = 0.05  # bending length over the nip width, beyond which bending stiffness matters
+_STIFF = 0.01  # bending length over the nip width, beyond which bending stiffness matters
 _WIDTHS_BY_STIFFNESS = 2.0  # largest change of a width, in that share, of the nips of decision 16
 
 

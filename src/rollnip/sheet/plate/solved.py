@@ -36,7 +36,7 @@ from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.validity import StrainSizes, validity_warnings
 
 _HARDLY = 0.01  # violation of the conditions that moves of the ends make
-COUNTED = 0.2
+COUNTED = 0.05
 """Bending length over the nip width from which stiffness is counted where nothing is said."""
 
 

@@ -520,7 +520,7 @@ export const DE = {
   "sheet.bending-auto": "gerechnet, wo man sie merkt",
   "sheet.bending-on": "immer gerechnet",
   "sheet.bending-off": "weggelassen: schmiegt sich frei an",
-  "hint.sheet-bending": "Eine steife Bahn löst sich von den beiden Walzen an verschiedenen Stellen und drückt verschieden auf sie. Wo man sie merkt: wo die Biegelänge mehr als ein Fünftel der Spaltbreite ist, wenn diese Lösung bestätigt ist.",
+  "hint.sheet-bending": "Eine steife Bahn löst sich von den beiden Walzen an verschiedenen Stellen und drückt verschieden auf sie. Wo man sie merkt: wo die Biegelänge mehr als ein Zwanzigstel der Spaltbreite ist, wenn diese Lösung bestätigt ist.",
   "foot.sheet-bends": "Die Biegesteifigkeit der Bahn ist gerechnet: Druck und Spaltbreite sind die ihrer Oberseite.",
   "foot.sheet-free": "Die Bahn schmiegt sich frei an: auf beiden Seiten ist der Druck gleich.",
   "foot.sheet-grip-upper": "Der Spalt hält Züge (Zug am Einlauf weniger Zug am Auslauf) von {from} bis {to}; wird stärker gezogen, gleitet die Bahn zuerst auf der oberen Walze.",

@@ -490,7 +490,7 @@ export const EN = {
   "sheet.bending-auto": "counted where it shows",
   "sheet.bending-on": "always counted",
   "sheet.bending-off": "left out: bends freely",
-  "hint.sheet-bending": "A stiff sheet leaves the two rollers at different places and presses on them differently. Where it shows: where the bending length is more than a fifth of the nip width, if that solution is verified.",
+  "hint.sheet-bending": "A stiff sheet leaves the two rollers at different places and presses on them differently. Where it shows: where the bending length is more than a twentieth of the nip width, if that solution is verified.",
   "foot.sheet-bends": "The stiffness of the sheet against bending is counted: pressure and nip width are those of its upper side.",
   "foot.sheet-free": "The sheet bends freely: both of its sides have the same pressure.",
   "foot.sheet-grip-upper": "The nip holds pulls (tension at the inlet less that at the outlet) from {from} to {to}; pulled harder, the sheet slides on the upper roller first.",

@@ -94,8 +94,9 @@ def test_the_bound_of_the_shear_is_that_of_the_friction_of_each_side(sheet):
     designer.enter("in-sheet-friction_upper", "0.4")
     designer.enter("in-sheet-friction_lower", "0.3")
     designer.tab("pressure")
-    pressure = np.array(designer.trace("chart-pressure", "pressure")["y"])
+    pressures = {"upper": "pressure", "lower": "pressure, lower side"}
     for side, friction in (("upper", 0.4), ("lower", 0.3)):
+        pressure = np.array(designer.trace("chart-pressure", pressures[side])["y"])
         bound = designer.trace("chart-pressure", f"traction bound, {side} side")["y"]
         np.testing.assert_allclose(bound, friction * pressure, atol=1e-9)
 

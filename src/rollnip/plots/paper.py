@@ -79,7 +79,8 @@ def draw_pressure(data: PressureFigure) -> Figure:
     for thickness, solution, color in zip(data.thicknesses, data.solutions, _COLORS, strict=True):
         first, last = solution.contact[0][0], solution.contact[-1][1]
         inside = (solution.profiles.x >= first) & (solution.profiles.x <= last)
-        x, pressure = solution.profiles.x[inside], solution.profiles.pressure[inside]
+        x = np.concatenate([[first], solution.profiles.x[inside], [last]])
+        pressure = np.pad(solution.profiles.pressure[inside], 1)  # 0 at both edges
         peak = f"{solution.peak_pressure:.2f} {PROFILES['pressure'].shown_unit}"
         label = f"d = {thickness:g} mm, peak {peak}"
         ax.plot(x, pressure, color=color, linewidth=1.6, label=label)

@@ -12,7 +12,7 @@ from population import random_case
 
 import rollnip as rn
 from rollnip.rolling import excess, half_width_guess, pair_kernels, refine, refinement
-from rollnip.rolling.free_ends import Attempt
+from rollnip.rolling.free_ends import FreeEndsAttempt
 
 TOLERANCE = 1e-3
 NUMBERS = st.integers(0, 9999)
@@ -34,7 +34,7 @@ def refined(case, kernels, start, free_ends):
     half_width = start * half_width_guess(case.nip, kernels)
     with pytest.MonkeyPatch.context() as patch:
         if not free_ends:
-            patch.setattr(refinement, "with_free_ends", lambda *_: Attempt(None))
+            patch.setattr(refinement, "with_free_ends", lambda *_: FreeEndsAttempt(None))
         return refine(case.nip, model, kernels, half_width)
 
 

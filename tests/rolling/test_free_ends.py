@@ -10,7 +10,7 @@ import rollnip as rn
 from rollnip.closed_forms import carter, contact_modulus
 from rollnip.contact import Layout, State
 from rollnip.rolling import pair_kernels, refinement
-from rollnip.rolling.free_ends import Attempt, with_free_ends
+from rollnip.rolling.free_ends import FreeEndsAttempt, with_free_ends
 
 LINEAR = rn.Model(geometry="linear")
 FIGURES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
@@ -27,7 +27,7 @@ def linear_elements(monkeypatch):
     """Solves with linear elements all the way."""
 
     def solve(nip, model):
-        monkeypatch.setattr(refinement, "with_free_ends", lambda *_: Attempt(None))
+        monkeypatch.setattr(refinement, "with_free_ends", lambda *_: FreeEndsAttempt(None))
         solution = rn.solve(nip, model)
         monkeypatch.undo()
         return solution

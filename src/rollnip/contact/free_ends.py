@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import copysign, inf, isfinite, sqrt
+from math import copysign, inf, isfinite, isinf, sqrt
 
 import numpy as np
 
@@ -219,23 +219,26 @@ class Layout:
         """
         # Plain numbers: there are three of each at a handful of breaks.
         nodes, pressure, shear = x.tolist(), state.pressure.tolist(), state.shear.tolist()
-        signs = shear_signs(self.states).tolist()
+        signs, ends = shear_signs(self.states).tolist(), self.ends(x).tolist()
         last = self.states.size
         breaks = []
-        for number, (place, end) in enumerate(
-            zip(self.breaks.tolist(), self.ends(x).tolist(), strict=True)
-        ):
+        for number, (place, end) in enumerate(zip(self.breaks.tolist(), ends, strict=True)):
             is_edge = number in (0, last)
             smooth = not is_edge and self.states[number - 1] == STICK
             inwards = -1 if smooth or number == last else 1
-            beside = [end + inwards * i for i in (1, 2, 3)]
-            distance = [abs(nodes[i] - place) for i in beside]
-            if is_edge:
-                values = [pressure[i] for i in beside]
-            else:  # in a short zone of stick the shear may change its sign
-                sign = signs[number if smooth else number - 1]
-                values = [friction * pressure[i] - sign * shear[i] for i in beside]
-            breaks.append(place - inwards * _outwards(distance, values, smooth=smooth))
+            # In a short zone of stick the shear may change its sign.
+            sign = 0 if is_edge else signs[number if smooth else number - 1]
+            bound = 1.0 if is_edge else friction
+            # At a smooth end nothing is singular: where the first nodes tell no place, for values
+            # there are as small as their errors, nodes further inside do.
+            furthest = (end - ends[number - 1]) // 3 if smooth else 1
+            off, apart = inf, 1
+            while isinf(off) and apart <= furthest:
+                beside = [end + inwards * apart * i for i in (1, 2, 3)]
+                distance = [abs(nodes[i] - place) for i in beside]
+                values = [bound * pressure[i] - sign * shear[i] for i in beside]
+                off, apart = _outwards(distance, values, smooth=smooth), 2 * apart
+            breaks.append(place - inwards * off)
         return Layout(np.array(breaks), self.states)
 
 

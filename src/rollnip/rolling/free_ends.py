@@ -46,7 +46,7 @@ _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square 
 
 
 @dataclass(frozen=True, slots=True)
-class Attempt:
+class FreeEndsAttempt:
     """Outcome of an attempt with free ends.
 
     Attributes
@@ -69,7 +69,7 @@ def with_free_ends(
     layout: Layout,
     before: Round | None = None,
     off: float = 0.1,
-) -> Attempt:
+) -> FreeEndsAttempt:
     """Solve with zones whose ends are free, on ever finer meshes until the error is small enough.
 
     Parameters
@@ -86,12 +86,12 @@ def with_free_ends(
         else:
             stand = SearchState(layout, before, off=off)
             count = max(count, min(before.problem.x.size // 2, _MOST_AT_FIRST))
-        return Attempt(None) if stand is None else _refined(placing, stand, count)
+        return FreeEndsAttempt(None) if stand is None else _refined(placing, stand, count)
     except np.linalg.LinAlgError:
-        return Attempt(None)
+        return FreeEndsAttempt(None)
 
 
-def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
+def _refined(placing: Placing, stand: SearchState, count: int) -> FreeEndsAttempt:
     nip, model = placing.nip, placing.model
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
@@ -100,7 +100,7 @@ def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
         known = bool(history)
         placed = placing.placed(stand, count, known=known)
         if placed is None:
-            return Attempt(None, known)
+            return FreeEndsAttempt(None, known)
         stand, latest = placed, placed.before
         count = as_cosines(latest)
         if history and history[-1].breaks.size != stand.layout.breaks.size:
@@ -113,14 +113,14 @@ def _refined(placing: Placing, stand: SearchState, count: int) -> Attempt:
             final = converge(nip, model, latest, placing.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
-                return Attempt(with_further_errors(nip, final, history))
+                return FreeEndsAttempt(with_further_errors(nip, final, history))
             ratio = final.residual / model.tolerance
             slipping = placing.search.slipping_at_edge(final, stand.layout)
             if slipping is not None:
                 ratio = 1.0
             stand = SearchState(slipping or stand.layout, latest)
         count = _next_count(count, largest(ratio, roughness), model.tolerance)
-    return Attempt(None, knew_zones=True, is_spent=True)
+    return FreeEndsAttempt(None, knew_zones=True, is_spent=True)
 
 
 def _next_count(count: int, ratio: float, tolerance: float) -> int:

@@ -152,10 +152,11 @@ class Placing:
             other = self.search.other_zones(
                 latest, (layout, asked), ends, is_placed=is_placed, is_near=is_near
             )
-            if other is not None and other.layout.key not in tried:
+            moves_on = other is not None and other.layout.is_like(layout)
+            if other is not None and not moves_on and other.layout.key not in tried:
                 tried.add(other.layout.key)
                 stand, shape, ends = self._renewed(other), None, Secants()
-            elif is_placed:
+            elif is_placed and not moves_on:
                 if self.search.pulls(latest):
                     return None
                 return _standing_at(asked, latest, stand, off)

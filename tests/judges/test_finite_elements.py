@@ -9,7 +9,7 @@ import pytest
 
 import rollnip as rn
 from finite_elements.__main__ import FACTOR, GRADING, Chain, run
-from finite_elements.case import Layer, Nip, Roller, nip_of
+from finite_elements.case import Layer, Nip, Roller, Sheet, nip_of
 from finite_elements.edges import meshed, solve
 from finite_elements.figures import checks, figures
 from finite_elements.inside import inside
@@ -102,6 +102,55 @@ def test_tangent():
         + rates.by_pressure[:, linear.at] @ way[2]
         + rates.by_shear[:, linear.at] @ way[3]
     )
+    assert pushed == pytest.approx(expected, abs=1e-5 * np.abs(expected).max())
+
+
+def test_tangent_with_a_sheet():
+    """Gaps, friction on both sides, tension along the path and forces are linearised exactly."""
+    lower = Roller(40.0, (Layer(1.0, 2.0, 0.5), Layer(2.0, 1.0, 0.4)))
+    sheet = Sheet(20.0, (0.5, 0.4), tension_in=0.1, wraps=False)
+    nip = replace(ONE, lower=lower, traction=0.1, sheet=sheet)
+    problem = meshed(nip, Places(-2.5, 2.5), Grading(0.1, 0.1, 0.3, 0.2))
+    state = problem.start(-2.5, 2.5)
+    for _ in range(2):
+        state, _ = problem.step(state)
+    ends, slip = problem.interface.ends, np.zeros_like(state.slip)
+    slip[0] = np.where(state.closed & (ends < -1.0), 1, 0)
+    slip[1] = np.where(state.closed & (ends > 1.0), -1, 0)
+    state = replace(state, slip=slip)
+    linear = problem.linearised(state)
+    at, generator = linear.at, np.random.default_rng(1)
+    sizes = (state.upper.size, state.lower.size, *[at.size] * 4)
+    way = [generator.standard_normal(size) for size in sizes]
+
+    def moved(step):
+        pressure, shear, tension = (
+            values.copy() for values in (state.pressure, state.shear, state.tension)
+        )
+        pressure[at] += step * way[2]
+        shear[:, at] += step * np.stack(way[3:5])
+        tension[at] += step * way[5]
+        return problem.linearised(
+            replace(
+                state,
+                upper=state.upper + step * way[0],
+                lower=state.lower + step * way[1],
+                pressure=pressure,
+                shear=shear,
+                tension=tension,
+            )
+        )
+
+    small, first = 1e-6, sizes[0] + sizes[1]
+    up, down = moved(small), moved(-small)
+    difference = (up.rest - down.rest) / (2.0 * small)
+    expected = linear.matrix @ np.concatenate(way)
+    largest = np.abs(expected[first:]).max()
+    assert difference[first:] == pytest.approx(expected[first:], abs=1e-6 * largest)
+    pushed = (up.pushed.force - down.pushed.force) / (2.0 * small)
+    columns = np.concatenate([k * state.closed.size + at for k in range(4)])
+    expected = linear.pushed.by_displacement @ np.concatenate(way[:2])
+    expected += linear.pushed.by_tractions[:, columns] @ np.concatenate(way[2:])
     assert pushed == pytest.approx(expected, abs=1e-5 * np.abs(expected).max())
 
 

@@ -20,14 +20,16 @@ from finite_elements.sheet import SheetProblem, speeds
 
 @dataclass(frozen=True)
 class SheetFigures(Figures):
-    """What is compared; ``creepage`` is the sum, ``peak_pressure`` that on the upper side."""
+    """What is compared; ``creepage`` is the sum, ``peak_pressure`` that of the nodes above.
+
+    Between two meshes that do not match, nodal pressures alternate by up to 0.4 % in the middle of
+    the contact, so that the stored peak is that of `smooth_peak`.
+    """
 
     creepage_upper: float
     creepage_lower: float
     traction_upper: float
     tension_max: float
-    tension_max_x: float
-    peak_pressure_lower: float
     friction_power_lower: float
 
 
@@ -100,8 +102,6 @@ def sheet_figures(solved: Solved) -> SheetFigures:
     above = np.sum(path * on.shears[0] * (rates[0] * stretch - sheet_speed))
     under = np.sum(path * on.shears[1] * (sheet_speed - rates[2] * on.below))
     tension = state.tension[at]
-    largest = int(np.argmax(tension))
-    wrapped = state.pressure[at] - tension * problem.end_curvature(state, at)
     xi = np.asarray(state.creepage)
     return SheetFigures(
         approach=state.approach,
@@ -119,8 +119,6 @@ def sheet_figures(solved: Solved) -> SheetFigures:
         creepage_lower=float(xi[1]),
         traction_upper=float(np.sum(on.weight * on.along * on.shears[0])),
         tension_max=float(max(peak(x[at], tension), inlet, outlet)),
-        tension_max_x=float(x[at[largest]]),
-        peak_pressure_lower=peak(x[at], wrapped),
         friction_power_lower=float(under),
     )
 
@@ -141,22 +139,38 @@ def sheet_profile(solved: Solved, count: int = 21) -> dict[str, list[float]]:
     return {name: [float(f"{v:.6g}") for v in values] for name, values in columns.items()}
 
 
+def smooth_peak(profile: dict[str, list[float]]) -> tuple[float, float]:
+    """Return the peak of a quartic through the middle half of a profile, and its residual."""
+    x, pressure = np.array(profile["x"]), np.array(profile["pressure"])
+    middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
+    at = (x - middle) / half
+    near = np.abs(at) < 0.55
+    fitted = np.polyfit(at[near], pressure[near], 4)
+    off = np.polyval(fitted, at[near]) - pressure[near]
+    fine = np.linspace(-0.5, 0.5, 1001)
+    return float(np.polyval(fitted, fine).max()), float(np.sqrt(np.mean(off**2)))
+
+
 def sheet_entry(
     name: str, nip: Nip, limit: SheetFigures, error: SheetFigures, shown: Solved
 ) -> dict[str, object]:
-    """Return one result in the layout of tests/data/finite_strain_fe_sheet.json."""
+    """Return one result in the layout of tests/data/sheet_finite_elements.json."""
     assert nip.sheet is not None
     names = [
         key for key in asdict(limit) if key not in ("trailing", "leading") and "_arc" not in key
     ]
     uncertainty = {key: float(f"{getattr(error, key):.1e}") for key in names}
+    profile = sheet_profile(shown)
+    pressure, residual = smooth_peak(profile)
+    uncertainty["peak_pressure"] = float(f"{residual:.1e}")
     return {
         **inputs(name, nip),
         "sheet": asdict(nip.sheet),
         "traction": nip.traction,
         **{key: short(getattr(limit, key)) for key in names},
+        "peak_pressure": short(pressure),
         "contact_x": [short(limit.trailing), short(limit.leading)],
         "uncertainty": uncertainty
         | {"contact_x": [float(f"{error.trailing:.1e}"), float(f"{error.leading:.1e}")]},
-        "profile": sheet_profile(shown),
+        "profile": profile,
     }

@@ -72,6 +72,18 @@ def test_layers_leave_a_core():
     assert Roller(radius=60.0, layers=(Layer(59.999, RUBBER),), core=BLACK).layers
 
 
+@pytest.mark.parametrize("height", [5000.0, -5000.0])
+def test_heights_of_a_profile_are_at_most_the_radius(height):
+    """A height of 5 m on 50 mm was solved, and verified."""
+    profile = Profile(x=[-9.0, 0.0, 9.0], height=[0.0, height, 0.0])
+    assert refusal(Roller, radius=50.0, profile=profile) == (
+        f"`profile` must have heights of at most the radius 50 mm, got {height:g} mm at x = 0 mm; "
+        "are its heights in the right unit?"
+    )
+    assert Roller(radius=5000.0, profile=profile).profile == profile
+    assert Roller(radius=inf, profile=profile).profile == profile
+
+
 def test_layers_are_layers():
     message = refusal(Roller, radius=5.0, layers=(RUBBER,))
     assert message == f"`layers` must hold Layer objects, got {RUBBER!r}."

@@ -17,7 +17,8 @@ RINGS: tuple[Geometry, ...] = ("curved", *FINITE)
 """Geometries that bend the layers to rings."""
 
 _FINEST = 1e-6
-_COARSEST = 0.1
+COARSEST = 0.1
+"""The coarsest tolerance; no figure counts as known whose error is larger."""
 
 
 @with_hints(speed="it belongs to the nip: `rn.Nip(..., speed=100)`.")
@@ -61,8 +62,8 @@ class Model:
             known = ", ".join(f'"{name}"' for name in get_args(Geometry))
             raise InvalidInputError(f"`geometry` must be one of {known}, got {self.geometry!r}.")
         object.__setattr__(self, "tolerance", require_positive("tolerance", self.tolerance))
-        if not _FINEST <= self.tolerance <= _COARSEST:
+        if not _FINEST <= self.tolerance <= COARSEST:
             raise InvalidInputError(
-                f"`tolerance` must lie between {_FINEST:g} and {_COARSEST:g}, "
+                f"`tolerance` must lie between {_FINEST:g} and {COARSEST:g}, "
                 f"got {self.tolerance!r}."
             )

@@ -145,8 +145,9 @@ class Roller:
     Raises
     ------
     InvalidInputError
-        where the radius is not positive, the coating is not thinner than the radius, or it leaves
-        a rigid core of less than a thousandth of the radius.
+        where the radius is not positive, the coating is not thinner than the radius, it leaves a
+        rigid core of less than a thousandth of the radius, or a height of the profile is larger
+        than the radius.
     """
 
     radius: float
@@ -173,6 +174,21 @@ class Roller:
         object.__setattr__(self, "profile", profile)
         self._check()
 
+    def _check_profile(self) -> None:
+        """Raise InvalidInputError where a height is larger than the radius: no roller is so."""
+        if self.profile is None:
+            return
+        if not isinstance(self.profile, Profile):
+            raise InvalidInputError(f"`profile` must be a Profile, got {self.profile!r}.")
+        height = self.profile.height
+        highest = int(np.argmax(np.abs(height)))
+        if abs(height[highest]) > self.radius:
+            raise InvalidInputError(
+                "`profile` must have heights of at most the radius "
+                f"{self.radius:g} mm, got {height[highest]:g} mm at x = "
+                f"{self.profile.x[highest]:.6g} mm; are its heights in the right unit?"
+            )
+
     def _check(self) -> None:
         """Raise InvalidInputError unless the parts make a roller."""
         for layer in self.layers:
@@ -180,8 +196,7 @@ class Roller:
                 raise InvalidInputError(f"`layers` must hold Layer objects, got {layer!r}.")
         if self.core is not None:
             _require_material("core", self.core)
-        if self.profile is not None and not isinstance(self.profile, Profile):
-            raise InvalidInputError(f"`profile` must be a Profile, got {self.profile!r}.")
+        self._check_profile()
         if self.shaft is not None and not isinstance(self.shaft, Shaft):
             raise InvalidInputError(f"`shaft` must be a Shaft, got {self.shaft!r}.")
         if self.coating_thickness >= self.radius:

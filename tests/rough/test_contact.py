@@ -42,6 +42,18 @@ def test_a_nan_in_the_check_is_not_converged(wavy, name):
     assert not _verdict(wavy, model, replace(rough, **{name: nan}))[0]
 
 
+@pytest.mark.parametrize("figure", [2, 3])
+def test_a_width_or_a_peak_that_is_not_known_is_not_converged(wavy, figure):
+    """Its value on every second sample may lie a tenth of the figure away, not more, nor be nan."""
+    rough, model = solved(wavy), Model(geometry="linear")
+    for share, is_met in ((0.05, True), (0.15, False), (4.0, False), (nan, False)):
+        coarser = list(rough.coarser)
+        coarser[figure] = (1.0 + share) * rough.figures[figure]
+        converged, status = _verdict(wavy, model, replace(rough, coarser=tuple(coarser)))
+        assert converged is is_met
+        assert ("nip width" if figure == 2 else "peak pressure") in status
+
+
 def test_displacements_that_are_nan_are_not_converged(wavy, monkeypatch):
     matrix = contact_module.displacement_matrix
     monkeypatch.setattr(contact_module, "displacement_matrix", lambda *a: nan * matrix(*a))

@@ -258,6 +258,32 @@ def test_what_the_samples_leave_open_is_not_converged(coated, with_profile, roug
     assert caught.value.solution.nip == nip
 
 
+@pytest.mark.parametrize("height", [5.0, 40.0])
+def test_a_peak_that_the_samples_do_not_resolve_at_all_is_not_verified(
+    coated, with_profile, height
+):
+    """The pressure under a tip has no end: it counted as verified with errors beyond its value."""
+    spike = rn.Profile(x=[-9.0, 0.0, 9.0], height=[0.0, height, 0.0])
+    solution = rn.solve(with_profile(coated, upper=spike))
+    assert solution.error["peak_pressure"] > 0.1 * solution.peak_pressure
+    assert not solution.converged
+    assert "estimated error of the peak pressure" in solution.status
+    assert "beyond 10 % no figure counts as known" in solution.status
+
+
+def test_what_the_samples_leave_open_is_in_the_status(coated, with_profile, rough):
+    solution = rn.solve(with_profile(coated, upper=rough(1001, 5e-3)))
+    share = solution.error["peak_pressure"] / solution.peak_pressure
+    assert 0.01 < share < 0.1
+    assert solution.converged
+    assert solution.error["nip_width"] < 1e-3 * solution.nip_width
+    assert solution.status.endswith(
+        f"tolerance 0.001, and what the samples leave open (peak pressure {100.0 * share:.2g} %)."
+    )
+    relaxed = rn.solve(solution.nip, rn.Model(geometry="curved", tolerance=0.1))
+    assert relaxed.status.endswith("tolerance 0.1.")
+
+
 @pytest.mark.slow
 def test_a_hundred_thousand_samples(coated, with_profile, rough):
     nip = with_profile(coated, upper=rough(100_000, 0.01, finest=0.02))

@@ -10,7 +10,14 @@ from rollnip.rolling.check import (
     surface_strain,
     surface_strain_in_nip,
 )
-from rollnip.rolling.claims import claims, further_claims, verdict
+from rollnip.rolling.claims import (
+    WORDS,
+    claims,
+    further_claims,
+    left_open,
+    verdict,
+    worst_error,
+)
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.further import further_figures, further_sizes
 from rollnip.rolling.impossible import MOST_PRESSED_IN, impossible
@@ -39,6 +46,7 @@ from rollnip.rolling.surfaces import (
 
 __all__ = [
     "MOST_PRESSED_IN",
+    "WORDS",
     "DeformedSurfaces",
     "Displacements",
     "Ended",
@@ -64,6 +72,7 @@ __all__ = [
     "has_grip",
     "hoop_curvature",
     "impossible",
+    "left_open",
     "pair_kernels",
     "peak_at",
     "peak_pressure",
@@ -79,4 +88,5 @@ __all__ = [
     "surface_strain_in_nip",
     "verdict",
     "with_second_order",
+    "worst_error",
 ]

@@ -53,13 +53,14 @@ _FURTHER_SHARES = np.array([5e-3, 2e-3, 2e-3, 2e-3, 3e-3, 3e-3, 2e-3, 7e-3])
 # difference from the power by moments where configuration II is driven with frictions of 2 to 4.
 SHARE_OF_CUT_LOSS = 0.2
 _VERB: Mapping[Geometry, str] = {"second": "leaves", "finite": "leave"}
-_WORDS = {
+WORDS: Mapping[str, str] = {
     "approach": "approach",
     "load": "load",
     "creepage": "creepage",
     "nip_width": "nip width",
     "peak_pressure": "peak pressure",
 }
+"""Words for the figures that the tolerance is for."""
 
 
 def claims(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]:
@@ -244,31 +245,42 @@ def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     allowed = {
         name: max(model.tolerance, shares[name]) if is_met else model.tolerance for name in relative
     }
-    ratios = {name: relative[name] / allowed[name] for name in relative}
-    worst = max(ratios, key=lambda name: inf if isnan(ratios[name]) else ratios[name])
-    if ratios[worst] <= 1.0 + 1e-9:
-        return True, f"errors within the tolerance {model.tolerance:g}{_more(shares, model)}."
+    worst, ratio = worst_error(relative, allowed)
+    if ratio <= 1.0 + 1e-9:
+        by = f"{_LEFT_BY[model.geometry]} {_VERB[model.geometry]}" if any(shares.values()) else ""
+        more = left_open(shares, model.tolerance, by)
+        return True, f"errors within the tolerance {model.tolerance:g}{more}."
     if relative[worst] <= shares[worst] * (1.0 + 1e-9):
         return False, (
-            f"The estimated error of the {_WORDS[worst]} is {100.0 * relative[worst]:.2g} %, more "
+            f"The estimated error of the {WORDS[worst]} is {100.0 * relative[worst]:.2g} %, more "
             f"than the tolerance {model.tolerance:g}: no mesh makes {_LEFT_BY[model.geometry]} "
             f"better. Ask for a tolerance of {FINEST_OF_FINITE:g} or more, or for geometry "
             '"curved" or "linear".'
         )
     return False, (
-        f"The estimated error of the {_WORDS[worst]} is {relative[worst]:.1e} (relative), "
-        f"{ratios[worst]:.1f} times what the tolerance {model.tolerance:g} allows, on the finest "
+        f"The estimated error of the {WORDS[worst]} is {relative[worst]:.1e} (relative), "
+        f"{ratio:.1f} times what the tolerance {model.tolerance:g} allows, on the finest "
         "mesh; accept it with a larger tolerance."
     )
 
 
-def _more(shares: Mapping[str, float], model: Model) -> str:
-    """Return words on the figures that a model gives less well than the tolerance."""
-    larger = {name: share for name, share in shares.items() if share > model.tolerance}
+def worst_error(relative: Mapping[str, float], allowed: Mapping[str, float]) -> tuple[str, float]:
+    """Return the figure whose error is largest over the allowed one, and that ratio; nan counts."""
+    ratios = {name: relative[name] / allowed[name] for name in relative}
+    worst = max(ratios, key=lambda name: inf if isnan(ratios[name]) else ratios[name])
+    return worst, ratios[worst]
+
+
+def left_open(shares: Mapping[str, float], tolerance: float, by: str) -> str:
+    """Return words on the errors that exceed the tolerance and that something leaves.
+
+    ``by`` names it with its verb, as in "the samples leave".
+    """
+    larger = {name: share for name, share in shares.items() if share > tolerance}
     if not larger:
         return ""
-    named = ", ".join(f"{_WORDS[name]} {100.0 * share:.2g} %" for name, share in larger.items())
-    return f", and what {_LEFT_BY[model.geometry]} {_VERB[model.geometry]} open ({named})"
+    named = ", ".join(f"{WORDS[name]} {100.0 * share:.2g} %" for name, share in larger.items())
+    return f", and what {by} open ({named})"
 
 
 def _sizes(nip: Nip, figures: Figures) -> dict[str, float]:

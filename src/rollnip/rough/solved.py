@@ -9,9 +9,17 @@ from typing import Literal
 import numpy as np
 
 from rollnip._errors import ConvergenceError, InvalidInputError
-from rollnip.model import FINITE, Model
+from rollnip.model import COARSEST, FINITE, Model
 from rollnip.nip import Approach, LineLoad, Nip
-from rollnip.rolling import MOST_PRESSED_IN, SolverInfo, half_width_guess, pair_kernels
+from rollnip.rolling import (
+    MOST_PRESSED_IN,
+    WORDS,
+    SolverInfo,
+    half_width_guess,
+    left_open,
+    pair_kernels,
+    worst_error,
+)
 from rollnip.rough.contact import RoughContact, max_or_nan, rough_contact
 from rollnip.rough.sampling import sampled
 from rollnip.rough.solution import RoughSolution
@@ -94,8 +102,8 @@ def _levelled(nip: Nip) -> Nip:
 def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
     """Return whether the contact on the samples is valid, and a sentence that says so.
 
-    What the samples do not resolve, local pressures above all, does not count here: ``error`` and
-    the warnings report it.
+    The approach (or the load) must meet the tolerance. What the samples leave open of the width and
+    the peak counts as met up to the coarsest tolerance, and the sentence names it.
     """
     if not rough.state.settled:
         return False, (
@@ -124,17 +132,36 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
         )
     depth = max(abs(approach), 0.125 * nip.curvature * rough.figures[2] ** 2)
     by_load = isinstance(nip.normal, LineLoad)
-    name = "approach" if by_load else "load"
-    error = rough.errors[0] / depth if by_load else rough.errors[1] / load
-    if not error <= model.tolerance:
-        return False, (
-            f"The estimated error of the {name} is {error:.1e} (relative), more than the tolerance "
-            f"{model.tolerance:g}: the samples are too far apart; measure more closely, or accept "
-            "it with a larger tolerance."
-        )
+    found = "approach" if by_load else "load"
+    relative = {
+        found: rough.errors[0] / depth if by_load else rough.errors[1] / load,
+        "nip_width": rough.errors[2] / rough.figures[2],
+        "peak_pressure": rough.errors[3] / rough.figures[3],
+    }
+    allowed = dict.fromkeys(relative, COARSEST) | {found: model.tolerance}
+    worst, ratio = worst_error(relative, allowed)
+    if not ratio <= 1.0:
+        return False, _unresolved(worst, relative[worst], model, is_met_by_tolerance=worst == found)
+    open_shares = left_open(relative, model.tolerance, "the samples leave")
     return True, (
         f"Solved on the samples of the profile and verified there and between them: residual "
-        f"{max_or_nan(rough.residual, rough.between):.1e}, tolerance {model.tolerance:g}."
+        f"{max_or_nan(rough.residual, rough.between):.1e}, tolerance {model.tolerance:g}"
+        f"{open_shares}."
+    )
+
+
+def _unresolved(name: str, error: float, model: Model, *, is_met_by_tolerance: bool) -> str:
+    """Return a sentence on a figure whose error is too large, and on what helps."""
+    if is_met_by_tolerance:
+        return (
+            f"The estimated error of the {WORDS[name]} is {error:.1e} (relative), more than the "
+            f"tolerance {model.tolerance:g}: the samples are too far apart; measure more closely, "
+            "or accept it with a larger tolerance."
+        )
+    return (
+        f"The estimated error of the {WORDS[name]} is {100.0 * error:.2g} %; beyond "
+        f"{100.0 * COARSEST:g} % no figure counts as known: the samples are too far apart; measure "
+        "more closely, or leave out of the profile what is not much longer than their distance."
     )
 
 

@@ -14,9 +14,11 @@ import rollnip as rn
 from rollnip.cli.app import app
 from rollnip.face import CoveringTable, SheetLaw, solve_face, with_crown
 from rollnip.face.report import face_dict, face_lines, face_variables
+from rollnip.face.sheet_law import along_the_face
 from rollnip.io import parse_case
 from rollnip.plots import plot_face
 from rollnip.shafts import Crown, Shaft
+from rollnip.sheet.bending import bending_length
 
 COARSE = rn.Model(geometry="linear", tolerance=3e-3)
 ONE_SPEED = replace(FACE, sheet_across="one-speed")
@@ -107,6 +109,19 @@ def test_a_web_at_one_speed_is_pulled_where_the_nip_is_heavy(one_speed):
 def test_the_stretch_of_free_strips_bounds_the_tension_of_a_web(free, one_speed):
     """The nip gives way: a web needs less tension than what stretches its slowest strip."""
     assert 0.2 * free.taut_tension < one_speed.taut_tension < free.taut_tension
+
+
+def test_a_sheet_bends_freely_along_the_face_and_where_its_stiffness_would_show_is_said():
+    paper = replace(WEB, thickness=0.4, bending=None)
+    nip = replace(web_nip(), sheet=paper)
+    assert not along_the_face(paper).bending
+    assert along_the_face(replace(paper, bending=True)).bending
+    found = solve_face(nip, ONE_SPEED, COARSE)
+    share = 100.0 * bending_length(nip) / found.nip_width.max()
+    assert share > 5.0  # a cross-section would count it
+    assert f"counts over {share:.0f} % of the nip width, is left out" in " ".join(found.warnings)
+    freely = solve_face(replace(nip, sheet=replace(paper, bending=False)), ONE_SPEED, COARSE)
+    np.testing.assert_array_equal(freely.feed_upper, found.feed_upper)
 
 
 @pytest.mark.slow

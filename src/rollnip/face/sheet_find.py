@@ -18,6 +18,7 @@ from rollnip.face.sheet_law import (
     SHEET_NAMES,
     Box,
     SheetLaw,
+    along_the_face,
     point_of,
     sheet_law,
     values_at,
@@ -98,7 +99,9 @@ class SheetFaceMaker:
         assert self.plain is not None
         nip, (load, middle) = self.problem.nip, self.plain
         mean = float(self.problem.grid.weights @ load) / self.problem.face.length
-        flat = replace(nip, normal=LineLoad(mean), face_width=None)
+        assert nip.sheet is not None
+        sheet = along_the_face(nip.sheet)
+        flat = replace(nip, normal=LineLoad(mean), face_width=None, sheet=sheet)
         solution = solve(flat, self.model, cache=self.kernels)
         assert isinstance(solution, SheetSolution)
         _, upper, lower = point_of(solution)

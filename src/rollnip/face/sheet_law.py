@@ -33,6 +33,7 @@ from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip, Traction
 from rollnip.sheet import SheetSolution
+from rollnip.sheets import Sheet
 from rollnip.solver import solve
 
 Array = NDArray[np.float64]
@@ -237,6 +238,15 @@ def sheet_law(
     )
 
 
+def along_the_face(sheet: Sheet) -> Sheet:
+    """Return a sheet whose stiffness against bending counts only where that is asked for.
+
+    A sheet that resists bending wraps the roller to which its tension pulls it. Its figures turn
+    sharply where the pull changes sign, and no polynomial of a box goes through them.
+    """
+    return replace(sheet, bending=bool(sheet.bending))
+
+
 def values_at(nip: Nip, model: Model, point: Point, kernels: KernelCache) -> Values | str:
     """Return the figures of a plane nip as the law holds them, or why it has no solution."""
     sheet = nip.sheet
@@ -249,7 +259,9 @@ def values_at(nip: Nip, model: Model, point: Point, kernels: KernelCache) -> Val
     pull = upper - lower
     raised = max(0.0, -(sheet.tension_out + pull))
     stretched = replace(
-        sheet, tension_in=sheet.tension_out + pull + raised, tension_out=sheet.tension_out + raised
+        along_the_face(sheet),
+        tension_in=sheet.tension_out + pull + raised,
+        tension_out=sheet.tension_out + raised,
     )
     one = replace(
         nip, normal=LineLoad(load), tangential=Traction(lower), sheet=stretched, face_width=None

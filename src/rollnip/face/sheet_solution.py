@@ -12,6 +12,7 @@ from rollnip.face.notes import energies_of, places
 from rollnip.face.sheet_balance import SheetBalance
 from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solution import FaceSolution
+from rollnip.sheet.bending import STIFF, bending_length
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -106,14 +107,23 @@ class SheetFaceSolution(FaceSolution):
     @property
     def reservations(self) -> tuple[str, ...]:
         """Sentences on where the sheet is pushed, and on what its plane nips leave out."""
+        out = list(energies_of(self.nip))
+        share = bending_length(self.nip) / float(self.nip_width.max())
+        if not self.sheet.bending and share > STIFF:
+            out.insert(
+                0,
+                "Along the face the sheet bends freely. Its stiffness against bending, which counts"
+                f" over {100.0 * share:.0f} % of the nip width, is left out: "
+                "a cross-section solved without the face shows what it changes.",
+            )
         pushed = self.tension_in < -_SLACK * self.mean_load
-        if not pushed.any():
-            return tuple(energies_of(self.nip))
-        return (
-            f"The nip pushes the sheet back at the inlet {places(self.y, pushed)}, by up to "
-            f"{-self.least_tension_in:.3g} N/mm: a thin sheet goes slack or wrinkles there.",
-            *energies_of(self.nip),
-        )
+        if pushed.any():
+            out.insert(
+                0,
+                f"The nip pushes the sheet back at the inlet {places(self.y, pushed)}, by up to "
+                f"{-self.least_tension_in:.3g} N/mm: a thin sheet goes slack or wrinkles there.",
+            )
+        return tuple(out)
 
     @property
     def _sheet_law(self) -> SheetLaw:

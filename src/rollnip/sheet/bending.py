@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
 
+STIFF = 0.01
+"""Bending length over the nip width, beyond which bending stiffness matters."""
 _BY_STIFFNESS = np.array(
     [
         *(0.03, 0.0, 1.2, 1.2, 0.15, 1.2, 1.2),

@@ -34,7 +34,7 @@ from rollnip.sheet.common import not_prescribed
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
-from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, SheetFigures, SheetRefined, scales
+from rollnip.sheet.refine import NAMES, SheetFigures, SheetRefined, scales, shares_of_model
 from rollnip.sheet.result import SheetProfiles, SheetResult, inside_zone, slip_share_of
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
@@ -254,7 +254,7 @@ class SheetSolution(SmoothSolution):
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, none less than what the model's own order leaves open."""
-        shares = SHARES_OF_MODEL.get(self.model.geometry, np.zeros(len(NAMES))).copy()
+        shares = shares_of_model(self.model.geometry, self._bends)
         shares += (not self._bends) * left_by_stiffness(self.nip, figures.nip_width, figures.load)
         for name in ("creepage_upper", "creepage_lower"):
             shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)

@@ -22,7 +22,7 @@ from rollnip.rolling import (
 )
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.all_orders import solve_in_turns
-from rollnip.sheet.bending import bending_length
+from rollnip.sheet.bending import STIFF, bending_length
 from rollnip.sheet.common import (
     SIMPLER,
     SLACK,
@@ -38,7 +38,6 @@ from rollnip.sheet.refine import SheetRefined, refine_sheet
 from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import StrainSizes, validity_warnings
 
-_STIFF = 0.01  # bending length over the nip width, beyond which bending stiffness matters
 _WIDTHS_BY_STIFFNESS = 2.0  # largest change of a width, in that share, of the nips of decision 16
 
 
@@ -189,7 +188,7 @@ def _warnings(nip: Nip, refined: SheetRefined) -> tuple[str, ...]:
             "pushed there. A thin sheet may buckle or wrinkle instead, which the model leaves out."
         )
     length, share = bending_length(nip), bending_length(nip) / figures.nip_width
-    if share > _STIFF:
+    if share > STIFF:
         assert nip.sheet is not None
         asked = nip.sheet.bending is None and share <= COUNTED
         hint = " `bending = true` in the sheet counts it." if asked else ""

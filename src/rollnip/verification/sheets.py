@@ -83,6 +83,7 @@ def _paper(tension_in: float, tension_out: float) -> Sheet:
         modulus_thickness=1e9,
         tension_in=tension_in,
         tension_out=tension_out,
+        bending=False,  # the program's sheet bends freely
     )
 
 

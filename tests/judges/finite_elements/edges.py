@@ -18,7 +18,7 @@ from finite_elements.mesh import Array, Grading, Places, Ring, ring
 from finite_elements.newton import NoConvergenceError, Problem, State
 from finite_elements.sheet import SheetProblem
 
-_FINE = 0.006  # elements at the edges below which a solution begins with one on coarser elements
+_FINE = 0.004  # elements at the edges below which a solution begins with one on coarser elements
 
 
 @dataclass(frozen=True)

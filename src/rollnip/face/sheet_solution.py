@@ -107,23 +107,21 @@ class SheetFaceSolution(FaceSolution):
     @property
     def reservations(self) -> tuple[str, ...]:
         """Sentences on where the sheet is pushed, and on what its plane nips leave out."""
-        out = list(energies_of(self.nip))
-        share = bending_length(self.nip) / float(self.nip_width.max())
-        if not self.sheet.bending and share > STIFF:
-            out.insert(
-                0,
-                "Along the face the sheet bends freely. Its stiffness against bending, which counts"
-                f" over {100.0 * share:.0f} % of the nip width, is left out: "
-                "a cross-section solved without the face shows what it changes.",
-            )
+        out = []
         pushed = self.tension_in < -_SLACK * self.mean_load
         if pushed.any():
-            out.insert(
-                0,
+            out.append(
                 f"The nip pushes the sheet back at the inlet {places(self.y, pushed)}, by up to "
-                f"{-self.least_tension_in:.3g} N/mm: a thin sheet goes slack or wrinkles there.",
+                f"{-self.least_tension_in:.3g} N/mm: a thin sheet goes slack or wrinkles there."
             )
-        return tuple(out)
+        share = bending_length(self.nip) / float(self.nip_width.max())
+        if not self.sheet.bending and share > STIFF:
+            out.append(
+                "Along the face the sheet bends freely. Its stiffness against bending, which counts"
+                f" over {100.0 * share:.0f} % of the nip width, is left out: a cross-section "
+                "solved without the face, with `bending = true`, shows what it changes."
+            )
+        return (*out, *energies_of(self.nip))
 
     @property
     def _sheet_law(self) -> SheetLaw:

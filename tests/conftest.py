@@ -83,6 +83,9 @@ class HandMade:
         return True
 
 
+rn.Solution.register(HandMade)
+
+
 @pytest.fixture
 def solution() -> HandMade:
     """A solution made by hand: every field filled, no solver run."""

@@ -41,6 +41,25 @@ def test_writes_through_a_link(tmp_path):
     assert real.read_text() == "new"
 
 
+@pytest.mark.parametrize("through_a_link", [False, True])
+def test_a_pipe_stays_a_pipe(tmp_path, through_a_link):
+    """A file took its place; with a link to /dev/full, the place of that device."""
+    pipe, link = tmp_path / "pipe.json", tmp_path / "link.json"
+    os.mkfifo(pipe)
+    link.symlink_to(pipe)
+    target = link if through_a_link else pipe
+    said = f"{target}: cannot write, it is a pipe or a device; name a file."
+    for call in (
+        lambda: check_target(target, (".json",)),
+        lambda: write_whole(target, lambda file: file.write_text("new")),
+    ):
+        with pytest.raises(RollnipError) as caught:
+            call()
+        assert str(caught.value) == said
+    assert pipe.is_fifo()
+    assert {one.name for one in tmp_path.iterdir()} == {"pipe.json", "link.json"}
+
+
 def test_a_name_too_long_is_one_line(tmp_path):
     with pytest.raises(RollnipError, match="cannot write"):
         write_whole(tmp_path / ("x" * 254 + ".json"), lambda file: file.write_text(""))

@@ -73,7 +73,7 @@ def test_each_path_is_a_key_of_the_case(changes):
 
 
 def test_a_nip_without_a_sheet_is_refused():
-    with pytest.raises(rn.InvalidInputError, match=r"^`nip` must be a Nip, got a NoneType"):
+    with pytest.raises(rn.InvalidInputError, match=r"^`nip` must be a Nip, got None\."):
         rn.feed_sensitivity(None)
     nip = rn.Nip(upper=UPPER, lower=LOWER, normal=rn.LineLoad(1.0), friction=0.4)
     with pytest.raises(rn.InvalidInputError, match=r"^`sheet` must be given"):

@@ -58,12 +58,12 @@ def test_a_stiff_skin_against_finite_elements():
 
 
 def test_an_error_beyond_the_tolerance_does_not_change_the_model():
-    solution = rn.solve(fuser(0.1), replace(SECOND, tolerance=2e-5))
+    solution = rn.solve(fuser(0.1), replace(SECOND, tolerance=1e-4))
     assert not solution.converged
     assert solution.model.geometry == "second"
     assert not gave_way(solution)
     assert "estimated error" in solution.status
-    coarse = rn.solve(fuser(0.1), replace(SECOND, tolerance=1e-2))
+    coarse = rn.solve(fuser(0.1), SECOND)
     assert coarse.converged
     assert solution.nip_width == pytest.approx(coarse.nip_width, rel=1e-2)
 
@@ -140,7 +140,7 @@ def test_how_far_turns_got_is_said():
         solution.warnings[0],
     )
     assert int(said[1]) == beyond.MOST_CORRECTIONS
-    assert float(said[2]) > 0.1
+    assert float(said[2]) > 10.0 * solution.model.tolerance
 
 
 @pytest.mark.slow

@@ -99,6 +99,16 @@ def test_friction_is_not_absurd():
     assert replace(GOOD, friction=1e6).friction == 1e6
 
 
+@pytest.mark.parametrize(
+    ("name", "largest", "said"),
+    [("speed", 1e11, "at most 1e11 mm/s"), ("face_width", 1e7, "at most 1e7 mm")],
+)
+def test_speed_and_face_width_are_not_absurd(name, largest, said):
+    message = refusal(replace, GOOD, **{name: 1e12})
+    assert message == f"`{name}` must be {said}, got 1000000000000.0."
+    assert getattr(replace(GOOD, **{name: largest}), name) == largest
+
+
 @pytest.mark.parametrize("friction", [-0.1, nan, inf, "0.3", None])
 def test_friction(friction):
     assert refusal(replace, GOOD, friction=friction) == (

@@ -66,6 +66,8 @@ def test_what_has_no_solution_is_refused(changes, limit):
             r"^`model` must be a Model, such as Model\(geometry='linear'\), got 'linear'\.$",
         ),
         ((NIP, 1e-3), r"^`model` must be a Model, got a float\.$"),
+        ((3,), r"^`nip` must be a Nip, got an int\.$"),
+        ((None,), r"^`nip` must be a Nip, got None\.$"),
     ],
 )
 def test_arguments_of_another_kind_are_refused(arguments, said):

@@ -89,7 +89,7 @@ def test_there_are_enough_of_both():
 def test_the_sentence_gives_the_estimate_and_the_creepage():
     fuser = next(n for n, case in enumerate(CASES) if case["case"] == "fuser")
     said = next(line for line in solved(fuser).warnings if line.startswith(SENTENCE))
-    assert "may change the creepage by about 0.003 (it is 0.003)." in said
+    assert "may change the creepage by about 0.003 (it is 0.0031)." in said
 
 
 def test_what_the_sentence_advises_has_the_creepage():

@@ -13,6 +13,7 @@ from math import inf, nan
 from typing import Any, TypeVar, get_args
 
 T = TypeVar("T")
+_FASTEST = 1e11  # mm/s; a third of the speed of light: beyond it a unit was mistaken
 _LARGEST_FRICTION = 1e6  # no surfaces come near it; far beyond it numbers run over
 
 
@@ -72,12 +73,30 @@ def require_friction(name: str, value: float) -> float:
     return number
 
 
+def require_speed(name: str, value: float) -> float:
+    """Return ``value`` as a float, or raise InvalidInputError unless 0 < value <= 1e11 mm/s."""
+    number = require_positive(name, value)
+    if number > _FASTEST:
+        raise InvalidInputError(f"`{name}` must be at most 1e11 mm/s, got {shown(value)}.")
+    return number
+
+
 def require_finite(name: str, value: float) -> float:
     """Return ``value`` as a float, or raise InvalidInputError unless it is a finite number."""
     number = _number(value)
     if not abs(number) < inf:
         raise InvalidInputError(f"`{name}` must be a finite number, got {shown(value)}.")
     return number
+
+
+def require_instance(name: str, value: object, kind: type, hint: str = "") -> None:
+    """Raise InvalidInputError unless ``value`` is a ``kind``; ``hint`` ends the message."""
+    if isinstance(value, kind):
+        return
+    wanted, got = (_with_article(one.__name__) for one in (kind, type(value)))
+    if value is None:
+        got = "None"
+    raise InvalidInputError(f"`{name}` must be {wanted}, got {got}{hint}.")
 
 
 def shown(value: object) -> str:
@@ -134,6 +153,10 @@ def _unknown(kind: str, name: str, known: Sequence[str], hints: Mapping[str, str
         f"did you mean `{near[0]}`?" if near else f"it has {', '.join(known)}."
     )
     return f"`{name}` must be a parameter of {kind}, and is none; {hint}"
+
+
+def _with_article(name: str) -> str:
+    return f"{'an' if name[0] in 'aeiouAEIO' else 'a'} {name}"
 
 
 def _number(value: object) -> float:

@@ -135,6 +135,7 @@ def check_place(path: Path) -> None:
     """Raise RollnipError unless a file could be written to ``path``, whatever its ending."""
     if path.is_dir():
         raise RollnipError(f"{path}: cannot write, it is a directory.")
+    _require_regular(path)
     folder = path.parent
     if not folder.is_dir():
         raise RollnipError(f"{path}: cannot write, there is no directory {folder}.")
@@ -166,6 +167,7 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     if run is not None:
         run.require_free(path)
     try:
+        _require_regular(path)
         write(temporary)
         old = None if run is None else _mark(target)
         temporary.replace(target)
@@ -176,6 +178,15 @@ def write_whole(path: Path, write: Callable[[Path], object]) -> None:
     finally:
         with suppress(OSError):
             temporary.unlink(missing_ok=True)
+
+
+def _require_regular(path: Path) -> None:
+    """Raise RollnipError for a pipe or a device, which the finished file would take the place of.
+
+    ``/dev/null`` itself would be lost to all programs of the machine.
+    """
+    if path.exists() and not path.is_file() and not path.is_dir():
+        raise RollnipError(f"{path}: cannot write, it is a pipe or a device; name a file.")
 
 
 def _keys(path: Path) -> list[str | _Identity]:

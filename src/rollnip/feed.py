@@ -8,7 +8,12 @@ from functools import partial
 from math import isfinite, nan
 from typing import Any, Literal
 
-from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
+from rollnip._errors import (
+    ConvergenceError,
+    InvalidInputError,
+    require_instance,
+    require_positive,
+)
 from rollnip.influence import KernelCache
 from rollnip.materials import Elastic, Material, Prony, StandardLinearSolid
 from rollnip.model import Model
@@ -88,8 +93,7 @@ def feed_sensitivity(
     ConvergenceError
         where a changed nip has no solution at all, or only one of another geometry.
     """
-    if not isinstance(nip, Nip):
-        raise InvalidInputError(f"`nip` must be a Nip, got a {type(nip).__name__}.")
+    require_instance("nip", nip, Nip)
     if nip.sheet is None:
         raise InvalidInputError("`sheet` must be given: without a sheet nothing is fed.")
     share = require_positive("share", share)

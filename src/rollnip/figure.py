@@ -14,7 +14,7 @@ from typing import Any, Literal, NamedTuple, TypeVar
 
 from rollnip._units import format_quantity
 
-__all__ = ["ROUNDING", "Dimension", "FaceTotal", "Figure", "Section", "by_key"]
+__all__ = ["ROUNDING", "Dimension", "FaceTotal", "Figure", "Section", "axis_label", "by_key"]
 
 Dimension = Literal[
     "length",
@@ -39,6 +39,9 @@ Dimension = Literal[
     "energy per volume",
     "power per volume",
     "power per area",
+    "frequency",
+    "duration",
+    "compliance",
 ]
 Section = Literal["nip", "drive", "losses", "sheet"]
 
@@ -83,7 +86,15 @@ _UNITS: Mapping[Dimension, _Units] = {
     "energy per volume": _Units("mJ/mm3", "mJ/mm³", 1.0),
     "power per volume": _Units("mW/mm3", "mW/mm³", 1.0),
     "power per area": _Units("mW/mm2", "mW/mm²", 1.0),
+    "frequency": _Units("Hz", "Hz", 1.0),
+    "duration": _Units("s", "s", 1.0),  # of tests and records; dwell times are shown in ms
+    "compliance": _Units("1/MPa", "1/MPa", 1.0),
 }
+
+
+def axis_label(name: str, unit: str) -> str:
+    """Return the label of an axis or a column: a name, and its unit where it has one."""
+    return name if unit in ("", "1") else f"{name} [{unit}]"
 
 
 class FaceTotal(NamedTuple):
@@ -194,7 +205,7 @@ class Figure:
 
     def axis_for(self, name: str) -> str:
         """Return the label of an axis that several curves of this dimension share."""
-        return f"{name} [{self.shown_unit}]" if self.shown_unit else name
+        return axis_label(name, self.shown_unit)
 
     @property
     def described(self) -> dict[str, str]:

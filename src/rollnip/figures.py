@@ -350,3 +350,21 @@ FIELDS: Mapping[str, Figure] = by_key(
     ),
 )
 """The fields inside a roller by key; z points from its surface into its body."""
+
+MEASURED: Mapping[str, Figure] = by_key(
+    Figure("frequency", "frequency", "frequency", "Frequency of a dynamic test."),
+    Figure("duration", "time", "duration", "Time since a step of strain or stress."),
+    Figure("temperature", "temperature", "temperature", "Temperature of the sample."),
+    Figure("young_modulus", "Young's modulus", "pressure", "Storage or loss modulus in tension."),
+    Figure("complex_modulus", "|E*|", "pressure", "Absolute value of the complex modulus."),
+    Figure("phase", "phase", "angle", "Phase of the complex modulus."),
+    Figure("relaxation_modulus", "relaxation modulus", "pressure", "Stress over a step of strain."),
+    Figure("creep_compliance", "creep compliance", "compliance", "Strain over a step of stress."),
+    Figure("deviation", "deviation", "share", "Of what was measured from the fit."),
+    Figure("strain", "strain, or amount of shear", "ratio", "Stretch less 1, or angle of shear."),
+    Figure("nominal_stress", "nominal stress", "pressure", "Force over the undeformed section."),
+    Figure("velocity", "velocity", "speed", "Velocity of the surface, by velocimetry.", symbol="v"),
+    Figure("record_time", "time", "time", "Time within a record of velocimetry."),
+    Figure("cumulative", "cumulative", "share", "Share of all cases up to a value."),
+)
+"""Quantities of tests and records, which pictures of them show."""

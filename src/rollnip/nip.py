@@ -10,11 +10,14 @@ from rollnip._errors import (
     require_finite,
     require_friction,
     require_positive,
+    require_speed,
     with_hints,
 )
 from rollnip.rollers import Roller
 from rollnip.sheets import Sheet
 
+_WIDEST = 1e7  # mm; ten kilometres, as radii
+_LEFT_OUT = float("nan")  # friction that was not given
 _SMALLEST = 1e-15  # mm, N/mm; far below what can be measured, far above what underflows
 
 
@@ -95,13 +98,15 @@ class Nip:
     normal :
         LineLoad or Approach.
     friction :
-        Coulomb coefficient mu >= 0; 0 is frictionless.
+        Coulomb coefficient mu >= 0; 0 is frictionless. It may be left out where the sheet has its
+        own on both rollers, and is that of the upper one then.
     tangential :
         Traction, Creepage or Torque; free rolling by default.
     speed :
-        rolling speed V [mm/s], positive; needed only where a material is viscoelastic.
+        rolling speed V [mm/s], positive, at most 1e11; needed only where a material is
+        viscoelastic.
     face_width :
-        axial length [mm] for totals; None leaves everything per length.
+        axial length [mm], positive, at most 1e7, for totals; None leaves everything per length.
     title :
         free text, carried into the result; without zero characters.
     sheet :
@@ -120,7 +125,7 @@ class Nip:
     upper: Roller
     lower: Roller
     normal: LineLoad | Approach
-    friction: float
+    friction: float = _LEFT_OUT
     tangential: Traction | Creepage | Torque = Traction(0.0)
     speed: float | None = None
     face_width: float | None = None
@@ -130,12 +135,12 @@ class Nip:
     def __post_init__(self) -> None:
         self._check_types()
         _check_title(self.title)
-        friction = require_friction("friction", self.friction)
+        friction = require_friction("friction", self._given_friction())
         object.__setattr__(self, "friction", friction)
-        for name in ("speed", "face_width"):
-            value = getattr(self, name)
-            if value is not None:
-                object.__setattr__(self, name, require_positive(name, value))
+        if self.speed is not None:
+            object.__setattr__(self, "speed", require_speed("speed", self.speed))
+        if self.face_width is not None:
+            object.__setattr__(self, "face_width", _checked_width(self.face_width))
         self._check_rollers()
         self._check_controls()
         if self.has_profile:
@@ -200,6 +205,19 @@ class Nip:
         if self.is_viscoelastic and self.speed is None:
             raise InvalidInputError("`speed` must be given: a material is viscoelastic.")
 
+    def _given_friction(self) -> float:
+        """Return the friction of the nip, or of the sheet on the upper roller where left out."""
+        if self.friction is not _LEFT_OUT:
+            return self.friction
+        sheet = self.sheet
+        if sheet is None or sheet.friction_upper is None or sheet.friction_lower is None:
+            raise InvalidInputError(
+                "`friction` must be given, the coefficient between both surfaces, such as 0.5 "
+                "(0: frictionless); only a sheet with `friction_upper` and `friction_lower` of "
+                "its own does without."
+            )
+        return sheet.friction_upper
+
     def _check_snapshot(self) -> None:
         """Roughness that rolls through the nip is not steady; only elastic layers forget it."""
         if self.friction > 0.0:
@@ -236,7 +254,8 @@ class Nip:
         if not self.has_half_space and sheet.thickness >= covering:
             raise InvalidInputError(
                 "`thickness` of the sheet must be smaller than the coverings are thick, "
-                f"{covering:g} mm in all, got {sheet.thickness!r}: the sheet is taken as thin."
+                f"{covering:g} mm in all, got {sheet.thickness!r}: the sheet is taken as thin; "
+                "take a thinner one, or thicker coverings."
             )
         if isinstance(self.normal, LineLoad):
             self._check_pull(sheet, self.normal.load)
@@ -248,7 +267,8 @@ class Nip:
             raise InvalidInputError(
                 "`tension_in` less `tension_out` must be smaller in size than the friction of both "
                 f"rollers carries, (mu_upper + mu_lower) * load = {upper + lower:.6g} N/mm, got "
-                f"{pull:.6g}: the sheet slips through."
+                f"{pull:.6g}: the sheet slips through; lower the difference, or raise "
+                "the load or the friction."
             )
         if not isinstance(self.tangential, Traction):
             return
@@ -256,13 +276,14 @@ class Nip:
         if abs(traction) >= lower:
             raise InvalidInputError(
                 f"`traction` must be smaller than the lower friction * load = {lower:.6g} N/mm in "
-                f"size (beyond it the sheet slides on the lower roller), got {traction!r}."
+                f"size (beyond it the sheet slides on the lower roller), got {traction!r}; lower "
+                "it, or raise the load or the friction."
             )
         if abs(traction + pull) >= upper:
             raise InvalidInputError(
                 "`traction` + `tension_in` - `tension_out` must be smaller than the upper friction "
                 f"* load = {upper:.6g} N/mm in size (beyond it the sheet slides on the upper "
-                f"roller), got {traction + pull:.6g}."
+                f"roller), got {traction + pull:.6g}; lower it, or raise the load or the friction."
             )
 
     def _check_controls(self) -> None:
@@ -321,6 +342,13 @@ def _measurable(name: str, value: float, unit: str) -> float:
     if number < _SMALLEST:
         raise InvalidInputError(f"`{name}` must be at least {_SMALLEST:g} {unit}, got {value!r}.")
     return number
+
+
+def _checked_width(width: float) -> float:
+    checked = require_positive("face_width", width)
+    if checked > _WIDEST:
+        raise InvalidInputError(f"`face_width` must be at most 1e7 mm, got {width!r}.")
+    return checked
 
 
 def _check_title(title: object) -> None:

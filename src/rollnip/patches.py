@@ -14,6 +14,7 @@ from rollnip._errors import (
     require_friction,
     require_not_negative,
     require_positive,
+    require_speed,
     with_hints,
 )
 from rollnip.nip import Approach, Creepage
@@ -143,7 +144,8 @@ class Patch:
     across_upper, across_lower :
         shapes of the rollers along y.
     speed :
-        rolling speed [mm/s]; needed where a material is viscoelastic. None: no powers.
+        rolling speed [mm/s], positive, at most 1e11; needed where a material is viscoelastic.
+        None: no powers.
     title :
         free text, carried into the result.
 
@@ -170,7 +172,7 @@ class Patch:
         object.__setattr__(self, "friction", require_friction("friction", self.friction))
         object.__setattr__(self, "spin", require_finite("spin", self.spin))
         if self.speed is not None:
-            object.__setattr__(self, "speed", require_positive("speed", self.speed))
+            object.__setattr__(self, "speed", require_speed("speed", self.speed))
         self._check_rollers()
         self._check_forces()
 

@@ -175,7 +175,7 @@ class Roller:
         self._check()
 
     def _check_profile(self) -> None:
-        """Raise InvalidInputError where a height is larger than the radius: no roller is so."""
+        """Raise InvalidInputError where a height is larger than the radius."""
         if self.profile is None:
             return
         if not isinstance(self.profile, Profile):

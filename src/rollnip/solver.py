@@ -16,11 +16,12 @@ from typing import Literal
 import numpy as np
 
 from rollnip._blas import one_blas_thread
-from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip._errors import ConvergenceError, InvalidInputError, require_instance
 from rollnip.influence import KernelCache
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.rolling import (
+    ACCEPT_IT,
     Ended,
     Nearby,
     PairKernels,
@@ -32,6 +33,7 @@ from rollnip.rolling import (
     refine,
     refine_all_orders,
     verdict,
+    violated,
     with_second_order,
 )
 from rollnip.smooth import SmoothSolution
@@ -91,10 +93,8 @@ def solve(
     start = perf_counter()
     model = Model() if model is None else model
     _require_kinds(nip, model, on_failure)
-    if near is not None and not isinstance(near, Solution):
-        raise InvalidInputError(
-            f"`near` must be a Solution of a nip much like this one, got a {type(near).__name__}."
-        )
+    if near is not None:
+        require_instance("near", near, Solution, "; give that of a nip much like this one")
     if nip.has_profile:
         from rollnip.rough import solve_rough  # few nips need it; loading it takes time
 
@@ -130,15 +130,13 @@ def geometry_for(nip: Nip, model: Model) -> Geometry:
 
 def _require_kinds(nip: object, model: object, on_failure: object) -> None:
     """Raise InvalidInputError for arguments of another kind, such as a case instead of its nip."""
-    if not isinstance(nip, Nip):
-        hint = "; of a case take `case.nip`" if hasattr(nip, "nip") else ""
-        raise InvalidInputError(f"`nip` must be a Nip, got a {type(nip).__name__}{hint}.")
-    if not isinstance(model, Model):
+    hint = "; of a case take `case.nip`" if hasattr(nip, "nip") else ""
+    require_instance("nip", nip, Nip, hint)
+    if isinstance(model, str):
         raise InvalidInputError(
             f"`model` must be a Model, such as Model(geometry={model!r}), got {model!r}."
-            if isinstance(model, str)
-            else f"`model` must be a Model, got a {type(model).__name__}."
         )
+    require_instance("model", model, Model)
     if on_failure not in ("raise", "return"):
         raise InvalidInputError(f'`on_failure` must be "raise" or "return", got {on_failure!r}.')
 
@@ -299,13 +297,11 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
             'larger tolerance or `geometry = "curved"`.'
         )
     if not left <= model.tolerance:
-        return False, (
-            f"The contact conditions are violated by {left:.1e} (relative), more than the "
-            f"tolerance {model.tolerance:g}; accept it with a larger tolerance."
-            f"{_too_thin(nip, final)}"
-        )
+        return False, (f"{violated(left, model.tolerance)}; {ACCEPT_IT}.{_too_thin(nip, final)}")
     is_met, words = verdict(nip, model, final)
-    return is_met, f"Solved and verified: residual {left:.1e}, {words}" if is_met else words
+    if not is_met:
+        return False, f"{words}{_too_thin(nip, final)}"
+    return True, f"Solved and verified: residual {left:.1e}, {words}"
 
 
 def _too_thin(nip: Nip, final: Round) -> str:

@@ -37,10 +37,24 @@ def written():
 
 @pytest.mark.parametrize("key", sorted(set(KNOWN) - OWN))
 def test_a_known_sentence_is_one_of_the_solver(key):
-    """One that is put together from parts begins or ends as one that stands in the sources."""
-    wanted = HOLE.sub("7", KNOWN[key])
-    assert wanted in written() or any(
+    """One that is put together from parts begins or ends as one that stands in the sources.
+
+    What is filled in may be words of the sources, too: "creepage on the upper roller".
+    """
+    whole = HOLE.sub("7", KNOWN[key])
+    filled = (whole.replace(text, "7") for text in written() if text in whole)
+    assert any(wanted in written() or _is_put_together(wanted) for wanted in (whole, *filled))
+
+
+def _is_put_together(wanted):
+    return any(
         (text.startswith("7") and wanted.endswith(text[1:]))
         or (text.endswith(("7", "7.")) and wanted.startswith(text.rstrip("7.")))
         for text in written()
     )
+
+
+def test_a_sentence_of_nobody_is_noticed(monkeypatch):
+    monkeypatch.setitem(KNOWN, "solver.nobody", "The moon over the {side} roller is {error} wide.")
+    with pytest.raises(AssertionError):
+        test_a_known_sentence_is_one_of_the_solver("solver.nobody")

@@ -50,6 +50,25 @@ def test_a_nip_beyond_the_data_is_warned_of(tmp_path):
 
 
 @pytest.mark.parametrize(
+    ("temperature", "said"),
+    [
+        ("80 degC", "has 80 degC, above the temperatures of the data, -20 to 60 degC: the shift"),
+        ("243.15 K", "has -30 degC, below the temperatures of the data, -20 to 60 degC: the shift"),
+        ("60 degC", None),
+    ],
+)
+def test_a_nip_warmer_or_colder_than_the_data_is_warned_of(tmp_path, temperature, said):
+    """At 80 degC its frequency lies within the shifted data, and nothing was said."""
+    nip = tmp_path / "nip.toml"
+    given = f'poisson = 0.5\ntemperature = "{temperature}"'
+    nip.write_text(Path(NIP).read_text("utf-8").replace("poisson = 0.5", given), "utf-8")
+    result = run(DATA, "--reference", "23 degC", "--case", nip)
+    assert result.exit_code == 0
+    found = [line for line in result.stderr.splitlines() if "temperatures of the data" in line]
+    assert [said in line for line in found] == ([] if said is None else [True])
+
+
+@pytest.mark.parametrize(
     ("options", "said"),
     [
         (("--shift", "none"), "9 temperatures"),

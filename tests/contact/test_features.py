@@ -11,9 +11,9 @@ from rollnip.contact import (
     State,
     contact_intervals,
     contact_zones,
-    graded_nodes,
     states_on,
 )
+from rollnip.paper.process.nodes import graded_nodes
 
 FREE, STICK, PLUS, MINUS = (np.int8(s) for s in State)
 

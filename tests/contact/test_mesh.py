@@ -9,21 +9,16 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 
 from rollnip.contact import (
-    Demand,
     Subdivision,
     carry,
     cosine_nodes,
     crowding_of,
     cubic_error,
     elements_of_zones,
-    graded_nodes,
     more_elements,
     subdivided,
 )
-
-
-def demand(x, *values):
-    return Demand.of(x, *values)
+from rollnip.paper.process.nodes import graded_nodes
 
 
 def missed(places, nodes):
@@ -46,17 +41,6 @@ def test_increasing_and_through_every_break(breaks, count, scale):
     assert nodes.size - 1 <= count + 8 + 7 * places.size
 
 
-@given(seed=st.integers(0, 10_000), count=st.integers(8, 120))
-def test_increasing_with_any_demand(seed, count):
-    rng = np.random.default_rng(seed)
-    x = np.unique(rng.uniform(-1.5, 1.5, 60))
-    wanted = demand(x, rng.normal(size=x.size), np.where(rng.random(x.size) < 0.5, 0.0, 1.0))
-    breaks = np.array([-1.0, rng.uniform(-0.9, 0.9), 1.0])
-    nodes = graded_nodes(breaks, count, wanted)
-    assert np.all(np.diff(nodes) > 0.0)
-    assert missed(breaks, nodes) < 1e-15
-
-
 def test_distance_to_a_break_grows_as_a_square():
     """Node n from an edge lies at (pi n/2N)^2 of the zone: roots are resolved to second order."""
     nodes = graded_nodes(np.array([0.0, 1.0]), 200)
@@ -67,8 +51,7 @@ def test_distance_to_a_break_grows_as_a_square():
     np.testing.assert_allclose(1.0 - nodes[-2:-21:-1], expected, rtol=0.01)
 
 
-@pytest.mark.parametrize("with_demand", [False, True])
-def test_roots_are_interpolated_to_second_order(with_demand):
+def test_roots_are_interpolated_to_second_order():
     """The area under a half-ellipse with a kink of its own: error divided by 4 at least."""
 
     def root(x):
@@ -77,40 +60,11 @@ def test_roots_are_interpolated_to_second_order(with_demand):
         )
 
     exact = np.pi / 2.0 - 0.6 * np.pi * 0.25 / 2.0
-    fine = np.linspace(-1.0, 1.0, 301)
-    wanted = demand(fine, root(fine)) if with_demand else None
     errors = []
     for count in (40, 80, 160):
-        nodes = graded_nodes(np.array([-1.0, 0.0, 1.0]), count, wanted)
+        nodes = graded_nodes(np.array([-1.0, 0.0, 1.0]), count)
         errors.append(abs(np.trapezoid(root(nodes), nodes) - exact))
     assert np.log2(errors[0] / errors[2]) / 2.0 > 1.7
-
-
-def test_demand_draws_nodes():
-    """A traction that bends sharply in one place has its elements there."""
-    x = np.linspace(-1.0, 1.0, 401)
-    sharp = 1.0 / (1.0 + ((x - 0.3) / 0.02) ** 2)
-    breaks = np.array([-1.0, 1.0])
-    plain, drawn = (graded_nodes(breaks, 60, d) for d in (None, demand(x, sharp)))
-
-    def near(nodes):
-        return np.sum(np.abs(nodes - 0.3) < 0.05)
-
-    assert near(drawn) >= 2 * near(plain)
-
-
-@pytest.mark.parametrize("values", [np.zeros(5), np.ones(5), np.arange(5.0)])
-def test_nothing_bends_nothing_is_asked(values):
-    wanted = demand(np.arange(5.0), values)
-    breaks = np.array([0.0, 4.0])
-    np.testing.assert_allclose(graded_nodes(breaks, 20, wanted), graded_nodes(breaks, 20))
-
-
-def test_demand_counts_each_traction_relative_to_its_own_size():
-    x = np.linspace(-1.0, 1.0, 101)
-    p, q = 1.0 - x**2, np.sin(3 * x)
-    one, other = demand(x, p, q), demand(x, 1e6 * p, 1e-6 * q)
-    np.testing.assert_allclose(one.total, other.total, rtol=1e-12)
 
 
 def test_mirror():

@@ -75,10 +75,10 @@ def test_tolerances_in_a_picture(scattered, tmp_path, sobol, style):
     figure = plot_tolerance(scattered(sobol), style=style)
     axes = [ax for ax in figure.axes if ax.get_xlabel()]
     assert [ax.get_xlabel() for ax in axes] == [
-        "nip_width [mm]",
-        "share of the variance of nip_width",
-        "peak_pressure [MPa]",
-        "share of the variance of peak_pressure",
+        "nip width [mm]",
+        "share of the variance of nip width",
+        "peak pressure [MPa]",
+        "share of the variance of peak pressure",
     ]
     said = [text.get_text() for text in axes[1].get_legend().get_texts()]
     assert said[0] == ("alone (Sobol)" if sobol else "regression, R² = 1.000")

@@ -8,15 +8,16 @@ ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "docs" / "decisions" / "0021-constants-one-by-one.md"
 MODULES = (
     *sorted((ROOT / "src" / "rollnip" / "influence").glob("*.py")),
-    *sorted((ROOT / "src" / "rollnip" / "contact").glob("grid*.py")),
+    *(
+        ROOT / "src" / "rollnip" / "contact" / f"{name}.py"
+        for name in ("complementarity", "features", "grid", "grid_solver")
+    ),
     *(
         ROOT / "src" / "rollnip" / "rolling" / f"{name}.py"
-        for name in ("changes", "check", "estimates", "further", "impossible", "round")
+        for name in ("changes", "check", "claims", "estimates", "further", "impossible", "round")
     ),
 )
-# the creepage at which one roller stands still; places among the figures
-DEFINITIONS = {"rolling.impossible.MOST_CREEPAGE", "rolling.estimates._CREEPAGE",
-               "rolling.estimates._PEAK"}  # fmt: skip
+DEFINITIONS = {"rolling.impossible.MOST_CREEPAGE"}  # the creepage at which one roller stands still
 
 
 def numbers_of(module):

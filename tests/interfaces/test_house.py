@@ -22,7 +22,7 @@ def test_sizes(path):
 
 
 # Of contact, rolling, finite and sheet; take out what gets a name of its own.
-SHARED = {"Fields", "Mesh", "Search", "State"}
+SHARED = {"State"}
 
 
 def test_no_two_classes_share_a_name():

@@ -37,7 +37,7 @@ BAD = [
     (("nip",), DELETE, "nip: is missing."),
     (("upper",), DELETE, "upper: is missing."),
     (("lower", "radius"), DELETE, "lower.radius: is missing."),
-    (("nip", "friction"), DELETE, "nip.friction: is missing."),
+    (("nip", "friction"), DELETE, "nip.friction: is missing; give a coefficient such as 0.5"),
     (("nip", "load"), DELETE, "nip: must hold load or approach, got neither."),
     (("nip", "load"), None, "nip: must hold load or approach, got neither."),
     ((*LAYER, "thickness"), DELETE, "upper.layers[0].thickness: is missing."),
@@ -138,7 +138,11 @@ def test_one_error_is_one_line_with_its_path(tree, path, value, expected):
 def test_friction_of_the_nip_may_be_left_out_where_both_sides_of_a_sheet_have_their_own(tree):
     change(tree, ("nip", "friction"), DELETE)
     tree["sheet"] = {"kind": "office paper", "friction_upper": 2.0}
-    assert errors(tree) == ["nip.friction: is missing."]
+    (line,) = errors(tree)
+    assert line.startswith("nip.friction: is missing; give a coefficient such as 0.5")
+    assert line.endswith(
+        "a sheet with `friction_upper` and `friction_lower` of its own does without."
+    )
     tree["sheet"]["friction_lower"] = 1.5
     nip = parse_case(tree, source="case.toml").nip
     assert (nip.friction_on("upper"), nip.friction_on("lower")) == (2.0, 1.5)

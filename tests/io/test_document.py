@@ -20,6 +20,25 @@ def test_toml_and_json_are_the_same_tree(tmp_path):
     assert read_document(toml) == read_document(json) == {"title": "ä", "nip": {"load": 1.5}}
 
 
+@pytest.mark.parametrize(
+    ("line", "number"),
+    [("load = 3,5", "3.5"), ("load =  -0,25 # N/mm", "-0.25"), ("a = [{b = 1,5}]", "1.5")],
+)
+def test_a_bare_decimal_comma_is_told(line, number):
+    with pytest.raises(CaseFileError) as caught:
+        parse_document(f"[nip]\nfriction = 0.3\n{line}\n", "case.toml")
+    comma = number.replace(".", ",")
+    assert str(caught.value).endswith(
+        f'; write {number}, or a text with its unit, such as "{comma} mm".'
+    )
+
+
+def test_other_faults_of_a_line_say_nothing_of_commas():
+    with pytest.raises(CaseFileError) as caught:
+        parse_document("[nip]\nload = 3 5\nfriction = 0,3\n", "case.toml")
+    assert "write" not in str(caught.value)
+
+
 def test_a_byte_order_mark_and_windows_lines_are_fine(tmp_path):
     path = tmp_path / "a.toml"
     path.write_bytes(b'\xef\xbb\xbftitle = "a"\r\n[nip]\r\nload = 1\r\n')

@@ -276,14 +276,18 @@ CASES = {
         (12.0, 8.0), (Covering(4.0, 2.04, 0.5), None), 0.2, (1.2, 0.3),
         thickness=0.104, modulus=6000.0, across=40.0,
     ),
+    "web": Plate(
+        (50.0, 25.0), RUBBER, 1.78, (0.6, 0.6), tensions=(0.2, 0.15), traction=0.05,
+        thickness=0.02, modulus=3000.0, across=300.0,
+    ),
 }  # fmt: skip
 """The cases of tests/data/plate_direct.json."""
-RANGES = {"board": 4.8, "pulled": 4.8, "bare": 4.8, "belt": 5.5, "idler": 1.05}  # mm
+RANGES = {"board": 4.8, "pulled": 4.8, "bare": 4.8, "belt": 5.5, "idler": 1.05, "web": 4.4}  # mm
 
 
 COUNTS = {
     "board": (120, 240), "pulled": (90, 180), "bare": (120, 240), "belt": (120, 240),
-    "idler": (160, 320),
+    "idler": (160, 320), "web": (140, 280),
 }  # fmt: skip
 """Elements of the coarser and the finer mesh."""
 

@@ -195,6 +195,12 @@ def test_a_speed_is_needed():
         wheel(speed=None)
 
 
+def test_a_speed_is_not_absurd():
+    message = r"^`speed` must be at most 1e11 mm/s, got 1000000000000\.0\.$"
+    with pytest.raises(rn.InvalidInputError, match=message):
+        wheel(speed=1e12)
+
+
 @pytest.mark.slow
 def test_claims_hold_against_a_finer_grid():
     patch = wheel(friction=0.6, along=rn.Force(10.0))

@@ -70,6 +70,19 @@ def test_a_sheet_has_its_feed_tension_and_grip_among_the_figures():
     assert "slides first where pulled: upper side" in texts
 
 
+def test_the_legend_of_a_sheet_that_resists_bending_leaves_the_picture_below_free():
+    """Six entries with the longest names, as in the web pull of the examples."""
+    rubber = rn.Roller(radius=75.0, layers=[rn.Layer(10.0, rn.Elastic(modulus=5.5, poisson=0.5))])
+    paper = replace(rn.Sheet.usual("newsprint"), tension_in=0.5, tension_out=0.25, bending=True)
+    nip = rn.Nip(upper=rubber, lower=rubber, normal=rn.LineLoad(4.0), friction=0.35, sheet=paper)
+    figure = plot_overview(rn.solve(nip, rn.Model(geometry="linear")))
+    figure.canvas.draw()
+    legend = figure.axes[0].get_legend()
+    assert len(legend.get_texts()) == 6
+    (below,) = [one for one in figure.findobj(Text) if one.get_text() == "Deformed surfaces"]
+    assert legend.get_window_extent().y0 > below.get_window_extent().y1
+
+
 def test_what_is_not_defined_is_a_dash(skin):
     assert "–" in words(plot_overview(skin))
 

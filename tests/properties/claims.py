@@ -21,14 +21,13 @@ from population import random_case
 import rollnip as rn
 from rollnip.contact import (
     CoupledActiveSet,
-    Demand,
     Safeguarded,
     State,
     contact_zones,
-    graded_nodes,
     states_on,
 )
 from rollnip.influence import load_weights
+from rollnip.paper.process.nodes import graded_nodes
 from rollnip.rolling import creepage_scale, peak_pressure
 from rollnip.rolling.assemble import contact_problem, second_order
 from rollnip.rolling.round import Figures, scale_of_creepage
@@ -97,28 +96,25 @@ def reference(solution, finer=FINER, most=MOST):
     """
     count = solution.solver.elements
     steps = [
-        (0.25, False, STILL_WHILE_PLACING),
-        (0.25, False, STILL_WHILE_PLACING),
-        (0.6, False, STILL),
-        (1.0, True, STILL),
+        (0.25, STILL_WHILE_PLACING),
+        (0.25, STILL_WHILE_PLACING),
+        (0.6, STILL),
+        (1.0, STILL),
     ]
     found = [Fine(solution.final.mesh, solution.final.state, solution.final.zones, None)]
-    for share, asked, still in steps:
+    for share, still in steps:
         size = min(max(finer * count, FEWEST), most) * share
-        fine = _fine(solution, found[-1], size, asked=asked, still=still)
+        fine = _fine(solution, found[-1], size, still=still)
         if fine is None:
             return None
         found.append(fine)
     return found[-2], found[-1]
 
 
-def _fine(solution, before, count, *, asked, still):
+def _fine(solution, before, count, *, still):
     """Solve on about so many elements; another few meshes where one does not settle."""
-    demand = None
-    if asked:
-        demand = Demand.of(before.mesh.inner, before.state.pressure, before.state.shear)
     for growth in (1.0, 1.07, 0.93, 1.15):
-        mesh = mesh_on(graded_nodes(breaks(before), int(growth * count), demand), solution.kernels)
+        mesh = mesh_on(graded_nodes(breaks(before), int(growth * count)), solution.kernels)
         found = _settled_on(solution, mesh, before, still)
         if found is not None:
             return found

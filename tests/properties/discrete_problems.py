@@ -6,8 +6,9 @@ from math import pi
 import numpy as np
 import pytest
 
-from rollnip.contact import ContactProblem, Control, State, graded_nodes, influence_of
+from rollnip.contact import ContactProblem, Control, State, influence_of
 from rollnip.influence import Window, displacement_matrix, load_weights, tabulate
+from rollnip.paper.process.nodes import graded_nodes
 
 States = np.ndarray
 

@@ -1,6 +1,6 @@
 """A nip has one solution: where the search starts and how it goes do not show in it.
 
-Nor which elements are used: zones with free ends and linear elements are compared too.
+Nor how zones are found: with free ends and node by node are compared too.
 """
 
 import numpy as np
@@ -12,14 +12,13 @@ from population import random_case
 
 import rollnip as rn
 from rollnip.rolling import excess, half_width_guess, pair_kernels, refine, refinement
-from rollnip.rolling.free_ends import FreeEndsAttempt
 
 TOLERANCE = 1e-3
 NUMBERS = st.integers(0, 9999)
 
 
 # name -> share of the first guess of the half-width, whether free ends are tried
-STARTS = {"narrow": (0.6, True), "wide": (1.6, True), "linear elements": (1.0, False)}
+STARTS = {"narrow": (0.6, True), "wide": (1.6, True), "node by node": (1.0, False)}
 
 
 def stands(nip, final):
@@ -34,7 +33,7 @@ def refined(case, kernels, start, free_ends):
     half_width = start * half_width_guess(case.nip, kernels)
     with pytest.MonkeyPatch.context() as patch:
         if not free_ends:
-            patch.setattr(refinement, "with_free_ends", lambda *_: FreeEndsAttempt(None))
+            patch.setattr(refinement, "with_free_ends", lambda *_: None)
         return refine(case.nip, model, kernels, half_width)
 
 
@@ -73,7 +72,7 @@ def test_result_does_not_depend_on_the_start(name, examples):
 
     examined()
     both, other_way = np.mean(compared, axis=0)
-    # From afar it need not converge, nor linear elements where tractions have boundary layers.
+    # From afar it need not converge, nor node by node where tractions have boundary layers.
     # Some nips have no free ends to leave out.
     assert both >= 0.6
     assert other_way >= 0.5 * both

@@ -1,12 +1,13 @@
 """How often elements are evaluated and contacts solved until turns of all orders come to rest."""
 
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
 import rollnip as rn
 from rollnip.finite import FiniteResponse
-from rollnip.rolling import placing
+from rollnip.rolling import held, placing
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
@@ -44,3 +45,26 @@ def test_beside_a_slipping_edge_there_are_nine_turns_at_most(counts):
     assert rn.solve(rn.read_case(EXAMPLES / "configuration-2-driven.toml").nip).converged
     assert counts["evaluations"] <= 18
     assert counts["meshes"] <= 22
+
+
+def test_edges_under_a_skin_are_not_sought_anew_while_nodes_crowd(counts):
+    """It took 59 meshes when a width that crossed a power of two made the search forget them."""
+    nip = rn.read_case(EXAMPLES / "figure-4-top-layer-0.2mm.toml").nip
+    assert rn.solve(nip).converged
+    assert counts["meshes"] <= 45
+
+
+def test_a_contact_that_failed_is_not_solved_again_with_the_same_correction(monkeypatch):
+    """On the first turn the mean of corrections is the last one itself."""
+    asked = []
+
+    def refused(nip, model, kernels, half_width):
+        asked.append(kernels.held)
+        return SimpleNamespace(stands_still=False, is_placed=False)
+
+    monkeypatch.setattr(held, "refine", refused)
+    latest = SimpleNamespace(figures=SimpleNamespace(nip_width=2.0))
+    mean, last = (SimpleNamespace(held=object()) for _ in range(2))
+    for both in ((last, last), (mean, last)):
+        held.anew(None, None, both, latest, held.Stage.REFINED)
+    assert asked == [last.held, mean.held, last.held]

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.contact import CREEP_TO_EDGE, State, creep, gap, graded_nodes
+from rollnip.contact import CREEP_TO_EDGE, State, creep, gap
+from rollnip.paper.process.nodes import graded_nodes
 from rollnip.rolling import fields_at, hoop_curvature, pair_kernels
 from rollnip.rolling.assemble import contact_problem, first_guess, second_order
 from rollnip.rolling.surfaces import mesh_on

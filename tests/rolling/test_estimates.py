@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rollnip.rolling.estimates import CUBIC, LINEAR, Size, estimated_error, zone_excess
+from rollnip.rolling.estimates import LEAST_ERROR, Size, estimated_error, zone_excess
 from rollnip.rolling.round import Figures, Further
 
 
@@ -24,57 +24,54 @@ def sizes(counts, width_of, breaks=(-1.0, 0.0, 1.0)):
     ]
 
 
-def claimed(one, history, kind):
+def claimed(one, history):
     nip, final = one
-    return estimated_error(nip, replace(final, figures=history[-1].figures), history, kind)
+    return estimated_error(nip, replace(final, figures=history[-1].figures), history)
 
 
 def test_nothing_is_known_from_one_size(one):
-    assert np.all(np.isinf(claimed(one, sizes([20], lambda n: 7.0), CUBIC).array()))
+    assert np.all(np.isinf(claimed(one, sizes([20], lambda n: 7.0)).array()))
 
 
-@pytest.mark.parametrize("kind", [LINEAR, CUBIC], ids=["linear", "cubic"])
 @pytest.mark.parametrize("counts", [(20, 32), (20, 32, 45), (16, 23, 40, 90)])
 @pytest.mark.parametrize("order", [2, 3, 4])
-def test_errors_of_an_order_are_claimed_and_not_much_more(one, kind, counts, order):
+def test_errors_of_an_order_are_claimed_and_not_much_more(one, counts, order):
     """Of order 2 exactly 1.5 times too large; of a higher one more."""
     size = 50.0 * counts[0] ** (order - 2.0)
     history = sizes(counts, lambda n: 7.0 + size / n**order)
     true = history[-1].figures.nip_width - 7.0
-    found = claimed(one, history, kind).nip_width
+    found = claimed(one, history).nip_width
     assert found >= 1.4999 * true
     if order == 2:
         assert found <= 1.5001 * true
 
 
 @pytest.mark.parametrize("order", [1.0, 1.5])
-def test_cubic_elements_that_converge_slowly_do_not_claim_second_order(one, order):
+def test_meshes_that_converge_slowly_do_not_claim_second_order(one, order):
     """As they do where unlike surfaces stick up to an edge; three sizes tell."""
     history = sizes((22, 36, 49), lambda n: 7.0 + 2.0 / n**order)
     true = history[-1].figures.nip_width - 7.0
-    assert claimed(one, history, CUBIC).nip_width >= 0.99 * true
+    assert claimed(one, history).nip_width >= 0.99 * true
 
 
-def test_two_sizes_of_cubic_elements_show_no_order_of_the_creepage(one):
+def test_two_sizes_show_no_order_of_the_creepage(one):
     """Of first order, say, as where unlike surfaces stick up to an edge."""
     history = sizes((22, 36), lambda n: 7.0)
     coarse, fine = (replace(s.figures, creepage=0.05 + 0.1 / s.count) for s in history)
     history = [replace(history[0], figures=coarse), replace(history[1], figures=fine)]
-    assert claimed(one, history, CUBIC).creepage >= 0.999 * (fine.creepage - 0.05)
+    assert claimed(one, history).creepage >= 0.999 * (fine.creepage - 0.05)
 
 
-@pytest.mark.parametrize("kind", [LINEAR, CUBIC], ids=["linear", "cubic"])
-def test_two_sizes_that_agree_by_chance_are_not_believed(one, kind):
+def test_two_sizes_that_agree_by_chance_are_not_believed(one):
     values = {20: 7.4, 32: 7.1, 45: 7.1}
-    found = claimed(one, sizes(values, values.get), kind).nip_width
+    found = claimed(one, sizes(values, values.get)).nip_width
     lonely = 1.5 * 0.3 / ((32 / 20) ** 2 - 1.0)
     assert found == pytest.approx(lonely * (32 / 45) ** 2)
 
 
-@pytest.mark.parametrize("kind", [LINEAR, CUBIC], ids=["linear", "cubic"])
-def test_no_error_is_claimed_below_what_random_nips_have(one, kind):
-    found = claimed(one, sizes([20, 32], lambda n: 7.0 + 1e-9 * n), kind)
-    assert found.nip_width == pytest.approx(kind.least[3] * 7.0 / 32**2)
+def test_no_error_is_claimed_below_what_random_nips_have(one):
+    found = claimed(one, sizes([20, 32], lambda n: 7.0 + 1e-9 * n))
+    assert found.nip_width == pytest.approx(LEAST_ERROR[3] * 7.0 / 32**2)
     assert found.approach == 0.0  # the same to the last digit: it was prescribed
 
 

@@ -1,4 +1,4 @@
-"""Free ends and cubic elements: closed forms, and the same figures as with linear elements."""
+"""Free ends: closed forms, and the same figures as with states sought node by node."""
 
 from dataclasses import replace
 from math import sqrt
@@ -10,7 +10,7 @@ import rollnip as rn
 from rollnip.closed_forms import carter, contact_modulus
 from rollnip.contact import Layout, State
 from rollnip.rolling import pair_kernels, refinement
-from rollnip.rolling.free_ends import FreeEndsAttempt, with_free_ends
+from rollnip.rolling.free_ends import with_free_ends
 
 LINEAR = rn.Model(geometry="linear")
 FIGURES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
@@ -23,11 +23,11 @@ def wheels(cases):
 
 
 @pytest.fixture
-def linear_elements(monkeypatch):
-    """Solves with linear elements all the way."""
+def node_by_node(monkeypatch):
+    """Solves with states sought node by node all the way."""
 
     def solve(nip, model):
-        monkeypatch.setattr(refinement, "with_free_ends", lambda *_: FreeEndsAttempt(None))
+        monkeypatch.setattr(refinement, "with_free_ends", lambda *_: None)
         solution = rn.solve(nip, model)
         monkeypatch.undo()
         return solution
@@ -62,23 +62,22 @@ def test_carter_at_every_tolerance(wheels, tolerance):
 
 
 def test_few_elements_do(wheels):
-    """Linear ones need twice as many for 1e-3 and could not do 1e-5."""
     counts = [rn.solve(wheels, replace(LINEAR, tolerance=t)).solver.elements for t in (1e-3, 1e-5)]
     assert counts[0] <= 45
     assert counts[1] <= 240
 
 
-def test_the_same_as_with_linear_elements(case, solved, linear_elements):
+def test_the_same_as_node_by_node(case, solved, node_by_node):
     """To what the two claim together."""
     nip, geometry = case[1], case[2]
     free = solved(case[0])
-    linear = linear_elements(nip, rn.Model(geometry=geometry, tolerance=free.model.tolerance))
-    assert not linear.final.mesh.fine.elements
+    other = node_by_node(nip, rn.Model(geometry=geometry, tolerance=free.model.tolerance))
+    assert not other.final.mesh.fine.elements
     for name in FIGURES:
-        claimed = free.error[name] + linear.error[name]
+        claimed = free.error[name] + other.error[name]
         if not np.isfinite(claimed) or getattr(free, name) is None:
             continue
-        apart = abs(getattr(free, name) - getattr(linear, name))
+        apart = abs(getattr(free, name) - getattr(other, name))
         assert apart <= 1.5 * claimed + 1e-9 * abs(getattr(free, name)), name
 
 
@@ -93,7 +92,7 @@ def attempt(wheels):
 def test_a_guessed_width_is_start_enough(wheels, attempt, off):
     """Slip that the start does not know is found, too."""
     width = rn.solve(wheels, LINEAR).nip_width
-    found = attempt(Layout.sticking(0.5 * off * width)).found
+    found = attempt(Layout.sticking(0.5 * off * width))
     assert found is not None
     assert [zone.state for zone in found.zones] == [State.SLIP_PLUS, State.STICK]
     assert found.figures.nip_width == pytest.approx(width, rel=1e-4)
@@ -104,7 +103,7 @@ def test_zones_of_the_start_need_be_right_to_a_tenth(wheels, attempt, shift):
     solution = rn.solve(wheels, LINEAR)
     layout = Layout.of(solution.final.zones)
     shifts = shift * solution.nip_width * np.array([-0.5, 1.0, 0.5])
-    found = attempt(Layout(layout.breaks + shifts, layout.states)).found
+    found = attempt(Layout(layout.breaks + shifts, layout.states))
     assert found is not None
     assert found.figures.nip_width == pytest.approx(solution.nip_width, rel=1e-4)
 

@@ -113,9 +113,8 @@ def test_stiff_skins(case):
     off = abs(solution.peak_pressure - peak)
     assert off <= 1e-2 * peak + known["peak_pressure"]
     assert off <= solution.error["peak_pressure"] + known["peak_pressure"]
-    # On linear elements the peak of this one may stay open: 4 % is said, 1.1 % it is off.
-    is_open = case["case"] == "foil, driven" and "error of the peak pressure" in solution.status
-    assert solution.converged or is_open
+    assert solution.converged
+    assert solution.final.is_placed
     trailing, leading = solution.contact[0]
     assert solution.approach == pytest.approx(case["approach"], rel=near)
     assert trailing == pytest.approx(case["contact_x"][0], rel=near)
@@ -267,7 +266,7 @@ def test_what_the_last_turn_leaves_of_the_approach_is_claimed(monkeypatch):
     found = []
     for enough in (1.0, 0.03):
         monkeypatch.setattr(beyond, "_ENOUGH", enough)
-        found.append(rn.solve(figure_4(0.258)))
+        found.append(rn.solve(figure_4(0.265)))
     rough, fine = found
     assert rough.final.residual > 5e-4 > 5.0 * fine.final.residual
     assert fine.error["approach"] == pytest.approx(3e-4 * fine.approach, rel=1e-9)
@@ -317,10 +316,7 @@ def test_heat_over_the_depth_is_the_whole_loss():
 
 @pytest.mark.slow
 def test_a_skin_that_has_no_second_order():
-    """A skin of 0.025 mm, 2750 times stiffer: turns start without the second order.
-
-    The contact conditions hold; no mesh follows the spikes of pressure under its edges closely.
-    """
+    """A skin of 0.025 mm, 2750 times stiffer: turns start without the second order."""
     skin = rn.Layer(0.025, rn.Elastic(modulus=5500.0, poisson=0.3))
     soft = rn.Layer(4.0, rn.Elastic(modulus=2.0, poisson=0.5))
     upper = rn.Roller(radius=50.0, layers=(skin, soft))

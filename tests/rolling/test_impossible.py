@@ -89,7 +89,7 @@ def test_no_roller_turns_backwards():
 
 
 def test_no_field_is_computed_inside_layers_that_the_surface_hardly_moves(monkeypatch):
-    """The peak is above a quarter of its modulus, but it gives way by less than a quarter."""
+    """The peak is above half of a modulus, but the surface moves by less than half that layer."""
     rubber = [
         rn.Layer(2.0, rn.Elastic(modulus=8.0, poisson=0.5)),
         rn.Layer(6.0, rn.Elastic(modulus=1.0, poisson=0.5)),
@@ -97,7 +97,7 @@ def test_no_field_is_computed_inside_layers_that_the_surface_hardly_moves(monkey
     nip = rn.Nip(
         upper=rn.Roller(radius=60.0, layers=rubber),
         lower=rn.Roller(radius=40.0),
-        normal=rn.LineLoad(3.0),
+        normal=rn.LineLoad(8.0),
         friction=0.0,
     )
     checks = importlib.import_module("rollnip.rolling.impossible")
@@ -105,9 +105,9 @@ def test_no_field_is_computed_inside_layers_that_the_surface_hardly_moves(monkey
     field = checks.interior_field
     monkeypatch.setattr(checks, "interior_field", lambda *a, **k: asked.append(1) or field(*a, **k))
     solution = rn.solve(nip)
-    assert solution.peak_pressure > 0.25
+    assert solution.peak_pressure > 0.5
     assert solution.converged
     assert not asked
-    monkeypatch.setattr(checks, "_CLEARLY_LESS", 0.0)  # always computed
-    assert rn.solve(nip).converged
+    monkeypatch.setattr(checks, "MOST_PRESSED_IN", 0.15)
+    assert not rn.solve(nip).converged
     assert asked

@@ -117,12 +117,12 @@ SWEEPS = {"load": load, "traction": traction, "friction": friction, "thickness":
 
 FIRST = {
     ("III", "thickness"): 1.3,  # there a nip gave way, and its neighbours did not
-    (
-        "thin foil",
-        "load",
-    ): 0.975,  # at 1.1 a mesh of linear elements leaves the peak open, and says so
+    ("thin foil", "load"): 0.975,  # at 1.1 the peak was left open before decision 39
     ("thin covering", "traction"): 0.925,  # some with a quarter of the waves, some with all
 }
+# Solved with half and a quarter of the waves in turn. Values that alternate within their claims
+# make steps of twice the sum of both claims; all others are held to once.
+ALTERNATING = {("thin covering", "traction")}
 CASES = [
     (name, by)
     for name, nip in NIPS.items()
@@ -161,8 +161,9 @@ def test_neighbours_differ_by_slope_and_claims(name, by):
     cache = KernelCache()
     found = [rn.solve(SWEEPS[by](nip, float(factor)), cache=cache) for factor in factors]
     assert all(one.converged and one.model.geometry == "finite" for one in found)
+    most = 2.0 if (name, by) in ALTERNATING else 1.0
     for figure, (values, errors) in columns(found).items():
-        assert np.all(steps(values, errors) < 1.0), (figure, steps(values, errors))
+        assert np.all(steps(values, errors) < most), (figure, steps(values, errors))
 
 
 def test_a_planted_step_is_seen():

@@ -1,5 +1,6 @@
 """Wrong sheets are refused in one sentence; doubtful ones are solved with a warning."""
 
+import re
 from dataclasses import replace
 
 import pytest
@@ -33,11 +34,15 @@ def test_values_outside_their_range_are_refused(name, value):
 @pytest.mark.parametrize(
     ("sheet", "more", "said"),
     [
-        (paper(tension_in=2.0), {}, "slips through"),
-        (paper(tension_in=1.0), {}, "slides on the upper roller"),
-        (paper(), {"tangential": rn.Traction(0.9)}, "slides on the lower roller"),
+        (paper(tension_in=2.0), {}, "slips through; lower the difference, or raise"),
+        (paper(tension_in=1.0), {}, "slides on the upper roller.*; lower it, or raise the load"),
+        (paper(), {"tangential": rn.Traction(0.9)}, "slides on the lower roller.*; lower it, or"),
         (paper(), {"friction": 0.0}, "`friction_upper` of the sheet must be given"),
-        (replace(paper(), thickness=5.0), {}, "thinner|smaller than the coverings are thick"),
+        (
+            replace(paper(), thickness=5.0),
+            {},
+            "smaller than the coverings are thick.*; take a thinner one",
+        ),
         ("paper", {}, "`sheet` must be Sheet or None"),
         (paper(), {"upper": RIGID, "lower": RIGID}, "give one of them a `core`"),
     ],
@@ -122,7 +127,8 @@ def test_stiffness_that_shows_and_cannot_be_counted_leaves_a_nip_unverified(monk
 def test_a_bare_roller_on_either_side():
     sheet = paper(tension_in=0.05)
     for side in ("upper", "lower"):
-        solution = rn.solve(nip_with(sheet, friction=0.3, **{side: RIGID}))
+        nip = nip_with(sheet, friction=0.3, **{side: RIGID})
+        solution = rn.solve(nip, rn.Model(geometry="curved"))
         assert solution.converged, side
 
 
@@ -155,3 +161,33 @@ def test_usual_sheets_have_sources():
             assert word in source.text or any(word in value for value in source.typical), name
         if sheet.modulus_thickness is not None:
             assert any("across the thickness" in value for value in source.typical), name
+
+
+def test_friction_of_the_nip_may_be_left_out_where_the_sheet_has_its_own():
+    own = paper(friction_upper=0.3, friction_lower=0.2)
+    given = {"upper": SOFT, "lower": RIGID, "normal": rn.LineLoad(1.0)}
+    nip = rn.Nip(**given, sheet=own)
+    assert nip == rn.Nip(**given, sheet=own, friction=0.3)
+    assert replace(nip, title="again").friction == 0.3
+
+
+@pytest.mark.parametrize("sheet", [None, paper(), paper(friction_upper=0.3)])
+def test_friction_that_is_missing_is_asked_for_in_one_sentence(sheet):
+    with pytest.raises(rn.InvalidInputError, match=r"^`friction` must be given, .*0.5.*\.$"):
+        rn.Nip(upper=SOFT, lower=RIGID, normal=rn.LineLoad(1.0), sheet=sheet)
+
+
+@pytest.mark.parametrize(
+    ("thickness", "said", "not_said"),
+    [
+        (0.15, "may be up to .* % off.* Without `bending = false` they are counted", "far off"),
+        (1.5, "Both may be far off. Without `bending = false` they are counted", "may be up to"),
+    ],
+)
+def test_stiffness_that_is_forbidden_where_it_shows_is_said_to_be(thickness, said, not_said):
+    # 468 % of the nip width: "may be up to 936 % off"
+    stiff = replace(paper(bending=False), thickness=thickness)
+    solution = rn.solve(nip_with(stiff), rn.Model(geometry="linear"))
+    (warning,) = [one for one in solution.warnings if "bending stiffness" in one]
+    assert re.search(said, warning)
+    assert not_said not in warning

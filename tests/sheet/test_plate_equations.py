@@ -63,7 +63,7 @@ def tractions():
     return mesh, values, lambda s: np.interp(s, mesh.fine.nodes, acting, left=0.0, right=0.0)
 
 
-@pytest.mark.parametrize("tension", [0.0, 0.3])
+@pytest.mark.parametrize("tension", [0.0, 0.3, 160.0, 1e6])
 @pytest.mark.parametrize("x", [-1.4, -0.3141, 0.0271, 0.8, 1.3])
 def test_what_tractions_do_to_the_plate_is_their_integral(tractions, tension, x):
     # The places are no nodes of the mesh that the tractions are on, as those of the other
@@ -84,28 +84,32 @@ def test_what_tractions_do_to_the_plate_is_their_integral(tractions, tension, x)
 
     wanted = [integral(lambda s, k=k: _kernel(plate, x - s)[k]) for k in range(3)]
     wanted[0] -= 0.5 * plate.shear * integral(lambda s: abs(x - s))
-    exact = tension == 0.0  # two Gauss points for what tension takes, which is smooth
+    # two Gauss points for what little tension takes, which is smooth; much of it straightens the
+    # sheet within the nip, here over 0.4 mm, and over a hundredth of an element
+    exact = tension != 0.3
     assert found == pytest.approx(wanted, rel=1e-9 if exact else 1e-7, abs=0.0 if exact else 1e-9)
     for k, factor in enumerate((1.0, 1.0, 0.5, 1.0 / 6.0)):
         ahead = integral(lambda s, k=k, c=factor: c * max(s - x, 0.0) ** k if s > x else 0.0)
         assert float(beyond[k, 0, 0]) == pytest.approx(ahead, rel=1e-9, abs=1e-13)
 
 
-@pytest.fixture(scope="module")
-def pulled():
+@pytest.fixture(scope="module", params=["linear", "finite"])
+def pulled(request):
     """Board that is pulled through a nip whose rollers differ."""
     sheet = replace(BOARD, friction_upper=0.4, friction_lower=0.6)
-    return rn.solve(nip_with(sheet, tangential=rn.Traction(0.1)), LINEAR)
+    return rn.solve(nip_with(sheet, tangential=rn.Traction(0.1)), rn.Model(geometry=request.param))
 
 
 def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
     # int (D psi' phi'' + N psi phi') dx = int [(p_l - p_u) phi + h/2 (q_u + q_l) phi'] dx for any
-    # phi that vanishes far away; psi is the rotation of the sections
+    # phi that vanishes far away, and of couple and force of its curved path; psi is the rotation of
+    # the sections
     assert pulled.converged
     attempt = pulled.refined.stand
     problem, state = attempt.problem, attempt.state
     x = np.linspace(-12.0, 12.0, 12001)
-    rotation = problem.rotation_at(state, x)
+    curved = attempt.lagged.curved
+    rotation = problem.rotation_at(state, x, curved)
     stiffness, tension = BOARD.bending_stiffness, 0.25
     for middle, length in ((0.3, 1.1), (-2.0, 2.5), (3.1, 2.0)):
         t = np.clip((x - middle) / (2.0 * length), -1.0, 1.0)
@@ -125,6 +129,12 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
             pressed, sheared = np.interp(x, s, p), np.interp(x, s, q)
             work = sign * pressed * phi + 0.5 * BOARD.thickness * sheared * slope
             outer += np.trapezoid(work, x)
+        if curved is not None:
+            couple, force = (
+                np.interp(x, one.nodes, one.lines[:, 0], left=0.0, right=0.0)
+                for one in (curved.couple, curved.force)
+            )
+            outer += np.trapezoid(force * phi - couple * slope, x)
         # the sum over 12001 places is good to 1e-4 of the load
         assert inner == pytest.approx(outer, abs=2e-4 * pulled.load)
 
@@ -139,11 +149,16 @@ def test_forces_on_the_sheet_and_their_moment_balance(pulled):
         moment += sign * float(one.moment @ state.pressure[side])
         moment += 0.5 * BOARD.thickness * float(mesh.weights @ state.shear[side])
     righting = 2.0 * sqrt(BOARD.bending_stiffness * 0.25)
-    assert force == pytest.approx(0.0, abs=1e-12 * pulled.load)
-    assert moment == pytest.approx(righting * state.rotation, abs=1e-10)
+    curved = attempt.lagged.curved
+    if curved is not None:
+        force, moment = force + curved.whole, moment + curved.moment
+    # lagged terms have changed once more since
+    least = 1e-12 if curved is None else 1e-6
+    assert force == pytest.approx(0.0, abs=least * pulled.load)
+    assert moment == pytest.approx(righting * state.rotation, abs=max(least, 1e-10))
     # far away it runs along the x axis again, both sides parallel
-    far = problem.rotation_at(state, np.array([-400.0, 400.0]))
-    assert far == pytest.approx(0.0, abs=1e-9)
+    far = problem.rotation_at(state, np.array([-400.0, 400.0]), curved)
+    assert far == pytest.approx(0.0, abs=10.0 * max(least, 1e-10))
 
 
 @pytest.mark.parametrize("geometry", ["linear", "second", "finite"])

@@ -1,5 +1,7 @@
 """The search for the zones of both interfaces, where the look for stick and slip circles."""
 
+from dataclasses import replace
+
 import pytest
 from sheet_population import random_case
 
@@ -46,3 +48,12 @@ def test_random_nips_whose_stick_and_slip_circled_are_solved(number):
 def test_a_pulled_web_on_a_bare_roller_meets_the_tolerance_on_the_finest_mesh():
     # Its creepages converge by the second order only: 1.6 times the tolerance on 219 elements.
     assert rn.solve(random_case(61005).nip, rn.Model(geometry="linear")).converged
+
+
+def test_a_board_that_may_not_resist_bending_is_told_to():
+    """Number 95030: 0.55 mm thick, where stiffness rules; without it the path does not rest."""
+    nip = random_case(95030).nip
+    with pytest.raises(rn.ConvergenceError, match="bending freely was found; leave `bending` out"):
+        rn.solve(nip, rn.Model(geometry="curved"))
+    free = replace(nip, sheet=replace(nip.sheet, bending=None))
+    assert rn.solve(free, rn.Model(geometry="curved")).converged

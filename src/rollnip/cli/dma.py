@@ -242,7 +242,7 @@ def _write(found: DmaFit | TimeFit, text: str, out: Path | None, plot: Path | No
 
 def _in_the_nip(found: DmaFit | TimeFit, case: Path, name: str) -> list[str]:
     """Return the warnings of a case's nip, solved with the fitted material in its [materials]."""
-    from rollnip.dma import frequency_warning, material_toml
+    from rollnip.dma import frequency_warning, material_toml, temperature_warning
     from rollnip.io import parse_case
     from rollnip.io.document import parse_document, read_document
     from rollnip.solver import solve
@@ -264,6 +264,8 @@ def _in_the_nip(found: DmaFit | TimeFit, case: Path, name: str) -> list[str]:
         solution = solve(problem.nip, problem.model, on_failure="return")
         at = _temperature(table)
         said = [frequency_warning(found, solution, at)]
+        if at is not None:
+            said.append(temperature_warning(found, at))
     if not solution.converged:
         said.append(solution.status)
     return [one for one in said if one]

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
+from math import degrees
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -26,7 +27,9 @@ face = typer.Typer(
     help="Along the face: load and width over rollers that bend; crowns; nip impressions.",
     no_args_is_help=True,
 )
-CaseFile = Annotated[str, typer.Argument(help="Case file with [face] and shafts.")]
+CaseFile = Annotated[
+    str, typer.Argument(help="Case file with [face] and shafts; - is the standard input.")
+]
 Json = Annotated[bool, typer.Option("--json", help="Print JSON.")]
 Plot = Annotated[Path | None, typer.Option(help="Draw the face: name.png, .svg or .pdf.")]
 Workers = Annotated[
@@ -232,19 +235,23 @@ def _crown_dict(best: Any, loads: Any, wall: Any) -> dict[str, Any]:
 
 
 def _crown_text(best: Any, loads: Any, wall: Any) -> str:
+    from rollnip.face.figures import FACE_PROFILES
+    from rollnip.figures import FIGURES
+
+    length, per_length = FACE_PROFILES["y"].shown_unit, FIGURES["load"].shown_unit
     found, within = best.solution, 100 * wall.within
     off = 100.0 * found.largest_departure
     lines = [
-        f"Parabolic crown of the {best.roller} roller: {best.height:.4g} mm on the diameter",
-        f"  line load with it      {found.load.min():.4g} to {found.load.max():.4g} N/mm, "
+        f"Parabolic crown of the {best.roller} roller: {best.height:.4g} {length} on the diameter",
+        f"  line load with it      {found.load.min():.4g} to {found.load.max():.4g} {per_length}, "
         f"within {off:.2g} % of the mean",
-        f"  even load asks for     {best.diameter[best.y.size // 2]:.4g} mm in the middle "
+        f"  even load asks for     {best.diameter[best.y.size // 2]:.4g} {length} in the middle "
         "(table with --json)",
     ]
     if best.skewed is not None:
         skewed = 100.0 * best.skewed.largest_departure
         lines.append(
-            f"  skew instead           {best.skew * 57.29577951308232:.4g} degrees, within "
+            f"  skew instead           {degrees(best.skew):.4g} degrees, within "
             f"{skewed:.2g} % of the mean"
         )
     if loads is None:
@@ -252,7 +259,7 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
     else:
         low = "less" if loads.low is None else f"{loads.low:.4g}"
         high = "more" if loads.high is None else f"{loads.high:.4g}"
-        lines.append(f"  within {within:g} % of the mean  from {low} to {high} N/mm")
+        lines.append(f"  within {within:g} % of the mean  from {low} to {high} {per_length}")
     if wall.wall is None:
         lines.append(
             f"  without a crown        not even a solid core: the load departs from its mean by "
@@ -260,8 +267,8 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
         )
     else:
         lines.append(
-            f"  without a crown        a wall of {wall.wall:.4g} mm (bore {wall.bore:.4g} mm) "
-            f"keeps within {within:g} %"
+            f"  without a crown        a wall of {wall.wall:.4g} {length} "
+            f"(bore {wall.bore:.4g} {length}) keeps within {within:g} %"
         )
     return "\n".join(lines) + "\n"
 

@@ -24,7 +24,7 @@ patch = typer.Typer(
     "readings of hardness.",
     no_args_is_help=True,
 )
-CaseFile = Annotated[str, typer.Argument(help="Case file with [patch]; - reads standard input.")]
+CaseFile = Annotated[str, typer.Argument(help="Case file with [patch]; - is the standard input.")]
 
 
 Tolerance = Annotated[

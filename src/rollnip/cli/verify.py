@@ -11,6 +11,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip.cli.console import clear_failures, terminal
+from rollnip.figure import axis_label
 
 if TYPE_CHECKING:
     from rich.console import Console, RenderableType
@@ -112,7 +113,7 @@ def _table(outcomes: Sequence[VerificationResult]) -> RenderableType:
     for outcome in outcomes:
         case = outcome.case
         table.add_row(
-            Text(f"{case.quantity} [{case.unit}]" if case.unit else case.quantity),
+            Text(axis_label(case.quantity, case.unit)),
             figure_text(case.expected),
             figure_text(outcome.got),
             share_text(outcome.error),

@@ -4,7 +4,6 @@ from rollnip.contact.complementarity import Complementary, Inequalities, interio
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones, states_on
 from rollnip.contact.free_ends import GivenStates, HeldContact, Layout
-from rollnip.contact.graded import Demand, graded_nodes
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
 from rollnip.contact.mesh import (
@@ -39,7 +38,6 @@ __all__ = [
     "Control",
     "Convolution",
     "CoupledActiveSet",
-    "Demand",
     "GivenStates",
     "GridActiveSet",
     "GridProblem",
@@ -60,7 +58,6 @@ __all__ = [
     "cubic_error",
     "elements_of_zones",
     "gap",
-    "graded_nodes",
     "grid_intervals",
     "influence_of",
     "interior_point",

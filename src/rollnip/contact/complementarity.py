@@ -22,12 +22,12 @@ from scipy.linalg import lapack
 from rollnip.contact.problem import SLIP_MINUS, SLIP_PLUS, STICK, Array, Indices, Mask, States
 
 # What is left of the conditions, over their sizes: where the iteration ends at the latest, and
-# where it ends as soon as nothing is gained, as where a node is about to slip.
+# where it ends as soon as nothing is gained, as where a node is about to slip. There is no solution
+# where it has grown by the inverse of the second.
 _SMALLEST, _SMALL = 1e-11, 1e-6
 _FIRST = 0.1  # gap and creep to begin with, over their sizes
 _SHORT_OF = 0.95  # of the step on which the first part of a condition would vanish
 _MOST_STEPS = 40
-_DIVERGED = 1e6  # times what was left at first or 1: there is no solution
 
 
 @dataclass(frozen=True, slots=True)
@@ -93,7 +93,7 @@ def interior_point(problem: Inequalities, start: Array, enough: float = _SMALL) 
         where there are none, or a system is singular.
     """
     iterate, best = _Iterate.of(problem, start), inf
-    diverged = _DIVERGED * max(iterate.left, 1.0)
+    diverged = max(iterate.left, 1.0) / _SMALL
     solution: Complementary | None = None
     for steps in range(_MOST_STEPS):
         left = iterate.left

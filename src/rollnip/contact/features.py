@@ -8,10 +8,6 @@ import numpy as np
 
 from rollnip.contact.problem import FREE, STICK, Array, ContactState, State, States
 
-# Exponents: a quantity that vanishes at the end of a zone is, to this power, linear in distance.
-_ROOT = 2.0  # pressure at an edge, mu p - |q| where stick turns to slip
-_SMOOTH = 2.0 / 3.0  # mu p - |q| where slip turns to stick: material that came to rest
-
 
 @dataclass(frozen=True, slots=True)
 class ContactZone:
@@ -39,11 +35,9 @@ def contact_zones(x: Array, state: ContactState, friction: float) -> tuple[Conta
     states = state.states
     states = np.minimum(states, STICK) if friction == 0.0 else _without_slivers(states)
     zones = []
+    squares = np.maximum(state.pressure, 0.0) ** 2
     for first, last in runs(states != FREE):
-        edges = (
-            _crossing(x, state.pressure, first, -1),
-            _crossing(x, state.pressure, last, +1),
-        )
+        edges = _crossing(x, squares, first, -1), _crossing(x, squares, last, +1)
         zones += _split(x, state, friction, states, (first, last), edges)
     return tuple(zones)
 
@@ -115,16 +109,20 @@ def _without_slivers(states: States) -> States:
 
 
 def transition(x: Array, slack: Array, states: States, i: int) -> float:
-    """Return the place between nodes i and i + 1 of a change of state; slack is mu p - |q|."""
+    """Return the place between nodes i and i + 1 of a change of state; slack is mu p - |q|.
+
+    To the power that `contact_zones` names it is linear in the distance from that place.
+    """
+    slack = np.maximum(slack, 0.0)
     if states[i + 1] == STICK:
-        return _crossing(x, slack, i + 1, -1)
+        return _crossing(x, slack**2, i + 1, -1)
     if states[i] == STICK:
-        return _crossing(x, slack, i, +1, power=_SMOOTH)
+        return _crossing(x, slack ** (2.0 / 3.0), i, +1)
     return 0.5 * float(x[i] + x[i + 1])
 
 
-def _crossing(x: Array, values: Array, i: int, step: int, *, power: float = _ROOT) -> float:
-    """Return the place where values^power, extrapolated from nodes i - step and i, vanishes [mm].
+def _crossing(x: Array, values: Array, i: int, step: int) -> float:
+    """Return the place where values, extrapolated from nodes i - step and i, vanish [mm].
 
     It lies between node i and the place of node i + step, and is their midpoint where no zero can
     be extrapolated.
@@ -133,7 +131,7 @@ def _crossing(x: Array, values: Array, i: int, step: int, *, power: float = _ROO
     limit = x[beyond] if 0 <= beyond < x.size else x[i] + step * abs(x[i] - x[i - step])
     if not 0 <= i - step < x.size:
         return 0.5 * float(x[i] + limit)
-    here, before = np.maximum(values[[i, i - step]], 0.0) ** power
+    here, before = values[[i, i - step]]
     if before <= here:
         return 0.5 * float(x[i] + limit)
     place = x[i] + (x[i] - x[i - step]) * here / (before - here)

@@ -13,7 +13,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import copysign, inf, isfinite, isinf, sqrt
+from math import copysign, inf, isfinite, sqrt
 
 import numpy as np
 
@@ -38,6 +38,7 @@ from rollnip.contact.problem import (
 _RESPONSE = (-0.6831, -0.1132, -0.0597)
 
 _ROUNDING = 1e-9  # length of a zone over the width of the contact, at least
+_SHORTEST = 1e-4  # likewise, of a zone found node by node
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
 _STICK_BETWEEN = 0.1
 _MOVE_WITHOUT_PLACE = 0.1  # likewise, where no place is asked for
@@ -90,6 +91,30 @@ class Layout:
         breaks = [edges[0], *ends, edges[1]]
         states = [State(int(state.states[i])) for i in (*changes, last)]
         return cls.of(tuple(map(ContactZone, breaks[:-1], breaks[1:], states)))
+
+    @classmethod
+    def around(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:
+        """Return the layout of zones and of the free surfaces between and beside them.
+
+        Zones shorter than `_SHORTEST` of the width are left out.
+
+        Parameters
+        ----------
+        zones : with some length in all.
+        room : length of the free surface beyond either edge [mm].
+        """
+        start, stop = zones[0].start, zones[-1].stop
+        least = _SHORTEST * (stop - start)
+        breaks, states = [start - room, start], [FREE]
+        for zone in zones:
+            if zone.start - breaks[-1] > least:
+                breaks.append(zone.start)
+                states.append(FREE)
+            if zone.stop - breaks[-1] > least:
+                breaks.append(zone.stop)
+                states.append(zone.state)
+        breaks[-1] = stop
+        return cls(np.array([*breaks, stop + room]), np.array([*states, FREE], dtype=np.int8))
 
     @classmethod
     def sticking(cls, half_width: float) -> Layout:
@@ -232,12 +257,13 @@ class Layout:
             # At a smooth end nothing is singular: where the first nodes tell no place, for values
             # there are as small as their errors, nodes further inside do.
             furthest = (end - ends[number - 1]) // 3 if smooth else 1
-            off, apart = inf, 1
-            while isinf(off) and apart <= furthest:
+            off, reach, apart = inf, 0.0, 1
+            while abs(off) > reach and apart <= furthest:
                 beside = [end + inwards * apart * i for i in (1, 2, 3)]
                 distance = [abs(nodes[i] - place) for i in beside]
                 values = [bound * pressure[i] - sign * shear[i] for i in beside]
                 off, apart = _outwards(distance, values, smooth=smooth), 2 * apart
+                reach = distance[-1]
             breaks.append(place - inwards * off)
         return Layout(np.array(breaks), self.states)
 

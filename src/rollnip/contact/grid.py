@@ -15,9 +15,6 @@ from scipy.fft import irfft, next_fast_len, rfft
 
 from rollnip.contact.problem import Array, Indices, Mask
 
-# Of the largest compliance of any wave, what a wave must have at least for the preconditioner.
-_LEAST_COMPLIANCE = 0.01
-
 
 @dataclass(frozen=True)
 class Convolution:
@@ -171,7 +168,8 @@ def _inverse_symbol(symbol: Array) -> tuple[Array, float]:
     long waves, where the cut of the convolution may even make it negative.
     """
     top = int(np.argmax(symbol))
-    floor = _LEAST_COMPLIANCE * symbol[top] / np.maximum(np.arange(symbol.size) / (top + 1), 1.0)
+    rounding = np.finfo(float).eps * symbol[top]
+    floor = rounding / np.maximum(np.arange(symbol.size) / (top + 1), 1.0)
     length = 2 * (symbol.size - 1)
     return 1.0 / np.maximum(symbol, floor), np.inf if top == 0 else 0.25 * length / top
 

@@ -45,7 +45,8 @@ class Subdivision:
     Attributes
     ----------
     nodes : (M+1,) the finer nodes; those subdivided are among them [mm].
-    elements : number in each zone before the subdivision; empty where nothing was subdivided.
+    elements : number in each zone before the subdivision; empty where nothing was subdivided, or
+        where the zones are not those of a solution (states are sought node by node then).
     crowding : of each zone, see `cosine_nodes`.
     values : (M+1, N+1) values at them per value at the N+1 mesh nodes; None: the same nodes.
     acting : (M+1, N+1) likewise for tractions that act.

@@ -12,9 +12,11 @@ from rollnip.design.aims import AtLeast, LimitKept
 from rollnip.design.optimum import Optimum
 from rollnip.design.quantities import QUANTITIES, result_error
 from rollnip.design.scatter import Chance, Scatter, Share, Tolerance
+from rollnip.figure import axis_label
 from rollnip.figures import FIGURES
 from rollnip.plots import plot_distribution, plot_shares
 from rollnip.plots.style import Style, page
+from rollnip.sweeps import scalar_axis, scalar_label
 
 _DIGITS = 5
 _ROUNDING = 1e-9  # relative error that counts as none
@@ -99,11 +101,10 @@ def plot_tolerance(found: Tolerance, *, style: Style = "light") -> Figure:
     figure = page(style, _ROW * rows)
     axes = figure.subplots(rows, 2, squeeze=False, width_ratios=(1.25, 1.0))
     for (left, right), scatter in zip(axes, found.scatters, strict=True):
-        unit = f" [{scatter.unit}]" if scatter.unit else ""
         plot_distribution(
             scatter.values,
             left,
-            name=f"{scatter.quantity}{unit}",
+            name=scalar_axis(scatter.quantity),
             quantiles=[(one.probability, one.value) for one in scatter.quantiles],
             limits=_limits_of(found, scatter.quantity),
             style=style,
@@ -113,16 +114,17 @@ def plot_tolerance(found: Tolerance, *, style: Style = "light") -> Figure:
 
 
 def _plot_influence(scatter: Scatter, ax: Any, style: Style) -> None:
+    result = scalar_label(scatter.quantity)
     names = [share.path for share in scatter.shares]
     first = [share.first for share in scatter.shares if share.first is not None]
     total = [share.total for share in scatter.shares if share.total is not None]
     if first and total:
         kinds = ("alone (Sobol)", "with interactions")
-        plot_shares(names, first, total, ax, result=scatter.quantity, kinds=kinds, style=style)
+        plot_shares(names, first, total, ax, result=result, kinds=kinds, style=style)
         return
     squares = [share.coefficient**2 for share in scatter.shares]
     kinds = (f"regression, R² = {scatter.linear_share:.3f}", "")
-    plot_shares(names, squares, None, ax, result=scatter.quantity, kinds=kinds, style=style)
+    plot_shares(names, squares, None, ax, result=result, kinds=kinds, style=style)
 
 
 def _limits_of(found: Tolerance, quantity: str) -> tuple[float | None, float | None]:
@@ -136,8 +138,7 @@ def _limits_of(found: Tolerance, quantity: str) -> tuple[float | None, float | N
 
 
 def _scatter_lines(scatter: Scatter) -> Iterator[str]:
-    unit = scatter.unit
-    yield f"{scatter.quantity}{f' [{unit}]' if unit else ''}"
+    yield axis_label(scatter.quantity, scatter.unit)
     yield (
         f"  mean {_number(scatter.mean)}, standard deviation "
         f"{format_quantity(scatter.deviation, digits=3)}, from {_number(scatter.least)} to "

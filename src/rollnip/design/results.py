@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError
 from rollnip._extras import require_extra
 from rollnip._files import reading
+from rollnip.figure import axis_label
 from rollnip.io import read_columns
 from rollnip.io.columns import EXCEL, head_parts
 
@@ -42,10 +43,7 @@ class ResultTable(ABC):
     @property
     def heads(self) -> list[str]:
         """The heads of the columns, with their units."""
-        return [
-            f"{name} [{unit}]" if unit else name
-            for name, unit in zip(self.names, self.units, strict=True)
-        ]
+        return [axis_label(name, unit) for name, unit in zip(self.names, self.units, strict=True)]
 
     def head(self, name: str) -> str:
         """Return the head of one column. Raises InvalidInputError for an unknown name."""

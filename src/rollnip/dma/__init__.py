@@ -8,6 +8,7 @@ from rollnip.dma.export import (
     material_keys,
     material_toml,
     nip_frequency,
+    temperature_warning,
     valid_range,
 )
 from rollnip.dma.fit import DmaFit, DmaMethod, fit_dma
@@ -58,5 +59,6 @@ __all__ = [
     "read_tables",
     "read_time_data",
     "relaxation_of_creep",
+    "temperature_warning",
     "valid_range",
 ]

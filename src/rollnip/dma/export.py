@@ -18,6 +18,7 @@ from rollnip.materials import WLF, Arrhenius, FractionalZener, Prony, Shift
 from rollnip.solution import Solution
 
 _NAME = re.compile(r"[A-Za-z0-9_-]+")
+_SAME = 0.5  # K; so far from the coldest or warmest isotherm a temperature counts as theirs
 
 
 def material_toml(fit: DmaFit | TimeFit, name: str = "rubber") -> str:
@@ -114,6 +115,26 @@ def frequency_warning(
         f"The nip works at {format_quantity(frequency, digits=3)} Hz (speed over nip width), "
         f"{side} the data of the material, {format_quantity(low, digits=3)} to "
         f"{format_quantity(high, digits=3)} Hz at {at:g} degC: the material is extrapolated."
+    )
+
+
+def temperature_warning(fit: DmaFit | TimeFit, temperature: float) -> str:
+    """Return a warning where a material is used at a temperature outside its data, else "".
+
+    Parameters
+    ----------
+    fit :
+        fit of the material.
+    temperature :
+        temperature of the material in the nip [degC].
+    """
+    cold, warm = fit.temperature_range
+    if cold - _SAME <= temperature <= warm + _SAME:
+        return ""
+    side = "below" if temperature < cold else "above"
+    return (
+        f"The nip's material has {temperature:.4g} degC, {side} the temperatures of the data, "
+        f"{cold:.4g} to {warm:.4g} degC: the shift is extrapolated."
     )
 
 

@@ -12,6 +12,7 @@ from matplotlib.figure import Figure
 from rollnip.dma.fit import DmaFit
 from rollnip.dma.quality import relative_deviations
 from rollnip.dma.timefit import TimeFit
+from rollnip.figures import MEASURED
 from rollnip.materials import creep_compliance, relaxation_modulus
 from rollnip.plots.style import FULL, Look, Style, label, page, palette_of, prepare
 
@@ -70,11 +71,17 @@ def plot_master(fit: DmaFit, ax: Axes | None = None, style: Style | None = None)
     label(
         ax,
         look,
-        f"frequency at {fit.master.reference:g} °C [Hz]",
-        "Young's modulus [MPa]",
+        _at_reference("frequency", fit.master.reference),
+        MEASURED["young_modulus"].axis,
     )
     _legend(ax, look)
     return ax
+
+
+def _at_reference(key: str, reference: float) -> str:
+    """Return the axis of a quantity that is shifted to the reference temperature [degC]."""
+    figure = MEASURED[key]
+    return figure.axis_for(f"{figure.label} at {reference:g} {MEASURED['temperature'].shown_unit}")
 
 
 def plot_time(fit: TimeFit, style: Style = "light") -> Figure:
@@ -103,8 +110,8 @@ def plot_time(fit: TimeFit, style: Style = "light") -> Figure:
         label="measured",
     )
     ax.loglog(grid, curve, color=colours.ink, linewidth=0.7 * look.line, label="material")
-    name = "creep compliance [1/MPa]" if creeps else "relaxation modulus [MPa]"
-    label(ax, look, f"time at {fit.master.reference:g} °C [s]", name)
+    name = MEASURED["creep_compliance" if creeps else "relaxation_modulus"].axis
+    label(ax, look, _at_reference("duration", fit.master.reference), name)
     _legend(ax, look)
     return figure
 
@@ -134,7 +141,7 @@ def plot_shifts(fit: DmaFit, ax: Axes | None = None, style: Style | None = None)
         )
     else:
         ax.plot(master.temperatures, master.horizontal, "o", color=colours.shear, label="isotherms")
-    label(ax, look, "temperature [°C]", "$\\log_{10}\\,a_T$")
+    label(ax, look, MEASURED["temperature"].axis, "$\\log_{10}\\,a_T$")
     _legend(ax, look)
     return ax
 
@@ -161,7 +168,7 @@ def plot_phase(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) 
             markerfacecolor="none",
             markeredgewidth=look.thin,
         )
-    label(ax, look, "|E*| [MPa]", "phase [degrees]")
+    label(ax, look, MEASURED["complex_modulus"].axis, MEASURED["phase"].axis)
     ax.set_title(
         f"darkest: {warm:.0f} °C, lightest: {cold:.0f} °C"
         if look.palette is palette_of("light")
@@ -194,7 +201,8 @@ def plot_deviation(fit: DmaFit, ax: Axes | None = None, style: Style | None = No
             label=f"{name}, {100.0 * rms:.2g} % rms",
         )
     ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
-    label(ax, look, f"frequency at {fit.master.reference:g} °C [Hz]", "deviation [%]")
+    across = _at_reference("frequency", fit.master.reference)
+    label(ax, look, across, MEASURED["deviation"].axis)
     # Points are everywhere: what they are stands above them.
     _legend(ax, look, above=True)
     return ax

@@ -10,7 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._blas import one_blas_thread
-from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
+from rollnip._errors import (
+    ConvergenceError,
+    InvalidInputError,
+    require_instance,
+    require_positive,
+)
 from rollnip.face.checks import REPORTED, checked
 from rollnip.face.covering import CoveringAxis, axes_of, covers
 from rollnip.face.lattice import Lattice, cells_at, cells_of
@@ -97,6 +102,9 @@ def solve_face(
         where a cross-section or the balance cannot be solved.
     """
     model = Model() if model is None else model
+    require_instance("nip", nip, Nip)
+    require_instance("face", face, Face)
+    require_instance("model", model, Model)
     _require_plain(nip, face)
     problem = face_problem(nip, face, _PLACES, require_positive("stiffness", stiffness))
     if nip.sheet is not None:

@@ -131,6 +131,8 @@ class FiniteResponse:
         V at which the covering passes [mm/s]; needed for viscoelastic layers alone.
     start :
         an equilibrium of a covering much like this one; it counts where it has as many elements.
+    kept :
+        share of all these wave numbers, those under a thin skin too.
     """
 
     def __init__(
@@ -141,11 +143,12 @@ class FiniteResponse:
         cut: float = CUT,
         speed: float | None = None,
         start: Equilibrium | None = None,
+        kept: float = 1.0,
     ) -> None:
         self._linear = linear
         self._speed = self._speed_now = speed
         self._depths = Depths.of(roller, half_width)
-        self._cut = cut
+        self._cut, self._kept = cut, kept
         self._columns = Columns.of(roller, half_width)
         self._near = _NEAR * half_width
         if roller.curvature > 0.0:
@@ -179,13 +182,13 @@ class FiniteResponse:
             body.speed,
         )
 
-    def _begun(self, start: Equilibrium) -> _Mesh | None:
+    def _begun(self, start: Equilibrium) -> _LoadedMesh | None:
         flat = Body(Strip(self._depths, start.ends), self._speed)
         if flat.strip.size != start.displacement.size:
             return None
         body = flat if self._speed is None else replace(flat, speed=start.speed)
         state = State(start.displacement, start.pressure)
-        return _Mesh(flat, body, state, start.loaded, start.acting)
+        return _LoadedMesh(flat, body, state, start.loaded, start.acting)
 
     def displacement(
         self,
@@ -229,7 +232,7 @@ class FiniteResponse:
         self._made = self._smoothing_for(float(start), float(stop))(self.rough)
         return self._made
 
-    def _beyond_linear(self, mesh: _Mesh, *, roughly: bool) -> tuple[Spline, ...]:
+    def _beyond_linear(self, mesh: _LoadedMesh, *, roughly: bool) -> tuple[Spline, ...]:
         """Return u_x and u_z of an equilibrium beyond those of linear theory."""
         surface = deformed_surface(mesh.body, mesh.state)
         near = np.abs(surface.arcs) < self._near
@@ -242,7 +245,7 @@ class FiniteResponse:
     def _smoothing_for(self, start: float, stop: float) -> Smoothing:
         """Return the smoothing for a contact; the same while the contact is about the same."""
         half, middle = 0.5 * (stop - start), 0.5 * (start + stop)
-        cut = self._share_kept * max(self._cut / half, self._columns.cut)
+        cut = self._kept * self._share_kept * max(self._cut / half, self._columns.cut)
         given, last = np.array([middle, half, 1.0 / cut]), self._smoothed_for
         sizes = np.array([half, half, 1.0 / cut])
         if last is None or np.any(np.abs(given - last) > _SAME_SIZE * sizes):
@@ -251,7 +254,7 @@ class FiniteResponse:
         assert self._smoothing is not None
         return self._smoothing
 
-    def _off_in_linear_theory(self, mesh: _Mesh, x: Array, arcs: Array) -> Array:
+    def _off_in_linear_theory(self, mesh: _LoadedMesh, x: Array, arcs: Array) -> Array:
         """Return by how much the elements are off in linear theory, (2, n).
 
         Under the tractions on the material that they act on now: the elements are loaded as at
@@ -268,7 +271,7 @@ class FiniteResponse:
         made -= moved.linear_displacement(self._linear, arcs)
         return made
 
-    def _solved(self, places: Array, loaded: slice, acting: Acting) -> _Mesh | None:
+    def _solved(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh | None:
         """Return the equilibrium, on the mesh of the last tractions if these were about here.
 
         None where there is no equilibrium but there was one under the last tractions. Of the first
@@ -279,7 +282,7 @@ class FiniteResponse:
         except NoEquilibriumError:
             return None if self._mesh is not None else self._lightly(places, loaded, acting)
 
-    def _lightly(self, places: Array, loaded: slice, acting: Acting) -> _Mesh:
+    def _lightly(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
         """Return an equilibrium under a share of the first tractions."""
         while self.share > _LEAST_SHARE:
             self.share *= 0.5
@@ -289,7 +292,7 @@ class FiniteResponse:
                 continue
         raise NoEquilibriumError
 
-    def _partly(self, acting: Acting) -> _Mesh:
+    def _partly(self, acting: Acting) -> _LoadedMesh:
         """Return an equilibrium with only a share of the step from the last tractions to these."""
         last = self._mesh
         assert last is not None
@@ -304,7 +307,7 @@ class FiniteResponse:
             return replace(last, state=state, acting=mixed)
         raise NoEquilibriumError
 
-    def _solved_now(self, places: Array, loaded: slice, acting: Acting) -> _Mesh:
+    def _solved_now(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
         """Return the equilibrium under these tractions."""
         last, tractions = self._mesh, acting.tractions
         stays = self._loosely * _STAYS * float(np.ptp(places[loaded]))
@@ -320,13 +323,13 @@ class FiniteResponse:
             state = flat.linear_state(arcs.tractions, self._left)
         for _ in range(_MOST_MESHES):
             state = body.equilibrium(tractions, state, STILL, _SHARE)
-            mesh = _Mesh(flat, body, state, loaded, acting)
+            mesh = _LoadedMesh(flat, body, state, loaded, acting)
             if mesh.is_near(places[loaded], None, stays):
                 break
             flat, body, state = self._moved(mesh, places, loaded)
         return mesh
 
-    def _moved(self, mesh: _Mesh, places: Array, loaded: slice) -> tuple[Body, Body, State]:
+    def _moved(self, mesh: _LoadedMesh, places: Array, loaded: slice) -> tuple[Body, Body, State]:
         """Return a mesh whose loaded columns come to lie at their places, with a state."""
         surface = deformed_surface(mesh.body, mesh.state)
         strip, state = mesh.body.strip, mesh.state
@@ -357,7 +360,7 @@ class FiniteResponse:
 
 
 @dataclass(frozen=True)
-class _Mesh:
+class _LoadedMesh:
     """A mesh in equilibrium: as it is in linear theory, at finite strain, and its tractions."""
 
     flat: Body

@@ -9,7 +9,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._errors import InvalidInputError
+from rollnip._errors import InvalidInputError, require_instance
 from rollnip.cooling import HeatBalance, PassingSheet
 from rollnip.heat.conduction import Conduction, Sources
 from rollnip.heat.grid import RadialGrid, roller_grid
@@ -217,10 +217,8 @@ def _passing(nip: Nip, heat: HeatBalance) -> PassingSheet | None:
 
 
 def _check(nip: Nip, heat: HeatBalance) -> None:
-    if not isinstance(nip, Nip):
-        raise InvalidInputError(f"`nip` must be a Nip, got a {type(nip).__name__}.")
-    if not isinstance(heat, HeatBalance):
-        raise InvalidInputError(f"`heat` must be a HeatBalance, got {heat!r}.")
+    require_instance("nip", nip, Nip)
+    require_instance("heat", heat, HeatBalance)
     if nip.speed is None:
         raise InvalidInputError("`speed` must be given for a heat balance, got None.")
     if nip.has_profile:

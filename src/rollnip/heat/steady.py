@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -13,6 +13,7 @@ from rollnip.cooling import HeatBalance
 from rollnip.heat.amplitude import RunawayError, from_cold
 from rollnip.heat.anderson import settle
 from rollnip.heat.follow import Branch, follow
+from rollnip.heat.reservations import of_whole_layers
 from rollnip.heat.solution import HeatSolution
 from rollnip.heat.state import SIDES, HeatProblem, Parameter, ThermalState
 from rollnip.heat.warm import Divided, follows
@@ -235,10 +236,9 @@ def is_stable(thermal: HeatProblem, state: ThermalState, cut: Divided) -> bool:
 def _wrapped(
     thermal: HeatProblem, cold: ThermalState, course: _Course, stable: bool | None
 ) -> HeatSolution:
-    state, model = course.state, thermal.model
-    # Sub-layers are no materials of the user's: what is said of them is said of the cold layers.
-    whole = course.cut.count == thermal.whole().count
-    reservations = (state if whole else cold).solution.warnings
+    model, warm = thermal.model, course.state.solution
+    reservations = of_whole_layers(warm.warnings, cold.solution.warnings, course.cut)
+    state = replace(course.state, solution=replace(warm, warnings=reservations))
     error = max(course.left, course.fine)
     converged, status = False, course.why
     if course.settled:

@@ -8,6 +8,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rollnip.figure import axis_label
+from rollnip.figures import FIGURES, PROFILES
 from rollnip.identification.result import Fit, FittedSet
 from rollnip.plots.style import Look, Style, label, page, palette_of, prepare
 
@@ -90,7 +92,7 @@ def plot_set(
         linewidth=1.5 * look.thin,
         label="measured, ± 2 standard errors",
     )
-    label(ax, look, _named(one.against), f"{one.quantity}{_unit(one)}")
+    label(ax, look, _named(one.against), axis_label(one.quantity, one.unit))
     ax.set_title(one.name, loc="left", fontsize=look.size, color=colours.ink, parse_math=False)
     ax.legend(frameon=False, fontsize=look.small, labelcolor=colours.ink, loc="best")
     return ax
@@ -122,17 +124,13 @@ def _label_residuals(ax: Axes, look: Look, one: FittedSet) -> None:
 
 def _named(path: str) -> str:
     """An axis for a path: its last key in words, with the base unit where it is one of [nip]."""
-    units = {
-        "nip.load": "N/mm",
-        "nip.approach": "mm",
-        "nip.traction": "N/mm",
-        "nip.torque_lower": "N",
-        "nip.speed": "mm/s",
-        "x": "mm",
+    figures = {
+        "nip.load": FIGURES["load"],
+        "nip.approach": FIGURES["approach"],
+        "nip.traction": FIGURES["traction"],
+        "nip.torque_lower": FIGURES["torque_lower"],
+        "nip.speed": PROFILES["speed_upper"],
+        "x": PROFILES["x"],
     }
     name = path.rpartition(".")[2].replace("_", " ")
-    return f"{name} [{units[path]}]" if path in units else name
-
-
-def _unit(one: FittedSet) -> str:
-    return f" [{one.unit}]" if one.unit else ""
+    return axis_label(name, figures[path].unit) if path in figures else name

@@ -8,6 +8,8 @@ G itself, averaged over the hat, is taken: int G(x - s) hat(s) ds = h (G(x - h) 
 
 from __future__ import annotations
 
+from math import factorial, log
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -15,10 +17,16 @@ from rollnip.influence.kernel import Kernel
 
 Array = NDArray[np.float64]
 
-# Spacings within which second differences are taken. There either way errs by some 1e-8 of G: the
-# differences by the 1e-11 of the table times the square of this number, the average by
-# 6/240 of its inverse fourth power (G goes as ln x).
-_NEAR_NODES = 32
+
+def _near_nodes(kernel: Kernel) -> float:
+    """Return the number of spacings within which second differences are taken.
+
+    At n spacings both ways err alike. The average misses 6/240 n^-4 of G, which goes as ln x. The
+    differences miss n^2 times what the table misses, a polynomial of degree 5 through values,
+    slopes and second derivatives at steps h of ln x: h^6/(2^6 6!) of it.
+    """
+    step = log(2.0) / kernel.points_per_octave
+    return float((6.0 / 240.0 * 2.0**6 * factorial(6)) ** (1.0 / 6.0) / step)
 
 
 def grid_displacements(kernel: Kernel, spacing: float, count: int) -> Array:
@@ -35,7 +43,7 @@ def grid_displacements(kernel: Kernel, spacing: float, count: int) -> Array:
     (2 count - 1,) [mm/MPa], nothing but the convolution kernel of `displacement_matrix`.
     """
     step = np.arange(1.0 - count, count)
-    x, near = spacing * step, np.abs(step) <= _NEAR_NODES
+    x, near = spacing * step, np.abs(step) <= _near_nodes(kernel)
     out = np.empty(x.size)
     integral, value, inside, outside = kernel.double_integral, kernel.value, x[near], x[~near]
     out[near] = (
@@ -54,7 +62,7 @@ def grid_strains(kernel: Kernel, spacing: float, count: int) -> Array:
     means of G over a spacing, each by Simpson's rule.
     """
     step = np.arange(1.0 - count, count)
-    x, near = spacing * step, np.abs(step) <= _NEAR_NODES
+    x, near = spacing * step, np.abs(step) <= _near_nodes(kernel)
     out = np.empty(x.size)
     integral, value, inside, outside = kernel.integral, kernel.value, x[near], x[~near]
     out[near] = (

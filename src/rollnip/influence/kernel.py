@@ -21,10 +21,24 @@ Indices = NDArray[np.intp]
 
 _POINTS_PER_OCTAVE = 8  # of a table; panels in an octave of wave numbers are as many at most
 _NODES = 14  # of a panel
-TOLERANCE = 1e-7
-"""Unresolved part of a compliance that a table leaves, relative to the largest."""
-MOST_OCTAVES = 40
-"""Octaves of length, and of wave numbers below them, that a table covers at most."""
+
+
+def _left_between_points(per_octave: int) -> float:
+    """Return what a table of quintic polynomials leaves of a second derivative, from which G comes.
+
+    Through values, slopes and second derivatives at steps h of ln|x| they leave h^4/1920 times the
+    sixth derivative.
+    """
+    return float((log(2.0) / per_octave) ** 4 / 1920.0)
+
+
+TOLERANCE = _left_between_points(_POINTS_PER_OCTAVE)
+"""Unresolved part of a compliance that a table leaves, relative to the largest: no less."""
+MOST_OCTAVES = int(np.finfo(float).nmant)
+"""Octaves of length, and of wave numbers below them, that a table covers at most.
+
+Shorter lengths are rounding of the longest.
+"""
 
 
 @dataclass(frozen=True, slots=True)

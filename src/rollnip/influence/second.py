@@ -29,7 +29,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import isinf, pi, sqrt
+from math import isinf, log, pi, sqrt
 
 import numpy as np
 from scipy.fft import next_fast_len
@@ -39,13 +39,12 @@ from rollnip.influence._spline import EvenSpline, even_splines
 from rollnip.influence._weights import ComplexArray, gauss_legendre
 from rollnip.influence.kernel import Array
 from rollnip.influence.surface import moduli
+from rollnip.model import Model
 from rollnip.rollers import Roller
 
 _SIZES_PER_OCTAVE = 4  # half-widths that have a table
 _LARGEST_WAVE_NUMBER = 16.5  # in pi per half-width; beyond, terms are not of second order
 _POINTS_PER_HALF_WIDTH = 18.0  # of the grid on which fields at depth are multiplied
-_SURFACE_POINTS_PER_POINT = 2  # of that grid: the surface is interpolated
-_WINDOW_REACH = 6.0  # of the window beyond the contact, in lengths over which the layers spread
 _LARGEST_SPREAD = 3.0  # such a length that counts at most, in half-widths
 _DEPTHS_PER_FOLD = 3.0  # depths for each fold of e in depth, and in every layer for one more
 
@@ -257,9 +256,7 @@ def second_table(roller: Roller, speed: float | None, size: float) -> SecondResp
     As it stands it is fitted to the smallest of them.
     """
     x = _grid(roller, size)
-    k = np.asarray(
-        pi / -x[0] * np.arange(x.size // (2 * _SURFACE_POINTS_PER_POINT) + 1), dtype=float
-    )
+    k = np.asarray(pi / -x[0] * np.arange(x.size // 4 + 1), dtype=float)
     z, weight, owner = _depths(roller, size)
     poisson = np.array([layer.material.poisson for layer in roller.layers])[owner]
     young = np.array([moduli(layer.material, _positive(k), speed) for layer in roller.layers])
@@ -289,17 +286,17 @@ def second_table(roller: Roller, speed: float | None, size: float) -> SecondResp
 def _grid(roller: Roller, size: float) -> Array:
     """Even grid around the contact, long enough for what the layers let spread, or a full turn.
 
-    It is fine enough for the smallest contact of a table, ``size``, and long enough for the
-    largest.
+    It is fine enough for the smallest contact of a table, ``size``, and at the surface twice as
+    fine as at depth, for products of two waves are half as long. It is long enough for the largest:
+    fields have decayed to the default tolerance.
     """
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
-    window = 2.0 * (largest + _WINDOW_REACH * _spread(roller, size))
+    window = 2.0 * (largest - log(Model().tolerance) * _spread(roller, size))
     step = size / _POINTS_PER_HALF_WIDTH
     turn = 2.0 * pi * roller.radius
     half = int(next_fast_len(int(np.ceil(0.5 * min(window, turn) / step)), real=True))
-    step = min(step, 0.5 * turn / half) / _SURFACE_POINTS_PER_POINT
-    half *= _SURFACE_POINTS_PER_POINT
-    return np.asarray(step * np.arange(-half, half), dtype=float)
+    step = min(step, 0.5 * turn / half)
+    return np.asarray(0.5 * step * np.arange(-2 * half, 2 * half), dtype=float)
 
 
 def _spread(roller: Roller, size: float) -> float:

@@ -11,6 +11,7 @@ from rollnip._results.case import problem_hash
 from rollnip.cooling import HeatBalance
 from rollnip.io.build import Builder
 from rollnip.io.document import folder_of, read_document, tree_of
+from rollnip.io.kinds import require_kind
 from rollnip.io.messages import checked_form, refuse, wrong_controls
 from rollnip.io.tables import TABLES, CaseTable
 from rollnip.model import Model
@@ -102,4 +103,5 @@ def _checked(tree: dict[str, Any], source: str) -> CaseTable:
             "patch: is a table of cases in three dimensions; use `rollnip solve` or `rollnip patch`"
         )
         refuse(source, [f"{line}, in Python `rn.read_patch_case`."])
+    require_kind(tree, source, "case")
     return checked_form(tree, source, CaseTable, TABLES, wrong_controls(tree))

@@ -8,6 +8,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field
 
 from rollnip.io.forms import FileTable, Ratio
+from rollnip.io.kinds import require_kind
 from rollnip.io.messages import checked_form
 
 
@@ -146,9 +147,11 @@ _TOLERANCE: dict[str, type[FileTable]] = {
 
 def parse_optimise(tree: Mapping[str, Any], source: str) -> OptimiseTable:
     """Check the form. Raises CaseFileError, one line for each error."""
+    require_kind(tree, source, "optimise")
     return checked_form(tree, source, OptimiseTable, _OPTIMISE)
 
 
 def parse_tolerance(tree: Mapping[str, Any], source: str) -> ToleranceTable:
     """Check the form. Raises CaseFileError, one line for each error."""
+    require_kind(tree, source, "tolerance")
     return checked_form(tree, source, ToleranceTable, _TOLERANCE)

@@ -16,6 +16,8 @@ from rollnip._reading import UnreadableError, read_regular
 
 LARGEST = 1_000_000  # bytes; a case file has some thousand
 _DEEPEST = 32  # dots in a key; a case file has three
+_AT_LINE = re.compile(r"at line (\d+)")
+_COMMA = re.compile(r"(?<==)\s*([+-]?\d+),(\d+)")
 _SIGNS = re.compile(r"""(?<=[\w"'-])[ \t]*\.|[^.\w"' \t-]""")  # a dot in a key, or what ends keys
 
 
@@ -48,7 +50,8 @@ def parse_document(text: str, name: str) -> dict[str, Any]:
         raise CaseFileError(f"{name}: is nested too deeply for a case file.") from None
     except ValueError as error:
         kind = "JSON" if is_json else "TOML"
-        raise CaseFileError(f"{name}: is not valid {kind}: {_one_line(error)}.") from None
+        hint = "" if is_json else _comma_hint(text, str(error))
+        raise CaseFileError(f"{name}: is not valid {kind}: {_one_line(error)}{hint}.") from None
     if not isinstance(tree, dict):
         raise CaseFileError(f"{name}: must hold a table (an object), got {type(tree).__name__}.")
     return tree
@@ -107,6 +110,19 @@ def _json(text: str) -> Any:
         return tree
 
     return json.loads(text, object_pairs_hook=table)
+
+
+def _comma_hint(text: str, message: str) -> str:
+    """Return what to write where the line that a message names holds a bare decimal comma."""
+    place = _AT_LINE.search(message)
+    lines = text.splitlines()
+    if place is None or int(place[1]) > len(lines):
+        return ""
+    number = _COMMA.search(lines[int(place[1]) - 1])
+    if number is None:
+        return ""
+    whole, part = number.groups()
+    return f'; write {whole}.{part}, or a text with its unit, such as "{whole},{part} mm"'
 
 
 def _one_line(error: ValueError) -> str:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._errors import require_instance
 from rollnip._files import check_target, write_whole
 from rollnip.figures import FIELDS, INTERFACE_FIGURES, PROFILES
 from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
@@ -58,6 +59,9 @@ def write_fields(solution: Solution, path: str | Path) -> None:
         where the ending is another, the extra is missing, or the file cannot be written; a file
         of that name stays as it was.
     """
+    from rollnip.solution import Solution  # loading it takes time that a schema does not need
+
+    require_instance("solution", solution, Solution, "; give what `solve` returned")
     target = Path(path)
     check_fields_target(target)
     sections = _sections(solution)

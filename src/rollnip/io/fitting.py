@@ -8,6 +8,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field
 
 from rollnip.io.forms import FileTable, Length, Ratio
+from rollnip.io.kinds import require_kind
 from rollnip.io.messages import checked_form
 
 Kind = Literal[
@@ -102,4 +103,5 @@ def parse_fit(tree: Mapping[str, Any], source: str) -> FitTable:
     CaseFileError
         one line for each error, with the name of the file and the path of the key.
     """
+    require_kind(tree, source, "fit")
     return checked_form(tree, source, FitTable, _TABLES)

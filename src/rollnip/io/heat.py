@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rollnip._errors import require_instance
 from rollnip.io.result import result_text, write_result
 
 if TYPE_CHECKING:
@@ -39,6 +40,9 @@ def write_heat(
         where the ending is another, the extra is missing, or the file cannot be written; a file
         of that name stays as it was.
     """
+    from rollnip.heat import HeatSolution  # loading it takes time that a schema does not need
+
+    require_instance("solution", solution, HeatSolution, "; give what `solve_heat` returned")
     write_result(solution.warm, path, _parts(solution, course, branch))
 
 

@@ -16,6 +16,10 @@ from rollnip.io.tables import TABLES, CaseTable
 
 _CONTROLS = (("load", "approach"), ("traction", "creepage", "torque_lower"))
 _NAMED = re.compile(r"`(\w+)([^`]*)` (.*)", re.DOTALL)
+_INSTEAD = {
+    "nip.friction": "; give a coefficient such as 0.5 (0: frictionless); only a sheet with "
+    "`friction_upper` and `friction_lower` of its own does without"
+}
 _MOST_ERRORS = 20
 T = TypeVar("T", bound=FileTable)
 _WORDS = {
@@ -98,7 +102,7 @@ def form_error(
     kind, context = details["type"], details.get("ctx", {})
     path, got = _path(details["loc"]), shown(details["input"])
     if kind == "missing":
-        return f"{path}: is missing."
+        return f"{path}: is missing{_INSTEAD.get(path, '')}."
     if kind == "extra_forbidden":
         return f"{path}: is not a known key{_suggestion(details['loc'], tables, root)}"
     if kind == "quantity":

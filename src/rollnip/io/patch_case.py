@@ -12,6 +12,7 @@ from rollnip._errors import InvalidInputError, RollnipError
 from rollnip.io.build import Builder
 from rollnip.io.case import Case, built_case
 from rollnip.io.document import folder_of, read_document, tree_of
+from rollnip.io.kinds import require_kind
 from rollnip.io.messages import checked_form, more_than_one, placed, refuse
 from rollnip.io.profile import read_profile
 from rollnip.io.tables import CaseTable, NipTable, RollerTable
@@ -100,6 +101,7 @@ def patch_hash(case: PatchCase) -> str:
 
 
 def _built(tree: dict[str, Any], source: str, folder: Path | None) -> PatchCase:
+    require_kind(tree, source, "case")
     if "patch" not in tree:
         refuse(source, ["patch: is missing; add a table [patch], it may be empty."])
     table = checked_form(tree, source, PatchCaseTable, PATCH_TABLES)

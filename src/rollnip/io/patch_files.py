@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from rollnip._errors import require_instance
 from rollnip._files import check_target, write_whole
 from rollnip.figures import FIELDS, INTERFACE_FIGURES
 from rollnip.io.netcdf import require_netcdf, write_netcdf
@@ -49,6 +50,7 @@ def write_patch(solution: PatchSolution, path: str | Path) -> None:
         where the ending is another, the extra is missing, or the file cannot be written; a file
         of that name stays as it was.
     """
+    require_instance("solution", solution, PatchSolution, "; give what `solve_patch` returned")
     target = Path(path)
     check_patch_target(target)
     if target.suffix.lower() == ".json":

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from rollnip._errors import require_instance
 from rollnip._files import check_target, write_whole
 from rollnip._results.tree import result_dict
 from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
@@ -45,9 +46,12 @@ def write_result(
     Raises
     ------
     RollnipError
-        where the ending is another, the extra is missing, or the file cannot be written; a file
-        of that name stays as it was.
+        where ``solution`` is of another kind, the ending is another, the extra is missing, or the
+        file cannot be written; a file of that name stays as it was.
     """
+    from rollnip.solution import Solution  # loading it takes time that a schema does not need
+
+    require_instance("solution", solution, Solution, "; give what `solve` returned")
     target = Path(path)
     check_result_target(target)
     if target.suffix.lower() == ".nc":

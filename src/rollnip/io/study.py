@@ -8,6 +8,7 @@ from typing import Any, Literal
 from pydantic import ConfigDict, Field
 
 from rollnip.io.forms import FileTable
+from rollnip.io.kinds import require_kind
 from rollnip.io.messages import checked_form
 
 
@@ -57,4 +58,5 @@ def parse_study(tree: Mapping[str, Any], source: str) -> StudyTable:
     CaseFileError
         one line for each error, with the name of the file and the path of the key.
     """
+    require_kind(tree, source, "sweep")
     return checked_form(tree, source, StudyTable, _TABLES)

@@ -81,9 +81,41 @@ class Viscoelastic(Material):
         return self.shift.level(self.temperature)
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class _ZenerSolid(Viscoelastic):
+    """A solid that relaxes from one modulus to another in one relaxation time."""
+
+    modulus: float
+    stiffening: float
+    relaxation_time: float
+
+    def __post_init__(self) -> None:
+        _check_shared(self)
+        object.__setattr__(self, "modulus", checked_modulus("modulus", self.modulus))
+        stiffening = checked_stiffening("stiffening", self.stiffening)
+        object.__setattr__(self, "stiffening", stiffening)
+        time = checked_time("relaxation_time", self.relaxation_time)
+        object.__setattr__(self, "relaxation_time", time)
+
+    @property
+    def relaxed_modulus(self) -> float:
+        """E0 at the material's temperature [MPa]."""
+        return self.level * self.modulus
+
+    @property
+    def glassy_modulus(self) -> float:
+        """E0 + k at the material's temperature [MPa]."""
+        return self.level * (self.modulus + self.stiffening)
+
+    @property
+    def relaxation_times(self) -> tuple[float, ...]:
+        """The time tau [s] at the material's temperature."""
+        return (self.shift_factor * self.relaxation_time,)
+
+
 @_HINTS
 @dataclass(frozen=True, slots=True, kw_only=True)
-class StandardLinearSolid(Viscoelastic):
+class StandardLinearSolid(_ZenerSolid):
     """The standard linear solid: sigma + tau dsigma/dt = E0 eps + (E0 + k) tau deps/dt.
 
     E*(s) = E0 + k tau s/(1 + tau s). Under constant strain stress relaxes with the time tau;
@@ -110,38 +142,11 @@ class StandardLinearSolid(Viscoelastic):
     Braat & Kalker (1993), Trans. Eng. Sci. 1, 119-126, eq. 1.
     """
 
-    modulus: float
-    stiffening: float
-    relaxation_time: float
-
-    def __post_init__(self) -> None:
-        _check_shared(self)
-        object.__setattr__(self, "modulus", checked_modulus("modulus", self.modulus))
-        stiffening = checked_stiffening("stiffening", self.stiffening)
-        object.__setattr__(self, "stiffening", stiffening)
-        time = checked_time("relaxation_time", self.relaxation_time)
-        object.__setattr__(self, "relaxation_time", time)
-
     def modulus_at(self, s: ArrayLike) -> NDArray[np.complex128]:
         """E*(s) [MPa], complex array of the shape of ``s`` [1/s]."""
         return np.asarray(
             self.level * (self.modulus + self.stiffening * _maxwell(s, self.relaxation_times[0]))
         )
-
-    @property
-    def relaxed_modulus(self) -> float:
-        """E0 at the material's temperature [MPa]."""
-        return self.level * self.modulus
-
-    @property
-    def glassy_modulus(self) -> float:
-        """E0 + k at the material's temperature [MPa]."""
-        return self.level * (self.modulus + self.stiffening)
-
-    @property
-    def relaxation_times(self) -> tuple[float, ...]:
-        """The time tau [s] at the material's temperature."""
-        return (self.shift_factor * self.relaxation_time,)
 
 
 @_HINTS
@@ -203,7 +208,7 @@ class Prony(Viscoelastic):
 
 @_HINTS
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FractionalZener(Viscoelastic):
+class FractionalZener(_ZenerSolid):
     """The fractional Zener solid: E*(s) = E0 + k (tau s)^m/(1 + (tau s)^m), m the order.
 
     With m = 1 it is the standard linear solid; a smaller m spreads the loss over more decades.
@@ -231,18 +236,10 @@ class FractionalZener(Viscoelastic):
     Bagley & Torvik (1983), AIAA J. 21, 741-748.
     """
 
-    modulus: float
-    stiffening: float
-    relaxation_time: float
     order: float
 
     def __post_init__(self) -> None:
-        _check_shared(self)
-        object.__setattr__(self, "modulus", checked_modulus("modulus", self.modulus))
-        stiffening = checked_stiffening("stiffening", self.stiffening)
-        object.__setattr__(self, "stiffening", stiffening)
-        time = checked_time("relaxation_time", self.relaxation_time)
-        object.__setattr__(self, "relaxation_time", time)
+        _ZenerSolid.__post_init__(self)
         require_positive("order", self.order)
         if self.order > 1.0:
             raise InvalidInputError(f"`order` must lie in (0, 1], got {self.order!r}.")
@@ -252,21 +249,6 @@ class FractionalZener(Viscoelastic):
         """E*(s) [MPa], complex array of the shape of ``s`` [1/s]."""
         fraction = _fractional_maxwell(s, self.relaxation_times[0], self.order)
         return np.asarray(self.level * (self.modulus + self.stiffening * fraction))
-
-    @property
-    def relaxed_modulus(self) -> float:
-        """E0 at the material's temperature [MPa]."""
-        return self.level * self.modulus
-
-    @property
-    def glassy_modulus(self) -> float:
-        """E0 + k at the material's temperature [MPa]."""
-        return self.level * (self.modulus + self.stiffening)
-
-    @property
-    def relaxation_times(self) -> tuple[float, ...]:
-        """The time tau [s] at the material's temperature."""
-        return (self.shift_factor * self.relaxation_time,)
 
 
 @_HINTS

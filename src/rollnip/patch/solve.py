@@ -8,7 +8,12 @@ from math import hypot, inf, sqrt
 import numpy as np
 
 from rollnip._blas import one_blas_thread
-from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
+from rollnip._errors import (
+    ConvergenceError,
+    InvalidInputError,
+    require_instance,
+    require_positive,
+)
 from rollnip.nip import Approach
 from rollnip.patch.coefficients import Grid
 from rollnip.patch.level import Level, solve_level
@@ -70,6 +75,7 @@ def solve_patch(
     ConvergenceError
         where ``strict`` and the tolerance was not met.
     """
+    require_instance("patch", patch, Patch)
     if not 1e-4 <= require_positive("tolerance", tolerance) <= 0.1:
         raise InvalidInputError(f"`tolerance` must lie between 1e-4 and 0.1, got {tolerance!r}.")
     _check_grid(grid)

@@ -8,6 +8,7 @@ from typing import Any
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rollnip.figure import axis_label
 from rollnip.figures import INTERFACE_FIGURES
 from rollnip.heat import Branch, BranchPoint, HeatSolution, WarmUp
 from rollnip.heat.figures import COURSES, ROLLER_FIGURES
@@ -122,7 +123,7 @@ def _course(ax: Axes, course: WarmUp, palette: Palette) -> None:
             label=f"{side}, {ROLLER_FIGURES['surface_temperature'].label}",
         )
     ax.set_xlim(0.0, time[-1])
-    ax.set_xlabel(f"{COURSES['time'].label} [{'min' if long else 's'}]")
+    ax.set_xlabel(axis_label(COURSES["time"].label, "min" if long else COURSES["time"].unit))
     ax.set_ylabel(COURSES["temperature"].axis)
     _legend(ax)
 
@@ -152,7 +153,7 @@ def _branch(ax: Axes, branch: Branch, solution: HeatSolution, palette: Palette) 
     if here is not None and solution.converged:
         hot = max(solution.upper.hot_spot, solution.lower.hot_spot)
         ax.plot(here, hot, "D", color=palette.shear, label="this case")
-    ax.set_xlabel(f"{branch.parameter} [{branch.unit}]")
+    ax.set_xlabel(axis_label(branch.parameter, branch.unit))
     ax.set_ylabel(_HOT.axis)
     _legend(ax)
 

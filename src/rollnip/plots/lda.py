@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rollnip._files import check_target, write_whole
-from rollnip.figures import PROFILES
+from rollnip.figures import MEASURED, PROFILES
 from rollnip.lda import Comparison, Scan, VelocityProfile, detect_bursts
 
 _SUFFIXES = (".png", ".svg", ".pdf")
@@ -72,7 +72,7 @@ def plot_velocity(profile: VelocityProfile, ax: Axes | None = None) -> Axes:
     if profile.speed is not None:
         label = "circumferential speed"
         ax.axhline(profile.speed, color=_GREY, linewidth=0.9, linestyle=":", label=label)
-    return _finished(ax, "velocity v [mm/s]")
+    return _finished(ax, MEASURED["velocity"].axis_for("velocity v"))
 
 
 def plot_record(scan: Scan, ax: Axes | None = None) -> Axes:
@@ -104,9 +104,10 @@ def plot_record(scan: Scan, ax: Axes | None = None) -> Axes:
         )  # fmt: skip
     ax.set_ylim(-1.1 * top, 1.6 * top)
     ax.set_xlim(0.0, time[-1])
-    ax.set_xlabel("time [ms]")
+    ax.set_xlabel(MEASURED["record_time"].axis)
     ax.set_ylabel("signal / noise (standard deviation)")
-    ax.set_title("SIMULATED bursts; validated ones with velocity [mm/s]", loc="left", size="medium")
+    shown = MEASURED["velocity"].axis
+    ax.set_title(f"SIMULATED bursts; validated ones with {shown}", loc="left", size="medium")
     return ax
 
 

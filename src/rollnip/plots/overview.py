@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from rollnip._results.summary import line
 from rollnip._units import format_quantity
-from rollnip.figures import FIGURES, INTERFACE_FIGURES, PULL
+from rollnip.figures import FIGURES, INTERFACE_FIGURES, PROFILES, PULL
 from rollnip.plots.field import plot_field
 from rollnip.plots.pressure import plot_pressure
 from rollnip.plots.section import layer_texts
@@ -175,7 +175,7 @@ def _bond_rows(solution: Solution) -> Iterator[_Row]:
 
 def _roller_rows(name: str, roller: Roller) -> Iterator[_Row]:
     yield _Row(name)
-    yield _number("radius", roller.radius, "mm")
+    yield _number("radius", roller.radius, PROFILES["x"].shown_unit)
     if roller.is_rigid:
         yield _Row("rigid", "")
     texts = [text.replace("\n", ", ") for text in layer_texts(roller)]

@@ -50,12 +50,10 @@ def plot_patch(solution: PatchSolution, *, style: Style = "light") -> Figure:
     )
     along.set_xlabel(_X)
     across.set_xlabel(PATCH_PLACES["y"].axis_for("y, along the axis"))
-    along.set_title(
-        f"along x at y = {solution.y[row]:.3g} mm", loc="left", size=10, color=palette.ink
-    )
-    across.set_title(
-        f"along y at x = {solution.x[column]:.3g} mm", loc="left", size=10, color=palette.ink
-    )
+    for ax, other, fixed in ((along, "y", solution.y[row]), (across, "x", solution.x[column])):
+        way = "x" if other == "y" else "y"
+        said = f"along {way} at {other} = {PATCH_PLACES[other].text(fixed)}"
+        ax.set_title(said, loc="left", size=10, color=palette.ink)
     for ax in figure.axes:
         ax.tick_params(colors=palette.ink)
         for spine in ax.spines.values():

@@ -14,6 +14,7 @@ from matplotlib.patheffects import withStroke
 from numpy.typing import ArrayLike
 
 from rollnip._errors import InvalidInputError
+from rollnip.figures import MEASURED
 from rollnip.plots.arrays import Array, finite_row
 from rollnip.plots.style import Look, Style, label, legend, prepare
 
@@ -178,7 +179,7 @@ def _cumulative(ax: Axes, look: Look, samples: Array) -> Artist:
     other.set_ylim(0.0, 112.0)
     other.set_yticks([0.0, 25.0, 50.0, 75.0, 100.0])
     other.tick_params(colors=look.palette.ink, labelsize=look.small)
-    other.set_ylabel("cumulative [%]", fontsize=look.size, color=look.palette.ink)
+    other.set_ylabel(MEASURED["cumulative"].axis, fontsize=look.size, color=look.palette.ink)
     for spine in other.spines.values():
         spine.set_edgecolor(look.palette.muted)
     return line

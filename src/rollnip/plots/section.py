@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.figure import Figure
-from rollnip.figures import FIELDS
+from rollnip.figures import FIELDS, PROFILES
 from rollnip.materials import Material
 from rollnip.rollers import Roller
 from rollnip.solution import Solution
@@ -48,7 +48,7 @@ class FieldComponent:
 
     @property
     def label(self) -> str:
-        """Its name, with its key where that is its symbol, and the unit."""
+        """Name of the component, with its key where that is its symbol, and the unit."""
         name = self.upwards or self.figure.label
         return self.figure.axis_for(f"{name}, {self.figure.key}" if self.figure.symbol else name)
 
@@ -165,7 +165,8 @@ def _rows(above: float, below: float, deepest: float) -> Array:
 
 def layer_texts(roller: Roller) -> list[str]:
     """Thickness and moduli of each layer, and of a half-space core."""
-    texts = [f"{layer.thickness:g} mm\n{_modulus(layer.material)}" for layer in roller.layers]
+    unit = PROFILES["x"].shown_unit
+    texts = [f"{layer.thickness:g} {unit}\n{_modulus(layer.material)}" for layer in roller.layers]
     return texts if roller.core is None else [*texts, f"core\n{_modulus(roller.core)}"]
 
 
@@ -173,9 +174,10 @@ def _modulus(material: Material) -> str:
     """Relaxed and glassy modulus, and the strain energy where one was given."""
     further = "" if material.energy is None else f", {type(material.energy).__name__}"
     relaxed, glassy = material.relaxed_modulus, material.glassy_modulus
+    unit = PROFILES["pressure"].shown_unit
     if material.is_elastic or not isfinite(glassy) or not relaxed < glassy:
-        return f"{_plain(relaxed)} MPa{further}"
-    return f"{_plain(relaxed)} to {_plain(glassy)} MPa{further}"
+        return f"{_plain(relaxed)} {unit}{further}"
+    return f"{_plain(relaxed)} to {_plain(glassy)} {unit}{further}"
 
 
 def _plain(value: float) -> str:

@@ -289,8 +289,13 @@ def text_width(text: str, size: float) -> float:
 
 
 def _legend_width(widths: list[float], columns: int, size: float) -> float:
-    """Width of a legend filled column by column [pt]; 4.8: handle and the spaces beside it."""
-    return sum(float(part.max()) + 4.8 * size for part in np.array_split(widths, columns))
+    """Width of a legend filled column by column [pt].
+
+    4.8: handle and the spaces beside it; 0.8: what the last column has less than that, but for
+    the room around all.
+    """
+    full = sum(float(part.max()) + 4.8 * size for part in np.array_split(widths, columns))
+    return full - 0.8 * size
 
 
 def shade(ax: Axes, look: Look, solution: Solution) -> list[Artist]:

@@ -3,7 +3,7 @@
 from rollnip.rolling.assemble import stretch_excess, surface_depths
 from rollnip.rolling.beyond import refine_all_orders, with_second_order
 from rollnip.rolling.check import (
-    Fields,
+    PairFields,
     fields_at,
     fine_points,
     slip_velocity,
@@ -11,11 +11,15 @@ from rollnip.rolling.check import (
     surface_strain_in_nip,
 )
 from rollnip.rolling.claims import (
+    ACCEPT_IT,
     WORDS,
     claims,
+    estimated_error_of,
     further_claims,
     left_open,
+    missed,
     verdict,
+    violated,
     worst_error,
 )
 from rollnip.rolling.displacements import Displacements
@@ -45,15 +49,16 @@ from rollnip.rolling.surfaces import (
 )
 
 __all__ = [
+    "ACCEPT_IT",
     "MOST_PRESSED_IN",
     "WORDS",
     "DeformedSurfaces",
     "Displacements",
     "Ended",
-    "Fields",
     "Figures",
     "Further",
     "Nearby",
+    "PairFields",
     "PairKernels",
     "Powers",
     "Profiles",
@@ -62,6 +67,7 @@ __all__ = [
     "Zone",
     "claims",
     "creepage_scale",
+    "estimated_error_of",
     "excess",
     "fields_at",
     "fine_points",
@@ -73,6 +79,7 @@ __all__ = [
     "hoop_curvature",
     "impossible",
     "left_open",
+    "missed",
     "pair_kernels",
     "peak_at",
     "peak_pressure",
@@ -87,6 +94,7 @@ __all__ = [
     "surface_strain",
     "surface_strain_in_nip",
     "verdict",
+    "violated",
     "with_second_order",
     "worst_error",
 ]

@@ -16,7 +16,6 @@ from typing import Generic, Literal, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import Layout, Safeguarded
 from rollnip.finite import NoEquilibriumError, Spline
 from rollnip.influence import KernelCache, SecondResponse
 from rollnip.model import Geometry, Model
@@ -27,15 +26,12 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claims import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, WeightedSum
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
-from rollnip.rolling.free_ends import as_cosines, with_free_ends
+from rollnip.rolling.held import Asked, Stage, anew, begin, solved_next
 from rollnip.rolling.largest import largest
 from rollnip.rolling.nearby import Nearby
-from rollnip.rolling.placing import Placing
-from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import Ended, Round
-from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import STILL, change_of, solve_on_mesh, with_residual
+from rollnip.rolling.turns import change_of, with_residual
 
 Array = NDArray[np.float64]
 _DEPTH = 5  # corrections of which a mean is taken
@@ -44,24 +40,13 @@ MOST_CORRECTIONS = 30  # of the correction and the contact
 _ENOUGH = 0.3  # violation of the contact conditions, or last change, over the tolerance
 SMALL = 0.1  # change of a turn from which it may be the last one
 _LARGEST_RATIO = 0.9  # of changes
-_FAR = 0.1  # change from which a mesh of linear elements is graded anew
-MOST_AFRESH = 10  # turns that are solved from the beginning
+_MOST_AFRESH = 10  # turns that are solved from the beginning
 # Of the wave numbers: with all of them turns may not come to rest beside an edge that slips at
 # strains of two and more. Which cut they need is not known before; what it costs is claimed.
 SHARES_KEPT = (1.0, 0.5, 0.25)
-_COARSE = 24  # elements of the contact while its correction still changes
-NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
-# Change, over the tolerance, from which on the mesh of a bare nip is refined: at once where the
-# correction is moderate, later where a layer is viscoelastic (coarse turns are cheap then) or a
-# skin needs a correction that nearly fits to find its edges.
-_REFINED_FROM = 400.0
-_REFINED_LATER_FROM = 50.0
-_COARSELY = 10.0  # times the tolerance
-_COARSEST = 1e-2  # at most
 # Tolerance that nips with a stiff skin are solved to at least: violations of the contact conditions
 # by 0.007 of the approach have changed the peak of pressure beside an edge by a half.
 UNDER_SKINS = 1e-3
-_OFF = 0.01  # of the width of the contact: how far a correction moves the ends of zones, about
 
 
 def with_second_order(
@@ -93,40 +78,25 @@ def refine_all_orders(
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
-    latest = _coarse(nip, model, kernels, half_width)
-    is_refined = latest is None
-    if latest is None:
-        latest = refine(nip, model, kernels, half_width)
-        is_refined = latest.mesh.fine.values is not None
+    latest, stage = begin(nip, model, kernels, half_width)
     ended: Ended | None = None
     if latest.stands_still and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
         begun = None if near is None else near.begun(nip, model, kernels, half_width)
         if near is not None and begun is not None:
             orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)
-            found = _turns(nip, model, *begun, orders, is_refined=True)
+            found = _turns(nip, model, *begun, orders, Stage.REFINED)
             if not isinstance(found, Ended):
                 return found
         for share in SHARES_KEPT:
             orders = AllOrders.of(nip, kernels, half_width, strain, share)
-            found = _turns(nip, model, kernels, latest, orders, is_refined=is_refined)
+            found = _turns(nip, model, kernels, latest, orders, stage)
             if not isinstance(found, Ended):
                 return found
             ended = found
             if ended.cause == "balance" and ended.turns == 0:
                 break  # the tractions to begin with have none, whatever waves are kept
     return kernels, replace(latest, stands_still=False, ended=ended)
-
-
-def _coarse(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round | None:
-    """Return a contact on a coarse mesh with free ends; None where there is none."""
-    placing = Placing(nip, coarsely(model), kernels)
-    try:
-        stand = placing.guessed(Layout.sticking(half_width), _COARSE)
-        placed = None if stand is None else placing.placed(stand, _COARSE, known=False)
-    except np.linalg.LinAlgError:
-        return None
-    return None if placed is None else placed.before
 
 
 @dataclass
@@ -203,8 +173,7 @@ def _turns(
     kernels: PairKernels,
     latest: Round,
     orders: AllOrders,
-    *,
-    is_refined: bool,
+    stage: Stage,
 ) -> tuple[PairKernels, Round] | Ended:
     """Solve the contact and evaluate its correction in turns.
 
@@ -216,19 +185,17 @@ def _turns(
     least = Least[tuple[PairKernels, Round]](enough=_ENOUGH)
     turns = 0
     cause: Literal["balance", "contact", "turns"] = "turns"
-    waits = nip.is_viscoelastic or skin_thickness(nip) > 0.0
-    moderate = _REFINED_LATER_FROM if waits else _REFINED_FROM
     for turn in range(MOST_CORRECTIONS):
-        is_coarse = not is_refined and latest.mesh.fine.values is not None
         try:
-            made, is_whole = orders.beyond(latest, roughly=is_coarse)
+            roughly = stage is Stage.COARSE and latest.is_placed
+            made, is_whole = orders.beyond(latest, roughly=roughly)
         except NoEquilibriumError:
             cause, turns = "balance", turn
             break
         turns = turn + 1
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
-        if is_refined and change < SMALL and is_whole:
+        if stage is Stage.REFINED and change < SMALL and is_whole:
             checked = with_residual(nip, model, smooth, _with(latest, smooth))
             checked = replace(checked, geometry_change=largest(change, latest.geometry_change))
             checked = replace(checked, stands_still=True)
@@ -240,55 +207,20 @@ def _turns(
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
         near = min(change, to_come_after(change, before)) / model.tolerance
-        if not is_refined and is_whole and near <= (moderate if is_coarse else 1.0):
-            found, is_refined = _refined(nip, model, mixed, latest), True
-            past = Past(places_by_the_edges(_edges(latest)))
-        else:
-            asked = coarsely(model) if is_coarse else model
-            found = _solved_again(nip, asked, mixed, latest, change)
-        if not found.stands_still and afresh < MOST_AFRESH:
+        was, asked = stage, Asked(change, near if is_whole else inf)
+        found, stage = solved_next(nip, model, mixed, latest, stage, asked)
+        if not found.stands_still and stage is not Stage.FINE and afresh < _MOST_AFRESH:
             afresh += 1
-            kernels, found = _anew(nip, model, (mixed, smooth), latest, is_coarse=is_coarse)
-            is_cubic = found.mesh.fine.values is not None
-            is_refined = is_refined or (found.residual < inf and is_cubic)
+            kernels, found, stage = anew(nip, model, (mixed, smooth), latest, stage)
         if not found.stands_still:
             cause = "contact"
             break
+        if stage is not was:
+            past = Past(places_by_the_edges(_edges(latest)))
         latest = found
     if least.found is None:
         return Ended(cause, turns, change)
     return _with_cut(nip, model, *least.found)
-
-
-def coarsely(model: Model) -> Model:
-    """Return the model of contacts whose correction still changes."""
-    tolerance = max(model.tolerance, min(_COARSELY * model.tolerance, _COARSEST))
-    return replace(model, tolerance=tolerance)
-
-
-def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
-    """Refine a solution with a correction that is held."""
-    layout = Layout.of(latest.zones)
-    if layout is not None and latest.mesh.fine.values is not None:
-        found = with_free_ends(nip, model, kernels, layout, latest, _OFF).found
-        if found is not None:
-            return found
-    return refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
-
-
-def _anew(
-    nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: Round, *, is_coarse: bool
-) -> tuple[PairKernels, Round]:
-    """Solve from the beginning: with a mean of corrections or, if it leads astray, the last one."""
-    half_width, mixed = 0.5 * latest.figures.nip_width, both[0]
-    again = _coarse(nip, model, mixed, half_width) if is_coarse else None
-    if again is not None:
-        return mixed, again
-    for kernels in both:
-        found = refine(nip, model, kernels, half_width)
-        if found.stands_still:
-            break
-    return kernels, found
 
 
 def _edges(latest: Round) -> tuple[float, float]:
@@ -338,38 +270,3 @@ def _change(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> floa
     mesh = _with(latest, kernels).mesh
     own = second_order(nip, model.geometry, mesh, latest.state)
     return change_of(own, latest.second, mesh, nip, latest.state)
-
-
-def _solved_again(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float
-) -> Round:
-    """Solve with another correction; where that fails the round does not stand still.
-
-    Free ends of zones move to where the last solution put them; nodes that crowd at a boundary
-    layer need ends that are placed. A mesh of linear elements stays, if the correction changed
-    little: what such meshes differ in would keep turns going.
-    """
-    failed = replace(latest, stands_still=False)
-    if latest.mesh.fine.values is None:
-        if change > _FAR:
-            return failed
-        start = latest.state.states, latest.second, latest.steps
-        found = solve_on_mesh(nip, model, latest.mesh, start, Safeguarded(), STILL)
-    else:
-        layout = Layout.of(latest.zones)
-        if layout is None:
-            return failed
-        placing = Placing(nip, model, kernels)
-        second = second_order(nip, model.geometry, latest.mesh, latest.state)
-        search = SearchState(layout, replace(latest, second=second), off=_OFF)
-        is_crowded = min(latest.mesh.fine.crowding) < 1.0
-        try:
-            placed = None if is_crowded else placing.turned(search)
-            if placed is None:
-                placed = placing.placed(search, as_cosines(latest), known=True)
-        except np.linalg.LinAlgError:
-            return failed
-        if placed is None:
-            return failed
-        found = replace(placed.before, stands_still=True)
-    return replace(found, error=latest.error, further_error=latest.further_error)

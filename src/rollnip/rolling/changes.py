@@ -9,7 +9,8 @@ import numpy as np
 from rollnip.rolling.surfaces import Array
 
 _SAFETY_FACTOR = 1.5  # on an error of second order from two meshes; first order is cautious enough
-_SLOWER_THAN_SECOND_ORDER = 1.05  # times the change that second order predicts
+ROUNDING = float(np.sqrt(np.finfo(float).eps))
+"""Relative difference up to which two numbers that have been computed count as equal."""
 
 
 def shown_order(counts: Array, steps: Array) -> Array:
@@ -25,7 +26,7 @@ def shown_order(counts: Array, steps: Array) -> Array:
     """
     first, second, third = counts[-3:] ** -2.0
     predicted = np.abs(steps[-2]) * (second - third) / (first - second)
-    return np.where(np.abs(steps[-1]) > _SLOWER_THAN_SECOND_ORDER * predicted, 1.0, 2.0)
+    return np.where(np.abs(steps[-1]) > (1.0 + ROUNDING) * predicted, 1.0, 2.0)
 
 
 def errors_from_changes(counts: Array, values: Array, order: Array) -> Array:

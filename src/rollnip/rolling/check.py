@@ -21,13 +21,9 @@ from rollnip.rolling.surfaces import (
     pair_displacements,
 )
 
-_POINTS_PER_INTERVAL = 3
-# Of the nip width, where overlap is looked for too.
-_OUTSIDE_DISTANCES = np.array([0.02, 0.1, 0.3, 1.0])
-
 
 @dataclass(frozen=True, slots=True)
-class Fields:
+class PairFields:
     """Fields of both surfaces at some points, evaluated from the tractions of a solution.
 
     Attributes
@@ -47,21 +43,33 @@ class Fields:
     creep: Array
 
 
-def fields_at(x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
+def fields_at(
+    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round
+) -> PairFields:
     """Evaluate a solution at points ``x`` from nothing but its tractions, delta and xi."""
     return _fields(x, nip, geometry, final, _displacements(x, kernels, final))
 
 
-def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> Fields:
+def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> PairFields:
     """Evaluate a solution at the nodes, halfway between them, and some way outside."""
     nodes = final.mesh.nodes
-    away = final.figures.nip_width * _OUTSIDE_DISTANCES
+    away = places_outside(nodes, final.figures.nip_width)
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
     parts = _displacements(new, kernels, final), final.mesh.displacements(final.state)
     x = np.concatenate([new, nodes[1:]])
     order = np.argsort(x)
     four = np.concatenate([part.four for part in parts], axis=1)
     return _fields(x[order], nip, geometry, final, Displacements(four.take(order, axis=1)))
+
+
+def places_outside(nodes: Array, width: float) -> Array:
+    """Return distances from the edges where overlap is looked for, one in each octave [mm].
+
+    They run from the nip width ``width`` down to the length of the shorter element at an edge;
+    ``nodes``: of the mesh, one beyond either edge.
+    """
+    shortest = min(nodes[2] - nodes[1], nodes[-2] - nodes[-3])
+    return np.asarray(width * 0.5 ** np.arange(np.log2(width / shortest))[::-1])
 
 
 def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacements:
@@ -76,9 +84,9 @@ def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacement
     return linear + held.at(x)
 
 
-def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacements) -> Fields:
+def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacements) -> PairFields:
     state = final.state
-    return Fields(
+    return PairFields(
         x=x,
         pressure=np.interp(x, final.x, final.pressure, left=0.0, right=0.0),
         shear=np.interp(x, final.x, final.shear, left=0.0, right=0.0),
@@ -95,12 +103,9 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
 
 
 def fine_points(final: Round) -> Array:
-    """Return the nodes, points between them, and points to just over a nip width outside."""
+    """Return the nodes from edge to edge, and points to just over a nip width outside."""
     is_cubic = final.mesh.fine.values is not None
-    nodes = final.nodes[1:-1] if is_cubic else final.nodes[2:-2]  # from edge to edge
-    parts = 1 if is_cubic else _POINTS_PER_INTERVAL
-    between = [nodes[:-1] + (nodes[1:] - nodes[:-1]) * i / parts for i in range(parts)]
-    inside = np.append(np.sort(np.concatenate(between)), nodes[-1])
+    inside = final.nodes[1:-1] if is_cubic else final.nodes[2:-2]
     width = final.figures.nip_width
     away = np.concatenate([np.geomspace(1e-3, 0.1, 20), np.linspace(0.12, 1.1, 50)]) * width
     edges = final.zones[0].start, final.zones[-1].stop
@@ -109,7 +114,7 @@ def fine_points(final: Round) -> Array:
     return np.concatenate([trailing[trailing < inside[0]], inside, leading[leading > inside[-1]]])
 
 
-def residual(nip: Nip, fields: Fields, final: Round) -> float:
+def residual(nip: Nip, fields: PairFields, final: Round) -> float:
     """Return the largest relative violation of the contact conditions (theory section 5).
 
     The parts are: penetration and p times gap over the approach, tension over the peak pressure,
@@ -142,7 +147,7 @@ def _load_error(nip: Nip, final: Round) -> float:
     return abs(final.state.approach - nip.normal.approach) / nip.normal.approach
 
 
-def _friction_errors(nip: Nip, fields: Fields, final: Round) -> list[float]:
+def _friction_errors(nip: Nip, fields: PairFields, final: Round) -> list[float]:
     figures = final.figures
     bound = nip.friction * figures.peak_pressure
     over = np.max(np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0))
@@ -169,7 +174,7 @@ def _intervals_in(x: Array, zone: ContactZone) -> slice:
     return slice(int(first), max(int(beyond) - 1, 0))
 
 
-def slip_velocity(fields: Fields, zones: tuple[ContactZone, ...], speed: float) -> Array:
+def slip_velocity(fields: PairFields, zones: tuple[ContactZone, ...], speed: float) -> Array:
     """Return the slip velocity of the upper surface relative to the lower, nan outside."""
     rate = -speed * fields.creep / np.diff(fields.x)
     out = np.full(fields.x.size, np.nan)

@@ -53,7 +53,7 @@ class AllOrders:
         ``share``: of the wave numbers that are kept as a rule; ``bodies``: equilibria of the upper
         and the lower roller of a nip much like this one.
         """
-        cut = share * CUT / (1.0 + strain / _STRAIN)
+        cut = CUT / (1.0 + strain / _STRAIN)
 
         def response(
             roller: Roller, surface: SurfaceKernels | None, start: Equilibrium | None
@@ -61,7 +61,7 @@ class AllOrders:
             if surface is None:
                 return None
             linear = surface.displacement
-            return FiniteResponse(roller, half_width, linear, cut, nip.speed, start)
+            return FiniteResponse(roller, half_width, linear, cut, nip.speed, start, share)
 
         upper = response(nip.upper, kernels.upper, bodies[0])
         return cls(nip, upper, response(nip.lower, kernels.lower, bodies[1]), share)

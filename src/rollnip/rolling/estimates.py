@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from math import inf
 
@@ -16,33 +16,16 @@ from rollnip.rolling.further import further_errors, further_figures
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
 from rollnip.rolling.surfaces import Array
 
-# Order for cubic elements, from two sizes.
+# Order of the errors, from two sizes.
 _ORDER_FROM_TWO_SIZES = np.array([2.0, 2.0, 1.0, 2.0, 2.0])
 # Least relative error of each of Figures, times the square of the number of elements: measured on
-# random nips against ten times as many elements; linear elements, and cubic ones. These are of
-# higher order where tractions go as a square root at every end; where unlike surfaces stick up to
-# an edge they do not, the edge is misplaced by a share of the first element, and the order is 2.
-_LEAST_ERROR_LINEAR = np.array([0.1, 0.5, 2.0, 2.0, 0.5])
-_LEAST_ERROR_CUBIC = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
-_CREEPAGE, _PEAK = 2, 4  # their places among Figures
-
-
-@dataclass(frozen=True, slots=True)
-class Elements:
-    """Properties of the errors that one kind of elements makes.
-
-    Attributes
-    ----------
-    least : (5,) least relative error of each of Figures, times the squared number of elements.
-    are_cubic : whether they are cubic; their errors may then be of any order, from the first up.
-    """
-
-    least: Array
-    are_cubic: bool
-
-
-LINEAR = Elements(_LEAST_ERROR_LINEAR, are_cubic=False)
-CUBIC = Elements(_LEAST_ERROR_CUBIC, are_cubic=True)
+# random nips against ten times as many elements. They are of higher order where tractions go as a
+# square root at every end; where unlike surfaces stick up to an edge they do not, the edge is
+# misplaced by a share of the first element, and the order is 2.
+LEAST_ERROR = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
+_CREEPAGE, _PEAK = (
+    [one.name for one in fields(Figures)].index(name) for name in ("creepage", "peak_pressure")
+)
 
 
 @dataclass(frozen=True)
@@ -76,9 +59,9 @@ def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> S
     )
 
 
-def with_errors(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Round:
+def with_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
     """Return the round with the estimated errors of the figures that the tolerance is for."""
-    return replace(latest, error=estimated_error(nip, latest, history, kind))
+    return replace(latest, error=estimated_error(nip, latest, history))
 
 
 def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
@@ -87,18 +70,16 @@ def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
     return replace(latest, further_error=further_errors(nip, latest, sizes))
 
 
-def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements) -> Figures:
+def estimated_error(nip: Nip, latest: Round, history: list[Size]) -> Figures:
     """Return the estimated error of each figure from its changes between meshes (second order).
 
     Two meshes may agree by chance. So earlier changes count too, reduced by the order; no error is
-    claimed below the least error of meshes of this size in random nips, nor, with linear elements,
-    an error of the peak below its difference from the highest node.
+    claimed below the least error of meshes of this size in random nips.
 
     Parameters
     ----------
     latest : the solution on the last of the meshes.
     history : all sizes of mesh, coarsest first.
-    kind : of elements, LINEAR or CUBIC.
     """
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:
@@ -111,13 +92,10 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size], kind: Elements
     order = (
         _ORDER_FROM_TWO_SIZES if len(history) < 3 else shown_order(counts, np.diff(values, axis=0))
     )
-    change = errors_from_changes(counts, values, order if kind.are_cubic else np.full(5, 2.0))
+    change = errors_from_changes(counts, values, order)
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
-    floor = kind.least * scales / count**2
-    if not kind.are_cubic:
-        highest = float(np.max(latest.state.pressure))
-        floor[_PEAK] = max(floor[_PEAK], figures.peak_pressure - highest)
+    floor = LEAST_ERROR * scales / count**2
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 

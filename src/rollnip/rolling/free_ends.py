@@ -7,8 +7,8 @@ tractions between them.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from math import ceil, inf, log, sqrt
+from typing import TypeGuard
 
 import numpy as np
 
@@ -16,7 +16,7 @@ from rollnip.contact import Layout, cubic_error, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import (
-    CUBIC,
+    LEAST_ERROR,
     Size,
     sized,
     with_errors,
@@ -38,6 +38,7 @@ _ELEMENTS_PER_ZONE = 4  # elements more for each zone
 # on other edges.
 _FEWEST_SIZES = 2
 _MOST_ELEMENTS = 300  # at a tolerance of 1e-3; what needs more has no smooth tractions
+_MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
 _FIRST_GROWTH = 1.6  # of the number of elements from size to size
 _LEAST_GROWTH, _MOST_GROWTH = 1.2, 3.5
 # Of the tolerance: mean error of the cubics, over the largest traction.
@@ -45,21 +46,9 @@ _MOST_ROUGHNESS = 0.1
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
 
 
-@dataclass(frozen=True, slots=True)
-class FreeEndsAttempt:
-    """Outcome of an attempt with free ends.
-
-    Attributes
-    ----------
-    found : a round that was verified; None where there is none of this kind: pieces of contact
-        that do not touch, zones that come and go, tractions that are not smooth in their zones.
-    knew_zones : whether there was a solution that agrees with its zones.
-    is_spent : whether it ended for its number of elements.
-    """
-
-    found: Round | None
-    knew_zones: bool = False
-    is_spent: bool = False
+def is_verified(found: Round | None, model: Model) -> TypeGuard[Round]:
+    """Return whether there is a solution whose residual was evaluated and is small enough."""
+    return found is not None and found.residual <= model.tolerance
 
 
 def with_free_ends(
@@ -69,7 +58,8 @@ def with_free_ends(
     layout: Layout,
     before: Round | None = None,
     off: float = 0.1,
-) -> FreeEndsAttempt:
+    fewest: int = 0,
+) -> Round | None:
     """Solve with zones whose ends are free, on ever finer meshes until the error is small enough.
 
     Parameters
@@ -77,50 +67,63 @@ def with_free_ends(
     layout : the zones to start with, and about where they are.
     before : the solution that the layout comes from; None: it is a guess.
     off : how far its zones may be off, over the width of the contact.
+    fewest : elements of the first mesh, at least, where the zones are those of so fine a mesh; 0:
+        they may well be others.
+
+    Returns
+    -------
+    A verified solution; else that on the finest mesh, whose residual is infinite; None where there
+    are not two sizes to estimate its error from: zones that come and go, or singular tractions.
     """
     placing = Placing(nip, model, kernels)
-    count = _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size
+    count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
     try:
         if before is None:
             stand = placing.guessed(layout, count)
         else:
             stand = SearchState(layout, before, off=off)
             count = max(count, min(before.problem.x.size // 2, _MOST_AT_FIRST))
-        return FreeEndsAttempt(None) if stand is None else _refined(placing, stand, count)
+        return (
+            None
+            if stand is None
+            else _refined(placing, stand, count, known=fewest > _ENOUGH_FOR_ZONES)
+        )
     except np.linalg.LinAlgError:
-        return FreeEndsAttempt(None)
+        return None
 
 
-def _refined(placing: Placing, stand: SearchState, count: int) -> FreeEndsAttempt:
+def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -> Round | None:
     nip, model = placing.nip, placing.model
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
+    most = max(most, _MOST_TIMES_FIRST * count)
     fewest = _FEWEST_SIZES + nip.is_viscoelastic
+    best: Round | None = None
     while count <= most:
-        known = bool(history)
-        placed = placing.placed(stand, count, known=known)
+        placed = placing.placed(stand, count, known=known or bool(history))
         if placed is None:
-            return FreeEndsAttempt(None, known)
+            break
         stand, latest = placed, placed.before
         count = as_cosines(latest)
         if history and history[-1].breaks.size != stand.layout.breaks.size:
             history.clear()  # figures of other zones tell nothing of the errors with these
         history.append(sized(nip, model, latest, count, stand.layout.breaks))
-        latest = with_errors(nip, latest, history, CUBIC)
+        best = latest = with_errors(nip, latest, history)
         ratio, roughness = excess(nip, latest, model.tolerance), _roughness(nip, model, latest)
         stand_still = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
         if largest(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:
             final = converge(nip, model, latest, placing.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
-                return FreeEndsAttempt(with_further_errors(nip, final, history))
+                return with_further_errors(nip, final, history)
             ratio = final.residual / model.tolerance
             slipping = placing.search.slipping_at_edge(final, stand.layout)
             if slipping is not None:
                 ratio = 1.0
             stand = SearchState(slipping or stand.layout, latest)
-        count = _next_count(count, largest(ratio, roughness), model.tolerance)
-    return FreeEndsAttempt(None, knew_zones=True, is_spent=True)
+        finer = _next_count(count, largest(ratio, roughness), model.tolerance)
+        count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer
+    return None if best is None or len(history) < 2 else with_further_errors(nip, best, history)
 
 
 def _next_count(count: int, ratio: float, tolerance: float) -> int:
@@ -129,7 +132,7 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
     The number grows in limited steps, up to that for which such an error can be claimed.
     """
     growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), _LEAST_GROWTH)
-    claimed = 1.02 * sqrt(float(np.max(CUBIC.least)) / tolerance) / count
+    claimed = 1.02 * sqrt(float(np.max(LEAST_ERROR)) / tolerance) / count
     if claimed > growth:
         growth = claimed ** (1.0 / ceil(log(claimed) / log(_MOST_GROWTH)))
     return int(count * growth) + 1

@@ -14,7 +14,7 @@ from rollnip.contact import Layout
 from rollnip.finite import Equilibrium
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.free_ends import with_free_ends
+from rollnip.rolling.free_ends import is_verified, with_free_ends
 from rollnip.rolling.round import Round
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import PairKernels
@@ -52,15 +52,14 @@ class Nearby:
         None where the nips are not much alike, or where that has no solution.
         """
         held, layout = self.kernels.held, Layout.of(self.final.zones)
-        is_cubic = self.final.mesh.fine.values is not None
-        if held is None or held.share < 1.0 or layout is None or not is_cubic:
+        if held is None or held.share < 1.0 or layout is None:
             return None
         if not self._is_like(nip, half_width):
             return None
         kernels = replace(kernels, held=held)
         before = replace(self.final, mesh=self.final.mesh.holding(kernels), steps=0)
-        found = with_free_ends(nip, model, kernels, layout, before, _OFF).found
-        return None if found is None else (kernels, found)
+        found = with_free_ends(nip, model, kernels, layout, before, _OFF)
+        return (kernels, found) if is_verified(found, model) else None
 
     def _is_like(self, nip: Nip, half_width: float) -> bool:
         own = self.nip

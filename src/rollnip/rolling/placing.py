@@ -1,7 +1,7 @@
 """The ends of zones, by secants on meshes of one size whose nodes lie at the ends.
 
 The tractions at the first nodes beside each end say where it moves (`contact.Layout.moved`). Once
-the ends are about right, a solution tells whether its zones are right too (`search.Search`).
+the ends are about right, a solution tells whether its zones are right too (`search.ZoneSearch`).
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from rollnip.rolling.assemble import (
     second_order,
 )
 from rollnip.rolling.round import Round
-from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, Search, SearchState
+from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
 from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import (
     MOST_TURNS,
@@ -49,6 +49,10 @@ from rollnip.rolling.turns import (
 # Meshes of one size at a tolerance of 1e-3, and one more for each digit. Of 708 sizes of 200 random
 # nips one needed more, and those that failed would have taken 10 to 19.
 _MOST_MESHES = 8
+# Meshes more for the edges of a single zone with boundary layers: outside of these a solution says
+# only which way an edge should go, and the way between the last two is halved.
+_MOST_HALVINGS = 6
+MOST_ZONES = 12  # whose ends are sought; solutions that are verified have up to nine
 _NEARLY_PLACED = 0.008  # over the width of the contact
 _HARDLY_MOVED = 0.001  # likewise
 _WEAKEST_CONTRACTION = 0.7  # of how far ends are off, from mesh to mesh of a turn
@@ -130,11 +134,11 @@ class Placing:
         ends, meshes = Secants(), 0
         tried: set[bytes] = set()
         most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
-        while meshes < most_meshes and stand.layout.is_proper:
+        while meshes < most_meshes and _can_be_placed(stand.layout):
             meshes += 1
             layout = stand.layout
             crowd = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
-            if shape is None or crowd != shape[1]:
+            if shape is None or _crowds_more(crowd, shape[1]):
                 # Elements stay as they are while edges are sought: other ones would move the edges.
                 shape = elements_of_zones(layout.breaks, count, crowd), crowd
                 ends.forget()
@@ -148,7 +152,8 @@ class Placing:
             is_quiet = self.kernels.is_fixed or stand.is_quiet
             is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_placed = off <= placed and latest.stands_still and asked.is_proper and is_quiet
-            is_placed = is_placed and crowd == crowding_of(layout.breaks, self.boundary)
+            wanted = crowding_of(layout.breaks, self.boundary)
+            is_placed = is_placed and not _crowds_more(wanted, shape[1])
             other = self.search.other_zones(
                 latest, (layout, asked), ends, is_placed=is_placed, is_near=is_near
             )
@@ -193,10 +198,17 @@ class Placing:
                 break
         return stand
 
+    def mesh_around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
+        """Return a mesh on zones that are only known roughly: no solution has them as its own."""
+        shape = elements_of_zones(zones.breaks, count), (1.0,) * zones.states.size
+        nodes = cosine_nodes(zones.breaks, *shape)
+        fine = subdivided(nodes, *shape, self.thinnest)
+        return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
+
     @cached_property
-    def search(self) -> Search:
+    def search(self) -> ZoneSearch:
         """The questions to ask of a solution."""
-        return Search(self.nip, self.model, self.kernels)
+        return ZoneSearch(self.nip, self.model, self.kernels)
 
     @cached_property
     def boundary(self) -> float:
@@ -222,6 +234,8 @@ class Placing:
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
+        if len(crowding) == 1 and crowding[0] < 1.0:
+            most += _MOST_HALVINGS
         return most
 
     def _renewed(self, stand: SearchState) -> SearchState:
@@ -276,6 +290,11 @@ class Placing:
         return solve_on_mesh(self.nip, model, mesh, start, self.given, self.still, zones, most)
 
 
+def _can_be_placed(layout: Layout) -> bool:
+    """Return whether zones have a length, and are not so many that they only tell of errors."""
+    return layout.is_proper and layout.states.size <= MOST_ZONES
+
+
 def boundary_layer(nip: Nip) -> float:
     """Return the length of the shortest boundary layer at the ends of zones [mm].
 
@@ -283,6 +302,11 @@ def boundary_layer(nip: Nip) -> float:
     top layer; over larger ones the layers below count, and the tractions change between the two.
     """
     return min(_first_interface(nip.upper), _first_interface(nip.lower))
+
+
+def _crowds_more(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
+    """Return whether nodes of any zone crowd more, or other zones."""
+    return len(one) != len(other) or any(a < b for a, b in zip(one, other, strict=True))
 
 
 def _incompressible(roller: Roller) -> float:

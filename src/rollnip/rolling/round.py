@@ -120,6 +120,11 @@ class Round:
     ended: Ended | None = None
 
     @property
+    def is_placed(self) -> bool:
+        """Return whether the nodes lie at the ends of its zones, not of some that were guessed."""
+        return bool(self.mesh.fine.elements)
+
+    @property
     def nodes(self) -> Array:
         """Nodes between which the tractions are linear, (M+1,) [mm]; zero tractions at both ends.
 

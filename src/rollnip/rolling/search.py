@@ -58,7 +58,7 @@ class SearchState:
 
 
 @dataclass(frozen=True, slots=True)
-class Search:
+class ZoneSearch:
     """The search for the zones of a nip, for one model and its influence functions."""
 
     nip: Nip
@@ -103,8 +103,9 @@ class Search:
     def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
         """Return the states that a solution calls for; None where nodes in contact have them.
 
-        Violations that the residual of a result may have are no reason for another state.
-        ``whole``: whether contact is examined too; until the edges are placed, only stick and slip.
+        Violations that the residual of a result may have are no reason for another state, nor are
+        those of the nodes next to the end of a zone, which may be misplaced. ``whole``: whether
+        contact is examined too; until the edges are placed, only stick and slip.
         """
         slack, given = min(self.model.tolerance, _MOST_SHEAR_SLACK), latest.state.states
         wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
@@ -115,7 +116,9 @@ class Search:
             slips &= np.abs(creep(latest.problem, latest.state)) < little
             wanted[slips] = given[slips]
         differs = (wanted != given) & (given != State.FREE)
-        differs[layout.ends(latest.problem.x)] = False  # ends belong to two zones alike
+        ends = layout.ends(latest.problem.x)
+        differs[ends] = False  # ends belong to two zones alike
+        differs[ends[1:-1] - 1] = differs[ends[1:-1] + 1] = False
         if not differs.any():
             return None
         return next_slip(latest.problem, latest.state, slack) if whole else wanted

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Self
+from typing import ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -136,7 +136,7 @@ class Mesh:
     dx : (N-1,) lengths of the intervals between nodes[1:] [mm].
     weights : (N-1,) load of each nodal traction [mm].
     per_traction : (6, N, N-1) displacements of both surfaces, see `pair_displacements` [mm/MPa].
-    influence : what a contact problem on these nodes makes of them.
+    influence : what a contact problem on these nodes makes of them; empty with a sheet.
     kernels : the influence functions they come from.
     held : second-order displacements at nodes[1:] that the kernels hold; None: they hold none.
     """
@@ -150,6 +150,28 @@ class Mesh:
     influence: Array
     kernels: PairKernels
     held: Displacements | None
+    is_bare: ClassVar[bool] = True
+
+    @classmethod
+    def on(cls, nodes: Array, kernels: PairKernels, fine: Subdivision) -> Self:
+        """Evaluate the influence functions of both surfaces on a mesh."""
+        unit = None if fine.acting is None else fine.acting[1:-1, 1:-1]
+        weights = load_weights(fine.nodes)
+        per_traction = pair_displacements(kernels, nodes[1:], fine.nodes, unit)
+        influence = np.empty((0, 0))
+        if cls.is_bare:
+            influence = _influence(nodes, fine, per_traction, kernels.hoops)
+        return cls(
+            nodes=nodes,
+            fine=fine,
+            inner=nodes[1:-1],
+            dx=nodes[2:] - nodes[1:-1],
+            weights=weights if unit is None else weights @ unit,
+            per_traction=per_traction,
+            influence=influence,
+            kernels=kernels,
+            held=_held_at(nodes, kernels),
+        )
 
     def acting(self, traction: Array) -> Array:
         """Return a traction at nodes[1:-1] as it acts at the finer nodes, without both ends."""
@@ -228,21 +250,7 @@ def mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision | None = None)
 
     Without ``fine`` tractions are linear between the nodes themselves.
     """
-    fine = Subdivision(nodes) if fine is None else fine
-    unit = None if fine.acting is None else fine.acting[1:-1, 1:-1]
-    weights = load_weights(fine.nodes)
-    per_traction = pair_displacements(kernels, nodes[1:], fine.nodes, unit)
-    return Mesh(
-        nodes=nodes,
-        fine=fine,
-        inner=nodes[1:-1],
-        dx=nodes[2:] - nodes[1:-1],
-        weights=weights if unit is None else weights @ unit,
-        per_traction=per_traction,
-        influence=_influence(nodes, fine, per_traction, kernels.hoops),
-        kernels=kernels,
-        held=_held_at(nodes, kernels),
-    )
+    return Mesh.on(nodes, kernels, Subdivision(nodes) if fine is None else fine)
 
 
 def _held_at(nodes: Array, kernels: PairKernels) -> Displacements | None:

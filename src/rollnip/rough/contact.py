@@ -32,6 +32,10 @@ class RoughContact:
     kernels : influence functions of both rollers.
     state : pressures and approach; with a half-space core the approach is relative.
     gap : (n,) of the deformed surfaces, evaluated afresh [mm].
+    pressed_in :
+        approach from where the rough rollers first touch, at the nodes [mm]; a constant added to
+        the heights changes the approach, but not this. With a half-space core it is relative.
+    depth : scale of distances, ``pressed_in`` or the gap at the edges, the larger [mm].
     coarser : figures of the same profile with every second sample; None on too few.
     residual : largest violation of the contact conditions at the nodes, evaluated afresh, relative.
     between : the same between the nodes, where nothing was solved.
@@ -41,6 +45,8 @@ class RoughContact:
     kernels: PairKernels
     state: GridState
     gap: Array
+    pressed_in: float
+    depth: float
     coarser: tuple[float, float, float, float] | None
     residual: float
     between: float
@@ -75,9 +81,10 @@ class RoughContact:
         if self.coarser is None:
             return (np.inf,) * 4
         left = 2.0 * self.state.correction
+        sizes = (self.pressed_in, *self.figures[1:])
         approach, load, width, peak = (
-            abs(fine - coarse) + left * abs(fine)
-            for fine, coarse in zip(self.figures, self.coarser, strict=True)
+            abs(fine - coarse) + left * abs(size)
+            for fine, coarse, size in zip(self.figures, self.coarser, sizes, strict=True)
         )
         return approach, load, max(width, 0.5 * self.sampling.spacing), peak
 
@@ -116,15 +123,19 @@ def rough_contact(
     gap = clearance - state.approach + problem.compliance.of(state.pressure)
     wrong = _wrong_sums(sampling.x, state.pressure, kernel, problem.compliance, lift)
     between = _between(nip, sampling, state, kernel, lift)
+    pressed_in = state.approach - float(np.min(clearance))
+    depth = _depth(nip, sampling.x, state, pressed_in)
     coarser = None if before is None else _figures(sampling.x[::2], before)
     return RoughContact(
         sampling=sampling,
         kernels=kernels,
         state=state,
         gap=gap,
+        pressed_in=pressed_in,
+        depth=depth,
         coarser=coarser,
-        residual=_residual(nip, problem, state, gap, wrong),
-        between=between / _depth(nip, problem, state),
+        residual=_residual(problem, state, gap, wrong, depth),
+        between=between / depth,
     )
 
 
@@ -203,12 +214,11 @@ def _between(
     return float(np.max(np.where(inside, np.abs(gap), -gap)))
 
 
-def _depth(nip: Nip, problem: GridProblem, state: GridState) -> float:
-    """Return the scale of distances: the approach, or the depth of the gap at the edges [mm]."""
+def _depth(nip: Nip, x: Array, state: GridState, pressed_in: float) -> float:
+    """Return the scale of distances: how far is pressed in, or the gap at the edges [mm]."""
     touching = np.flatnonzero(state.pressure > 0.0)
-    width = problem.spacing * float(touching[-1] - touching[0])
-    depth = 0.125 * nip.curvature * width**2
-    return depth if nip.has_half_space else max(depth, abs(state.approach))
+    depth = 0.125 * nip.curvature * float(x[touching[-1]] - x[touching[0]]) ** 2
+    return depth if nip.has_half_space else max(depth, pressed_in)
 
 
 def max_or_nan(*values: float) -> float:
@@ -216,16 +226,16 @@ def max_or_nan(*values: float) -> float:
     return float(np.max([0.0, *values]))
 
 
-def _residual(nip: Nip, problem: GridProblem, state: GridState, gap: Array, wrong: float) -> float:
+def _residual(
+    problem: GridProblem, state: GridState, gap: Array, wrong: float, depth: float
+) -> float:
     """Return the largest relative violation of the contact conditions.
 
-    The parts are: penetration, p times gap and wrong sums over the approach (or the depth of the
-    gap at the edges); the remaining correction of the pressure over its peak; the error of the
-    load.
+    The parts are: penetration, p times gap and wrong sums over ``depth``; the remaining
+    correction of the pressure over its peak; the error of the load.
     """
     pressure = state.pressure
     peak, total = float(np.max(pressure)), float(np.sum(pressure)) * problem.spacing
-    depth = _depth(nip, problem, state)
     load = 0.0 if problem.load is None else abs(total / problem.load - 1.0)
     parts = [
         float(np.max(-gap)) / depth,

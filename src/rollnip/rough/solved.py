@@ -12,12 +12,15 @@ from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.model import COARSEST, FINITE, Model
 from rollnip.nip import Approach, LineLoad, Nip
 from rollnip.rolling import (
+    ACCEPT_IT,
     MOST_PRESSED_IN,
     WORDS,
     SolverInfo,
+    estimated_error_of,
     half_width_guess,
     left_open,
     pair_kernels,
+    violated,
     worst_error,
 )
 from rollnip.rough.contact import RoughContact, max_or_nan, rough_contact
@@ -25,6 +28,7 @@ from rollnip.rough.sampling import sampled
 from rollnip.rough.solution import RoughSolution
 from rollnip.validity import CONTACT_ANGLE, NIP_STRAIN, THICKNESS_RATIO
 
+_TOO_FAR_APART = "the samples are too far apart; measure more closely"
 _NOTED = 0.01  # relative error of a figure that is worth a note
 
 
@@ -112,29 +116,25 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
             "profile what is much shorter than the skin is thick."
         )
     if not rough.residual <= model.tolerance:
-        return False, (
-            f"The contact conditions are violated by {rough.residual:.1e} (relative), more than "
-            f"the tolerance {model.tolerance:g}; try a smaller tolerance."
-        )
+        return False, f"{violated(rough.residual, model.tolerance)}; try a smaller tolerance."
     if not rough.between <= model.tolerance:
         return False, (
             f"Between the samples the contact conditions are violated by {rough.between:.1e} "
-            f"(relative), more than the tolerance {model.tolerance:g}: the samples are too far "
-            "apart; measure more closely, or accept it with a larger tolerance."
+            f"(relative), more than the tolerance {model.tolerance:g}: {_TOO_FAR_APART}, or "
+            f"{ACCEPT_IT}."
         )
-    approach, load = rough.figures[:2]
+    pressed, load = rough.pressed_in, rough.figures[1]
     covering = nip.upper.coating_thickness + nip.lower.coating_thickness
-    if not nip.has_half_space and approach >= MOST_PRESSED_IN * covering:
+    if not nip.has_half_space and pressed >= MOST_PRESSED_IN * covering:
         return False, (
-            f"The coverings are pressed in by {100.0 * approach / covering:.0f} % of their "
+            f"The coverings are pressed in by {100.0 * pressed / covering:.0f} % of their "
             f"thickness; beyond {100.0 * MOST_PRESSED_IN:.0f} % none of the models here holds. "
             "Lower the load or the approach, or take thicker or harder coverings."
         )
-    depth = max(abs(approach), 0.125 * nip.curvature * rough.figures[2] ** 2)
     by_load = isinstance(nip.normal, LineLoad)
     found = "approach" if by_load else "load"
     relative = {
-        found: rough.errors[0] / depth if by_load else rough.errors[1] / load,
+        found: rough.errors[0] / rough.depth if by_load else rough.errors[1] / load,
         "nip_width": rough.errors[2] / rough.figures[2],
         "peak_pressure": rough.errors[3] / rough.figures[3],
     }
@@ -154,14 +154,13 @@ def _unresolved(name: str, error: float, model: Model, *, is_met_by_tolerance: b
     """Return a sentence on a figure whose error is too large, and on what helps."""
     if is_met_by_tolerance:
         return (
-            f"The estimated error of the {WORDS[name]} is {error:.1e} (relative), more than the "
-            f"tolerance {model.tolerance:g}: the samples are too far apart; measure more closely, "
-            "or accept it with a larger tolerance."
+            f"{estimated_error_of(WORDS[name], error)}, more than the tolerance "
+            f"{model.tolerance:g}: {_TOO_FAR_APART}, or {ACCEPT_IT}."
         )
     return (
-        f"The estimated error of the {WORDS[name]} is {100.0 * error:.2g} %; beyond "
-        f"{100.0 * COARSEST:g} % no figure counts as known: the samples are too far apart; measure "
-        "more closely, or leave out of the profile what is not much longer than their distance."
+        f"{estimated_error_of(WORDS[name], f'{100.0 * error:.2g} %')}; beyond "
+        f"{100.0 * COARSEST:g} % no figure counts as known: {_TOO_FAR_APART}, or leave out of the "
+        "profile what is not much longer than their distance."
     )
 
 
@@ -183,9 +182,10 @@ def _warnings(solution: RoughSolution) -> tuple[str, ...]:
             f"{solution.inside_from:.2g} mm."
         )
     covering = nip.upper.coating_thickness + nip.lower.coating_thickness
-    if solution.approach is not None and solution.approach > NIP_STRAIN * covering:
+    pressed = solution.rough.pressed_in
+    if not nip.has_half_space and pressed > NIP_STRAIN * covering:
         found.append(
-            f"The coverings are pressed in by {100.0 * solution.approach / covering:.0f} % of "
+            f"The coverings are pressed in by {100.0 * pressed / covering:.0f} % of "
             f"their thickness; beyond {100.0 * NIP_STRAIN:.0f} % the model was not compared with "
             "finite elements."
         )

@@ -6,6 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from rollnip.figures import MEASURED
 from rollnip.plots.style import Style, label, page, prepare
 from rollnip.rubber.data import TESTS
 from rollnip.rubber.fit import RubberFit
@@ -60,7 +61,7 @@ def plot_stress(fit: RubberFit, ax: Axes | None = None, style: Style | None = No
             markeredgewidth=look.thin,
             label=test,
         )
-    label(ax, look, "strain, or amount of shear", "nominal stress [MPa]")
+    label(ax, look, MEASURED["strain"].axis, MEASURED["nominal_stress"].axis)
     ax.legend(
         frameon=False, fontsize=look.small, labelcolor=colours.ink, title=fit.law, loc="best"
     ).get_title().set(fontsize=look.small, color=colours.ink)
@@ -85,5 +86,6 @@ def plot_stress_deviation(
             markeredgewidth=look.thin,
         )
     ax.axhline(0.0, color=colours.muted, linewidth=look.thin)
-    label(ax, look, "strain, or amount of shear", "deviation [% of the largest stress]")
+    across = MEASURED["strain"].axis
+    label(ax, look, across, MEASURED["deviation"].axis_for("deviation over the largest stress"))
     return ax

@@ -19,15 +19,12 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.beyond import (
-    MOST_AFRESH,
     MOST_CORRECTIONS,
-    NEARLY,
     SHARES_KEPT,
     SMALL,
     UNDER_SKINS,
     Least,
     Past,
-    coarsely,
     even_places,
     places_by_the_edges,
     to_come_after,
@@ -35,7 +32,9 @@ from rollnip.rolling.beyond import (
 from rollnip.rolling.claims import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
+from rollnip.rolling.held import NEARLY, coarsely
 
+_MOST_AFRESH = 10  # turns that are solved from the beginning
 COARSE = 20
 """Elements of the contact while its corrections still change."""
 
@@ -173,7 +172,7 @@ class _Contact(Generic[S, R]):
             return
         model = coarsely(self.model) if self.refined is None else self.model
         found = self.sheeted.placed(model, kernels, found, self.count)
-        if not found.stands_still and self.afresh < MOST_AFRESH:
+        if not found.stands_still and self.afresh < _MOST_AFRESH:
             start, stop = self.sheeted.edges(self.stand)
             found = self.sheeted.begun(model, kernels, 0.5 * (stop - start))
             self.afresh += 1

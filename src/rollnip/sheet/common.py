@@ -11,7 +11,7 @@ import numpy as np
 from rollnip._errors import InvalidInputError
 from rollnip.model import Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
-from rollnip.rolling import Round, impossible, verdict
+from rollnip.rolling import Round, impossible, missed, verdict, violated
 from rollnip.sheet.refine import SheetFigures, scales
 from rollnip.sheet.system import frictions_of
 
@@ -135,19 +135,13 @@ def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tup
     if reason := impossible(nip, model.geometry, final):
         return False, reason
     if not refined.residual <= model.tolerance:
-        return False, (
-            f"The contact conditions are violated by {refined.residual:.1e} (relative), more than "
-            f"the tolerance {model.tolerance:g}; try another tolerance or a smaller load."
-        )
+        wrong = violated(refined.residual, model.tolerance)
+        return False, f"{wrong}; try another tolerance or a smaller load."
     is_met, words = verdict(nip, model, final)
     for side, error in zip(("upper", "lower"), creepage_errors(nip, refined), strict=True):
         if is_met and not error <= model.tolerance:
-            return False, (
-                f"The estimated error of the creepage on the {side} roller is {error:.1e} "
-                f"(relative), {error / model.tolerance:.1f} times what the tolerance "
-                f"{model.tolerance:g} allows, on the finest mesh; accept it with a larger "
-                "tolerance."
-            )
+            figure = f"creepage on the {side} roller"
+            return False, missed(figure, error, error / model.tolerance, model.tolerance)
     left = f"{refined.residual:.1e}"
     return is_met, f"Solved and verified: residual {left}, {words}" if is_met else words
 

@@ -16,7 +16,9 @@ from rollnip.sheets import Sheet
 Array = NDArray[np.float64]
 
 _STEEP = 4.0  # how fast the integral of the tension changes its kind
+_NONE = 1e-12  # share of lumped forces that rounding hides
 _DEGREE = 8  # of the polynomial along the path of the sheet
+_SLOPES = legendre.legder(np.eye(_DEGREE + 1))  # of Legendre polynomials, by those of lower degree
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,11 +48,15 @@ class Integrals:
         dx, along = np.diff(fine.nodes)[:, None], arcs[:, None]
         values = np.zeros((fine.nodes.size, n))
         values[1:-1] = fine.acting[1:-1, 1:-1]
-        pieces = 0.5 * dx * (values[1:] + values[:-1])
+        pieces = values[1:] + values[:-1]
+        pieces *= 0.5 * dx
         beyond = np.zeros(values.shape)
-        beyond[:-1] = np.cumsum((along * pieces)[::-1], axis=0)[::-1]
-        rise = along * dx**2 / 12.0 * (values[1:] - values[:-1])
-        over = 0.5 * dx * (beyond[1:] + beyond[:-1]) + rise
+        np.cumsum((along * pieces)[::-1], axis=0, out=beyond[-2::-1])
+        over = beyond[1:] + beyond[:-1]
+        over *= 0.5 * dx
+        rise = np.subtract(values[1:], values[:-1])
+        rise *= along * dx**2 / 12.0
+        over += rise
         parts = (fine.nodes.size - 3) // (n - 1)
         return cls(
             beyond=beyond[1 : parts * (n - 1) + 2 : parts],
@@ -68,9 +74,11 @@ def stable(mesh: Mesh, sheet: Sheet, found: Integrals, own: Array) -> Array:
     grow. There the force of each node acts at the node: second order, and stable for any sheet.
     """
     dx, n = mesh.dx, mesh.inner.size
-    lumped = dx[:, None] * np.triu(np.broadcast_to(found.whole, (n, n)), k=1)
     ratio = sheet.stretch_by_tension * dx**2 / (6.0 * np.abs(own).min(axis=0))
     share = (1.0 / (1.0 + np.minimum(ratio, 1e6) ** -_STEEP))[:, None]
+    if float(share.max()) < _NONE:
+        return found.over
+    lumped = dx[:, None] * np.triu(np.broadcast_to(found.whole, (n, n)), k=1)
     return np.asarray((1.0 - share) * found.over + share * lumped)
 
 
@@ -79,39 +87,57 @@ def influence(mesh: Mesh, sheet: Sheet, found: Integrals) -> Array:
 
     The strain of the sheet by tension is left out.
     """
-    n, at_nodes, pressed = mesh.inner.size, found.beyond, found.pressed
+    n, at_nodes = mesh.inner.size, found.beyond
     xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = mesh.per_traction
     by_pressure, sheared = sheet.stretch_by_pressure, sheet.shear_by_thickness
-    hoop_u, hoop_l = mesh.kernels.hoops
-    out = np.zeros((3, n, 3, n))
-    fine = mesh.fine
+    fine, out = mesh.fine, np.zeros((3, n, 3, n))
     assert fine.acting is not None
-    thinner = squeezed(sheet, mesh.inner, fine.nodes, fine.acting[1:-1, 1:-1])
-    out[0, :, 0] = zz_u[:-1] + zz_l[:-1] + thinner
-    out[0, :, 1] = -xz_u[:-1] - by_pressure * at_nodes
-    out[0, :, 2] = xz_l[:-1] + by_pressure * at_nodes
-    stretch, rise = by_pressure * pressed, sheared * (np.eye(n, k=1) - np.eye(n))
-    out[1, :, 0] = _stretch(mesh, xz_u, zz_u, hoop_u) - stretch
-    out[1, :, 1] = _stretch(mesh, xx_u, -xz_u, hoop_u) + rise / 3.0
-    out[1, :, 2] = rise / 6.0
-    out[2, :, 0] = stretch - _stretch(mesh, xz_l, zz_l, hoop_l)
-    out[2, :, 1] = rise / 6.0
-    out[2, :, 2] = _stretch(mesh, xx_l, -xz_l, hoop_l) + rise / 3.0
+    gap, upper, lower = out
+    np.add(zz_u[:-1], zz_l[:-1], out=gap[:, 0])
+    gap[:, 0] += squeezed(sheet, mesh.inner, fine.nodes, fine.acting[1:-1, 1:-1])
+    np.multiply(by_pressure, at_nodes, out=gap[:, 2])
+    np.negative(gap[:, 2], out=gap[:, 1])
+    gap[:, 1] -= xz_u[:-1]
+    gap[:, 2] += xz_l[:-1]
+    np.subtract(xz_u[1:], xz_u[:-1], out=upper[:, 0])
+    np.subtract(xx_u[1:], xx_u[:-1], out=upper[:, 1])
+    np.subtract(xz_l[:-1], xz_l[1:], out=lower[:, 0])
+    np.subtract(xx_l[1:], xx_l[:-1], out=lower[:, 2])
+    if any(mesh.kernels.hoops):
+        _add_hoops(mesh, out)
+    pressed = by_pressure * found.pressed
+    upper[:, 0] -= pressed
+    lower[:, 0] += pressed
+    _add_bands(upper[:, 1], lower[:, 2], sheared / 3.0)
+    _add_bands(upper[:, 2], lower[:, 1], sheared / 6.0)
     last = n - 2  # surfaces stick up to a leading edge at the last node
     for side in (1, 2):
         out[side, last, side, last] *= 1.0 - CREEP_TO_EDGE
     return out.reshape(3 * n, 3 * n)
 
 
-def _stretch(mesh: Mesh, u_x: Array, u_z: Array, hoop: float) -> Array:
-    """Return int (du_x/dx - u_z/R) dx over the intervals, of displacements at nodes[1:]."""
-    out = u_x[1:] - u_x[:-1]
-    if hoop:
-        means = mesh.fine.means
-        assert means is not None
-        dx = np.diff(mesh.fine.nodes[1:])[:, None]
-        out = out - hoop * (mesh.sums(dx * means) @ u_z)
-    return np.asarray(out)
+def _add_bands(upper: Array, lower: Array, value: float) -> None:
+    """Add the difference of neighbouring tractions times ``value`` to two matrices."""
+    for matrix in (upper, lower):
+        n = matrix.shape[0]
+        places = np.arange(n)
+        matrix[places, places] -= value
+        matrix[places[:-1], places[1:]] += value
+
+
+def _add_hoops(mesh: Mesh, out: Array) -> None:
+    """Add -int u_z/R dx of both surfaces over the intervals to the creeps in ``out``."""
+    means = mesh.fine.means
+    assert means is not None
+    whole = mesh.sums(np.diff(mesh.fine.nodes[1:])[:, None] * means)
+    _, zz_u, xz_u, _, zz_l, xz_l = mesh.per_traction
+    hoop_u, hoop_l = mesh.kernels.hoops
+    if hoop_u:
+        out[1, :, 0] -= hoop_u * (whole @ zz_u)
+        out[1, :, 1] += hoop_u * (whole @ xz_u)
+    if hoop_l:
+        out[2, :, 0] += hoop_l * (whole @ zz_l)
+        out[2, :, 2] += hoop_l * (whole @ xz_l)
 
 
 def path_turns(mesh: Mesh) -> Array:
@@ -129,8 +155,7 @@ def path_turns(mesh: Mesh) -> Array:
         path = path @ mesh.fine.values[1:-1, 1:]
     else:
         path = np.pad(path, ((0, 0), (0, 1)))
-    of_slopes = legendre.legder(np.eye(_DEGREE + 1)) / half
-    slopes = legendre.legvander((mesh.inner - middle) / half, _DEGREE - 1) @ of_slopes
+    slopes = legendre.legvander((mesh.inner - middle) / half, _DEGREE - 1) @ _SLOPES / half
     out = np.zeros((n, n + 1))  # the last interval lies outside
     out[:-1] = np.diff(slopes, axis=0) @ path
     return out

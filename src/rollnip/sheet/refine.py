@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import inf
+from math import inf, sqrt
 from typing import Any, Protocol
 
 import numpy as np
@@ -24,7 +24,9 @@ Array = NDArray[np.float64]
 
 FIRST_COUNT = 20  # elements where zones are not known
 _FIRST = 24  # of the first size of mesh
-GROWTH = 1.6
+GROWTH = 1.6  # of the number of elements from size to size, at most
+_LEAST_GROWTH = 1.25
+_MORE = 1.4  # than as many elements as bring an error to the tolerance
 MOST_COUNT = 260
 _SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
 _ORDER_OF_TWO = 1.5  # of errors, where only two sizes are there
@@ -33,7 +35,7 @@ _ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and w
 FEWEST = 2
 FEWEST_WITH_SLIP = 3
 _MOST_FAILURES = 3  # sizes of mesh whose zones do not come to rest
-_ROUGHLY, LAST_CLOSELY = 0.3, 0.1  # of the tolerance: what ends may be off on first, last sizes
+_ROUGHLY, LAST_CLOSELY = 1.0, 0.1  # of the tolerance: what ends may be off on first, last sizes
 _LAST_COUNT = 60  # elements beyond which ends are placed better
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
@@ -176,7 +178,7 @@ def refine_sheet(
         try:
             stand = search.placed(stand.zones, round(count), stand, closely)
         except np.linalg.LinAlgError:
-            failures, count = failures + 1, count * GROWTH
+            failures, count = failures + 1, _next_count(count, inf)
             continue
         figures = SheetFigures.of(stand, model.geometry)
         here = (count, figures, stand.zones)
@@ -192,10 +194,19 @@ def refine_sheet(
         else:
             best = best or latest
             failures += 1
-        count *= GROWTH
+        count = _next_count(count, ratio(nip, figures, errors) / model.tolerance)
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return _with_overlap(best, kernels, model.geometry)
+
+
+def _next_count(count: float, ratio: float) -> float:
+    """Return how many elements an error ``ratio`` times too large asks for; inf: no more are left.
+
+    As if errors were of second order in the size of the elements.
+    """
+    growth = min(max(_MORE * sqrt(ratio), _LEAST_GROWTH), GROWTH)
+    return min(count * growth, MOST_COUNT) if count < MOST_COUNT else inf
 
 
 def _closely(count: float) -> float:

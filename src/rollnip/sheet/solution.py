@@ -27,10 +27,11 @@ from rollnip.rolling import (
     surface_depths,
     surface_strain,
 )
-from rollnip.rolling.claims import SHARE_OF_CUT_LOSS
+from rollnip.rolling.claims import SHARE_OF_CUT
 from rollnip.rolling.surfaces import pair_displacements
-from rollnip.sheet.bending import bending_length, left_by_stiffness
+from rollnip.sheet.bending import bending_length
 from rollnip.sheet.common import not_prescribed
+from rollnip.sheet.freely import left_by_bending_freely, wrapped_length
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
@@ -255,10 +256,14 @@ class SheetSolution(SmoothSolution):
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, none less than what the model's own order leaves open."""
         shares = shares_of_model(self.model.geometry, self._bends)
-        shares += (not self._bends) * left_by_stiffness(self.nip, figures.nip_width, figures.load)
         for name in ("creepage_upper", "creepage_lower"):
             shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)
         least = shares * scales(self.nip, figures)
+        sheet = self.nip.sheet
+        if sheet is not None and sheet.bending is None and not self._bends:
+            edges = self.refined.stand.zones.edges
+            wrapped = wrapped_length(self.nip, self.deformed_surfaces, edges)
+            least += left_by_bending_freely(self.nip, figures, wrapped)
         out = dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
         if self.model.geometry not in FINITE:
             return out
@@ -266,7 +271,7 @@ class SheetSolution(SmoothSolution):
             # a traction passes on the power of its creepage, and of the creepage's error
             passed = abs(getattr(figures, f"traction_{side}")) * out[f"creepage_{side}"]
             for name in (f"friction_{side}", f"pull_{side}"):
-                out[name] = max(out[name], SHARE_OF_CUT_LOSS * loss, passed)
+                out[name] = max(out[name], SHARE_OF_CUT * loss, passed)
         return out
 
     @cached_property
@@ -366,13 +371,8 @@ class SheetSolution(SmoothSolution):
         """Return creeps over length, see `grip.first_to_slide`."""
         stand, state = self.refined.stand, self._state
         mu_u, mu_l = frictions_of(self.nip)
-        slid = replace(
-            state,
-            shear=mu_u * state.pressure,
-            shear_lower=-mu_l * state.pressure,
-            creepage=0.0,
-            creepage_lower=0.0,
-        )
+        above, below = mu_u * state.pressure, -mu_l * state.pressure
+        slid = replace(state, shear=above, shear_lower=below, creepage=0.0, creepage_lower=0.0)
         _, upper, lower = stand.problem.gap_and_creeps(slid, stand.lagged)[:, :-1]
         length = stand.problem.dx[:-1]
         return upper / length, lower / length

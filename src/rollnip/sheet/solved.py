@@ -22,7 +22,7 @@ from rollnip.rolling import (
 )
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.all_orders import solve_in_turns
-from rollnip.sheet.bending import STIFF, bending_length
+from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.common import (
     SIMPLER,
     SLACK,
@@ -33,12 +33,14 @@ from rollnip.sheet.common import (
     sheet_verdict,
 )
 from rollnip.sheet.membrane import Membrane
-from rollnip.sheet.plate.solved import COUNTED, solve_plate, stiffness_shows
+from rollnip.sheet.plate.solved import longest_freely, solve_plate
 from rollnip.sheet.refine import SheetRefined, refine_sheet
 from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import StrainSizes, validity_warnings
 
-_WIDTHS_BY_STIFFNESS = 2.0  # largest change of a width, in that share, of the nips of decision 16
+# Largest change of a width, in the share of the bending length, of the nips of decision 16, and the
+# largest share of these.
+_WIDTHS_BY_STIFFNESS, _WIDTHS_MEASURED = 2.0, 0.2
 
 
 def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> SheetSolution:
@@ -66,13 +68,15 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
         )
     require_torque(nip)
     assert nip.sheet is not None
-    bending = nip.sheet.bending
+    asked, freely = nip.sheet.bending, longest_freely(nip, model, cache)
     record: tuple[str, tuple[str, ...]] = (version, ())
-    if bending or (bending is None and stiffness_shows(nip, model, cache)):
+    if asked or (asked is None and spreading_length(nip) > freely):
         counted = solve_plate(nip, model, cache, record)
         if counted is not None:
             return counted
-        record = (version, ("No solution with the sheet's bending stiffness could be verified.",))
+        if bending_length(nip) > freely:  # else its errors include what its tension changes
+            said = "No solution with the sheet's bending stiffness could be verified."
+            record = (version, (said,))
     return _bending_freely(nip, model, cache, record, start)
 
 
@@ -125,6 +129,12 @@ def _refined(
             return model, *found, instead_of(left, model.geometry)
         if simpler is None:
             require_torque(nip, 1.0)
+            assert nip.sheet is not None
+            if nip.sheet.bending is False:
+                raise ConvergenceError(
+                    "No solution with this sheet bending freely was found; leave `bending` out, or "
+                    "try a larger load or other tensions."
+                )
             raise ConvergenceError(
                 "No solution with this sheet was found; try a larger load or other tensions."
             )
@@ -187,16 +197,31 @@ def _warnings(nip: Nip, refined: SheetRefined) -> tuple[str, ...]:
             f"In the nip the tension of the sheet falls to {figures.tension_min:.3g} N/mm: it is "
             "pushed there. A thin sheet may buckle or wrinkle instead, which the model leaves out."
         )
-    length, share = bending_length(nip), bending_length(nip) / figures.nip_width
+    length = spreading_length(nip)
+    share = length / figures.nip_width
     if share > STIFF:
         assert nip.sheet is not None
-        asked = nip.sheet.bending is None and share <= COUNTED
-        hint = " `bending = true` in the sheet counts it." if asked else ""
-        widths = 100.0 * _WIDTHS_BY_STIFFNESS * share
         out.append(
-            f"The bending stiffness of the sheet counts over {length:.2g} mm, "
-            f"{100.0 * share:.0f} % of the nip width; it is left out, so pressure and nip width "
-            "are those of a sheet that bends freely. The widths on its two sides may be up to "
-            f"{widths:.0f} % off, one too small, the other too large.{hint}"
+            "The bending stiffness of the sheet and its tension count over "
+            f"{length:.2g} mm, {100.0 * share:.0f} % of the nip width; they are left out, so "
+            "pressure and nip width are those of a sheet that bends freely."
+            f"{_how_far_off(share)}{_how_to_count(nip.sheet.bending, share)}"
         )
     return tuple(out)
+
+
+def _how_far_off(share: float) -> str:
+    """Return how far widths may be off where the bending length is such a share of the width."""
+    if share > _WIDTHS_MEASURED:
+        return " Both may be far off."
+    widths = 100.0 * _WIDTHS_BY_STIFFNESS * share
+    return (
+        f" The widths on its two sides may be up to {widths:.0f} % off, one too small, the other "
+        "too large; a sheet that is pulled may lie on one roller further still."
+    )
+
+
+def _how_to_count(bending: bool | None, share: float) -> str:
+    if share <= COUNTED:
+        return " `bending = true` in the sheet counts them." if bending is None else ""
+    return " Without `bending = false` they are counted." if bending is False else ""

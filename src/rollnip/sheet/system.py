@@ -21,6 +21,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +31,7 @@ from rollnip.contact import ContactState, State, States, Subdivision
 from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import Displacements, PairKernels
 from rollnip.rolling.displacements import SecondFields
-from rollnip.rolling.surfaces import Mesh, mesh_on
+from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.matrices import Integrals, influence, path_turns, stable
 from rollnip.sheets import Sheet
 
@@ -68,9 +69,13 @@ class SheetState(ContactState):
 
 
 class SheetMesh(Mesh):
-    """A mesh on which the lower roller has a shear of its own."""
+    """A mesh on which the lower roller has a shear of its own.
+
+    ``influence`` is empty: that of a contact with a sheet is `SheetProblem.matrix`.
+    """
 
     __slots__ = ()
+    is_bare: ClassVar[bool] = False
 
     def linear_displacements(self, state: ContactState) -> Displacements:
         """Return the displacements at nodes[1:], linear in the tractions."""
@@ -117,8 +122,7 @@ def sheet_displacements(made: Array) -> Displacements:
 
 def sheet_mesh_on(nodes: Array, kernels: PairKernels, fine: Subdivision) -> SheetMesh:
     """Evaluate the influence functions of both surfaces on a mesh."""
-    mesh = mesh_on(nodes, kernels, fine)
-    return SheetMesh(**{name: getattr(mesh, name) for name in Mesh.__slots__})
+    return SheetMesh.on(nodes, kernels, fine)
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,10 +185,11 @@ class SheetProblem:
         own = np.minimum(np.diagonal(matrix)[n:].reshape(2, n), -_TINY)
         over = stable(mesh, sheet, found, own)
         made = sheet.stretch_by_tension * over
-        blocks = matrix.reshape(3, n, 3, n)
-        for side, sign in ((1, 1.0), (2, -1.0)):
-            blocks[side, :, 1] += sign * made
-            blocks[side, :, 2] -= sign * made
+        _, upper, lower = matrix.reshape(3, n, 3, n)
+        for block in (upper[:, 1], lower[:, 2]):
+            block += made
+        for block in (upper[:, 2], lower[:, 1]):
+            block -= made
         return cls(
             nip=nip,
             sheet=sheet,

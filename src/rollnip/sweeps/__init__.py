@@ -2,7 +2,7 @@
 
 from rollnip.sweeps.at_once import Together, together
 from rollnip.sweeps.recall import recalling
-from rollnip.sweeps.row import SCALARS, STATUSES, evaluate, scalars
+from rollnip.sweeps.row import SCALARS, STATUSES, evaluate, scalar_axis, scalar_label, scalars
 from rollnip.sweeps.study import Axis, Study
 from rollnip.sweeps.study_file import read_study
 from rollnip.sweeps.sweeping import sweep
@@ -20,6 +20,8 @@ __all__ = [
     "evaluate",
     "read_study",
     "recalling",
+    "scalar_axis",
+    "scalar_label",
     "scalars",
     "sweep",
     "together",

@@ -10,9 +10,10 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
+from rollnip.figure import axis_label
 from rollnip.plots import plot_curves, plot_map
 from rollnip.plots.style import FULL, MM, Style, label, palette_of, prepare
-from rollnip.sweeps.row import SCALARS
+from rollnip.sweeps.row import scalar_axis
 from rollnip.sweeps.store import Store
 
 Array = NDArray[np.float64]
@@ -52,8 +53,7 @@ def plot_sweep(store: Store, *, style: Style = "light") -> Figure:
     figure = Figure(figsize=size, layout="constrained", facecolor=ground)
     axes = figure.subplots(high, wide, squeeze=False)
     for number, (name, result) in enumerate(values.items()):
-        unit = SCALARS[name]
-        said = name.replace("_", " ") + (f" [{unit}]" if unit != "1" else "")
+        said = scalar_axis(name)
         if is_map:
             _map(axes[0, number], columns, result, (heads[0], heads[1], said), style)
         elif wide == 1:
@@ -92,7 +92,7 @@ def _read(store: Store, results: tuple[str, ...]) -> tuple[dict[str, Array], dic
 
 def _head(store: Store, path: str) -> str:
     unit = dict(zip(store.about.paths, store.about.units, strict=True))[path]
-    return path if unit in ("", "1") else f"{path} [{unit}]"
+    return axis_label(path, unit)
 
 
 def _is_grid(columns: list[Array]) -> bool:

@@ -11,6 +11,7 @@ from typing import Any
 from rollnip._errors import ConvergenceError, RollnipError
 from rollnip.face import FaceSolution, NipRows, solve_face
 from rollnip.face.figures import FACE_FIGURES, SHEET_FACE_FIGURES, figures_of
+from rollnip.figure import Figure, axis_label
 from rollnip.figures import CLAIMED, FIGURES
 from rollnip.heat import HeatSolution, solve_heat
 from rollnip.heat.report import HEAT_SCALARS, heat_scalar
@@ -44,11 +45,29 @@ SCALARS: Mapping[str, str] = {
 Those of face, heat and sheet are None for a case without them; a case with a patch has those of
 ``patch`` alone."""
 
+_FIGURES: Mapping[str, Figure] = {
+    **FIGURES,
+    **SHEET_FIGURES,
+    **{f"face.{key}": one for key, one in {**FACE_FIGURES, **SHEET_FACE_FIGURES}.items()},
+    **{f"patch.{key}": one for key, one in PATCH_FIGURES.items()},
+}
+
 STATUSES = ("solved", "unverified", "refused", "failed", "lost")
 """What became of a case; only of the first two there are numbers. "lost" is of sweeps alone: the
 process that worked on the case ended without a word."""
 
 _NAME = "case"
+
+
+def scalar_label(name: str) -> str:
+    """Return what one of `SCALARS` is called in pictures."""
+    figure = _FIGURES.get(name)
+    return name.replace("_", " ") if figure is None else figure.label
+
+
+def scalar_axis(name: str) -> str:
+    """Return the label of an axis for one of `SCALARS`, with its unit, as in tables."""
+    return axis_label(scalar_label(name), SCALARS[name])
 
 
 def evaluate(tree: Mapping[str, Any]) -> Row:

@@ -53,10 +53,6 @@ def read_study(study: str | Path | Mapping[str, Any]) -> Study:
 
 class _StudyReader:
     def __init__(self, tree: Mapping[str, Any], source: str, folder: Path) -> None:
-        if "nip" in tree and "parameters" not in tree:
-            raise CaseFileError(
-                f"{source}: is a case; a study names it with `case` and holds [[parameters]]."
-            )
         self.table: StudyTable = parse_study(tree, source)
         self.source = source
         self.folder = folder

@@ -20,6 +20,7 @@ from rollnip._extras import require_extra
 from rollnip._files import check_target, write_whole
 from rollnip._frames import Frame, Framed
 from rollnip._units import parse_quantity
+from rollnip.figure import axis_label
 from rollnip.model import Model
 from rollnip.sweeps.row import SCALARS
 from rollnip.sweeps.store import About, Store
@@ -140,8 +141,7 @@ def _columns(about: About) -> dict[str, str]:
 
 def _heads(about: About) -> list[str]:
     return [
-        name if unit in (_TEXT, "1") else f"{name} [{unit}]"
-        for name, unit in _columns(about).items()
+        name if unit == _TEXT else axis_label(name, unit) for name, unit in _columns(about).items()
     ]
 
 

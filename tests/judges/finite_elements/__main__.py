@@ -16,18 +16,20 @@ from typing import Any
 
 import numpy as np
 
-from finite_elements.case import Nip, Sheet, nip_of
+from finite_elements.case import Nip, Sheet, nip_of, plate_of
 from finite_elements.edges import Solved, solve
 from finite_elements.figures import checks, entry, figures
 from finite_elements.mesh import Grading
 from finite_elements.newton import NoConvergenceError
+from finite_elements.plate_figures import plate_checks
+from finite_elements.plate_run import run_plate
 from finite_elements.sheet_figures import sheet_entry, sheet_figures
 
 GRADING = Grading(edge=0.002, inside=0.05, plies=3)
 FACTOR = 1.5
 COARSE_EDGE = 0.02  # elements at the edges on which a sheet is first pulled
 MOST_STEPS = 50
-INPUTS = ("case", "upper", "lower", "load", "friction", "traction", "sheet", "profile")
+INPUTS = ("case", "upper", "lower", "load", "friction", "traction", "sheet", "plate", "profile")
 
 
 def with_sheet(nip: Nip, sheet: Sheet, grading: Grading) -> Solved:
@@ -111,12 +113,19 @@ def main() -> None:
         traction = case.get("traction", 0.0)
         print(f"{case['case']}, mu {case.get('friction', '-')}, T {traction:g}:", end=" ")
         try:
-            found, second = run(case, coarse, fine)
+            if "plate" in case:
+                found, shown = run_plate(
+                    case["case"], nip_of(case), plate_of(case["plate"]), grading.edge, FACTOR
+                )
+                told = plate_checks(shown)
+            else:
+                found, second = run(case, coarse, fine)
+                told = checks(second)
         except NoConvergenceError as error:
             print(f"not solved, {error}; another --refine may do", flush=True)
             continue
         results.append(found)
-        print(f"{time.process_time() - began:.0f} s of processor, {checks(second)}")
+        print(f"{time.process_time() - began:.0f} s of processor, {told}")
         for name in [key for key in found if key not in INPUTS]:
             print(f"  {name:15s} {found[name]}   stored: {case.get(name, '-')}", flush=True)
         if options.write:

@@ -66,6 +66,23 @@ class Sheet:
 
 
 @dataclass(frozen=True)
+class Plate:
+    """A sheet of elements of its own, isotropic, neo-Hookean with the volumetric law "log".
+
+    ``length``: of the strip that is meshed, from the middle to either end [mm]; ``friction`` on the
+    upper and on the lower roller; tensions at the inlet (x > 0) and at the outlet [N/mm].
+    """
+
+    thickness: float
+    modulus: float
+    poisson: float
+    length: float
+    friction: tuple[float, float] = (0.0, 0.0)
+    tension_in: float = 0.0
+    tension_out: float = 0.0
+
+
+@dataclass(frozen=True)
 class Nip:
     """Two rollers under a load; the upper one is coated. T > 0: the upper roller drives.
 
@@ -106,3 +123,8 @@ def nip_of(case: Mapping[str, Any]) -> Nip:
         traction=float(case.get("traction", 0.0)),
         sheet=sheet,
     )
+
+
+def plate_of(case: Mapping[str, Any]) -> Plate:
+    """Read the sheet of one entry of tests/data/plate_finite_elements.json."""
+    return Plate(**{**case, "friction": tuple(case["friction"])})

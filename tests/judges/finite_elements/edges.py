@@ -11,10 +11,10 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import RegularGridInterpolator
 
+from finite_elements.carry import by_element, nodal
 from finite_elements.case import Nip
-from finite_elements.mesh import Array, Grading, Places, Ring, ring
+from finite_elements.mesh import Array, Grading, Places, ring
 from finite_elements.newton import NoConvergenceError, Problem, State
 from finite_elements.sheet import SheetProblem
 
@@ -100,10 +100,10 @@ def carried(start: Solved, problem: Problem) -> State:
     lower = old.lower is not None and problem.lower is not None
     return replace(
         new,
-        upper=_nodal(old.upper, was.upper, problem.upper),
-        pi_upper=_by_element(old.upper, was.pi_upper, problem.upper),
-        lower=_nodal(old.lower, was.lower, problem.lower) if lower else new.lower,
-        pi_lower=_by_element(old.lower, was.pi_lower, problem.lower) if lower else new.pi_lower,
+        upper=nodal(old.upper, was.upper, problem.upper),
+        pi_upper=by_element(old.upper, was.pi_upper, problem.upper),
+        lower=nodal(old.lower, was.lower, problem.lower) if lower else new.lower,
+        pi_lower=by_element(old.lower, was.pi_lower, problem.lower) if lower else new.pi_lower,
         pressure=np.where(new.closed, moved(was.pressure)[0], 0.0),
         shear=np.where(new.closed, moved(was.shear).reshape(shape), 0.0),
         slip=np.where(new.closed, was.slip[..., nearest], 0),
@@ -111,37 +111,6 @@ def carried(start: Solved, problem: Problem) -> State:
         approach=was.approach,
         creepage=was.creepage,
     )
-
-
-def _nodal(old: Ring, displacement: Array, new: Ring) -> Array:
-    """Interpolate displacements between the nodes of a mesh."""
-    values = np.append(displacement, 0.0)[old.dofs].reshape(old.columns, old.rows, 2)
-    arcs = np.append(old.arc, old.arc[0] + 2.0 * np.pi * old.roller.radius)
-    around = np.concatenate((values, values[:1]))
-    at = np.meshgrid(new.arc, new.depth[:-1], indexing="ij")
-    found = RegularGridInterpolator((arcs, old.depth), around)(np.stack(at, axis=-1))
-    return np.asarray(found).reshape(-1)
-
-
-def _by_element(old: Ring, values: Array, new: Ring) -> Array:
-    """Carry what is linear in each element (mean, and halves of the changes) to other elements."""
-    rows = old.depth_ends.size - 1
-    place, to = [], []
-    for mesh in (old, new):
-        at = np.meshgrid(mesh.arc[1::2], mesh.depth[1::2], indexing="ij")
-        half = np.meshgrid(
-            0.5 * np.diff(mesh.arc_ends), 0.5 * np.diff(mesh.depth_ends), indexing="ij"
-        )
-        (place if mesh is old else to).extend([*at, *half])
-    i = np.clip(np.searchsorted(old.arc_ends, to[0], side="right") - 1, 0, old.arc_ends.size - 2)
-    j = np.clip(np.searchsorted(old.depth_ends, to[1], side="right") - 1, 0, rows - 1)
-    own = values.reshape(-1, rows, 3)[i, j]
-    along = (to[0] - place[0][i, j]) / place[2][i, j]
-    down = (to[1] - place[1][i, j]) / place[3][i, j]
-    mean = own[..., 0] + own[..., 1] * along + own[..., 2] * down
-    ratio = (to[2] / place[2][i, j], to[3] / place[3][i, j])
-    parts = (mean, own[..., 1] * ratio[0], own[..., 2] * ratio[1])
-    return np.stack(parts, axis=-1).reshape(-1, 3)
 
 
 def solve(

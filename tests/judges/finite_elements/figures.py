@@ -14,6 +14,7 @@ import numpy as np
 from finite_elements.case import Nip, Roller
 from finite_elements.edges import Solved
 from finite_elements.mesh import Array
+from finite_elements.newton import Problem, State
 
 
 @dataclass(frozen=True)
@@ -107,12 +108,16 @@ class Checks:
 
 def checks(solved: Solved) -> Checks:
     """Evaluate the contact conditions that the solution does not impose."""
-    problem, state = solved.problem, solved.state
+    return contact_checks(solved.problem, solved.state, solved.state.approach)
+
+
+def contact_checks(problem: Problem, state: State, approach: float) -> Checks:
+    """Evaluate the conditions of one contact, penetration over the approach."""
     outside = np.flatnonzero(~state.closed & (np.abs(problem.interface.ends) < problem.reach))
     gap, _ = problem.facing_ends(state, outside)
     return Checks(
         tension=float(max(0.0, -state.pressure.min()) / state.pressure.max()),
-        penetration=float(max(0.0, -gap.min()) / state.approach),
+        penetration=float(max(0.0, -gap.min()) / approach),
     )
 
 

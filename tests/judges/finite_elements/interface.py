@@ -100,14 +100,14 @@ class CoatedSurface:
         slope = slope / half[:, None]
         arc = 0.5 * (ring.arc_ends[element] + ring.arc_ends[element + 1]) + half * local
         moved = ring.surface(displacement)[nodes]
-        angle, radius = arc / ring.roller.radius, ring.roller.radius
+        _, height, along, up = ring.outline(arc)
         place = np.einsum("pa,pai->pi", shape, moved)
         rate = np.einsum("pa,pai->pi", slope, moved)
         return Facing(
             arc=arc,
-            height=radius * (1.0 - np.cos(angle)) + place[:, 1],
-            along=np.cos(angle) + rate[:, 0],
-            up=np.sin(angle) + rate[:, 1],
+            height=height + place[:, 1],
+            along=along + rate[:, 0],
+            up=up + rate[:, 1],
             nodes=nodes,
             shape=shape,
             slope=slope,
@@ -115,17 +115,15 @@ class CoatedSurface:
 
     def abscissa(self, displacement: Array, facing: Facing) -> Array:
         moved = self.ring.surface(displacement)[facing.nodes][..., 0]
-        radius = self.ring.roller.radius
-        return radius * np.sin(facing.arc / radius) + np.einsum("pa,pa->p", facing.shape, moved)
+        return self.ring.outline(facing.arc)[0] + np.einsum("pa,pa->p", facing.shape, moved)
 
     def facing(self, displacement: Array, x: Array) -> Facing:
         """Return the surface at the abscissae: search the element, then Newton within it."""
         ring = self.ring
-        ends, radius = ring.arc_ends, ring.roller.radius
-        front = np.flatnonzero(np.abs(ends) < 1.2 * radius)
+        ends = ring.arc_ends
+        front = np.flatnonzero(np.abs(ends) < 1.2 * ring.roller.radius)
         columns = (2 * front) % ring.columns
-        places = radius * np.sin(ends[front] / radius)
-        places = places + ring.surface(displacement)[columns, 0]
+        places = ring.outline(ends[front])[0] + ring.surface(displacement)[columns, 0]
         element = front[0] + np.clip(np.searchsorted(places, x) - 1, 0, front.size - 2)
         local = np.zeros_like(x)
         half = 0.5 * np.diff(ends)[element]
@@ -181,7 +179,6 @@ class Interface:
 
     def places(self, displacement: Array) -> tuple[Array, Array]:
         """Return x and y (without approach) of all ends of the upper elements."""
-        radius, arc = self.ring.roller.radius, self.ends
-        moved = self.ring.surface(displacement)[::2]
-        x = radius * np.sin(arc / radius) + moved[:, 0]
-        return x, radius * (1.0 - np.cos(arc / radius)) + moved[:, 1]
+        x, height, _, _ = self.ring.outline(self.ends)
+        moved = self.ring.surface(displacement)[::2][: x.size]
+        return x + moved[:, 0], height + moved[:, 1]

@@ -109,7 +109,7 @@ def depths(roller: Roller, half_width: float, grading: Grading) -> tuple[Array, 
     return np.array(ends), np.array(layer_of)
 
 
-def _with_middles(ends: Array) -> Array:
+def with_middles(ends: Array) -> Array:
     out = np.empty(2 * ends.size - 1)
     out[::2] = ends
     out[1::2] = 0.5 * (ends[1:] + ends[:-1])
@@ -133,12 +133,12 @@ class Ring:
     @cached_property
     def arc(self) -> Array:
         """Arc of every column of nodes."""
-        return _with_middles(self.arc_ends)[:-1]
+        return with_middles(self.arc_ends)[:-1]
 
     @cached_property
     def depth(self) -> Array:
         """Depth of every row of nodes."""
-        return _with_middles(self.depth_ends)
+        return with_middles(self.depth_ends)
 
     @property
     def columns(self) -> int:
@@ -175,6 +175,12 @@ class Ring:
     def surface_dofs(self) -> NDArray[np.int_]:
         """Unknowns of the outer surface, shape (columns, 2)."""
         return self.dofs.reshape(self.columns, self.rows, 2)[:, 0]
+
+    def outline(self, arc: Array) -> tuple[Array, Array, Array, Array]:
+        """Undeformed outer surface: x and height, and their derivatives by the arc."""
+        radius = self.roller.radius
+        along, up = np.cos(arc / radius), np.sin(arc / radius)
+        return radius * up, radius * (1.0 - along), along, up
 
     def surface(self, displacement: Array) -> Array:
         """Displacement of the columns of the outer surface, shape (columns, 2)."""

@@ -299,7 +299,7 @@ class Problem:
             )
             if worst > 0.0:
                 return moved, 0.5**halvings
-            moved = _between(state, moved, 0.5)
+            moved = between(state, moved, 0.5)
         raise NoConvergenceError("every step turns an element inside out")
 
     def solve(
@@ -363,7 +363,7 @@ class Friction:
     by_creepage: Array
 
 
-def _between(a: State, b: State, share: float) -> State:
+def between(a: State, b: State, share: float) -> State:
     names = (
         "upper", "lower", "pi_upper", "pi_lower", "pressure", "shear", "approach", "creepage",
         "tension",

@@ -63,7 +63,7 @@ class Bending:
                 held = kernels.held.of_side(side)
                 meshes[side] = meshes[side].holding(replace(meshes[side].kernels, held=held))
         problem = replace(stand.problem, meshes=(meshes[0], meshes[1]))
-        lagged = lagged_terms(problem, "finite", stand.state)
+        lagged = lagged_terms(problem, "finite", stand.state, stand.lagged)
         change = change_of(lagged, stand.lagged, problem, stand.state)
         return replace(stand, problem=problem, lagged=lagged, change=change)
 

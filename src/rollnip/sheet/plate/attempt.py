@@ -82,7 +82,7 @@ def overlap(stand: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> fl
     for side, mesh in enumerate(problem.meshes):
         away = stand.zones.sides[side].width * _OUTSIDE
         x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
-        gap = gap_at(problem, state, (kernels, geometry), side, x)
+        gap = gap_at(stand, (kernels, geometry), side, x)
         parts.append(float(np.max(-gap)) / depth)
         pressure = state.pressure[side]
         peak = float(pressure.max())
@@ -91,16 +91,18 @@ def overlap(stand: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> fl
 
 
 def gap_at(
-    problem: PlateProblem,
-    state: PlateState,
+    stand: PlateAttempt,
     model: tuple[PairKernels, Geometry],
     side: int,
     x: Array,
 ) -> Array:
     """Return the gap between one roller and the sheet at some places, (m,) [mm]."""
+    problem, state, curved = stand.problem, stand.state, stand.lagged.curved
     u = _displacements_at(problem.meshes[side], state, model[0], side, x)
     gap = surface_depths(x, problem.nip, model[1], u)[side] + problem.thinned_at(state, x)[side]
-    gap -= SIGNS[side] * problem.height_at(state, x)
+    gap -= SIGNS[side] * problem.height_at(state, x, curved)
+    if curved is not None:
+        gap -= 0.25 * problem.sheet.thickness * problem.rotation_at(state, x, curved) ** 2
     return np.asarray(gap - (state.approach if side == 0 else 0.0))
 
 

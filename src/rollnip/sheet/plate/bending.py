@@ -25,6 +25,7 @@ from math import factorial, inf, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.sheet.bending import mean_tension
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -53,8 +54,7 @@ class Plate:
         """Return the plate that a sheet is."""
         h = sheet.thickness
         shear = 1.2 * sheet.shear_by_thickness / h**2 - 2.4 * sheet.stretch_by_pressure / h
-        tension = 0.5 * (sheet.tension_in + sheet.tension_out)
-        return cls(sheet.bending_stiffness, tension, shear)
+        return cls(sheet.bending_stiffness, mean_tension(sheet), shear)
 
     @property
     def length(self) -> float:

@@ -114,8 +114,9 @@ def given(problem: PlateProblem, lagged: LaggedPlate) -> Array:
     load = normal.load + lagged.lean if isinstance(normal, LineLoad) else normal.approach
     last = tangential.creepage if isinstance(tangential, Creepage) else lagged.traction
     assert last is not None
-    pulled = sheet.tension_in - sheet.tension_out
-    return np.concatenate([problem.right(lagged), [-load, 0.0, 0.0, -pulled, -last]])
+    pulled, curved = sheet.tension_in - sheet.tension_out, lagged.curved
+    force, moment = (0.0, 0.0) if curved is None else (curved.whole, curved.moment)
+    return np.concatenate([problem.right(lagged), [-load, force, moment, -pulled, -last]])
 
 
 def _matrix(problem: PlateProblem, states: tuple[States, States]) -> Array:

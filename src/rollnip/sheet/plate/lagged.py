@@ -16,6 +16,7 @@ from rollnip.rolling.assemble import loss_inside, mean_shear
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
 from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate, slip_in
+from rollnip.sheet.plate.curved import curved_load, is_stiff, places_along
 from rollnip.sheet.plate.sides import NAMES, SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 
@@ -43,12 +44,21 @@ def displacements_of(problem: PlateProblem, state: PlateState, side: int) -> Dis
     return mesh.with_second(flat, state.side(side))
 
 
-def lagged_terms(problem: PlateProblem, geometry: Geometry, state: PlateState) -> LaggedPlate:
-    """Return the terms of a solution."""
+def lagged_terms(
+    problem: PlateProblem,
+    geometry: Geometry,
+    state: PlateState,
+    before: LaggedPlate | None = None,
+) -> LaggedPlate:
+    """Return the terms of a solution; ``before``: those that it was solved with, None: none."""
     first = first_lagged(problem)
     if has_none(problem, geometry):
         return first
     clearance, offsets, leans = [], [], []
+    old = None if before is None else before.curved
+    path = places_along(problem)
+    is_curved = geometry in FINITE and is_stiff(problem, state, path)
+    slope = problem.rotation_at(state, path, old) if is_curved else path
     for side in (0, 1):
         mesh = problem.meshes[side]
         flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
@@ -56,12 +66,24 @@ def lagged_terms(problem: PlateProblem, geometry: Geometry, state: PlateState) -
         clearance.append(_clearance(problem, geometry, side, flat, u))
         offsets.append(_offsets(problem, geometry, state, side, (flat, u)))
         leans.append(_lean(problem, state, side, u) if geometry in FINITE else 0.0)
+        if not is_curved:
+            continue
+        x, half = mesh.nodes[1:], 0.5 * problem.sheet.thickness
+        here = slope[np.searchsorted(path, x)]
+        clearance[side] -= 0.5 * half * here[:-1] ** 2
+        # the linear system has the rotation; all of the face runs at V_s
+        turned, rate = here / np.sqrt(1.0 + here**2) - here, sheet_rate(*state.creepages)
+        if old is not None:
+            turned += (1.0 - 1.0 / rate) * old.bent_at(x)[1]
+        offsets[side] += rate * half * np.diff(turned)
     traction = first.traction
     if isinstance(problem.nip.tangential, Torque):
         traction = _traction_for_torque(problem, geometry, state)
-    return LaggedPlate(
-        (clearance[0], clearance[1]), (offsets[0], offsets[1]), traction, 0.5 * sum(leans)
-    )
+    both = (clearance[0], clearance[1]), (offsets[0], offsets[1])
+    if not is_curved:
+        return LaggedPlate(*both, traction, 0.5 * sum(leans))
+    curved = curved_load(problem, state, path, slope)
+    return LaggedPlate(*both, traction, 0.5 * (sum(leans) + curved.whole), curved)
 
 
 def change_of(
@@ -82,7 +104,18 @@ def change_of(
     if new.traction is not None and old.traction is not None:
         load = float(problem.meshes[0].weights @ state.pressure[0])
         changes.append(abs(new.traction - old.traction) / (strain * load))
+    changes.append(_curved_change(new, old, problem, state))
     return largest(*changes)
+
+
+def _curved_change(
+    new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState
+) -> float:
+    """Return how much of the load the couples and forces of a curved path have changed by."""
+    if new.curved is None or old.curved is None:
+        return 0.0
+    load = float(problem.meshes[0].weights @ state.pressure[0])
+    return new.curved.change_from(old.curved, load) if load > 0.0 else 0.0
 
 
 def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: PlateState) -> float:
@@ -99,18 +132,20 @@ def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: Pla
         drift = creep_in_stick(new.offsets[side] - old.offsets[side], state.states[side])
         scale = scale_of_creepage(creepage, nip.curvature * half)
         parts += [gap / approach, drift / (2.0 * half * scale)]
-    return largest(*parts)
+    return largest(*parts, _curved_change(new, old, problem, state))
 
 
-def uncut_terms(problem: PlateProblem, geometry: Geometry, state: PlateState) -> LaggedPlate:
-    """Return the terms of a solution with all waves of held corrections."""
+def uncut_terms(
+    problem: PlateProblem, geometry: Geometry, state: PlateState, before: LaggedPlate
+) -> LaggedPlate:
+    """Return the terms of a solution, solved with others, with all waves of held corrections."""
     upper, lower = (
         mesh
         if mesh.kernels.held is None
         else mesh.holding(replace(mesh.kernels, held=mesh.kernels.held.uncut))
         for mesh in problem.meshes
     )
-    return lagged_terms(replace(problem, meshes=(upper, lower)), geometry, state)
+    return lagged_terms(replace(problem, meshes=(upper, lower)), geometry, state, before)
 
 
 def pull_of(problem: PlateProblem, geometry: Geometry, state: PlateState, side: int) -> float:

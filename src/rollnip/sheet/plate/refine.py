@@ -173,7 +173,7 @@ def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
     """Return torques over radii and losses of a solution."""
     problem, state, lagged = stand.problem, stand.state, stand.lagged
     if geometry == "finite":
-        lagged = uncut_terms(problem, geometry, state)
+        lagged = uncut_terms(problem, geometry, state, lagged)
     friction = friction_losses(replace(stand, lagged=lagged))
     return SheetPowers(
         friction_upper=friction[0],
@@ -217,7 +217,7 @@ def _into_sheet(stand: PlateAttempt) -> float:
     for side, mesh in enumerate(problem.meshes):
         pushed, sign = _pushed(stand, side), SIGNS[side]
         strained = problem.strain_over(state, side)[:-1]
-        turned = np.diff(problem.rotation_at(state, mesh.inner))
+        turned = np.diff(problem.direction_at(state, mesh.inner, stand.lagged.curved))
         face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]
         taken += sign * float(pushed @ (1.0 + face))
     return rate * taken

@@ -265,7 +265,7 @@ class PlateSearch:
             steps += 1
             if has_none(problem, self.model.geometry):
                 break
-            updated = lagged_terms(problem, self.model.geometry, state)
+            updated = lagged_terms(problem, self.model.geometry, state, lagged)
             change, lagged = change_of(updated, lagged, problem, state), updated
             if not change > still:
                 break

@@ -29,6 +29,7 @@ _PIECES = tuple(
     for k in range(4)
 )
 """Integrals of s^k/k! over a piece of length 1, times 1 - s and s."""
+_WITHIN = 0.25  # of the mesh: length over which Gauss points would not do
 _GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # points of a piece, over its length
 
 
@@ -123,6 +124,11 @@ class Spread:
         lines = np.zeros((nodes.size, mesh.inner.size))
         lines[1:-1] = acting[1:-1, 1:-1]
         lines = lines if along is None else lines * along[:, None]
+        return cls.of_lines(nodes, lines, sheet, plate)
+
+    @classmethod
+    def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> Spread:
+        """Return the spread of tractions given at nodes, (M + 1, n)."""
         length, (first, last) = np.diff(nodes)[:, None], (lines[:-1], lines[1:])
         tails = np.zeros((4, *lines.shape))
         for k, (one, two) in enumerate(_PIECES):
@@ -181,9 +187,13 @@ class Spread:
             sum(step ** (k - j) / factorial(k - j) * self.tails[j, :1] for j in range(k + 1))
             for k in (1, 2, 3)
         ]
-        yielding = 0.5 / self.plate.stiffness
         kinked = 2.0 * beyond[1] - whole[0]
-        height = yielding * (2.0 * beyond[3] - whole[2]) - 0.5 * self.plate.shear * kinked
+        sheared = -0.5 * self.plate.shear * kinked
+        if self.plate.length < _WITHIN * float(np.ptp(self.nodes)):
+            height, slope, bend = self._drawn(x, beyond, whole[1], whole[0])
+            return height + sheared, slope, bend
+        yielding = 0.5 / self.plate.stiffness
+        height = yielding * (2.0 * beyond[3] - whole[2]) + sheared
         slope, bend = yielding * (whole[1] - 2.0 * beyond[2]), yielding * kinked
         if self.plate.tension > 0.0:
             places, forces = self._points
@@ -194,6 +204,37 @@ class Spread:
             ):
                 out -= less @ forces
         return height, slope, bend
+
+    def _drawn(
+        self, x: Array, beyond: Array, squares: Array, firsts: Array
+    ) -> tuple[Array, Array, Array]:
+        """Return what loads do to a plate that its tension straightens within the nip.
+
+        K is then L/(2 D) (x^2/2 - L |x| + L^2 (1 - exp(-|x|/L))), all of it exact: for straight
+        lines that turn by a_i at nodes x_i, int exp(-|x - s|/L) t ds is
+        2 L t + L^2 sum a_i exp(-|x - x_i|/L).
+
+        ``squares``, ``firsts``: int (s - x)^2/2 t ds and int (s - x) t ds. The shear of sections is
+        left out.
+        """
+        length, yielding = self.plate.length, 0.5 * self.plate.length / self.plate.stiffness
+        slopes = np.zeros((self.nodes.size + 1, self.lines.shape[1]))
+        slopes[1:-1] = np.diff(self.lines, axis=0) / np.diff(self.nodes)[:, None]
+        turns = np.diff(slopes, axis=0)
+        away = (x[:, None] - self.nodes) / length
+        decay = np.exp(-np.abs(away))
+        before, after = (np.searchsorted(self.nodes, x, side=side) for side in ("left", "right"))
+        at = np.clip(after - 1, 0, self.nodes.size - 1)
+        inside = np.clip(x, self.nodes[0], self.nodes[-1])
+        values = self.lines[at] + slopes[after] * (inside - self.nodes[at])[:, None]
+        rises = 0.5 * (slopes[before] + slopes[after])
+        near = 2.0 * length * values + length**2 * (decay @ turns)
+        nears = 2.0 * length * rises - length * ((np.sign(away) * decay) @ turns)
+        whole = self.tails[0, :1]
+        distances = 2.0 * beyond[1] - firsts
+        height = yielding * (squares - length * distances + length**2 * (whole - near))
+        slope = -yielding * (firsts + length * (whole - 2.0 * beyond[0]) + length**2 * nears)
+        return height, slope, yielding * (whole - near)
 
     @property
     def _points(self) -> tuple[Array, Array]:

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import ContactProblem, Control, State
 from rollnip.interior import SurfaceTractions
+from rollnip.model import FINITE
 from rollnip.rolling import (
     Displacements,
     Round,
@@ -19,10 +20,12 @@ from rollnip.rolling import (
     surface_strain,
 )
 from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.claims import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.plate.attempt import PlateAttempt
 from rollnip.sheet.plate.refine import PlateRefined
 from rollnip.sheet.plate.sides import NAMES, SIGNS, values_at
+from rollnip.sheet.refine import SheetFigures
 from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
 from rollnip.sheet.system import SheetState
@@ -60,6 +63,41 @@ class PlateSolution(SheetSolution):
         refined = self._plate_refined
         mine = self._claimed(refined.lower, refined.lower_errors)
         return mine["nip_width"], mine["peak_pressure"]
+
+    def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
+        """Return errors by name, and what terms of higher order in the path's slope may change.
+
+        The moment that bends the sheet, and the strain of its faces, are known to the square of
+        the slope, which the tension of a stiff sheet and the width on a bare roller feel. There the
+        pressure ends in a peak as long as the sheet is thick, known as well as one beside an edge
+        under a stiff skin (decision 44).
+        """
+        out = super()._claimed(figures, errors)
+        if self.model.geometry not in FINITE:
+            return out
+        sheet, (slope, curvature) = self._standing.problem.sheet, self._path
+        strain = 0.5 * sheet.thickness * curvature * slope
+        for name in ("tension_max", "tension_min"):
+            out[name] = max(out[name], strain / sheet.stretch_by_tension)
+        out["strain_max"] = max(out["strain_max"], strain)
+        is_lower = figures is self._plate_refined.lower
+        if (self.nip.lower if is_lower else self.nip.upper).is_rigid:
+            out["nip_width"] = max(out["nip_width"], slope * figures.nip_width)
+            left = SHARE_OF_EDGE_PEAK["finite"] * figures.peak_pressure
+            out["peak_pressure"] = max(out["peak_pressure"], left)
+        return out
+
+    @cached_property
+    def _path(self) -> tuple[float, float]:
+        """Return the largest square of the path's slope in the contacts, and its curvature."""
+        stand, slope, curvature = self._standing, 0.0, 0.0
+        for mesh in stand.problem.meshes:
+            x = mesh.inner
+            turned = stand.problem.rotation_at(stand.state, x, stand.lagged.curved)
+            slope = max(slope, float(np.max(turned**2, initial=0.0)))
+            bent = np.abs(np.diff(turned) / np.diff(x))
+            curvature = max(curvature, float(np.max(bent, initial=0.0)))
+        return slope, curvature
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
@@ -116,7 +154,7 @@ class PlateSolution(SheetSolution):
     def _height(self) -> Array:
         """Height of the sheet at ``_points``, its thickness left out [mm]."""
         stand = self._standing
-        return stand.problem.height_at(stand.state, self._points[0])
+        return stand.problem.height_at(stand.state, self._points[0], stand.lagged.curved)
 
     @cached_property
     def _thinned_faces(self) -> Array:
@@ -160,7 +198,7 @@ class PlateSolution(SheetSolution):
             SIGNS[side]
             * 0.5
             * problem.sheet.thickness
-            * np.diff(problem.rotation_at(state, x))
+            * np.diff(problem.direction_at(state, x, stand.lagged.curved))
             / dx
         )
         rate = state.creepages[side] + SIGNS[side] * (stretch - face)

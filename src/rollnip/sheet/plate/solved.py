@@ -21,7 +21,7 @@ from rollnip.rolling import (
     with_second_order,
 )
 from rollnip.sheet.all_orders import solve_in_turns
-from rollnip.sheet.bending import bending_length
+from rollnip.sheet.bending import COUNTED
 from rollnip.sheet.common import (
     SIMPLER,
     SLACK,
@@ -36,8 +36,6 @@ from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.validity import StrainSizes, validity_warnings
 
 _HARDLY = 0.01  # violation of the conditions that moves of the ends make
-COUNTED = 0.05
-"""Bending length over the nip width from which stiffness is counted where nothing is said."""
 
 
 def solve_plate(
@@ -83,10 +81,10 @@ def solve_plate(
     return found if asked or found.converged else None
 
 
-def stiffness_shows(nip: Nip, model: Model, cache: KernelCache) -> bool:
-    """Return whether a sheet's stiffness acts over more than a share `COUNTED` of the nip."""
+def longest_freely(nip: Nip, model: Model, cache: KernelCache) -> float:
+    """Return the spreading length up to which a sheet bends freely, if nothing is said [mm]."""
     half_width = half_width_guess(nip, pair_kernels(nip, model.geometry, cache))
-    return bending_length(nip) > 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
+    return 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
 
 
 def _rests(refined: PlateRefined | None) -> bool:

@@ -26,6 +26,7 @@ from rollnip.nip import Nip
 from rollnip.rolling import Displacements
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.plate.bending import Plate
+from rollnip.sheet.plate.curved import CurvedLoad
 from rollnip.sheet.plate.sides import (
     SIGNS,
     Spread,
@@ -90,12 +91,14 @@ class LaggedPlate:
     offsets : added to the creeps, each (n,) [mm].
     traction : T_l that gives the wanted torque [N/mm]; None where none is wanted.
     lean : line load that the shears take from the pressure [N/mm].
+    curved : what acts on the sheet because its path is curved; None where that is left out.
     """
 
     clearance: Pair
     offsets: Pair
     traction: float | None
     lean: float = 0.0
+    curved: CurvedLoad | None = None
 
 
 @dataclass(frozen=True)
@@ -166,14 +169,19 @@ class PlateProblem:
     def right(self, lagged: LaggedPlate) -> Array:
         """Return gaps and creeps without unknowns, in the order of the rows of ``matrix``."""
         sheet, pulled = self.sheet, self.sheet.tension_in
-        out = []
+        out, half = [], 0.5 * sheet.thickness
         for side, (mesh, curvature) in enumerate(
             zip(self.meshes, curvatures(self.nip), strict=True)
         ):
             gap = 0.5 * curvature * mesh.inner**2 + lagged.clearance[side]
+            creep = lagged.offsets[side]
+            if lagged.curved is not None:
+                height, turned = lagged.curved.bent_at(mesh.nodes[1:])
+                gap = gap - SIGNS[side] * height[:-1]
+                creep = creep + half * np.diff(turned)
             out.append(gap + 0.5 * sheet.stretch_by_pressure * pulled)
             stretch = SIGNS[side] * sheet.stretch_by_tension * pulled * mesh.dx
-            out.append(lagged.offsets[side] - stretch)
+            out.append(creep - stretch)
         return np.concatenate(out)
 
     def gaps_and_creeps(
@@ -199,21 +207,33 @@ class PlateProblem:
         )
         return np.asarray(self.sheet.tension_in - upper + lower)
 
-    def height_at(self, state: PlateState, x: Array) -> Array:
+    def height_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
         """Return the height of the sheet's middle at some places, (m,) [mm]."""
         out = state.height + state.rotation * x
+        if curved is not None:
+            out += curved.bent_at(x)[0]
         half = 0.5 * self.sheet.thickness
         for side, (pressed, sheared) in enumerate(self._bent_at(state, x)):
             out -= SIGNS[side] * pressed[0] + half * sheared[1]
         return np.asarray(out)
 
-    def rotation_at(self, state: PlateState, x: Array) -> Array:
+    def rotation_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
         """Return the rotation of the sheet's sections at some places, (m,)."""
         out = np.full(x.size, state.rotation)
+        if curved is not None:
+            out += curved.bent_at(x)[1]
         half = 0.5 * self.sheet.thickness
         for side, (pressed, sheared) in enumerate(self._bent_at(state, x)):
             out -= SIGNS[side] * pressed[1] + half * sheared[2]
         return out
+
+    def direction_at(self, state: PlateState, x: Array, curved: CurvedLoad | None = None) -> Array:
+        """Return what stretches the faces as it changes: the sine of the path's direction, (m,).
+
+        Where the path counts as straight, ``curved`` None, that is its rotation.
+        """
+        turned = self.rotation_at(state, x, curved)
+        return turned if curved is None else np.asarray(turned / np.sqrt(1.0 + turned**2))
 
     def _bent_at(self, state: PlateState, x: Array) -> list[tuple[list[Array], list[Array]]]:
         """Return what pressure and shear of either interface do as loads, see `Spread.bent`."""

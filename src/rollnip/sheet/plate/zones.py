@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import Layout, State, States, contact_zones
+from rollnip.contact import ContactState, Layout, State, States, contact_zones
 from rollnip.sheet.plate.system import PlateProblem, PlateState
 from rollnip.sheet.zones import LONGEST_MOVE, SideZones, held, without_slivers_in
 
@@ -128,13 +128,15 @@ class PlateZones(SideZones):
     def around(cls, problem: PlateProblem, state: PlateState) -> PlateZones:
         """Return the zones of nodal states on meshes that reach beyond the contacts.
 
-        One zone of stick on an interface whose contact or zones are in pieces.
+        Nodes without pressure between others, where it is low or few nodes show how it dips, count
+        as their neighbours. One zone of stick on an interface whose zones are in pieces all the
+        same.
         """
         sides = []
         for number, (mesh, friction) in enumerate(
             zip(problem.meshes, problem.frictions, strict=True)
         ):
-            zones = contact_zones(mesh.inner, state.side(number), friction)
+            zones = contact_zones(mesh.inner, _joined(state.side(number)), friction)
             if not zones:
                 raise np.linalg.LinAlgError("an interface without contact")
             edges = np.array([zones[0].start, zones[-1].stop])
@@ -154,3 +156,14 @@ class PlateZones(SideZones):
             return None
         in_pieces = any(State.FREE in side.states for side in (upper, lower))
         return None if in_pieces else PlateZones(upper, lower)
+
+
+def _joined(state: ContactState) -> ContactState:
+    """Return one interface with its contact in one piece: free nodes within are as those before."""
+    states = state.states.copy()
+    touching = np.flatnonzero(states != State.FREE)
+    if touching.size:
+        first, last = touching[[0, -1]]
+        before = np.searchsorted(touching, np.arange(first, last + 1), side="right") - 1
+        states[first : last + 1] = states[touching[before]]
+    return replace(state, states=states)

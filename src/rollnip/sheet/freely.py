@@ -1,0 +1,95 @@
+"""What a sheet that bends freely leaves out: stiffness, and tension times curvature.
+
+The pressures on both faces of a sheet differ by D y'''' - N y'' and the couples of the shears, y
+the height of its path (`rollnip.sheet.plate.bending`). One that bends freely has one pressure. The
+errors of its figures say what that changes, unless it is asked to.
+"""
+
+from __future__ import annotations
+
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.nip import Creepage, Nip
+from rollnip.rolling import DeformedSurfaces
+from rollnip.sheet.bending import mean_tension, spreading_length
+from rollnip.sheet.refine import NAMES, SheetFigures, scales
+
+Array = NDArray[np.float64]
+
+_BY_LENGTH = np.array(
+    [
+        *(0.06, 0.0, 2.5, 1.4, 0.15, 2.5, 2.5),
+        *(0.6, 0.6, 4.0, 4.0),
+        *(0.9, 0.9, 0.2, 0.2, 0.5, 0.5, 0.02, 0.5, 4.0),
+    ]
+)
+"""Change of each figure of `SheetFigures` by stiffness and tension, relative, over the share of the
+spreading length in the nip width: what nips at a share of 0.05 need, each solved both ways
+(decisions 36 and 42)."""
+_OF_GEARED = 1.2  # the same of tractions at a given creepage, over what friction carries
+_WIDTH = 3  # place of the nip width
+_PEAK, _PEAK_ON_RIGID = 4, 6.5  # place and change of the highest pressure, which has edges there
+_PULLS = [n for n, name in enumerate(NAMES) if name.startswith(("traction", "pull"))]
+
+
+def left_by_bending_freely(nip: Nip, figures: SheetFigures, wrapped: float) -> Array:
+    """Return the change of each figure by what bending freely leaves out, (20,).
+
+    Parameters
+    ----------
+    nip : with a sheet.
+    figures : of its solution.
+    wrapped : length over which the sheet lies on one roller beyond the nip, see `wrapped_length`.
+    """
+    if not figures.nip_width > 0.0:
+        return np.zeros(len(NAMES))
+    changes = _BY_LENGTH.copy()
+    if nip.upper.is_rigid or nip.lower.is_rigid:
+        changes[_PEAK] = _PEAK_ON_RIGID
+    share = spreading_length(nip) / figures.nip_width
+    out = share * changes * scales(nip, figures)
+    out[_WIDTH] += wrapped
+    if isinstance(nip.tangential, Creepage):  # what would change free creepages is pulled
+        friction = min(nip.friction_on("upper"), nip.friction_on("lower"))
+        out[_PULLS] += _OF_GEARED * share * friction * figures.load
+    return np.asarray(out)
+
+
+def wrapped_length(nip: Nip, surfaces: DeformedSurfaces, edges: tuple[float, float]) -> float:
+    """Return over which length a sheet under tension lies on one roller beyond the nip [mm].
+
+    Far outside it runs along x. As it leaves the nip it turns there over the length sqrt(D/N);
+    where a surface is in its way, it follows that until it turns along x, too. Its pressure on it
+    is tension times curvature, however low, which a sheet that bends freely does not have.
+
+    Parameters
+    ----------
+    nip : with a sheet.
+    surfaces : in and outside the nip, between which the sheet bends freely.
+    edges : trailing and leading edge of the nip [mm].
+
+    Returns
+    -------
+    The longer one of the lengths on both rollers, as far as the surfaces are given at most.
+    """
+    sheet, lengths = nip.sheet, [0.0, 0.0]
+    assert sheet is not None
+    tension = mean_tension(sheet)
+    if not tension > 0.0:
+        return 0.0
+    x, heights = surfaces.x, (surfaces.upper, surfaces.lower)
+    turning = sqrt(sheet.bending_stiffness / tension)
+    for edge, outward in zip(edges, (-1.0, 1.0), strict=True):
+        beyond = np.flatnonzero(outward * (x - edge) >= 0.0)[:: int(outward)]
+        away = np.abs(x[beyond] - x[beyond[0]])
+        for side, sign in enumerate((1.0, -1.0)):
+            clear = sign * heights[side][beyond]  # of the surface, which rises away from the sheet
+            slope = (clear[1] - clear[0]) / away[1]
+            path = clear[0] - slope * turning * np.expm1(-away / turning)
+            if slope < 0.0 and (clear < path)[2:].any():
+                turned = np.flatnonzero(np.diff(clear) >= 0.0)
+                lengths[side] += float(away[turned[0] if turned.size else -1])
+    return max(lengths)

@@ -1,0 +1,129 @@
+r"""What acts on a plate because its path is curved, of the order of its thickness times curvature.
+
+The faces of a plate feel pressures p_u, p_l and shears q_u, q_l at their own abscissae
+x -+ (h/2) y', y(x) its path, and its tension N changes along the nip. Forces and moments on a piece
+of it then make the load on the plate (`rollnip.sheet.plate.bending`)
+
+    w = p_l - p_u - (h/2) d(q_u + q_l)/dx + dc/dx + f,
+    c = (N - N_o) y' + (h/2) y' (p_u + p_l),    f = -d(N - N_o)/dx y',
+
+N_o the tension that goes evenly from that at the outlet to that at the inlet: the couple c and the
+force f are lagged. The plate is solved with the mean of both, and what they differ from it by is
+left out. A face lies h/2 sqrt(1 + y'^2) above or below the path at its own abscissa, so that
+either gap is less by (h/4) y'^2; bending stretches it as its direction turns, by
+-+ (h/2) d(sin theta), tan theta = y'. All of it is left out where tension rather than stiffness
+spreads what presses on the sheet.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.sheet.bending import COUNTED, bending_length
+from rollnip.sheet.plate.sides import SIGNS, Spread, values_at
+
+if TYPE_CHECKING:
+    from rollnip.sheet.plate.system import PlateProblem, PlateState
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, slots=True)
+class CurvedLoad:
+    """Couple and force on a plate along its path.
+
+    Attributes
+    ----------
+    couple, force : c [N/mm] and f [MPa], each of one set, at the same nodes.
+    height, turned : height [mm] and rotation of the plate under them at the nodes, each (M + 1,).
+    """
+
+    couple: Spread
+    force: Spread
+    height: Array
+    turned: Array
+
+    @classmethod
+    def of(cls, couple: Spread, force: Spread) -> CurvedLoad:
+        """Return the load with what it does at its nodes."""
+        return cls(couple, force, *_bent(couple, force, couple.nodes))
+
+    @property
+    def whole(self) -> float:
+        """Return the force per width [N/mm]."""
+        return float(self.force.whole[0])
+
+    @property
+    def moment(self) -> float:
+        """Return the moment about x = 0 per width [N]."""
+        return float(self.force.moment[0] - self.couple.whole[0])
+
+    def bent_at(self, x: Array) -> tuple[Array, Array]:
+        """Return height [mm] and rotation of the plate under them at some places, each (m,)."""
+        nodes = self.couple.nodes
+        at = np.minimum(np.searchsorted(nodes, x), nodes.size - 1)
+        if np.array_equal(nodes[at], x):
+            return self.height[at], self.turned[at]
+        return _bent(self.couple, self.force, x)
+
+    def change_from(self, old: CurvedLoad, load: float) -> float:
+        """Return the largest change of couple and force since an older one, over a line load."""
+        x = self.couple.nodes
+        couple, force = (
+            np.abs(new.lines[:, 0] - np.interp(x, one.nodes, one.lines[:, 0]))
+            for new, one in ((self.couple, old.couple), (self.force, old.force))
+        )
+        return float(couple.max() + np.trapezoid(force, x)) / load
+
+
+def _bent(couple: Spread, force: Spread, x: Array) -> tuple[Array, Array]:
+    turned, pushed = couple.bent(x, couple.beyond(x)), force.bent(x, force.beyond(x))
+    return (turned[1] + pushed[0])[:, 0], (turned[2] + pushed[1])[:, 0]
+
+
+def is_stiff(problem: PlateProblem, state: PlateState, x: Array) -> bool:
+    """Return whether stiffness rather than tension spreads what presses on the sheet.
+
+    A couple of N times the slope bends a wave of length 2 pi l by N l^2 over
+    D + N_o l^2 + k l^4 of itself, k the softer covering's E/d. That is N/(N_o + 2 sqrt(D k)) at
+    most, so that turns of a lagged couple come to rest where N is less. Half of it is asked for,
+    and that N_o, too, is less: where tension spreads pressures, bending is little beside it. So it
+    is where l is less than the share of the nip from which stiffness counts.
+    """
+    length = bending_length(problem.nip)
+    if length < COUNTED * float(np.ptp(x)):
+        return False
+    pulled = problem.plate.tension + float(np.max(np.abs(_tension_left_out(problem, state, x))))
+    return pulled * length**2 < problem.sheet.bending_stiffness
+
+
+def places_along(problem: PlateProblem) -> Array:
+    """Return the nodes of both interfaces, (m,) [mm]."""
+    return np.unique(np.concatenate([mesh.nodes for mesh in problem.meshes]))
+
+
+def curved_load(problem: PlateProblem, state: PlateState, x: Array, slope: Array) -> CurvedLoad:
+    """Return what acts on a plate whose path has a slope at some places, each (m,)."""
+    sheet, plate = problem.sheet, problem.plate
+    sheared = np.zeros(x.size)
+    for side, mesh in enumerate(problem.meshes):
+        sheared += SIGNS[side] * (values_at(mesh, x) @ state.shear[side])
+    rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
+    couple = slope * _tension_left_out(problem, state, x)
+    parts = couple[:, None], (-slope * (sheared - rise))[:, None]
+    first, second = (Spread.of_lines(x, part, sheet, plate) for part in parts)
+    return CurvedLoad.of(first, second)
+
+
+def _tension_left_out(problem: PlateProblem, state: PlateState, x: Array) -> Array:
+    """Return N - N_o + (h/2) (p_u + p_l) at some places, (m,) [N/mm]."""
+    sheet, pressed = problem.sheet, np.zeros(x.size)
+    for side, mesh in enumerate(problem.meshes):
+        pressed += values_at(mesh, x) @ state.pressure[side]
+    rise = (sheet.tension_in - sheet.tension_out) / float(np.ptp(x))
+    outside = sheet.tension_out + rise * (x - x[0])
+    return np.asarray(problem.tension_at(state, x) - outside + 0.5 * sheet.thickness * pressed)

@@ -31,8 +31,7 @@ def check_contact(nip, geometry):
     assert solution.solver.residual <= TOLERANCE
     assert solution.load == pytest.approx(nip.normal.load, rel=1e-9)
     peak, mu = solution.peak_pressure, nip.friction
-    # a cubic may dip beside an edge that is placed within the tolerance: 1e-4 of the peak was seen
-    assert np.min(solution.pressure) >= -TOLERANCE * peak
+    assert np.min(solution.pressure) >= -1e-9 * peak
     # beside transitions that are placed to a thousandth, as `residual` counts it
     assert np.all(np.abs(solution.shear) <= mu * (solution.pressure + TOLERANCE * peak))
     assert solution.traction == pytest.approx(

@@ -99,3 +99,24 @@ def test_a_guess_knows_the_traction_of_a_torque(cases):
     stand = search.guessed(layout, 22)
     assert stand.before.second.traction == pytest.approx(driven.tangential.traction, rel=0.05)
     assert list(stand.layout.states) == states_of(rn.solve(nip, search.model))
+
+
+@pytest.mark.parametrize("geometry", ["linear", "curved"])
+@pytest.mark.parametrize("load", [0.8e-3, 1.0e-3, 1.2e-3])
+def test_no_tension_beside_a_short_zone(geometry, load):
+    """Slip on a ten-thousandth of the width: its edge is placed to a part of its first element."""
+    soft = rn.Layer(0.55, rn.Elastic(modulus=0.36, poisson=0.3))
+    hard = rn.Layer(0.15, rn.Elastic(modulus=1.8, poisson=0.5))
+    nip = rn.Nip(
+        upper=rn.Roller(radius=100.0, layers=(soft,)),
+        lower=rn.Roller(radius=24.0, layers=(hard,)),
+        normal=rn.LineLoad(load),
+        tangential=rn.Traction(0.0),
+        friction=0.51,
+        speed=20.0,
+    )
+    solution = rn.solve(nip, rn.Model(geometry=geometry))
+    assert solution.converged
+    first = solution.zones[0]
+    assert first.stop - first.start < 3e-4 * solution.nip_width
+    assert np.min(solution.pressure) >= 0.0

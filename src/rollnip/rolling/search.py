@@ -124,10 +124,23 @@ class ZoneSearch:
         return next_slip(latest.problem, latest.state, slack) if whole else wanted
 
     def pulls(self, latest: Round) -> bool:
-        """Return whether nodes in contact pull at each other, which no other zones would mend."""
-        pressure = latest.state.pressure
-        slack = min(self.model.tolerance, _MOST_SHEAR_SLACK)
-        return bool(np.min(pressure) < -slack * np.max(pressure))
+        """Return whether surfaces in contact pull at each other, but in the elements at the edges.
+
+        No other zones would mend it.
+        """
+        inner = latest.mesh.inner
+        between = (latest.x >= inner[1]) & (latest.x <= inner[-2])
+        return bool(np.any(latest.pressure[between] < 0.0))
+
+    def pulls_at_edge(self, latest: Round) -> bool:
+        """Return whether surfaces in contact pull at each other in the elements at the edges.
+
+        An edge that lies outwards by delta of where it should leaves
+        p ~ sqrt(y) - delta/(2 sqrt(y)) beside it: negative where y < delta/2. So it is placed only
+        to a part of that element, which beside a short zone is far less than the tolerance.
+        """
+        x, inner = latest.x, latest.mesh.inner
+        return bool(np.any(latest.pressure[(x < inner[1]) | (x > inner[-2])] < 0.0))
 
     def between_edges(
         self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry

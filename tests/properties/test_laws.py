@@ -171,8 +171,6 @@ def check_energy(nip, geometry):
     """No loss is negative; the axles put in what is lost; without memory only friction loses.
 
     What counts beside is the power of the load on the slope at the edge, and of the traction.
-    Slip is a difference of slopes: in a zone of slip of a ten-thousandth of the contact, where
-    the shear vanishes, its rounding may have either sign.
     """
     solution = solve(nip, geometry)
     if not solution.converged:
@@ -180,7 +178,7 @@ def check_energy(nip, geometry):
     friction, viscous = solution.dissipation_friction, solution.dissipation_viscous
     slope = strain_scale(solution)
     size = nip.speed * (nip.normal.load * slope + abs(solution.traction * solution.creepage))
-    assert friction >= -min(1e-8 * size, solution.error["dissipation_friction"])
+    assert friction >= 0.0
     if nip.is_viscoelastic:
         assert viscous > 0.0
     else:

@@ -7,7 +7,9 @@ import pytest
 
 import rollnip as rn
 from rollnip.paper import configuration
-from rollnip.rolling import surface_depths
+from rollnip.rolling import powers, surface_depths
+from rollnip.rolling.claims import further_claims
+from rollnip.rolling.powers import slip_losses
 
 GEOMETRIES = ("linear", "corrected", "curved", "second")
 SOLID = rn.StandardLinearSolid(modulus=2.0, stiffening=0.2, relaxation_time=3e-3, poisson=0.45)
@@ -217,3 +219,48 @@ def test_a_wanted_torque_comes_back(geometry, torque):
         solution = solved(replace(VISCOUS[name], tangential=rn.Torque(torque)), geometry)
         size = 30.0 * solution.load * slope(solution)
         assert solution.torque_lower == pytest.approx(torque, abs=1e-4 * size)
+
+
+def test_a_zone_whose_slip_is_reversed_loses_nothing():
+    """Slip of a thousandth of the contact on either side of a compressible skin.
+
+    On the trailing side the residual allows slip along the shear: as a loss it would be negative,
+    and the loss of the whole nip with it.
+    """
+    skin = rn.Layer(0.014058533129758728, rn.Elastic(modulus=10.0, poisson=0.0))
+    under = rn.Layer(0.025, rn.Elastic(modulus=10.0**0.375, poisson=0.5))
+    soft = rn.Layer(0.5, rn.Elastic(modulus=1.0, poisson=0.5))
+    core = rn.Elastic(modulus=1.0, poisson=0.3)
+    of = rn.Nip(
+        upper=rn.Roller(radius=10.0, layers=[skin, under, soft], core=core),
+        lower=rn.Roller(radius=100.0),
+        normal=rn.LineLoad(10.0**-1.25),
+        tangential=rn.Traction(0.0),
+        friction=10.0**0.0625,
+        speed=10.0,
+    )
+    solution = solved(of, "linear")
+    spent = spent_by(solution)
+    assert spent.reversed_slip > spent.friction > 0.0
+    claimed = solution.error["dissipation_friction"]
+    assert of.speed * spent.reversed_slip < 0.1 * claimed
+    assert solution.power_in == pytest.approx(solution.dissipation_friction, abs=claimed)
+
+
+def test_losses_of_zones_of_slip():
+    """Each zone counts by itself; reversed work is none of another zone's."""
+    work = np.array([1.0, -0.5, -2.0, 0.5, 3.0])
+    zones = [np.array(one, dtype=bool) for one in ([1, 1, 0, 0, 0], [0, 0, 1, 1, 0], [0] * 5)]
+    assert slip_losses(work, zones) == (0.5, 1.5)
+
+
+def test_the_error_of_a_loss_counts_reversed_slip():
+    solution = solved(VISCOUS["free"], "linear")
+    spent = replace(spent_by(solution), reversed_slip=1.0)
+    claimed = further_claims(solution.nip, "linear", solution.final, spent)
+    assert claimed["dissipation_friction"] == solution.nip.speed
+
+
+def spent_by(solution):
+    final = solution.final
+    return powers(solution.nip, solution.model.geometry, final.mesh, final.state, final.zones)

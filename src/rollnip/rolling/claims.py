@@ -111,7 +111,7 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
         "traction": further.traction,
         "torque_upper": nip.upper.radius * largest(further.driving_upper, cut),
         "torque_lower": nip.lower.radius * largest(further.driving_lower, cut),
-        "dissipation_friction": speed * largest(further.friction, cut),
+        "dissipation_friction": speed * largest(further.friction, cut, spent.reversed_slip),
         "dissipation_viscous": speed * lost,
         "rolling_resistance": lost / load,
         "peak_pressure_x": further.peak_pressure_x,

@@ -14,10 +14,10 @@ from dataclasses import astuple, dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import State
+from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.rolling.assemble import loss_inside
-from rollnip.rolling.powers import rates_of
+from rollnip.rolling.powers import rates_of, slip_losses
 from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state, uncut_terms
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
@@ -87,12 +87,18 @@ def friction_losses(problem: SheetProblem, state: SheetState, lagged: Lagged) ->
     """Return what slip on either interface loses per rolled distance [N/mm]."""
     creeps, out = problem.gap_and_creeps(state, lagged)[1:], []
     for side in (0, 1):
-        slips = state.both_states[side] > State.STICK
-        slips = slips[:-1] & slips[1:]
         sheared = -np.diff(problem.tension @ state.shears[side])  # int q ds over each interval
         rate = creeps[side, :-1] / problem.mesh.dx[:-1]
-        out.append(float((sheared * rate)[slips].sum()))
+        out.append(slip_losses(sheared * rate, slip_zones(state.both_states[side]))[0])
     return out
+
+
+def slip_zones(states: States) -> list[NDArray[np.bool_]]:
+    """Return which intervals between nodes belong to each zone of slip, (n - 1,) each."""
+    slips = states > State.STICK
+    slips = slips[:-1] & slips[1:]
+    zone = np.cumsum(~slips)  # the same number from one interval that sticks to the next
+    return [slips & (zone == number) for number in np.unique(zone[slips])]
 
 
 def _into_sheet(problem: SheetProblem, geometry: Geometry, state: SheetState) -> float:

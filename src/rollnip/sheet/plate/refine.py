@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import State
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
+from rollnip.rolling.powers import slip_losses
 from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.lagged import sheet_rate
@@ -19,7 +19,7 @@ from rollnip.sheet.plate.lagged import lost_inside, pull_of, uncut_terms
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.powers import SheetPowers
+from rollnip.sheet.powers import SheetPowers, slip_zones
 from rollnip.sheet.refine import (
     FEWEST,
     FEWEST_WITH_SLIP,
@@ -200,10 +200,8 @@ def friction_losses(stand: PlateAttempt) -> tuple[float, float]:
 def _slipped(stand: PlateAttempt, side: int) -> float:
     problem, states = stand.problem, stand.state.states[side]
     creep = problem.gaps_and_creeps(stand.state, stand.lagged)[side][1]
-    slips = states > State.STICK
-    both = slips[:-1] & slips[1:]
     rate = creep[:-1] / problem.meshes[side].dx[:-1]
-    return float((_pushed(stand, side) * rate)[both].sum())
+    return slip_losses(_pushed(stand, side) * rate, slip_zones(states))[0]
 
 
 def _into_sheet(stand: PlateAttempt) -> float:

@@ -9,12 +9,22 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import KW_ONLY, dataclass, field
-from math import isfinite, pi
+from math import inf, isfinite, pi
 from typing import Any, Literal, NamedTuple, TypeVar
 
 from rollnip._units import format_quantity
 
-__all__ = ["ROUNDING", "Dimension", "FaceTotal", "Figure", "Section", "axis_label", "by_key"]
+__all__ = [
+    "LARGE",
+    "ROUNDING",
+    "Dimension",
+    "FaceTotal",
+    "Figure",
+    "Section",
+    "Shown",
+    "axis_label",
+    "by_key",
+]
 
 Dimension = Literal[
     "length",
@@ -95,6 +105,17 @@ _UNITS: Mapping[Dimension, _Units] = {
 def axis_label(name: str, unit: str) -> str:
     """Return the label of an axis or a column: a name, and its unit where it has one."""
     return name if unit in ("", "1") else f"{name} [{unit}]"
+
+
+class Shown(NamedTuple):
+    """A unit that a reader sees, and the factor from the base unit to it."""
+
+    unit: str
+    factor: float
+
+
+LARGE: Mapping[Dimension, tuple[float, Shown]] = {"duration": (180.0, Shown("min", 1.0 / 60.0))}
+"""From which size on (in base units) a dimension is shown in a larger unit, and that unit."""
 
 
 class FaceTotal(NamedTuple):
@@ -190,13 +211,25 @@ class Figure:
         """Estimated error of the figure, in its base unit; None where none is claimed."""
         return _finite(solution.error.get(self.name)) if self.claimed else None
 
+    def shown_for(self, largest: float) -> Shown:
+        """Return the unit for values up to ``largest`` [base unit]: minutes for a long time."""
+        least, large = LARGE.get(self.dimension, (inf, None))
+        if large is None or abs(largest) < least:
+            return Shown(self.shown_unit, self.factor)
+        return large
+
     def number(self, value: float) -> str:
         """Write a value of the base unit in the unit shown, without the unit."""
         return format_quantity(value * self.factor, digits=self.digits)
 
-    def text(self, value: float) -> str:
-        """Write a value of the base unit in the unit shown, with it."""
-        return f"{self.number(value)} {self.shown_unit}".rstrip()
+    def text(self, value: float, digits: int | None = None) -> str:
+        """Write a value of the base unit in the unit for its size, with the unit.
+
+        ``digits``: significant digits; None: those of the figure.
+        """
+        unit, factor = self.shown_for(value)
+        number = format_quantity(value * factor, digits=self.digits if digits is None else digits)
+        return f"{number} {unit}".rstrip()
 
     @property
     def axis(self) -> str:

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 
 from rollnip.figure import Dimension, FaceTotal, Figure, by_key
 
-__all__ = ["CLAIMED", "FIELDS", "FIGURES", "INTERFACE_FIGURES", "PROFILES", "PULL"]
+__all__ = ["CLAIMED", "FIELDS", "FIGURES", "INTERFACE_FIGURES", "PLACES", "PROFILES", "PULL"]
 
 _NEWTON, _NEWTON_METRE, _WATT = FaceTotal("N", 1.0), FaceTotal("N m", 1e-3), FaceTotal("W", 1e-3)
 _UPPER_DRIVES = "Positive where the upper roller drives."
@@ -253,6 +253,14 @@ INTERFACE_FIGURES: Mapping[str, Figure] = by_key(
     ),
 )
 """The figures of an interface or bond, an `InterfaceStress`, by key, in the order of files."""
+
+PLACES: Mapping[str, Figure] = by_key(
+    Figure("face_width", "face width", "length", "Width of the face that totals are for."),
+    Figure("contact", "edges of the contact", "length", "Trailing and leading edge, along x."),
+    Figure("zone_from", "start of the zone", "length", "Trailing end of a zone of stick or slip."),
+    Figure("zone_to", "end of the zone", "length", "Leading end of a zone of stick or slip."),
+)
+"""Where the contact and its zones end, and the width of the face, by key."""
 
 PULL = Figure("pull", "largest pull", "pressure", "Largest tension across the interface, or 0.")
 """The pull on an interface: of summaries and pictures; files have the peel stress."""

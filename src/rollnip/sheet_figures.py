@@ -9,9 +9,9 @@ from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
-from rollnip.figure import Dimension, Figure
+from rollnip.figure import Dimension, Figure, by_key
 
-__all__ = ["SHEET_FIGURES", "SHEET_PROFILES", "SheetFigure"]
+__all__ = ["PULL_FIGURES", "SHEET_FIGURES", "SHEET_PROFILES", "SheetFigure"]
 
 
 class SheetFigure(Figure):
@@ -204,6 +204,14 @@ _SHEET = (
 
 SHEET_FIGURES: Mapping[str, Figure] = {one.key: one for one in _SHEET}
 """The figures of a sheet by key; a result has them where there is a sheet."""
+
+PULL_FIGURES: Mapping[str, Figure] = by_key(
+    Figure(
+        "smallest", "smallest pull that holds", "line load", "Pull below which the sheet slips."
+    ),
+    Figure("largest", "largest pull that holds", "line load", "Pull above which the sheet slips."),
+)
+"""The pulls on the sheet between which it does not slip through the nip, by key."""
 
 SHEET_PROFILES: Mapping[str, Figure] = {
     one.key: one

@@ -374,4 +374,4 @@ def test_a_picture_of_a_branch_tells_stable_states_from_others(solved):
         ([40.0, 60.0], "-"),
     ]
     labels = [text.get_text() for text in ax.get_legend().get_texts()]
-    assert labels == ["stable", "not stable", "thermal runaway at 30 N/mm", "this case"]
+    assert labels == ["stable", "not stable", "thermal runaway at 30.00 N/mm", "this case"]

@@ -11,6 +11,27 @@ DRAWS = ("plots", "dma", "rubber", "lda", "identification", "sweeps", "design", 
 COMPOSES = {"figure.py"}  # where a name and its unit are put together
 # A head of a column that may come in a file is no label, nor are examples in messages.
 READS = {"dma/heads.py", "dma/reading.py"}
+# Quantities of tables that are read in, and of a few that are measured.
+GIVES = {
+    "design/quantities.py",
+    "dma/shown.py",
+    "dma/tables.py",
+    "identification/costs.py",
+    "identification/impressions.py",
+    "identification/surface.py",
+    "patch/figures.py",
+    "plots/field.py",
+    "rubber/fit.py",
+    "cli/console.py",
+}
+UNITS = {
+    *("mm", "N", "N/mm", "MPa", "mm/s", "degC", "°C", "K", "ms", "mW/mm"),
+    *("W/m", "W", "mW", "Hz", "%", "rad", "°", "N mm"),
+}
+# What comes behind the value of a figure in a message: its unit.
+SAID = re.compile(r"^ (K|degC|°C|N/mm|mm/s|W/m|N|min|s)\b")
+PAGE = SOURCE / "web" / "static" / "js"
+PAGE_INPUTS = {"units.js"}
 UNIT = re.compile(
     r"\[(mm|N|MPa|1/MPa|N/mm|mm/s|m?s|Hz|K|°C?|degC|degrees|rad|%|m?W|W/m|mW/mm)[ \]]"
 )
@@ -45,6 +66,54 @@ def composed(tree):
             closes = isinstance(after, ast.Constant) and after.value == "]"
             if opens and closes and isinstance(value, ast.FormattedValue):
                 yield node.lineno
+
+
+def bare(tree):
+    """The strings of a module that are a unit and nothing else, with their lines."""
+    return [(line, text) for line, text in texts(tree) if text in UNITS]
+
+
+def strays(folder, found_in, skipped):
+    """Return what is found in the modules of a folder, but for some, with its place."""
+    return [
+        f"{path.relative_to(SOURCE)}:{line} {text!r}"
+        for path in sorted((SOURCE / folder).rglob("*.py"))
+        if str(path.relative_to(SOURCE)) not in skipped
+        for line, text in found_in(ast.parse(path.read_text(encoding="utf-8")))
+    ]
+
+
+@pytest.mark.parametrize("folder", [*DRAWS, "_results", "cli", "io", "patch"])
+def test_a_unit_stands_in_a_registry_alone(folder):
+    found = strays(folder, bare, {*READS, *GIVES})
+    assert not found, found
+
+
+def said(tree):
+    """The strings of a module that begin with a unit, as behind a value in a message."""
+    return [(line, text) for line, text in texts(tree) if SAID.search(text)]
+
+
+def test_messages_of_heat_and_warnings_of_a_face_read_the_registry():
+    errors = {"heat/grid.py", "heat/state.py"}  # they quote inputs, which have base units
+    names = ("notes", "sheet_solution", "solution", "report")
+    warnings = [
+        (name, line, text)
+        for name in names
+        for line, text in said(ast.parse((SOURCE / "face" / f"{name}.py").read_text("utf-8")))
+    ]
+    assert not warnings, warnings
+    found = strays("heat", said, errors)
+    assert not found, found
+
+
+@pytest.mark.parametrize("path", sorted(PAGE.glob("*.js")), ids=lambda path: path.name)
+def test_the_page_has_no_units_or_digits_of_its_own(path):
+    if path.name in PAGE_INPUTS:
+        return
+    text = path.read_text(encoding="utf-8")
+    assert not re.findall(r'units\.text\([^()]*\b(?:result|heat|patch|face)\.\w+, "', text)
+    assert not re.findall(r'"(?:min|ms|°C|mm|MPa)"', text)
 
 
 @pytest.mark.parametrize("folder", DRAWS)

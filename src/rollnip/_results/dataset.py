@@ -6,7 +6,7 @@ import json
 from typing import Any
 
 from rollnip.figure import Figure
-from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PROFILES
+from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PLACES, PROFILES
 from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 
 _NAN = float("nan")
@@ -68,7 +68,7 @@ def _scalars(tree: dict[str, Any]) -> _Variables:
 
 
 def _totals(totals: dict[str, float | None]) -> _Variables:
-    width = {"units": "mm", "long_name": "face width"}
+    width = PLACES["face_width"].described
     variables = {"total_face_width": _scalar(totals["face_width"], width)}
     for one in FIGURES.values():
         if one.total is not None:
@@ -84,7 +84,7 @@ def _contact(intervals: list[list[float]]) -> _Variables:
         "contact": (
             ("interval", "edge"),
             np.asarray(intervals, dtype=float).reshape(-1, 2),
-            {"units": "mm"},
+            PLACES["contact"].described,
         )
     }
 
@@ -93,8 +93,14 @@ def _zones(zones: list[dict[str, Any]]) -> _Variables:
     import numpy as np
 
     return {
-        "zone_from": ("zone", np.asarray([z["from"] for z in zones], float), {"units": "mm"}),
-        "zone_to": ("zone", np.asarray([z["to"] for z in zones], float), {"units": "mm"}),
+        **{
+            f"zone_{end}": (
+                "zone",
+                np.asarray([zone[end] for zone in zones], float),
+                PLACES[f"zone_{end}"].described,
+            )
+            for end in ("from", "to")
+        },
         "zone_state": ("zone", np.asarray([z["state"] for z in zones], dtype=object)),
         "zone_direction": (
             "zone",

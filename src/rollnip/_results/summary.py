@@ -8,8 +8,8 @@ from typing import Any, NamedTuple
 
 from rollnip._units import format_quantity
 from rollnip.figure import ROUNDING, Figure
-from rollnip.figures import FIGURES
-from rollnip.sheet_figures import SHEET_FIGURES
+from rollnip.figures import FIGURES, PLACES
+from rollnip.sheet_figures import PULL_FIGURES, SHEET_FIGURES
 
 SIGNS = (
     "x points to the inlet (leading edge). Traction and creepage > 0: the upper roller drives. "
@@ -18,7 +18,7 @@ SIGNS = (
 FASTER = {-1: "the upper surface is faster", 1: "the lower surface is faster"}
 """Which surface is faster in a slip zone, by its direction."""
 
-_DIGITS = 4
+_EDGE = PLACES["contact"]
 _MOST_INTERVALS = 4  # listed one by one
 _HEADINGS = {"nip": "Nip", "drive": "Drive", "losses": "Losses"}
 _BRIEF = ("nip_width", "peak_pressure", "creepage", "traction")
@@ -152,14 +152,14 @@ def zones(solution: Any) -> Iterator[Line]:
 
 def _zone_lines(zones: Iterable[Any], faster: Mapping[int, str]) -> Iterator[Line]:
     for zone in zones:
-        ends = (format_quantity(end, digits=_DIGITS) for end in (zone.start, zone.stop))
-        yield Line(zone.state, " to ".join(ends), "mm", note=faster.get(zone.direction or 0, ""))
+        ends = " to ".join(_EDGE.number(end) for end in (zone.start, zone.stop))
+        yield Line(zone.state, ends, _EDGE.shown_unit, note=faster.get(zone.direction or 0, ""))
 
 
 def _grip(grip: Any) -> Iterator[Line]:
     """Yield the pulls between which the sheet holds, and the side that slides all over first."""
-    yield Line("  smallest pull that holds", _number(grip.smallest), "N/mm")
-    yield Line("  largest pull that holds", _number(grip.largest), "N/mm")
+    for key, figure in PULL_FIGURES.items():
+        yield _sub_line(figure.label, figure, getattr(grip, key))
     yield Line("  slides first where pulled", f"{grip.first} side")
 
 
@@ -169,7 +169,7 @@ def _contact(solution: Any) -> Iterator[Line]:
     if len(intervals) > _MOST_INTERVALS:
         length = sum(leading - trailing for trailing, leading in intervals)
         yield from _edges(solution, intervals[0][0], intervals[-1][1])
-        yield Line(f"  touching in {len(intervals)} pieces", _number(length), "mm")
+        yield _sub_line(f"touching in {len(intervals)} pieces", _EDGE, length)
         return
     for trailing, leading in intervals:
         yield from _edges(solution, trailing, leading)
@@ -182,26 +182,29 @@ def _alike(solution: Any) -> Iterator[Line]:
         yield Line("  as high in", f"{len(places)}", "other places")
         return
     for place in places:
-        yield Line("  as high at x", _number(place), "mm")
+        yield _sub_line("as high at x", FIGURES["peak_pressure_x"], place)
 
 
 def _edges(solution: Any, trailing: float, leading: float) -> Iterator[Line]:
-    for label, edge in (("  from x", trailing), ("  to x", leading)):
+    for label, edge in (("from x", trailing), ("to x", leading)):
         is_noise = abs(edge) < ROUNDING * solution.nip_width
-        yield Line(label, _number(0.0 if is_noise else edge), "mm")
+        yield _sub_line(label, _EDGE, 0.0 if is_noise else edge)
 
 
 def _totals(solution: Any, width: float) -> Iterator[Line]:
-    yield Line("face width", _number(width), "mm")
+    face = PLACES["face_width"]
+    yield Line(face.label, face.number(width), face.shown_unit)
     for figure in FIGURES.values():
         value = figure.cleaned(solution)
         if figure.total is not None and value is not None:
             total = value * width * figure.total.factor
-            yield Line(figure.label, _number(total), figure.total.unit)
+            number = format_quantity(total, digits=figure.digits)
+            yield Line(figure.label, number, figure.total.unit)
 
 
-def _number(value: float) -> str:
-    return format_quantity(value, digits=_DIGITS)
+def _sub_line(label: str, figure: Figure, value: float) -> Line:
+    """Return an indented line, in the unit and with the digits of a figure."""
+    return Line(f"  {label}", figure.number(value), figure.shown_unit)
 
 
 def _plain(row: Line) -> str:

@@ -289,19 +289,21 @@ def _reading_dict(reading: Any) -> dict[str, Any]:
 
 
 def _reading_text(reading: Any) -> str:
+    from rollnip.face.figures import ADDED_CROWN, FACE_FIGURES, IMPRESSION_FIGURES
+
     lines = ["Read from the impression, with 95 % intervals:"]
     for one in reading.estimates:
-        unit = "" if one.unit == "1" else f" {one.unit}"
-        lines.append(f"  {one.name:10s} {one.value:10.4g}{unit}  ({one.low:.4g} to {one.high:.4g})")
+        figure = IMPRESSION_FIGURES[one.name]
+        span = f"({figure.number(one.low)} to {figure.number(one.high)})"
+        lines.append(f"  {one.name:10s} {figure.text(one.value):>10s}  {span}")
     if reading.bearing_offset is not None and any(one.name == "tilt" for one in reading.estimates):
         offset = reading.bearing_offset
         side = ">" if offset > 0.0 else "<"
-        lines.append(
-            f"  the upper bearing at y {side} 0 has come {abs(offset):.3g} mm further than the "
-            "other"
-        )
-    lines.append(f"  an even load needs {reading.needed_crown:+.4g} mm more on the diameter")
-    shop = f"  the shop formula says {reading.shop_crown:+.4g} mm"
+        further = FACE_FIGURES["bearing_offset"].text(abs(offset), 3)
+        lines.append(f"  the upper bearing at y {side} 0 has come {further} further than the other")
+    needed, said = (ADDED_CROWN.text(one) for one in (reading.needed_crown, reading.shop_crown))
+    lines.append(f"  an even load needs a crown of {needed} more on the diameter")
+    shop = f"  the shop formula says {said}"
     if reading.shop_error is not None:
         shop += f", off by {100.0 * reading.shop_error:+.2g} %"
     lines.append(shop)

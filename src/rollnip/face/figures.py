@@ -98,6 +98,30 @@ FACE_FIGURES: Mapping[str, Figure] = by_key(
 )
 """The scalar figures of a face by key."""
 
+BEARING_FORCES: Mapping[str, Figure] = {
+    side: _F(
+        f"bearing_forces_{side}",
+        f"bearings, {side}",
+        "roller force",
+        f"Forces on both bearings of the {side} roller.",
+    )
+    for side in ("upper", "lower")
+}
+"""The forces on the bearings of each roller, by roller."""
+
+IMPRESSION_FIGURES: Mapping[str, Figure] = by_key(
+    _F("load", "load", "line load", "Mean line load."),
+    _F("tilt", "difference of end loads", "roller force", "End load at y > 0 less that at y < 0."),
+    _F("crown", "crown on the diameter", "length", "Middle less ends, on the diameter."),
+    _F("modulus", "modulus over the assumed one", "ratio", "By what all moduli are multiplied."),
+)
+"""What an impression tells, by the name of the unknown."""
+
+ADDED_CROWN = _F(
+    "needed_crown", "crown to be added", "length", "Crown on the diameter to add for an even load."
+)
+"""What a measured face lacks, by the impression and by the shop formula."""
+
 FACE_PROFILES: Mapping[str, Figure] = by_key(
     _F("y", "y", "length", "Place along the face, from its middle."),
     _F("load", "line load", "line load", "Line load; 0 where the nip is open."),

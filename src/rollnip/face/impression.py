@@ -16,6 +16,7 @@ from scipy.special import chdtrc, ndtri
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.face.design import AnyLaw, Name, with_crown
+from rollnip.face.figures import IMPRESSION_FIGURES
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw
 from rollnip.face.problem import face_problem
@@ -124,14 +125,6 @@ class ImpressionReading:
     def __getitem__(self, name: str) -> ImpressionEstimate:
         """Return the estimate of an unknown by its name."""
         return next(one for one in self.estimates if one.name == name)
-
-
-_UNITS = {
-    "load": ("load", "N/mm"),
-    "tilt": ("difference of end loads", "N"),
-    "crown": ("crown on the diameter", "mm"),
-    "modulus": ("modulus over the assumed one", "1"),
-}
 
 
 def read_impressions(
@@ -296,16 +289,12 @@ def _reading(
         )
     estimates = []
     for name, value, half in zip(unknowns, values, spread, strict=True):
-        label, unit = _UNITS[name]
-        scale = scales[name]
-        estimates.append(
-            ImpressionEstimate(
-                name, unit, value * scale, (value - half) * scale, (value + half) * scale
-            )
-        )
+        figure, scale = IMPRESSION_FIGURES[name], scales[name]
+        found = (value * scale, (value - half) * scale, (value + half) * scale)
+        estimates.append(ImpressionEstimate(name, figure.unit, *found))
         if name in ("load", "modulus") and half > _UNTOLD * abs(value):
             notes.append(
-                f"These widths do not tell the {label}: its interval is wider than itself."
+                f"These widths do not tell the {figure.label}: its interval is wider than itself."
             )
     return ImpressionReading(
         estimates=tuple(estimates),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.face.figures import FACE_PROFILES
 from rollnip.face.problem import FaceProblem
 from rollnip.face.solve import Balance
 from rollnip.model import Model
@@ -39,4 +40,5 @@ def places(y: Array, chosen: NDArray[np.bool_]) -> str:
     """Return in words where along the face something holds: from the first to the last place."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], chosen, [False]]).astype(int)))
     runs = [(y[a], y[b - 1]) for a, b in zip(edges[::2], edges[1::2], strict=True)]
-    return " and ".join(f"from y = {a:.0f} to {b:.0f} mm" for a, b in runs)
+    unit = FACE_PROFILES["y"].shown_unit
+    return " and ".join(f"from y = {a:.0f} to {b:.0f} {unit}" for a, b in runs)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from rollnip._results.case import case_tree, problem_hash
 from rollnip.face.figures import (
+    BEARING_FORCES,
     FACE_FIGURES,
     FACE_PROFILES,
     SHEET_FACE_FIGURES,
@@ -68,9 +69,9 @@ def face_variables(tree: dict[str, Any]) -> tuple[dict[str, tuple[Any, ...]], di
         about = {"units": "1", "long_name": f"relative error over the face: {key}"}
         variables[f"face_error_{key}"] = ((), error, about)
     for name, forces in tree["bearing_forces"].items():
-        about = {"units": "N", "long_name": f"forces on the bearings of the {name} roller"}
+        figure = BEARING_FORCES[name]
         values = [None, None] if forces is None else forces
-        variables[f"face_bearing_forces_{name}"] = ("bearing", _floats(values), about)
+        variables[f"face_{figure.key}"] = ("bearing", _floats(values), figure.described)
     attributes = {
         "face_converged": int(tree["converged"]),
         "face_status": tree["status"],
@@ -124,8 +125,9 @@ def face_lines(solution: FaceSolution) -> Iterator[str]:
     for name in ("upper", "lower"):
         forces = solution.bearings(name)
         if forces is not None:
-            ends = f"{forces.first:.5g} and {forces.second:.5g} N"
-            yield f"  {'bearings, ' + name:28s} {ends}"
+            figure = BEARING_FORCES[name]
+            ends = f"{figure.number(forces.first)} and {figure.text(forces.second)}"
+            yield f"  {figure.label:28s} {ends}"
     for warning in solution.warnings:
         yield f"  note: {warning}"
 

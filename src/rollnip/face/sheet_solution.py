@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.face.figures import SHEET_FACE_FIGURES
 from rollnip.face.notes import energies_of, places
 from rollnip.face.sheet_balance import SheetBalance
 from rollnip.face.sheet_law import SheetLaw
@@ -18,6 +19,7 @@ from rollnip.sheets import Sheet
 Array = NDArray[np.float64]
 
 _PER_METRE = 1000.0  # mm per metre of web
+_LEAST = SHEET_FACE_FIGURES["least_tension_in"]
 _SLACK = 1e-6  # of the load: a tension below zero that is more than rounding
 
 
@@ -112,7 +114,7 @@ class SheetFaceSolution(FaceSolution):
         if pushed.any():
             out.append(
                 f"The nip pushes the sheet back at the inlet {places(self.y, pushed)}, by up to "
-                f"{-self.least_tension_in:.3g} N/mm: a thin sheet goes slack or wrinkles there."
+                f"{_LEAST.text(-self.least_tension_in)}: a thin sheet goes slack or wrinkles there."
             )
         share = bending_length(self.nip) / float(self.nip_width.max())
         if not self.sheet.bending and share > STIFF:

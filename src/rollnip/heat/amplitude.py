@@ -10,6 +10,7 @@ from __future__ import annotations
 from math import exp, log
 
 from rollnip._errors import ConvergenceError
+from rollnip.heat.figures import RISE
 from rollnip.heat.state import HeatProblem, ThermalState
 from rollnip.nip import Nip
 
@@ -60,8 +61,8 @@ def from_cold(
         if high is None:
             if theta >= HOTTEST:
                 raise RunawayError(
-                    f"No steady state exists up to a rise of {HOTTEST:g} K: at {theta:.3g} K the "
-                    f"heat still asks for {near.hottest:.3g} K."
+                    f"No steady state exists up to a rise of {RISE.text(HOTTEST, 3)}: at "
+                    f"{RISE.text(theta, 3)} the heat still asks for {RISE.text(near.hottest, 3)}."
                 )
             theta = min(near.hottest, _FACTOR * theta, HOTTEST)
         elif low is None:

@@ -111,7 +111,7 @@ NIP_FIGURES: Mapping[str, Figure] = {
 COURSES: Mapping[str, Figure] = by_key(
     _F("r", "radius", "length", "Distance from the axis."),
     _F("temperature", "temperature", "temperature", "Temperature at this radius."),
-    _F("time", "time", "time", "Time since the start."),
+    _F("time", "time", "duration", "Time since the start.", digits=3),
     _F("hot_spot", "highest temperature", "temperature", "Highest temperature of the coverings."),
     _F("surface", "temperature of the surface", "temperature", "In the mean over a turn."),
     _F("bond", "temperature of the bond", "temperature", "At the bond to a rigid core."),
@@ -119,3 +119,31 @@ COURSES: Mapping[str, Figure] = by_key(
     _F("rise", "highest rise", "temperature difference", "Over the temperatures without heat."),
 )
 """Temperatures over the radius, a warm-up over time and steady states over a parameter, by key."""
+
+WARM_UP_FIGURES: Mapping[str, Figure] = by_key(
+    _F(
+        "half_time",
+        "half of the rise after",
+        "duration",
+        "Time at which the hottest place has half of its final rise.",
+        undefined="not reached",
+        digits=3,
+    ),
+    _F(
+        "error",
+        "change of the last sweep",
+        "temperature difference",
+        "How much the temperatures changed when path and heat were computed for the last time.",
+        digits=2,
+    ),
+)
+"""The figures of a warm-up by key."""
+
+PARAMETERS: Mapping[str, Figure] = by_key(
+    _F("speed", "speed", "speed", "Circumferential speed of the rollers.", symbol="V"),
+    FIGURES["load"],
+)
+"""What steady states are followed over, by the name of the parameter."""
+
+TEMPERATURE, RISE = ROLLER_FIGURES["hot_spot"], COURSES["rise"]
+"""A temperature and a difference of temperatures, in messages."""

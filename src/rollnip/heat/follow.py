@@ -18,8 +18,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
+from rollnip.figure import Figure
 from rollnip.heat.amplitude import from_cold
 from rollnip.heat.anderson import settle
+from rollnip.heat.figures import PARAMETERS, RISE
 from rollnip.heat.solution import bond_temperature, profile
 from rollnip.heat.state import HeatProblem, Parameter, ThermalState
 
@@ -34,7 +36,6 @@ _POINTS = 40
 _REFINED = 2  # parabolas through a turning point
 _EXPONENT = {"speed": 1.0, "load": 1.5}
 """How the heat roughly goes with the parameter; the iteration finds out."""
-_UNITS = {"speed": "mm/s", "load": "N/mm"}
 
 
 @dataclass(frozen=True, slots=True)
@@ -125,7 +126,7 @@ def follow(
     ConvergenceError
         where not even the first state was found; begin lower.
     """
-    if parameter not in _UNITS:
+    if parameter not in PARAMETERS:
         raise InvalidInputError(f'`parameter` must be "speed" or "load", got {parameter!r}.')
     if not 0.0 < low < high or isinf(high):
         raise InvalidInputError(
@@ -144,7 +145,7 @@ def follow(
                 break
             continue
         step = min(_STEP, 1.5 * step)
-        ended = _end(found, low, high, largest_rise, _UNITS[parameter])
+        ended = _end(found, low, high, largest_rise, PARAMETERS[parameter])
         if not ended and not past_turning and found[-1].value < found[-2].value:
             ended = "It ends behind the turning point."
         if ended:
@@ -154,17 +155,17 @@ def follow(
 
 
 def _end(
-    found: Sequence[_BranchState], low: float, high: float, largest_rise: float, unit: str
+    found: Sequence[_BranchState], low: float, high: float, largest_rise: float, over: Figure
 ) -> str:
     """Return why a branch need not go on; "" where it goes on."""
     last = found[-1]
     if last.value >= high * (1.0 - 1e-9):
         turned = any(b.value < a.value for a, b in pairwise(found))
-        return f"It reaches {high:.5g} {unit}{' on hot states' if turned else ''}."
+        return f"It reaches {over.text(high)}{' on hot states' if turned else ''}."
     if last.rise > largest_rise:
-        return f"It ends at a rise of {last.rise:.4g} K."
+        return f"It ends at a rise of {RISE.text(last.rise)}."
     if last.value < low * (1.0 - 1e-9):
-        return f"It comes back below {low:.5g} {unit} on states that are not stable."
+        return f"It comes back below {over.text(low)} on states that are not stable."
     return ""
 
 
@@ -229,7 +230,9 @@ class _Walk:
             most=_MOST,
         )
         if not done.converged:
-            raise ConvergenceError(f"no state at {value:.5g} {_UNITS[self.parameter]} was found")
+            raise ConvergenceError(
+                f"no state at {PARAMETERS[self.parameter].text(value)} was found"
+            )
         return _BranchState(value, states[-1].hottest, states[-1])
 
     def at_rise(self, near: _BranchState, rise: float, guess: float) -> _BranchState:
@@ -257,7 +260,7 @@ class _Walk:
             most=_MOST,
         )
         if not done.converged:
-            raise ConvergenceError(f"no state of a rise of {rise:.4g} K was found")
+            raise ConvergenceError(f"no state of a rise of {RISE.text(rise)} was found")
         return _BranchState(exp(float(done.value[0]) / rise), rise, states[-1])
 
     def branch(self, found: list[_BranchState], high: float, status: str) -> Branch:
@@ -279,7 +282,7 @@ class _Walk:
         reached = turning is None and found[-1].value >= high * (1.0 - 1e-9)
         return Branch(
             self.parameter,
-            _UNITS[self.parameter],
+            PARAMETERS[self.parameter].unit,
             points,
             turning,
             reached,

@@ -10,7 +10,15 @@ import numpy as np
 
 from rollnip._results.case import case_tree, heat_tree, problem_hash
 from rollnip.figure import Figure
-from rollnip.heat.figures import BALANCE_FIGURES, NIP_FIGURES, ROLLER_FIGURES
+from rollnip.heat.figures import (
+    BALANCE_FIGURES,
+    COURSES,
+    NIP_FIGURES,
+    PARAMETERS,
+    ROLLER_FIGURES,
+    TEMPERATURE,
+    WARM_UP_FIGURES,
+)
 from rollnip.heat.follow import Branch, BranchPoint
 from rollnip.heat.solution import HeatSolution, RollerHeat
 from rollnip.heat.state import SIDES
@@ -19,7 +27,7 @@ from rollnip.solution import Solution
 
 _SWEPT = ("hot_spot", "bond_temperature", "surface_temperature", "power", "growth")
 _TEMPERATURES = ("hot_spot", "hot_spot_depth", "surface_temperature", "bond_temperature", "growth")
-_HOT = ROLLER_FIGURES["hot_spot"]
+_TIME = COURSES["time"]
 _POWERS = ("viscous", "friction", "to_air", "to_core", "to_nip")
 HEAT_SCALARS: Mapping[str, str] = {
     **{f"{side}.{name}": ROLLER_FIGURES[name].unit for side in SIDES for name in _SWEPT},
@@ -172,27 +180,25 @@ def _four(value: float) -> str:
 
 def warm_up_lines(course: WarmUp) -> Iterator[str]:
     """Yield the summary of a warm-up, line by line."""
-    yield f"\nWarm-up over {_span(float(course.time[-1]))}: {course.status}"
-    yield f"  {'time':24s} {'upper':>12s} {'lower':>12s}"
+    yield f"\nWarm-up over {_TIME.text(float(course.time[-1]))}: {course.status}"
+    yield f"  {_TIME.label:24s} {'upper':>12s} {'lower':>12s}"
     hottest = {side: course.hot_spot(side) for side in SIDES}
     for share in (0.05, 0.1, 0.2, 0.5, 1.0):
         time = share * float(course.time[-1])
         row: list[float | None] = [
             float(np.interp(time, course.time, hottest[side])) for side in SIDES
         ]
-        yield _line(_span(time), row, _HOT.shown_unit)
+        yield _line(_TIME.text(time), row, TEMPERATURE.shown_unit)
     if course.half_time is not None:
-        yield f"  half of the rise after {_span(course.half_time)}"
-
-
-def _span(seconds: float) -> str:
-    return f"{seconds:.3g} s" if seconds < 180.0 else f"{seconds / 60.0:.3g} min"
+        half = WARM_UP_FIGURES["half_time"]
+        yield f"  {half.label} {half.text(course.half_time)}"
 
 
 def branch_lines(branch: Branch, value: float | None) -> Iterator[str]:
     """Yield the summary of a branch, line by line; ``value``: that of the case."""
     yield f"\nSteady states by {branch.parameter}: {branch.status}"
-    yield f"  {branch.parameter + ' [' + branch.unit + ']':24s} {_HOT.label:>12s} {'heat':>12s}"
+    over = PARAMETERS[branch.parameter]
+    yield f"  {over.axis:24s} {TEMPERATURE.label:>12s} {'heat':>12s}"
     for point in branch.points:
         mark = "" if point.stable else "  not stable"
         yield f"  {point.value:<24.5g} {point.hot_spot:12.4g} {point.power:12.4g}{mark}"
@@ -201,10 +207,10 @@ def branch_lines(branch: Branch, value: float | None) -> Iterator[str]:
         return
     turning = branch.turning
     yield (
-        f"  thermal runaway at {turning.value:.4g} {branch.unit}, "
-        f"where the {_HOT.label} has {_HOT.text(turning.hot_spot)}"
+        f"  thermal runaway at {over.text(turning.value)}, "
+        f"where the {TEMPERATURE.label} has {TEMPERATURE.text(turning.hot_spot)}"
     )
     margin = None if value is None else branch.margin(value)
     if margin is not None and value is not None:
         rest = f"; it may rise by {100.0 * margin:.3g} %" if margin > 0.0 else ", beyond that"
-        yield f"  the case has {value:.4g} {branch.unit}{rest}"
+        yield f"  the case has {over.text(value)}{rest}"

@@ -12,6 +12,7 @@ from rollnip._errors import ConvergenceError, InvalidInputError, RollnipError
 from rollnip.cooling import HeatBalance
 from rollnip.heat.amplitude import RunawayError, from_cold
 from rollnip.heat.anderson import settle
+from rollnip.heat.figures import PARAMETERS, RISE, TEMPERATURE
 from rollnip.heat.follow import Branch, follow
 from rollnip.heat.reservations import of_whole_layers
 from rollnip.heat.solution import HeatSolution
@@ -157,8 +158,9 @@ def _where_it_ends(thermal: HeatProblem) -> str:
     if turning is None:
         return ""
     return (
-        f"Followed from cold, the covering runs away at {turning.value:.5g} mm/s, where its hot "
-        f"spot has {turning.hot_spot:.4g} degC; cool it better, or lower speed or load."
+        f"Followed from cold, the covering runs away at "
+        f"{PARAMETERS['speed'].text(turning.value)}, where its hot spot has "
+        f"{TEMPERATURE.text(turning.hot_spot)}; cool it better, or lower speed or load."
     )
 
 
@@ -212,7 +214,8 @@ def _iterate(thermal: HeatProblem, course: _Course, cut: Divided) -> bool:
     course.cut, course.left = cut, found.left
     if not found.converged:
         course.why = (
-            f"The temperatures did not settle: they still change by {found.left:.2g} K after "
+            f"The temperatures did not settle: they still change by "
+            f"{RISE.text(found.left, 2)} after "
             f"{thermal.solves} nips."
         )
     return found.converged
@@ -245,11 +248,13 @@ def _wrapped(
         met = error <= 2.0 * model.tolerance * max(state.hottest, 0.0)
         converged = state.solution.converged and met
         if not met:
-            status = f"The sub-layers leave {error:.2g} K open, more than the tolerance."
+            status = f"The sub-layers leave {RISE.text(error, 2)} open, more than the tolerance."
         elif not state.solution.converged:
             status = f"The warm nip: {state.solution.status}"
         else:
-            status = f"Steady: temperatures to {max(error, 1e-9):.1g} K, {thermal.solves} nips."
+            status = (
+                f"Steady: temperatures to {RISE.text(max(error, 1e-9), 1)}, {thermal.solves} nips."
+            )
         if stable is False:
             status += " This state is not stable: a disturbance grows."
     return HeatSolution(

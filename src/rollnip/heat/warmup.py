@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
 from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction
+from rollnip.heat.figures import RISE
 from rollnip.heat.nip_exchange import Exchange
 from rollnip.heat.solution import HeatSolution, bond_temperature, profile
 from rollnip.heat.state import SIDES, HeatProblem, Side, ThermalState
@@ -147,9 +148,9 @@ def warm_up(
             converged = True
             break
     status = (
-        f"Path and heat agree to {max(change, 1e-9):.1g} K."
+        f"Path and heat agree to {RISE.text(max(change, 1e-9), 1)}."
         if converged
-        else f"Path and heat still differ by {change:.2g} K."
+        else f"Path and heat still differ by {RISE.text(change, 2)}."
     )
     if not steady.converged:
         status += f" {steady.status}"

@@ -74,15 +74,16 @@ def _warm_up(rows: dict[str, Any]) -> Any:
 
 
 def _branch(branch: dict[str, Any]) -> Any:
-    points, unit = branch["points"], branch["unit"]
+    from rollnip.heat.figures import PARAMETERS
+
+    points = branch["points"]
     names = ("value", "hot_spot", "rise", "power")
     columns = {name: [point[name] for point in points] for name in names}
     columns["stable"] = [int(point["stable"]) for point in points]
     said: dict[str, Any] = {name: branch[name] for name in ("parameter", "unit", "status")}
     if branch["turning"] is not None:
         said["turning"] = branch["turning"]["value"]
-    value = {"units": unit, "long_name": branch["parameter"]}
-    return _rows("value", columns, said, value)
+    return _rows("value", columns, said, PARAMETERS[branch["parameter"]].described)
 
 
 def _rows(

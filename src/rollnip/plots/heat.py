@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from rollnip.figure import axis_label
 from rollnip.figures import INTERFACE_FIGURES
 from rollnip.heat import Branch, BranchPoint, HeatSolution, WarmUp
-from rollnip.heat.figures import COURSES, ROLLER_FIGURES
+from rollnip.heat.figures import COURSES, PARAMETERS, ROLLER_FIGURES
 from rollnip.plots.style import Palette, Style, palette_of
 
 _WIDTH, _HEIGHT = 9.0, 3.4  # inches, of one picture
@@ -106,8 +106,8 @@ def _depth(ax: Axes, solution: HeatSolution, palette: Palette) -> None:
 def _course(ax: Axes, course: WarmUp, palette: Palette) -> None:
     """Draw hot spot and surface of each roller over time."""
     ax.set_title("warm-up", loc="left", size=10, color=palette.ink)
-    long = course.time[-1] > 600.0
-    time = course.time / (60.0 if long else 1.0)
+    unit, factor = COURSES["time"].shown_for(course.time[-1])
+    time = factor * course.time
     for side in ("upper", "lower"):
         color = _color(palette, side)
         ax.plot(
@@ -123,7 +123,7 @@ def _course(ax: Axes, course: WarmUp, palette: Palette) -> None:
             label=f"{side}, {ROLLER_FIGURES['surface_temperature'].label}",
         )
     ax.set_xlim(0.0, time[-1])
-    ax.set_xlabel(axis_label(COURSES["time"].label, "min" if long else COURSES["time"].unit))
+    ax.set_xlabel(axis_label(COURSES["time"].label, unit))
     ax.set_ylabel(COURSES["temperature"].axis)
     _legend(ax)
 
@@ -147,13 +147,13 @@ def _branch(ax: Axes, branch: Branch, solution: HeatSolution, palette: Palette) 
         )
     if branch.turning is not None:
         at = branch.turning
-        text = f"thermal runaway at {at.value:.4g} {branch.unit}"
+        text = f"thermal runaway at {PARAMETERS[branch.parameter].text(at.value)}"
         ax.plot(at.value, at.hot_spot, "o", color=palette.alert, label=text)
     here = solution.nip.speed if branch.parameter == "speed" else solution.cold.load
     if here is not None and solution.converged:
         hot = max(solution.upper.hot_spot, solution.lower.hot_spot)
         ax.plot(here, hot, "D", color=palette.shear, label="this case")
-    ax.set_xlabel(axis_label(branch.parameter, branch.unit))
+    ax.set_xlabel(PARAMETERS[branch.parameter].axis)
     ax.set_ylabel(_HOT.axis)
     _legend(ax)
 

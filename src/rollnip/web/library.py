@@ -18,13 +18,20 @@ from rollnip.face.figures import (
     SHEET_FACE_FIGURES,
     SHEET_FACE_PROFILES,
 )
-from rollnip.figure import ROUNDING, Figure
+from rollnip.figure import LARGE, ROUNDING, Figure
+from rollnip.figure import Dimension as FigureDimension
 from rollnip.figures import FIELDS, FIGURES, INTERFACE_FIGURES, PROFILES, PULL
-from rollnip.heat.figures import BALANCE_FIGURES, COURSES, ROLLER_FIGURES
+from rollnip.heat.figures import (
+    BALANCE_FIGURES,
+    COURSES,
+    PARAMETERS,
+    ROLLER_FIGURES,
+    WARM_UP_FIGURES,
+)
 from rollnip.materials import SOURCES as THERMAL_SOURCES
 from rollnip.materials import TYPICAL, shore_a_band, shore_a_modulus
 from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
-from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
+from rollnip.sheet_figures import PULL_FIGURES, SHEET_FIGURES, SHEET_PROFILES
 from rollnip.sheets import SHEETS, Sheet
 from rollnip.web.answers import as_json
 
@@ -51,27 +58,45 @@ _SHOWN: dict[Dimension, tuple[str, str]] = {
     "thermal expansion": ("ppm/K", "1/degF"),
     "turn per length": ("1/m", "1/in"),
 }
+
+
+def _metric(dimension: FigureDimension) -> list[Any]:
+    """Return the unit that summaries show and its size in base units."""
+    figure = Figure("", "", dimension, "")
+    return [figure.shown_unit, 1.0 / figure.factor]
+
+
 # Dimensions and totals of results alone: [unit, scale] of the metric and the US page.
-_SHARE, _DEGREE = ["%", 0.01], ["°", 1.0]
+_DEGREE = ["°", 1.0]
 _HORSEPOWER = 550.0 * 0.3048 * 4.4482216152605  # W; 550 ft lbf/s, what US drives are sized in
 _SHOWN_RESULTS = {
-    "power per length": {"metric": ["W/m", 1.0], "us": ["hp/ft", _HORSEPOWER / 0.3048]},
-    "heat per length": {"metric": ["W/m", 1.0], "us": ["hp/ft", _HORSEPOWER / 0.3048]},
-    "power per volume": {"metric": ["mW/mm³", 1.0], "us": ["hp/in³", 1e3 * _HORSEPOWER / 25.4**3]},
-    "share": {"metric": _SHARE, "us": _SHARE},
+    "power per length": {
+        "metric": _metric("heat per length"),
+        "us": ["hp/ft", _HORSEPOWER / 0.3048],
+    },
+    "heat per length": {
+        "metric": _metric("heat per length"),
+        "us": ["hp/ft", _HORSEPOWER / 0.3048],
+    },
+    "power per volume": {
+        "metric": _metric("power per volume"),
+        "us": ["hp/in³", 1e3 * _HORSEPOWER / 25.4**3],
+    },
+    "share": {"metric": _metric("share"), "us": _metric("share")},
+    "duration": {"metric": _metric("duration"), "us": _metric("duration")},
     "angle": {"metric": _DEGREE, "us": _DEGREE},
     "angle of axes": {"metric": ["deg", radians(1.0)], "us": ["deg", radians(1.0)]},
-    "roller force": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
-    "feed per metre": {"metric": ["mm/m", 1.0], "us": ["in/100 ft", 1.0 / 1.2]},
-    "area": {"metric": ["mm²", 1.0], "us": ["in²", 25.4**2]},
-    "moment": {"metric": ["N·m", 1e3], "us": ["lbf·in", 112.98482902762]},
-    "power": {"metric": ["W", 1e3], "us": ["hp", 1e3 * _HORSEPOWER]},
+    "roller force": {"metric": _metric("roller force"), "us": ["lbf", 4.4482216152605]},
+    "feed per metre": {"metric": _metric("feed per metre"), "us": ["in/100 ft", 1.0 / 1.2]},
+    "area": {"metric": _metric("area"), "us": ["in²", 25.4**2]},
+    "moment": {"metric": _metric("moment"), "us": ["lbf·in", 112.98482902762]},
+    "power": {"metric": _metric("power"), "us": ["hp", 1e3 * _HORSEPOWER]},
     "air pressure": {"metric": ["bar", 0.1], "us": ["psi", 4.4482216152605 / 25.4**2]},
 }
 _SHOWN_TOTALS = {
-    "N": {"metric": ["N", 1.0], "us": ["lbf", 4.4482216152605]},
-    "N m": {"metric": ["N·m", 1.0], "us": ["lbf·in", 0.11298482902762]},
-    "W": {"metric": ["W", 1.0], "us": ["hp", _HORSEPOWER]},
+    "N": {"us": ["lbf", 4.4482216152605]},
+    "N m": {"us": ["lbf·in", 0.11298482902762]},
+    "W": {"us": ["hp", _HORSEPOWER]},
 }
 _INSIDE = ("von_mises", "max_shear", "s_zz", "s_xx", "s_xz", "u_x", "u_z", "loss_density")
 _BOND = ("depth", "shear_max", "shear_range")
@@ -85,7 +110,9 @@ MORE_FIGURES: Mapping[str, Mapping[str, Figure]] = {
     "profile": PROFILES,
     "web": SHEET_PROFILES,
     "inside": {key: FIELDS[key] for key in _INSIDE},
-    "course": {key: COURSES[key] for key in ("temperature", "time")},
+    "course": {**{key: COURSES[key] for key in ("temperature", "time")}, **PARAMETERS},
+    "warm": WARM_UP_FIGURES,
+    "pulls": PULL_FIGURES,
     "bond": {**{key: INTERFACE_FIGURES[key] for key in _BOND}, "pull": PULL},
 }
 # In the order of the page: what is read first stands first.
@@ -161,11 +188,15 @@ def figures_module() -> str:
         "THERMALS": [{"name": name, "source": THERMAL_SOURCES[name]} for name in TYPICAL],
         "TOTALS": [
             {"key": one.name, "label": f"{_capital(one.label)}, whole face"}
-            | {"units": _SHOWN_TOTALS[one.total.unit]}
+            | {"units": {"metric": [one.total.unit, 1.0]} | _SHOWN_TOTALS[one.total.unit]}
             for one in FIGURES.values()
             if one.total is not None
         ],
         "RESULT_UNITS": _SHOWN_RESULTS,
+        "LARGE": {
+            dimension: {"from": least, "unit": unit, "scale": 1.0 / factor}
+            for dimension, (least, (unit, factor)) in LARGE.items()
+        },
     }
     lines = (f"export const {name} = {json.dumps(part)};\n" for name, part in parts.items())
     return "".join(lines)

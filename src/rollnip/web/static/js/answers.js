@@ -2,7 +2,7 @@
 
 import { byId, el, withUnit } from "./dom.js";
 import { bandOf, headline, rangeText, showKnown } from "./known.js";
-import { ANSWERS, errorOf, flat, totalsOf } from "./quantities.js";
+import { ANSWERS, errorOf, figureOfNip, flat, nipText, totalsOf } from "./quantities.js";
 import { inWords } from "./said.js";
 import { languageOf } from "./sentences.js";
 import { LANGUAGE, say } from "./texts.js";
@@ -17,7 +17,8 @@ export function showAnswers(snapshot, units) {
   const { result, known } = snapshot;
   const all = flat(result);
   ROOT.classList.toggle("unsound", !result.converged);
-  const nip = units.format(all.nip_width, "length");
+  const { dimension, digits } = figureOfNip("nip_width");
+  const nip = units.format(all.nip_width, dimension, digits);
   byId("big").replaceChildren(
     ...withUnit(nip),
     el("span", { class: "error", id: "big-error" }),
@@ -67,11 +68,11 @@ function bandLine(key, dimension, units, known) {
 
 function showMini(result, units) {
   const bar = byId("mini");
-  const text = (key, dimension) => el("b", { text: units.text(result[key], dimension) });
+  const text = (key) => el("b", { text: nipText(key, result, units) });
   if (result.converged)
     bar.replaceChildren(
-      el("span", {}, say("mini.nip"), text("nip_width", "length")),
-      el("span", {}, say("mini.peak"), text("peak_pressure", "pressure")),
+      el("span", {}, say("mini.nip"), text("nip_width")),
+      el("span", {}, say("mini.peak"), text("peak_pressure")),
     );
   else bar.replaceChildren(el("span", { class: "alarm", text: say("mini.unsound") }));
 }
@@ -164,8 +165,8 @@ export function announce(result, units) {
   byId("live").textContent =
     sound +
     say("live.answer", {
-      nip: units.text(result.nip_width, "length"),
-      peak: units.text(result.peak_pressure, "pressure"),
+      nip: nipText("nip_width", result, units),
+      peak: nipText("peak_pressure", result, units),
     }) +
     warned;
 }

@@ -1,5 +1,6 @@
 // Tabs that show one curve along the nip.
 
+import { figureIn } from "./quantities.js";
 import { Chart } from "./charts.js";
 import { button, el } from "./dom.js";
 import { PLOTS } from "./plots.js";
@@ -62,7 +63,7 @@ function sheetFoot({ sheet }, units) {
   if (!sheet) return FEET.sheet;
   const parts = [FEET.sheet, say(sheet.bends ? "foot.sheet-bends" : "foot.sheet-free")];
   if (sheet.grip) {
-    const [from, to] = ["smallest", "largest"].map((end) => units.text(sheet.grip[end], "line load"));
+    const [from, to] = ["smallest", "largest"].map((end) => units.figure(figureIn("pulls", end), sheet.grip[end]));
     parts.push(say(`foot.sheet-grip-${sheet.grip.first}`, { from, to }));
   }
   return parts.join(" ");

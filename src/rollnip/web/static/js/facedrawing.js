@@ -1,5 +1,6 @@
 // Drawings along the face: the bent rollers, and the print that carbon paper keeps of the nip.
 
+import { figureIn } from "./quantities.js";
 import { picture, words } from "./drawing.js";
 import { svg } from "./dom.js";
 import { SIDES, coreDiameter } from "./face.js";
@@ -15,7 +16,7 @@ const PRINT = 54; // px, of the widest place of the stretched print
 /** Both rollers from the side, bent under the load: {node, times}, deflections drawn `times` larger. */
 export function bentPicture(tree, face, { width, palette, units }) {
   const frame = frameOf(tree, face, width);
-  const label = say("face.label", { times: number(frame.times), load: units.text(face.mean_load, "line load") });
+  const label = say("face.label", { times: number(frame.times), load: units.figure(figureIn("face", "mean_load"), face.mean_load) });
   const node = picture(width, frame.height, label, palette);
   for (const side of SIDES) node.append(...rollerParts(side, tree, face, frame, palette));
   for (const side of SIDES) node.append(...bearings(side, tree, face, frame, { palette, units }));

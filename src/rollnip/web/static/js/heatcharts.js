@@ -1,12 +1,10 @@
 // The charts of heat: temperature over depth, warm-up, steady states over speed or load.
 
 import { layoutOf, line, titled } from "./charts.js";
-import { curveName, figureIn, figureOfNip } from "./quantities.js";
+import { curveName, figureIn } from "./quantities.js";
 import { say } from "./texts.js";
 
 const SIDES = ["upper", "lower"];
-const MINUTE = 60; // s
-const LONG = 600; // s: longer warm-ups are shown in minutes
 const DEGREES = "temperature";
 
 /** Temperature below the surface of both rollers, hot spots and bonds marked. */
@@ -31,7 +29,7 @@ export function depthChart(heat, tree, units, palette) {
     xaxis: { rangemode: "tozero" },
     shapes: bonds,
   });
-  const spots = Object.fromEntries(SIDES.map((side) => [side, units.text(heat[side].hot_spot, DEGREES)]));
+  const spots = Object.fromEntries(SIDES.map((side) => [side, units.figure(figureIn("heat", "hot_spot"), heat[side].hot_spot)]));
   return { data, layout, label: say("heat.chart-depth", spots) };
 }
 
@@ -65,21 +63,21 @@ function mark(name, x, y, colour, symbol) {
 /** Hot spot and surface of both rollers over time. */
 export function warmChart(course, units, palette) {
   const unit = units.name(DEGREES);
-  const isLong = course.time[course.time.length - 1] > LONG;
-  const x = course.time.map((time) => time / (isLong ? MINUTE : 1));
-  const along = isLong ? "min" : "s";
+  const time = figureIn("course", "time");
+  const { name: along, scale } = units.of(time.dimension, course.time[course.time.length - 1]);
+  const x = course.time.map((at) => at / scale);
   const hover = { hovertemplate: `%{y:.4~g} ${unit}` };
   const data = SIDES.flatMap((side) => [
     line(named(side, "hot_spot"), x, units.list(course[side].hot_spot, DEGREES), palette[side], { width: 2.6, ...hover }),
     line(named(side, "surface_temperature"), x, units.list(course[side].surface, DEGREES), palette[side], { dash: "dash", ...hover }),
   ]);
-  const layout = layoutOf(palette, titled(figureIn("course", "time").label, along), titled(figureIn("course", "temperature").label, unit), { along });
+  const layout = layoutOf(palette, titled(time.label, along), titled(figureIn("course", "temperature").label, unit), { along });
   return { data, layout, label: say("heat.chart-warm") };
 }
 
 /** Hot spot over speed or load: stable states, others, runaway, and the design. */
 export function branchChart(branch, heat, units, palette) {
-  const dimension = branch.parameter === "speed" ? "speed" : "line load";
+  const { dimension, label: name } = figureIn("course", branch.parameter);
   const [unit, along] = [units.name(DEGREES), units.name(dimension)];
   const shown = (points) => [
     units.list(points.map(({ value }) => value), dimension),
@@ -100,7 +98,6 @@ export function branchChart(branch, heat, units, palette) {
     const hot = Math.max(...SIDES.map((side) => heat[side].hot_spot));
     data.push(mark(say("heat.here"), ...shown([{ value: branch.value, hot_spot: hot }]), palette.shear, "diamond"));
   }
-  const name = branch.parameter === "speed" ? say("input.speed") : figureOfNip("load").label;
   const layout = layoutOf(palette, titled(name, along), titled(figureIn("heat", "hot_spot").label, unit), { along, hovermode: "closest" });
   return { data, layout, label: say("heat.chart-branch") };
 }

@@ -13,7 +13,6 @@ import { say } from "./texts.js";
 import { number } from "./units.js";
 
 const SIDES = ["upper", "lower"];
-const MINUTE = 60; // s
 const FINEST = 1e-4; // %, of a balance that is shown
 const TEMPERATURES = ["hot_spot", "hot_spot_depth", "bond_temperature", "surface_temperature", "growth"];
 const POWERS = ["viscous", "friction", "to_air", "to_core", "to_nip"];
@@ -206,30 +205,26 @@ function verdictOf(heat, units) {
   if (!heat.converged) return say(/No steady state|runs away/.test(heat.status) ? "heat.no-steady" : "heat.unsound");
   const side = heat.upper.hot_spot >= heat.lower.hot_spot ? "upper" : "lower";
   const { hot_spot: hot, hot_spot_depth: depth } = heat[side];
-  const values = { hot: units.text(hot, "temperature", 3), depth: units.text(depth, "length", 3) };
+  const values = { hot: units.figure(figureIn("heat", "hot_spot"), hot), depth: units.figure(figureIn("heat", "hot_spot_depth"), depth) };
   return say(heat.stable === false ? `heat.unstable-${side}` : `heat.steady-${side}`, values);
 }
 
 function warmSentence(course, units) {
   if (!course.converged) return inWords(course.status, "", units);
   const half = course.half_time;
-  return half === null ? say("heat.no-half") : say("heat.half", { time: spanOf(half) });
-}
-
-function spanOf(seconds) {
-  return seconds < 3 * MINUTE ? `${number(seconds, 3)} s` : `${number(seconds / MINUTE, 3)} min`;
+  return half === null ? say("heat.no-half") : say("heat.half", { time: units.figure(figureIn("warm", "half_time"), half) });
 }
 
 function branchSentence(branch, units) {
-  const dimension = branch.parameter === "speed" ? "speed" : "line load";
+  const over = figureIn("course", branch.parameter);
   if (!branch.turning) {
     const far = branch.points[branch.points.length - 1].value;
-    return `${say("heat.no-runaway", { value: units.text(far, dimension, 3) })} ${branch.reached ? "" : inWords(branch.status, "", units)}`.trim();
+    return `${say("heat.no-runaway", { value: units.figure(over, far) })} ${branch.reached ? "" : inWords(branch.status, "", units)}`.trim();
   }
   const { value, hot_spot: hot } = branch.turning;
   const values = {
-    value: units.text(value, dimension, 3),
-    hot: units.text(hot, "temperature", 3),
+    value: units.figure(over, value),
+    hot: units.figure(figureIn("heat", "hot_spot"), hot),
     share: number(100 * branch.margin, 3),
   };
   return say(`heat.${branch.margin > 0 ? "runs-away" : "beyond"}-${branch.parameter}`, values);

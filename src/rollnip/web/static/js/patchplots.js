@@ -56,11 +56,11 @@ export function pressureMap({ patch, fields }, units, palette) {
     colorbar: { title: { text: titled(curveName("field", "pressure"), unit), side: "right" }, thickness: 12, outlinewidth: 0 },
     hovertemplate: `x %{x:.4~g}, y %{y:.4~g} ${length}: %{z:.4~g} ${unit}<extra></extra>`,
   };
-  const text = (key, dimension) => units.text(patch[key], dimension);
+  const text = (key) => units.figure(figureIn("patch", key), patch[key]);
   const label = say("patch.map-pressure", {
-    peak: text("peak_pressure", "pressure"),
-    length: text("length", "length"),
-    width: text("width", "length"),
+    peak: text("peak_pressure"),
+    length: text("length"),
+    width: text("width"),
   });
   return { data: [map], layout: mapLayout(units, palette), label };
 }

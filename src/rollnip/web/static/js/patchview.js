@@ -8,6 +8,7 @@ import { download, fileName } from "./files.js";
 import { patchCase, patchDrive, patchPress, patchStart, shapeAcross, SIDES } from "./patch.js";
 import { patchInputs } from "./patchinputs.js";
 import { gapMap, patchColumns, patchRows, pressureMap, slipMap, zonesMap } from "./patchplots.js";
+import { figureIn } from "./quantities.js";
 import { inWords } from "./said.js";
 import { say } from "./texts.js";
 import { number } from "./units.js";
@@ -122,9 +123,9 @@ export class PatchView {
 
   announce(result, units) {
     this.told = result;
-    const text = (key, dimension) => units.text(result.patch[key], dimension);
-    const peak = text("peak_pressure", "pressure");
-    this.heard.textContent = say("patch.live", { length: text("length", "length"), width: text("width", "length"), peak });
+    const text = (key) => units.figure(figureIn("patch", key), result.patch[key]);
+    const peak = text("peak_pressure");
+    this.heard.textContent = say("patch.live", { length: text("length"), width: text("width"), peak });
   }
 
   sentence(failure) {

@@ -2,7 +2,7 @@
 
 import { layoutOf, line, titled } from "./charts.js";
 import { nameOf } from "./design.js";
-import { curveName, figureIn } from "./quantities.js";
+import { curveName, figureIn, nipText } from "./quantities.js";
 import { say } from "./texts.js";
 
 const ALONG = say("axis.along");
@@ -47,8 +47,8 @@ function pressurePlot(result, units, palette, tree) {
     shapes: zonesOf(result, units, palette),
   });
   const label = say("chart.pressure", {
-    peak: units.text(result.peak_pressure, "pressure"),
-    nip: units.text(result.nip_width, "length"),
+    peak: nipText("peak_pressure", result, units),
+    nip: nipText("nip_width", result, units),
     zones: zoneWords(result),
   });
   return { data, layout, label };
@@ -68,7 +68,7 @@ function gapPlot(result, units, palette) {
   return {
     data,
     layout,
-    label: say("chart.gap", { nip: units.text(result.nip_width, "length") }),
+    label: say("chart.gap", { nip: nipText("nip_width", result, units) }),
   };
 }
 
@@ -78,12 +78,12 @@ function strainPlot(result, units, palette) {
     const values = units.list(result.profiles[`strain_${side}`], "share");
     data.push(
       line(say(`surface.${side}`), x, values, palette[side], {
-        hovertemplate: "%{y:.3~g} %",
+        hovertemplate: `%{y:.3~g} ${units.name("share")}`,
         dash: side === "lower" ? "longdash" : "solid",
       }),
     );
   }
-  const layout = layoutOf(palette, along(units), titled(say("axis.strain"), "%"), {
+  const layout = layoutOf(palette, along(units), titled(say("axis.strain"), units.name("share")), {
     along: units.name("length"),
     xaxis: { range: reach(result, units) },
     shapes: zonesOf(result, units, palette),
@@ -151,10 +151,10 @@ function sheetPlot(result, units, palette) {
     line(curveName("web", "strain"), x, units.list(profiles.strain, "share"), palette.shear, {
       dash: "dash",
       yaxis: "y2",
-      hovertemplate: "%{y:.3~g} %",
+      hovertemplate: `%{y:.3~g} ${units.name("share")}`,
     }),
   ];
-  const second = { text: titled(figureIn("web", "strain").label, "%"), standoff: 8 };
+  const second = { text: titled(figureIn("web", "strain").label, units.name("share")), standoff: 8 };
   const layout = layoutOf(palette, along(units), titled(figureIn("web", "tension").label, unit), {
     along: units.name("length"),
     xaxis: { range: reach(result, units) },

@@ -96,13 +96,9 @@ export function bondTable(interfaces, units) {
   const rows = interfaces.map((one) => {
     const shear = Math.max(Math.abs(one.shear_min), Math.abs(one.shear_max));
     const name = say(one.bond ? "bond.core" : "bond.between", { roller: say(`side.${one.roller}`) });
-    const peel = one.peel_max > 0 ? units.text(one.peel_max, "pressure", 3) : say("bond.pressed");
-    const cells = [
-      units.text(one.depth, "length"),
-      units.text(shear, "pressure", 3),
-      units.text(one.shear_range, "pressure", 3),
-      peel,
-    ];
+    const text = (key, value) => units.figure(figureIn("bond", key), value);
+    const peel = one.peel_max > 0 ? text("pull", one.peel_max) : say("bond.pressed");
+    const cells = [text("depth", one.depth), text("shear_max", shear), text("shear_range", one.shear_range), peel];
     return el("tr", {}, el("th", { scope: "row", text: name }), ...cells.map((text) => el("td", { text })));
   });
   return el(

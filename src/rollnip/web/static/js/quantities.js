@@ -4,7 +4,7 @@ import { meanLoad } from "./face.js";
 import { FIGURES, MORE_FIGURES, ROUNDING, SHEET_FIGURES, TOTALS } from "./figures.js";
 import { getAt } from "./paths.js";
 import { sheetPaths } from "./sheet.js";
-import { number } from "./units.js";
+import { number, written } from "./units.js";
 import { firstInText, say, sayOr } from "./texts.js";
 
 const TINY = 2e-5; // relative errors below it say nothing to anybody
@@ -87,6 +87,11 @@ export function curveName(kind, key) {
 /** A figure of the nip in the language of the page. */
 export function figureOfNip(wanted) {
   return said(FIGURES.find(({ key }) => key === wanted));
+}
+
+/** A figure of a result of the nip as a text with its unit. */
+export function nipText(key, result, units) {
+  return units.figure(figureOfNip(key), result[key]);
 }
 
 function totalLabel(key, label) {
@@ -368,6 +373,6 @@ export function totalsOf(result, system) {
   if (!result.totals) return [];
   return TOTALS.filter(({ key }) => result.totals[key] !== null).map(({ key, label, units }) => {
     const [unit, scale] = units[system];
-    return { label: totalLabel(key, label), text: number(result.totals[key] / scale), unit };
+    return { label: totalLabel(key, label), text: number(result.totals[key] / scale), unit: written(unit) };
   });
 }

@@ -2,11 +2,11 @@
 
 import { inLanguage } from "./sentences.js";
 import { say } from "./texts.js";
+import { written } from "./units.js";
 
 const MODEL = /`?[Gg]eometry (?:= )?"(second|finite|curved|corrected|linear)"`?/g;
 const NUMBER = String.raw`([-\u2212]?\d+(?:\.\d+)?(?:e[+-]?\d+)?)`;
-const UNITS = { mm: "length", "N/mm": "line load", MPa: "pressure", "mm/s": "speed" };
-const MEASURED = new RegExp(`${NUMBER} (N/mm|mm/s|mm|MPa)(?![\\w/])`, "g");
+const SAID = ["line load", "speed", "length", "pressure", "temperature"]; // with longer units first
 
 /** A sentence of the server about the value at `path`, `{dimension, factor}` its input. */
 export function inWords(message, path, units, input = null) {
@@ -16,6 +16,8 @@ export function inWords(message, path, units, input = null) {
     const [most, is] = [thick[1], thick[2]].map((text) => units.text(Number(text), "length"));
     return say("said.thick", { most, is, diameter: units.text(2 * Number(thick[1]), "length") });
   }
+  const dimensions = new Map(SAID.map((dimension) => [written(units.table[dimension].base), dimension]));
+  const measured = new RegExp(`${NUMBER} (${[...dimensions.keys()].join("|")})(?![\\w/])`, "g");
   const isRadius = /(^|\.)radius$/.test(path ?? "");
   const doubled = (number) => (isRadius ? 2 : 1) * number;
   return (inLanguage(message) ?? message)
@@ -24,7 +26,7 @@ export function inWords(message, path, units, input = null) {
     .replace(/`?approach`? must be smaller than the radius/, say("said.approach"))
     .replace(/of its radius\b/g, say("said.of-radius"))
     .replace(/friction \* load\b/g, say("said.friction-load"))
-    .replace(MEASURED, (_text, number, unit) => units.text(doubled(Number(number)), UNITS[unit]))
+    .replace(measured, (_text, number, unit) => units.text(doubled(Number(number)), dimensions.get(unit)))
     .replace(new RegExp(`(got|gegeben ist) ${NUMBER}(?=\\.?$| with )`), (text, got, number) =>
       input && Number.isFinite(Number(number))
         ? `${got} ${units.text(Number(number) * input.factor, input.dimension)}`

@@ -1,5 +1,6 @@
 // The nip itself to scale: layers and deformed surfaces as computed.
 
+import { nipText } from "./quantities.js";
 import { svg } from "./dom.js";
 import { picture, words } from "./drawing.js";
 import { toneOf } from "./palette.js";
@@ -16,7 +17,7 @@ export function windowOf(result) {
 
 /** The nip and its neighbourhood, to scale, from the surfaces the server computed. */
 export function sectionPicture(tree, result, surfaces, { width, height, palette, units }) {
-  const text = units.text(result.nip_width, "length");
+  const text = nipText("nip_width", result, units);
   const node = picture(width, height, say("section.label", { text }), palette);
   const frame = frameOf(result, surfaces, width, height - STRIP);
   const clip = `clip-${width}-${height}-${palette.name}`;

@@ -1,11 +1,12 @@
 // Values are kept in mm, N, MPa, s for good; units are only a way of showing them.
 
-import { RESULT_UNITS } from "./figures.js";
+import { LARGE, RESULT_UNITS } from "./figures.js";
 
 const DIGITS = 4;
 const WRITTEN = {
   degC: "°C",
   degF: "°F",
+  "N m": "N·m",
   "N m/m": "N·m/m",
   "lbf in/in": "lbf·in/in",
   "W/(m2 K)": "W/(m² K)",
@@ -22,8 +23,10 @@ export class Units {
     this.system = system;
   }
 
-  /** {name, scale, offset} of a dimension; name "" where it has no unit. */
-  of(dimension) {
+  /** {name, scale, offset} of a dimension for values up to `largest`; name "" where it has no unit. */
+  of(dimension, largest = 0) {
+    const large = LARGE[dimension];
+    if (large && Math.abs(largest) >= large.from) return { name: large.unit, scale: large.scale, offset: 0 };
     if (RESULT_UNITS[dimension]) {
       const [name, scale] = RESULT_UNITS[dimension][this.system];
       return { name, scale, offset: 0 };
@@ -42,7 +45,7 @@ export class Units {
   /** The unit as a person writes it. */
   name(dimension) {
     const { name } = this.of(dimension);
-    return WRITTEN[name] ?? name;
+    return written(name);
   }
 
   shown(value, dimension) {
@@ -61,6 +64,13 @@ export class Units {
     return { text: number(this.shown(value, dimension), digits), unit: this.name(dimension) };
   }
 
+  /** A value of a figure of the registry, in the unit for its size. */
+  figure({ dimension, digits }, value) {
+    if (value === null || value === undefined) return "–";
+    const { name, scale, offset } = this.of(dimension, value);
+    return joined(number((value - offset) / scale, digits), written(name));
+  }
+
   /** The same as one text. */
   text(value, dimension, digits = DIGITS) {
     const { text, unit } = this.format(value, dimension, digits);
@@ -77,6 +87,11 @@ export class Units {
   list(values, dimension) {
     return values.map((value) => (value === null ? null : this.shown(value, dimension)));
   }
+}
+
+/** A unit as a person writes it. */
+export function written(name) {
+  return WRITTEN[name] ?? name;
 }
 
 /** "4 mm", "4 %", "4": a number and its unit. */

@@ -142,7 +142,7 @@ export const SOLVER_EN = {
   "solver.heat-changes": "The temperatures did not settle: they still change by {change} K after {solves} nips.",
   "solver.heat-open": "The sub-layers leave {error} K open, more than the tolerance.",
   "solver.heat-runs": "No steady state exists up to a rise of {most} K: at {rise} K the heat still asks for {asked} K.",
-  "solver.heat-speed": "Followed from cold, the covering runs away at {speed} mm/s, where its hot spot has {hot} degC; cool it better, or lower speed or load.",
+  "solver.heat-speed": "Followed from cold, the covering runs away at {speed} mm/s, where its hot spot has {hot} °C; cool it better, or lower speed or load.",
   "solver.heat-unstable": "This state is not stable: a disturbance grows.",
   "solver.heat-agree": "Path and heat agree to {change} K.",
   "solver.heat-differ": "Path and heat still differ by {change} K.",

@@ -24,6 +24,7 @@ __all__ = [
     "Shown",
     "axis_label",
     "by_key",
+    "curve",
 ]
 
 Dimension = Literal[
@@ -245,6 +246,13 @@ class Figure:
         """Attributes of a variable of a data set: units, long_name and comment."""
         comment = f"{self.sentence} {self.sign}".rstrip()
         return {"units": self.unit, "long_name": self.label, "comment": comment}
+
+
+def curve(
+    key: str, symbol: str, label: str, dimension: Dimension, sentence: str, sign: str = ""
+) -> Figure:
+    """Return a curve over x or a field, as the registries list them."""
+    return Figure(key, label, dimension, sentence, symbol=symbol, sign=sign)
 
 
 _AnyFigure = TypeVar("_AnyFigure", bound=Figure)

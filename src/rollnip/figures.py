@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from rollnip.figure import Dimension, FaceTotal, Figure, by_key
+from rollnip.figure import FaceTotal, Figure, by_key, curve
 
 __all__ = ["CLAIMED", "FIELDS", "FIGURES", "INTERFACE_FIGURES", "PLACES", "PROFILES", "PULL"]
 
@@ -190,38 +190,34 @@ _SCALARS: tuple[Figure, ...] = (
 )
 
 
-def _curve(key: str, symbol: str, label: str, dimension: Dimension, sentence: str) -> Figure:
-    return Figure(key=key, symbol=symbol, label=label, dimension=dimension, sentence=sentence)
-
-
 _CURVES: tuple[Figure, ...] = (
-    _curve("x", "x", "x", "length", "Place along the nip, towards the leading edge (inlet)."),
-    _curve("pressure", "p", "pressure", "pressure", "Pressure, positive in compression."),
-    _curve("shear", "q", "shear", "pressure", "Shear on the upper roller, along +x."),
-    _curve("gap", "g", "gap", "length", "Distance of the surfaces."),
-    _curve(
+    curve("x", "x", "x", "length", "Place along the nip, towards the leading edge (inlet)."),
+    curve("pressure", "p", "pressure", "pressure", "Pressure, positive in compression."),
+    curve("shear", "q", "shear", "pressure", "Shear on the upper roller, along +x."),
+    curve("gap", "g", "gap", "length", "Distance of the surfaces."),
+    curve(
         "slip_velocity",
         "s",
         "slip velocity",
         "speed",
         "Velocity of the upper surface relative to the lower one, along +x.",
     ),
-    _curve(
+    curve(
         "strain_upper",
         r"\varepsilon_u",
         "strain, upper surface",
         "share",
         "Strain of the upper surface along the nip, positive where it is stretched.",
     ),
-    _curve(
+    curve(
         "strain_lower",
         r"\varepsilon_l",
         "strain, lower surface",
         "share",
         "Strain of the lower surface along the nip, positive where it is stretched.",
     ),
-    _curve("speed_upper", "v_u", "speed, upper surface", "speed", "Speed of the upper surface."),
-    _curve("speed_lower", "v_l", "speed, lower surface", "speed", "Speed of the lower surface."),
+    curve("speed_upper", "v_u", "speed, upper surface", "speed", "Speed of the upper surface."),
+    curve("speed_lower", "v_l", "speed, lower surface", "speed", "Speed of the lower surface."),
 )
 
 FIGURES: Mapping[str, Figure] = by_key(*_SCALARS)
@@ -266,26 +262,18 @@ PULL = Figure("pull", "largest pull", "pressure", "Largest tension across the in
 """The pull on an interface: of summaries and pictures; files have the peel stress."""
 
 
-def _field(
-    key: str, symbol: str, label: str, dimension: Dimension, sentence: str, sign: str = ""
-) -> Figure:
-    return Figure(
-        key=key, symbol=symbol, label=label, dimension=dimension, sentence=sentence, sign=sign
-    )
-
-
 _TENSION = "Positive in tension."
 _STRETCH = "Positive where it is stretched."
 FIELDS: Mapping[str, Figure] = by_key(
-    _field("u_x", "u_x", "displacement along x", "length", "Displacement along the nip."),
-    _field("u_z", "u_z", "displacement along z", "length", "Displacement into the roller."),
-    _field("s_xx", "s_{xx}", "stress along x", "pressure", "Stress along the nip.", _TENSION),
-    _field("s_yy", "s_{yy}", "axial stress", "pressure", "Stress along the axes.", _TENSION),
-    _field("s_zz", "s_{zz}", "normal stress", "pressure", "Stress along the depth.", _TENSION),
-    _field("s_xy", "s_{xy}", "shear stress in the surface", "pressure", "Shear stress of x and y."),
-    _field("s_xz", "s_{xz}", "shear stress", "pressure", "Shear stress of x and z."),
-    _field("s_yz", "s_{yz}", "shear stress along y", "pressure", "Shear stress of y and z."),
-    _field(
+    curve("u_x", "u_x", "displacement along x", "length", "Displacement along the nip."),
+    curve("u_z", "u_z", "displacement along z", "length", "Displacement into the roller."),
+    curve("s_xx", "s_{xx}", "stress along x", "pressure", "Stress along the nip.", _TENSION),
+    curve("s_yy", "s_{yy}", "axial stress", "pressure", "Stress along the axes.", _TENSION),
+    curve("s_zz", "s_{zz}", "normal stress", "pressure", "Stress along the depth.", _TENSION),
+    curve("s_xy", "s_{xy}", "shear stress in the surface", "pressure", "Shear stress of x and y."),
+    curve("s_xz", "s_{xz}", "shear stress", "pressure", "Shear stress of x and z."),
+    curve("s_yz", "s_{yz}", "shear stress along y", "pressure", "Shear stress of y and z."),
+    curve(
         "s_1",
         "s_1",
         "larger principal stress",
@@ -293,7 +281,7 @@ FIELDS: Mapping[str, Figure] = by_key(
         "Larger principal stress in the plane of x and z.",
         _TENSION,
     ),
-    _field(
+    curve(
         "s_2",
         "s_2",
         "smaller principal stress",
@@ -301,24 +289,24 @@ FIELDS: Mapping[str, Figure] = by_key(
         "Smaller principal stress in the plane of x and z.",
         _TENSION,
     ),
-    _field(
+    curve(
         "principal_angle", "", "direction of s_1", "angle", "Direction of s_1, from x towards z."
     ),
-    _field(
+    curve(
         "max_shear",
         "",
         "largest shear stress",
         "pressure",
         "Half of the largest less the smallest principal stress, the axial one included.",
     ),
-    _field(
+    curve(
         "von_mises",
         "",
         "von Mises stress",
         "pressure",
         "Equivalent stress of von Mises, the axial stress included.",
     ),
-    _field(
+    curve(
         "pressure",
         "",
         "hydrostatic pressure",
@@ -326,30 +314,30 @@ FIELDS: Mapping[str, Figure] = by_key(
         "Mean of the three normal stresses, its sign turned.",
         "Positive in compression.",
     ),
-    _field("e_xx", "e_{xx}", "strain along x", "share", "Strain along the nip.", _STRETCH),
-    _field("e_zz", "e_{zz}", "strain along z", "share", "Strain along the depth.", _STRETCH),
-    _field(
+    curve("e_xx", "e_{xx}", "strain along x", "share", "Strain along the nip.", _STRETCH),
+    curve("e_zz", "e_{zz}", "strain along z", "share", "Strain along the depth.", _STRETCH),
+    curve(
         "e_xz",
         "e_{xz}",
         "shear strain",
         "share",
         "Half the change of the right angle between x and z.",
     ),
-    _field(
+    curve(
         "energy_density",
         "",
         "strain energy density",
         "energy per volume",
         "Half of stress times strain; at finite strain the strain energy.",
     ),
-    _field(
+    curve(
         "loss_density",
         "",
         "stress power, loss density",
         "power per volume",
         "Power that linear stress puts into the passing material; its integral along x is heat.",
     ),
-    _field(
+    curve(
         "loss_per_depth",
         "",
         "heat per depth",

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from math import isfinite
 from typing import Any
 
-from rollnip.figure import Dimension, Figure, by_key
+from rollnip.figure import Dimension, Figure, by_key, curve
 
 __all__ = ["PULL_FIGURES", "SHEET_FIGURES", "SHEET_PROFILES", "SheetFigure"]
 
@@ -37,10 +37,6 @@ class SheetFigure(Figure):
 
 def _finite(value: float | None) -> float | None:
     return float(value) if value is not None and isfinite(value) else None
-
-
-def _curve(key: str, symbol: str, label: str, dimension: Dimension, sentence: str) -> Figure:
-    return Figure(key=key, symbol=symbol, label=label, dimension=dimension, sentence=sentence)
 
 
 _NO_SPEED = "needs `speed`"
@@ -216,27 +212,27 @@ PULL_FIGURES: Mapping[str, Figure] = by_key(
 SHEET_PROFILES: Mapping[str, Figure] = {
     one.key: one
     for one in (
-        _curve("x", "x", "x", "length", "Place along the nip, towards the leading edge (inlet)."),
-        _curve(
+        curve("x", "x", "x", "length", "Place along the nip, towards the leading edge (inlet)."),
+        curve(
             "shear_lower", "q_l", "shear, lower side", "pressure", "Shear on the sheet's underside."
         ),
-        _curve("tension", "N", "tension", "line load", "Tension of the sheet, per width."),
-        _curve("strain", "e", "strain of the sheet", "share", "Strain of the sheet's middle."),
-        _curve(
+        curve("tension", "N", "tension", "line load", "Tension of the sheet, per width."),
+        curve("strain", "e", "strain of the sheet", "share", "Strain of the sheet's middle."),
+        curve(
             "slip_velocity_lower",
             "s_l",
             "slip velocity, lower side",
             "speed",
             "Velocity of the sheet relative to the lower surface, along +x.",
         ),
-        _curve(
+        curve(
             "pressure_lower",
             "p_l",
             "pressure, lower side",
             "pressure",
             "Pressure between the sheet and the lower roller.",
         ),
-        _curve(
+        curve(
             "height",
             "y",
             "height of the sheet",

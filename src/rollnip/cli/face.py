@@ -127,6 +127,7 @@ def read(
         nip, along, model = _read(case)
         from rollnip._units import parse_quantity
         from rollnip.face import Impression, read_impressions
+        from rollnip.face.report import reading_dict
         from rollnip.io.columns import read_columns
 
         table = read_columns(widths)
@@ -147,7 +148,7 @@ def read(
             model,
             roller=_roller(roller),
         )
-        _print(_reading_dict(reading) if json else _reading_text(reading))
+        _print(reading_dict(reading) if json else _reading_text(reading))
 
 
 def _read(case: str) -> tuple[Nip, Face, Model]:
@@ -271,21 +272,6 @@ def _crown_text(best: Any, loads: Any, wall: Any) -> str:
             f"(bore {wall.bore:.4g} {length}) keeps within {within:g} %"
         )
     return "\n".join(lines) + "\n"
-
-
-def _reading_dict(reading: Any) -> dict[str, Any]:
-    return {
-        "estimates": {
-            one.name: {"value": one.value, "low": one.low, "high": one.high, "unit": one.unit}
-            for one in reading.estimates
-        },
-        "chi_squared": reading.chi_squared,
-        "freedom": reading.freedom,
-        "shop_crown": reading.shop_crown,
-        "needed_crown": reading.needed_crown,
-        "bearing_offset": reading.bearing_offset,
-        "warnings": list(reading.warnings),
-    }
 
 
 def _reading_text(reading: Any) -> str:

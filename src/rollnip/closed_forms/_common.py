@@ -33,13 +33,18 @@ def require_below_bound(traction: float, bound: float) -> None:
         )
 
 
-def half_ellipse(x: ArrayLike, half_width: float) -> NDArray[np.float64]:
-    """sqrt(1 - (x/half_width)^2) inside, 0 outside and for half_width 0."""
+def parabola(x: ArrayLike, half_width: float) -> NDArray[np.float64]:
+    """Return 1 - (x/half_width)^2 inside, 0 outside and for half_width 0."""
     place = np.asarray(x, dtype=np.float64)
     if half_width == 0.0:
         return np.zeros_like(place)
     ratio = place / half_width
-    return np.sqrt(np.maximum((1.0 - ratio) * (1.0 + ratio), 0.0))
+    return np.maximum((1.0 - ratio) * (1.0 + ratio), 0.0)
+
+
+def half_ellipse(x: ArrayLike, half_width: float) -> NDArray[np.float64]:
+    """Return sqrt(1 - (x/half_width)^2) inside, 0 outside and for half_width 0."""
+    return np.sqrt(parabola(x, half_width))
 
 
 def graded_rule(

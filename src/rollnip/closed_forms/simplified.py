@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import require_finite
-from rollnip.closed_forms._common import require_all_positive, require_below_bound
+from rollnip.closed_forms._common import parabola, require_all_positive, require_below_bound
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,8 +32,7 @@ class WinklerContact:
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
         """p(x) = p0 (1 - x^2/a^2) [MPa], 0 outside; x [mm] of any shape."""
-        ratio = np.asarray(x, dtype=np.float64) / self.half_width
-        return self.peak_pressure * np.maximum((1.0 - ratio) * (1.0 + ratio), 0.0)
+        return self.peak_pressure * parabola(x, self.half_width)
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError
-from rollnip.closed_forms._common import require_all_positive, require_poisson
+from rollnip.closed_forms._common import parabola, require_all_positive, require_poisson
 from rollnip.closed_forms.simplified import winkler_contact
 
 
@@ -35,8 +35,7 @@ class ThinLayer:
 
     def pressure(self, x: ArrayLike) -> NDArray[np.float64]:
         """p(x) = p0 (1 - x^2/a^2)^n [MPa], 0 outside; x [mm] of any shape."""
-        ratio = np.asarray(x, dtype=np.float64) / self.half_width
-        return self.peak_pressure * np.maximum((1.0 - ratio) * (1.0 + ratio), 0.0) ** self.exponent
+        return self.peak_pressure * parabola(x, self.half_width) ** self.exponent
 
 
 def thin_compressible_layer(

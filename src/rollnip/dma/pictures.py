@@ -14,10 +14,9 @@ from rollnip.dma.quality import relative_deviations
 from rollnip.dma.timefit import TimeFit
 from rollnip.figures import MEASURED
 from rollnip.materials import creep_compliance, relaxation_modulus
-from rollnip.plots.style import FULL, Look, Style, label, page, palette_of, prepare
+from rollnip.plots.style import FULL, MARK, Look, Style, label, page, palette_of, prepare
 
 _HEIGHT = 150.0  # mm
-_MARK = 0.32  # size of a mark over the size of type
 
 
 def plot_dma(fit: DmaFit, style: Style = "light") -> Figure:
@@ -61,7 +60,7 @@ def plot_master(fit: DmaFit, ax: Axes | None = None, style: Style | None = None)
             values,
             mark,
             color=colour,
-            markersize=_MARK * look.size,
+            markersize=MARK * look.size,
             markerfacecolor="none",
             markeredgewidth=look.thin,
             label=name,
@@ -104,7 +103,7 @@ def plot_time(fit: TimeFit, style: Style = "light") -> Figure:
         data.storage,
         "o",
         color=colours.pressure,
-        markersize=_MARK * look.size,
+        markersize=MARK * look.size,
         markerfacecolor="none",
         markeredgewidth=look.thin,
         label="measured",
@@ -164,7 +163,7 @@ def plot_phase(fit: DmaFit, ax: Axes | None = None, style: Style | None = None) 
             np.degrees(np.angle(modulus)),
             "o",
             color=colours(0.25 + 0.7 * float(scale(temperature))),
-            markersize=_MARK * look.size,
+            markersize=MARK * look.size,
             markerfacecolor="none",
             markeredgewidth=look.thin,
         )
@@ -195,7 +194,7 @@ def plot_deviation(fit: DmaFit, ax: Axes | None = None, style: Style | None = No
             100.0 * values,
             mark,
             color=colour,
-            markersize=_MARK * look.size,
+            markersize=MARK * look.size,
             markerfacecolor="none",
             markeredgewidth=look.thin,
             label=f"{name}, {100.0 * rms:.2g} % rms",

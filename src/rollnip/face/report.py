@@ -18,6 +18,7 @@ from rollnip.face.figures import (
     figures_of,
     profiles_of,
 )
+from rollnip.face.impression import ImpressionReading
 from rollnip.face.solution import FaceSolution
 
 Array = NDArray[np.float64]
@@ -82,6 +83,22 @@ def face_variables(tree: dict[str, Any]) -> tuple[dict[str, tuple[Any, ...]], di
 
 def _floats(values: list[float | None]) -> list[float]:
     return [float("nan") if one is None else one for one in values]
+
+
+def reading_dict(reading: ImpressionReading) -> dict[str, Any]:
+    """Return what impressions tell: estimates with intervals, and how well the face fits."""
+    return {
+        "estimates": {
+            one.name: {"value": one.value, "low": one.low, "high": one.high, "unit": one.unit}
+            for one in reading.estimates
+        },
+        "chi_squared": reading.chi_squared,
+        "freedom": reading.freedom,
+        "shop_crown": reading.shop_crown,
+        "needed_crown": reading.needed_crown,
+        "bearing_offset": reading.bearing_offset,
+        "warnings": list(reading.warnings),
+    }
 
 
 def face_parts(solution: FaceSolution) -> dict[str, Any]:

@@ -8,6 +8,7 @@ G itself, averaged over the hat, is taken: int G(x - s) hat(s) ds = h (G(x - h) 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import factorial, log
 
 import numpy as np
@@ -42,17 +43,12 @@ def grid_displacements(kernel: Kernel, spacing: float, count: int) -> Array:
     -------
     (2 count - 1,) [mm/MPa], nothing but the convolution kernel of `displacement_matrix`.
     """
-    step = np.arange(1.0 - count, count)
-    x, near = spacing * step, np.abs(step) <= _near_nodes(kernel)
-    out = np.empty(x.size)
-    integral, value, inside, outside = kernel.double_integral, kernel.value, x[near], x[~near]
-    out[near] = (
-        integral(inside + spacing) - 2.0 * integral(inside) + integral(inside - spacing)
-    ) / spacing
-    out[~near] = (spacing / 12.0) * (
-        value(outside - spacing) + 10.0 * value(outside) + value(outside + spacing)
-    )
-    return out
+    value = kernel.value
+
+    def far(x: Array) -> Array:
+        return (spacing / 12.0) * (value(x - spacing) + 10.0 * value(x) + value(x + spacing))
+
+    return _over_distances(kernel, spacing, count, kernel.double_integral, far)
 
 
 def grid_strains(kernel: Kernel, spacing: float, count: int) -> Array:
@@ -61,17 +57,28 @@ def grid_strains(kernel: Kernel, spacing: float, count: int) -> Array:
     Near the hat the second difference of the integral of G; far from it the difference of two
     means of G over a spacing, each by Simpson's rule.
     """
+    value, half = kernel.value, 0.5 * spacing
+
+    def far(x: Array) -> Array:
+        middle = 4.0 * (value(x + half) - value(x - half))
+        return (middle + value(x + spacing) - value(x - spacing)) / 6.0
+
+    return _over_distances(kernel, spacing, count, kernel.integral, far)
+
+
+def _over_distances(
+    kernel: Kernel,
+    spacing: float,
+    count: int,
+    integral: Callable[[Array], Array],
+    far: Callable[[Array], Array],
+) -> Array:
+    """Return second differences of an integral near the hat, and ``far`` far from it."""
     step = np.arange(1.0 - count, count)
-    x, near = spacing * step, np.abs(step) <= _near_nodes(kernel)
+    x, is_near = spacing * step, np.abs(step) <= _near_nodes(kernel)
+    near = x[is_near]
     out = np.empty(x.size)
-    integral, value, inside, outside = kernel.integral, kernel.value, x[near], x[~near]
-    out[near] = (
-        integral(inside + spacing) - 2.0 * integral(inside) + integral(inside - spacing)
-    ) / spacing
-    half = 0.5 * spacing
-    out[~near] = (
-        4.0 * (value(outside + half) - value(outside - half))
-        + value(outside + spacing)
-        - value(outside - spacing)
-    ) / 6.0
+    difference = integral(near + spacing) - 2.0 * integral(near) + integral(near - spacing)
+    out[is_near] = difference / spacing
+    out[~is_near] = far(x[~is_near])
     return out

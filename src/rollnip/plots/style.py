@@ -25,6 +25,7 @@ Style = Literal["light", "dark"]
 
 MM = 1.0 / 25.4  # inches
 FULL, COLUMN = 180.0, 85.0  # mm, widths of a page and of a column
+MARK = 0.32  # size of a mark over the size of type
 _GOLDEN = 0.6
 _NARROW, _WIDE = 2.6, 5.5  # inches of axes at which type is smallest and full-sized
 _ROOM = 1.06  # largest width of a legend, in widths of the axes

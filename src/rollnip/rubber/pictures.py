@@ -7,13 +7,12 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from rollnip.figures import MEASURED
-from rollnip.plots.style import Style, label, page, prepare
+from rollnip.plots.style import MARK, Style, label, page, prepare
 from rollnip.rubber.data import TESTS
 from rollnip.rubber.fit import RubberFit
 from rollnip.rubber.laws import nominal_stress
 
 _HEIGHT = 75.0  # mm
-_MARK = 0.32  # size of a mark over the size of type
 _MARKS = dict(zip(TESTS, "o^sDv", strict=True))
 
 
@@ -56,7 +55,7 @@ def plot_stress(fit: RubberFit, ax: Axes | None = None, style: Style | None = No
             data.stress[rows],
             _MARKS[test],
             color=colour,
-            markersize=_MARK * look.size,
+            markersize=MARK * look.size,
             markerfacecolor="none",
             markeredgewidth=look.thin,
             label=test,
@@ -81,7 +80,7 @@ def plot_stress_deviation(
             100.0 * fit.deviation[rows] / np.abs(data.stress[rows]).max(),
             _MARKS[test],
             color=(colours.pressure, colours.shear, colours.muted, colours.ink)[number % 4],
-            markersize=_MARK * look.size,
+            markersize=MARK * look.size,
             markerfacecolor="none",
             markeredgewidth=look.thin,
         )

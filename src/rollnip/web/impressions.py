@@ -7,6 +7,7 @@ from typing import Any
 
 from rollnip._errors import CaseFileError, InvalidInputError
 from rollnip.face import Impression, ImpressionReading, read_impressions
+from rollnip.face.report import reading_dict
 from rollnip.io import Case
 from rollnip.web.answers import SOURCE
 from rollnip.web.faces import face_of
@@ -40,18 +41,8 @@ def read_impression(case: Case, body: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _tree(reading: ImpressionReading) -> dict[str, Any]:
-    return {
-        "estimates": {
-            one.name: {"value": one.value, "low": one.low, "high": one.high, "unit": one.unit}
-            for one in reading.estimates
-        },
+    return reading_dict(reading) | {
         "end_loads": [list(one.face.end_loads or ()) for one in reading.solutions],
-        "chi_squared": reading.chi_squared,
-        "freedom": reading.freedom,
-        "shop_crown": reading.shop_crown,
-        "needed_crown": reading.needed_crown,
-        "bearing_offset": reading.bearing_offset,
-        "warnings": list(reading.warnings),
         "y": reading.solutions[0].y.tolist(),
         "nip_width": [one.nip_width.tolist() for one in reading.solutions],
     }

@@ -16,7 +16,7 @@ from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.sparse import block_array, csr_array
+from scipy.sparse import block_array, block_diag, csr_array
 from scipy.sparse.linalg import splu
 
 from finite_elements.case import Nip
@@ -105,6 +105,14 @@ class Problem:
             slip=np.zeros(arc.size, dtype=int),
         )
 
+    def inside(self, state: State) -> tuple[list[Forces], csr_array, Array]:
+        """Return the forces of the bodies, and of all of them in one the stiffness and the sum."""
+        forces = [self.solids[0].forces(state.upper, state.pi_upper)]
+        if self.lower is not None:
+            forces.append(self.solids[1].forces(state.lower, state.pi_lower))
+        stiffness = block_diag([one.tangent for one in forces], format="csr")
+        return forces, stiffness, np.concatenate([one.force for one in forces])
+
     def linearised(self, state: State) -> Linear:
         """Assemble equilibrium, gaps and friction at a state."""
         at = np.flatnonzero(state.closed)
@@ -112,14 +120,7 @@ class Problem:
         pushed = loads(
             self.interface, state.upper, state.lower, state.pressure, state.shear, elements
         )
-        forces = [self.solids[0].forces(state.upper, state.pi_upper)]
-        if self.lower is not None:
-            forces.append(self.solids[1].forces(state.lower, state.pi_lower))
-        stiffness = block_array(
-            [[f.tangent if i == j else None for j in range(len(forces))]
-             for i, f in enumerate(forces)], format="csr"
-        )  # fmt: skip
-        internal = np.concatenate([f.force for f in forces])
+        forces, stiffness, internal = self.inside(state)
         gap, gap_rate = self._gaps(state, at)
         rub = self._friction(state, at)
         matrix = block_array(

@@ -243,14 +243,7 @@ class SheetProblem(Problem):
         at = np.flatnonzero(state.closed)
         elements = at[:-1]
         pushed = self.pushed(state, elements)
-        forces = [self.solids[0].forces(state.upper, state.pi_upper)]
-        if self.lower is not None:
-            forces.append(self.solids[1].forces(state.lower, state.pi_lower))
-        stiffness = block_array(
-            [[f.tangent if i == j else None for j in range(len(forces))]
-             for i, f in enumerate(forces)], format="csr"
-        )  # fmt: skip
-        internal = np.concatenate([f.force for f in forces])
+        forces, stiffness, internal = self.inside(state)
         size, count, ends = internal.size, at.size, state.closed.size
         columns = np.concatenate([np.arange(size)] + [size + k * ends + at for k in range(4)])
         gap, gap_rate = self._gaps(state, at)

@@ -143,19 +143,18 @@ def _add_hoops(mesh: Mesh, out: Array) -> None:
 def path_turns(mesh: Mesh) -> Array:
     """Return the change of a path's slope over each interval of nodes[1:] per height there, (n, N).
 
-    The slope is that of a polynomial through the heights at the finer nodes: the path is as smooth
-    as the sheet's bending stiffness makes it, and its curvature matters on the scale of the nip.
+    The slope is that of the polynomial nearest to the heights, in the mean over the contact of the
+    square: the path is as smooth as the sheet's bending stiffness makes it, and its curvature
+    matters on the scale of the nip. It goes through heights at nodes, for cubics between a few of
+    these do not follow its highest degrees, and the shares of the contact that nodes stand for are
+    those of a pressure, exact to the fourth order.
     """
-    x, n = mesh.fine.nodes[1:-1], mesh.inner.size
+    x, n = mesh.inner, mesh.inner.size
     middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])
     basis = legendre.legvander((x - middle) / half, _DEGREE)
-    weighted = basis * np.gradient(x)[:, None]
+    weighted = basis * mesh.weights[:, None]
     path = np.linalg.solve(weighted.T @ basis, weighted.T)  # least squares
-    if mesh.fine.values is not None:
-        path = path @ mesh.fine.values[1:-1, 1:]
-    else:
-        path = np.pad(path, ((0, 0), (0, 1)))
-    slopes = legendre.legvander((mesh.inner - middle) / half, _DEGREE - 1) @ _SLOPES / half
+    slopes = basis[:, :-1] @ _SLOPES / half
     out = np.zeros((n, n + 1))  # the last interval lies outside
-    out[:-1] = np.diff(slopes, axis=0) @ path
+    out[:-1, :-1] = np.diff(slopes, axis=0) @ path
     return out

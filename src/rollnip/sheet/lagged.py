@@ -127,7 +127,7 @@ def path_turn(problem: SheetProblem, u: Displacements) -> Array:
     if nip.upper.is_rigid or nip.lower.is_rigid:
         own = nip.upper.curvature if nip.upper.is_rigid else -nip.lower.curvature
         return np.asarray(own * mesh.dx)
-    bent = problem.turns @ (u.z_upper - u.z_lower)
+    bent = problem.path.turn(u.z_upper - u.z_lower)
     return np.asarray(0.5 * ((nip.upper.curvature - nip.lower.curvature) * mesh.dx + bent))
 
 
@@ -150,8 +150,10 @@ def _offsets(
     linear = linear_stretch(x[1:] - x[:-1], hoops, *mesh.finer(flat).rows)
     half = 0.5 * (state.creepage + state.creepage_lower)
     rate = sheet_rate(state.creepage, state.creepage_lower)
-    turn = path_turn(problem, u)
-    bend = 0.5 * rate * problem.sheet.thickness * turn
+    turn = rate * path_turn(problem, u)
+    if problem.has_path:  # of the linear displacements it is in the matrix
+        turn -= 0.5 * problem.path.turn(flat.z_upper - flat.z_lower)
+    bend = 0.5 * problem.sheet.thickness * turn
     strained = (rate - 1.0) * problem.strain_over(state)
     upper = mesh.sums((1.0 + half) * excess[0] - linear[0])
     lower = mesh.sums((1.0 - half) * excess[1] - linear[1])

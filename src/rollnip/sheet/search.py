@@ -176,7 +176,8 @@ class SheetSearch:
         nodes = cosine_nodes(zones.breaks, *shape)
         kernels = self._holding(before)
         mesh = sheet_mesh_on(nodes, kernels, subdivided(nodes, *shape))
-        return SheetProblem.on(self.nip, mesh, self._arcs(mesh, before))
+        bends = before is not None and self.model.geometry != "linear"
+        return SheetProblem.on(self.nip, mesh, self._arcs(mesh, before), has_path=bends)
 
     def _arcs(self, mesh: SheetMesh, before: SheetAttempt | None) -> Array | None:
         """Return ds/dx of the sheet's path in the solution before; None: all 1."""

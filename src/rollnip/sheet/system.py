@@ -32,7 +32,7 @@ from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import Displacements, PairKernels
 from rollnip.rolling.displacements import SecondFields
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.matrices import Integrals, influence, path_turns, stable
+from rollnip.sheet.matrices import Integrals, Path, influence, stable
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -159,6 +159,7 @@ class SheetProblem:
     own : (2, n) creep of each interval by the shear of its own node, without the tension that this
         shear makes; negative [mm/MPa].
     matrix : (3 n, 3 n) of gap, upper and lower creep per p, q_u and q_l [mm/MPa].
+    has_path : whether the matrix has what the path of the sheet adds to the creeps.
     """
 
     nip: Nip
@@ -172,10 +173,17 @@ class SheetProblem:
     pressed: Array
     own: Array
     matrix: Array
+    has_path: bool = False
 
     @classmethod
-    def on(cls, nip: Nip, mesh: SheetMesh, arcs: Array | None = None) -> SheetProblem:
-        """Assemble the problem of a nip with a sheet on a mesh; ``arcs`` None: all 1."""
+    def on(
+        cls, nip: Nip, mesh: SheetMesh, arcs: Array | None = None, *, has_path: bool = False
+    ) -> SheetProblem:
+        """Assemble the problem of a nip with a sheet on a mesh.
+
+        ``arcs`` None: all 1. ``has_path``: whether faces run as the path of the sheet bends, which
+        lies halfway between the surfaces; on a mesh that does not reach beyond the contact.
+        """
         sheet = nip.sheet
         assert sheet is not None
         arcs = np.ones(mesh.fine.nodes.size - 1) if arcs is None else arcs
@@ -190,7 +198,7 @@ class SheetProblem:
             block += made
         for block in (upper[:, 2], lower[:, 1]):
             block -= made
-        return cls(
+        problem = cls(
             nip=nip,
             sheet=sheet,
             mesh=mesh,
@@ -202,7 +210,13 @@ class SheetProblem:
             pressed=found.pressed,
             own=own,
             matrix=matrix,
+            has_path=has_path and not (nip.upper.is_rigid or nip.lower.is_rigid),
         )
+        if problem.has_path:
+            bent = problem.path.bent(mesh, sheet.thickness)
+            upper += bent
+            lower += bent
+        return problem
 
     @property
     def dx(self) -> Array:
@@ -210,9 +224,9 @@ class SheetProblem:
         return self.mesh.dx
 
     @cached_property
-    def turns(self) -> Array:
-        """Change of the path's slope over each interval per height at nodes[1:], (n, N) [1/mm]."""
-        return path_turns(self.mesh)
+    def path(self) -> Path:
+        """The path of the sheet on this mesh."""
+        return Path.on(self.mesh)
 
     def right(self, lagged: Lagged) -> Array:
         """Return what the tractions must make up for: (3, n) gaps and creeps, without unknowns."""

@@ -93,7 +93,7 @@ class Path:
         weighted = basis * mesh.weights[:, None]
         slopes = np.zeros(basis.shape)  # the last interval lies outside
         slopes[:-1] = np.diff(basis[:, :-1] @ _SLOPES, axis=0) / half
-        return cls(slopes, np.linalg.solve(weighted.T @ basis, weighted.T))
+        return cls(slopes, np.asarray(np.linalg.solve(weighted.T @ basis, weighted.T), float))
 
     def turn(self, heights: Array) -> Array:
         """Return the change of the slope over the intervals, for heights at nodes[1:], (n, ...)."""

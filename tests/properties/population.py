@@ -1,5 +1,6 @@
 """Random nips by number: the same number is always the same nip, so a failure can be replayed."""
 
+import os
 from dataclasses import dataclass
 from math import inf, sqrt
 
@@ -8,6 +9,8 @@ import numpy as np
 import rollnip as rn
 
 GEOMETRIES = ("linear", "curved")
+SEED = int(os.environ.get("ROLLNIP_SEED", "0"))
+"""What nips are drawn where a test names no numbers; the same in every run that sets no other."""
 
 
 @dataclass(frozen=True)
@@ -103,3 +106,40 @@ def _driven(rng, friction, radius_lower, load, slope):
     if kind < 0.4 and radius_lower != inf:
         return rn.Torque(0.7 * share * friction * load * radius_lower)
     return rn.Traction(share * friction * load)
+
+
+def loaded_nips(*, viscous=None, friction=None):
+    """A draw of nips under a line load and a traction, half of which are free.
+
+    ``viscous``, ``friction``: of all of them; None: each has its own.
+    """
+
+    def draw(rng):
+        remembers = bool(rng.random() < 0.5) if viscous is None else viscous
+        pair = [_roller(rng, remembers, deforms=True), _roller(rng, remembers, deforms=False)]
+        if rng.random() < 0.5:
+            pair.reverse()
+        mu = _power(rng, -2.0, 0.5) if friction is None else friction
+        softest = min(m.relaxed_modulus for roller in pair for m in roller.materials)
+        load = softest * min(roller.radius for roller in pair) * _power(rng, -4.0, -2.0)
+        share = float(rng.choice([0.0, rng.uniform(-0.98, 0.98)]))
+        return rn.Nip(
+            upper=pair[0],
+            lower=pair[1],
+            normal=rn.LineLoad(load),
+            tangential=rn.Traction(share * mu * load),
+            friction=mu,
+            speed=_power(rng, 1.0, 3.5),
+        )
+
+    return draw
+
+
+def one_of(*values):
+    """A draw of one of some values."""
+    return lambda rng: values[int(rng.integers(len(values)))]
+
+
+def numbers(count, low, high):
+    """``count`` random numbers from ``low`` to below ``high``."""
+    return np.random.default_rng([SEED, low, high]).integers(low, high, count).tolist()

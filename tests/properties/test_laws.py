@@ -5,7 +5,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import strategies as st
+from population import GEOMETRIES, loaded_nips, one_of
 
 import rollnip as rn
 from rollnip.rolling import fields_at
@@ -50,8 +50,8 @@ def check_contact(nip, geometry):
     return True
 
 
-def test_contact_conditions(for_all, nips, geometries):
-    for_all(check_contact, nips(), geometries)
+def test_contact_conditions(for_all):
+    for_all(check_contact, loaded_nips(), one_of(*GEOMETRIES))
 
 
 def check_zones(nip, geometry):
@@ -67,8 +67,8 @@ def check_zones(nip, geometry):
     assert solution.mean_pressure <= solution.peak_pressure
 
 
-def test_zones_make_up_the_contact(for_all, nips, geometries):
-    for_all(check_zones, nips(), geometries)
+def test_zones_make_up_the_contact(for_all):
+    for_all(check_zones, loaded_nips(), one_of(*GEOMETRIES))
 
 
 def check_swap(nip, geometry):
@@ -98,8 +98,8 @@ def check_swap(nip, geometry):
     return True
 
 
-def test_swapping_the_rollers(for_all, nips, geometries):
-    for_all(check_swap, nips(), geometries)
+def test_swapping_the_rollers(for_all):
+    for_all(check_swap, loaded_nips(), one_of(*GEOMETRIES))
 
 
 def stretched(roller, length, modulus):
@@ -157,13 +157,13 @@ def check_scaling(nip, geometry, length, modulus):
     return alike or nip.has_half_space
 
 
-def test_scaling(for_all, nips, geometries):
+def test_scaling(for_all):
     for_all(
         check_scaling,
-        nips(),
-        geometries,
-        st.sampled_from([0.25, 1.0, 16.0]),
-        st.sampled_from([1.0, 0.125, 1024.0]),
+        loaded_nips(),
+        one_of(*GEOMETRIES),
+        one_of(0.25, 1.0, 16.0),
+        one_of(1.0, 0.125, 1024.0),
     )
 
 
@@ -188,9 +188,9 @@ def check_energy(nip, geometry):
     return True
 
 
-def test_energy(for_all, nips):
-    geometries = st.sampled_from(["linear", "corrected", "curved", "second"])
-    for_all(check_energy, nips(), geometries)
+def test_energy(for_all):
+    geometries = one_of("linear", "corrected", "curved", "second")
+    for_all(check_energy, loaded_nips(), geometries)
 
 
 def check_work(nip):
@@ -209,8 +209,8 @@ def check_work(nip):
     return True
 
 
-def test_work_of_flat_layers(for_all, nips):
-    for_all(check_work, nips())
+def test_work_of_flat_layers(for_all):
+    for_all(check_work, loaded_nips())
 
 
 def check_load(nip):
@@ -218,31 +218,35 @@ def check_load(nip):
 
     It need not raise the highest pressure: under a stiff skin that begins to bend it may fall.
     """
-    widths, approaches = [], []
-    for factor in (1.0, 1.5, 4.0):
-        solution = solve(replace(nip, normal=rn.LineLoad(factor * nip.normal.load)))
-        widths.append(solution.nip_width)
-        approaches.append(solution.approach or factor)
-    assert widths == sorted(widths)
-    assert approaches == sorted(approaches)
+    loads = [factor * nip.normal.load for factor in (1.0, 1.5, 4.0)]
+    found = [solve(replace(nip, normal=rn.LineLoad(load))) for load in loads]
+    if not all(solution.converged for solution in found):
+        return False
+    for below, above in pairwise(found):
+        assert below.nip_width < above.nip_width
+        assert nip.has_half_space or below.approach < above.approach
+    return True
 
 
-def test_more_load(for_all, nips):
-    for_all(check_load, nips(friction=0.0))
+def test_more_load(for_all):
+    for_all(check_load, loaded_nips(friction=0.0))
 
 
 def check_mirror(nip):
     """Elastic and frictionless: nothing tells leading from trailing."""
     solution = solve(nip)
+    if not solution.converged:
+        return False
     assert solution.creepage is None
     trailing, leading = solution.contact[0][0], solution.contact[-1][1]
     # two edges, each found to the tolerance
     assert trailing + leading == pytest.approx(0.0, abs=2.0 * TOLERANCE * solution.nip_width)
     assert solution.peak_pressure > 0.0
+    return True
 
 
-def test_elastic_frictionless_contact_is_symmetric(for_all, nips):
-    for_all(check_mirror, nips(viscous=False, friction=0.0))
+def test_elastic_frictionless_contact_is_symmetric(for_all):
+    for_all(check_mirror, loaded_nips(viscous=False, friction=0.0))
 
 
 def check_creepage(nip):
@@ -250,19 +254,22 @@ def check_creepage(nip):
     at_rest = solve(replace(nip, tangential=rn.Traction(0.0)))
     step = 0.3 * nip.friction * strain_scale(at_rest)
     limit = nip.friction * nip.normal.load
-    tractions = []
-    for offset in (-20.0 * step, -step, 0.0, step, 20.0 * step):
-        driven = replace(nip, tangential=rn.Creepage(at_rest.creepage + offset))
-        tractions.append(solve(driven).traction)
+    offsets = (-20.0 * step, -step, 0.0, step, 20.0 * step)
+    creepages = [at_rest.creepage + offset for offset in offsets]
+    driven = [solve(replace(nip, tangential=rn.Creepage(creepage))) for creepage in creepages]
+    if not all(solution.converged for solution in (at_rest, *driven)):
+        return False
+    tractions = [solution.traction for solution in driven]
     assert abs(tractions[2]) < 0.02 * limit
     for below, above in pairwise(tractions):
         assert above >= below - 1e-3 * limit
     assert all(abs(t) <= limit * (1.0 + 1e-9) for t in tractions)
     assert tractions[0] < 0.0 < tractions[-1]
+    return True
 
 
-def test_traction_grows_with_creepage(for_all, nips):
-    for_all(check_creepage, nips())
+def test_traction_grows_with_creepage(for_all):
+    for_all(check_creepage, loaded_nips())
 
 
 def with_moduli(nip, name):
@@ -300,8 +307,8 @@ def check_speed(nip, geometry):
     return True
 
 
-def test_limits_of_speed(for_all, nips, geometries):
-    for_all(check_speed, nips(viscous=True), geometries)
+def test_limits_of_speed(for_all):
+    for_all(check_speed, loaded_nips(viscous=True), one_of(*GEOMETRIES))
 
 
 def check_plies(nip, geometry, cut):
@@ -317,9 +324,12 @@ def check_plies(nip, geometry, cut):
 
     one = solve(nip, geometry)
     other = solve(replace(nip, upper=split(nip.upper), lower=split(nip.lower)), geometry)
+    if not (one.converged and other.converged):
+        return False
     assert other.nip_width == pytest.approx(one.nip_width, rel=3.0 * TOLERANCE)
     assert other.peak_pressure == pytest.approx(one.peak_pressure, rel=3.0 * TOLERANCE)
+    return True
 
 
-def test_plies(for_all, nips, geometries):
-    for_all(check_plies, nips(), geometries, st.floats(0.01, 0.99))
+def test_plies(for_all):
+    for_all(check_plies, loaded_nips(), one_of(*GEOMETRIES), lambda rng: rng.uniform(0.01, 0.99))

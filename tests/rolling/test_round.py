@@ -85,7 +85,8 @@ def test_figures_are_those_of_the_solution(case, solved):
     bend = cubic[top - 1] - 2.0 * cubic[top] + cubic[top + 1]
     above = solution.pressure[top] - cubic[top]
     assert above == pytest.approx(-bend / 12.0, rel=0.05, abs=3e-5 * peak)
-    assert abs(above) < 1.5e-3 * peak
+    # a third of the tolerance, about; a stiff top has its peak within its own thickness
+    assert abs(above) < (1.5e-3 if case[0] == "stiff top" else 4.5e-4) * peak
     if isinstance(case[1].normal, rn.LineLoad):
         assert figures.load == pytest.approx(case[1].normal.load, rel=1e-9)
 

@@ -120,8 +120,9 @@ FIRST = {
     ("thin foil", "load"): 0.975,  # at 1.1 the peak was left open before decision 39
     ("thin covering", "traction"): 0.925,  # some with a quarter of the waves, some with all
 }
-# Solved with half and a quarter of the waves in turn. Values that alternate within their claims
-# make steps of twice the sum of both claims; all others are held to once.
+# Solved with half and a quarter of the waves in turn. A step is y/2 of the outer and 3 y/2 of the
+# inner two of four values, with signs in turn. So errors within the claims make at most twice what
+# both inner ones claim; all others, whose errors change with the parameter, are held to once.
 ALTERNATING = {("thin covering", "traction")}
 CASES = [
     (name, by)

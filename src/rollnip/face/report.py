@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,10 @@ from rollnip.face.figures import (
     figures_of,
     profiles_of,
 )
-from rollnip.face.impression import ImpressionReading
-from rollnip.face.solution import FaceSolution
+
+if TYPE_CHECKING:
+    from rollnip.face.impression import ImpressionReading
+    from rollnip.face.solution import FaceSolution
 
 Array = NDArray[np.float64]
 

@@ -37,7 +37,7 @@ from scipy.fft import next_fast_len
 from rollnip.compliance import flat_amplitudes, ring_amplitudes
 from rollnip.influence._spline import EvenSpline, even_splines
 from rollnip.influence._weights import ComplexArray, gauss_legendre
-from rollnip.influence.kernel import Array
+from rollnip.influence.kernel import TOLERANCE, Array
 from rollnip.influence.surface import moduli
 from rollnip.model import Model
 from rollnip.rollers import Roller
@@ -46,7 +46,6 @@ _SIZES_PER_OCTAVE = 4  # half-widths that have a table
 _LARGEST_WAVE_NUMBER = 16.5  # in pi per half-width; beyond, terms are not of second order
 _POINTS_PER_HALF_WIDTH = 18.0  # of the grid on which fields at depth are multiplied
 _LARGEST_SPREAD = 3.0  # such a length that counts at most, in half-widths
-_DEPTHS_PER_FOLD = 3.0  # depths for each fold of e in depth, and in every layer for one more
 
 
 @dataclass(frozen=True, slots=True)
@@ -325,13 +324,17 @@ def _depths(roller: Roller, half_width: float) -> tuple[Array, Array, Array]:
     """Depths, weights and layers of the integral over depth.
 
     In every layer Gauss points of the logarithm of the depth (and a little): fields that decay
-    within any length that the grid carries are polynomials in it.
+    within any length that the grid carries are nearly polynomials in it. For each fold of e in
+    depth, and in every layer for one more, there are as many points d as leave the tolerance of the
+    tables: what decays as exp(-k exp(s)) is bounded in the strip |Im s| < pi/2, where Gauss's rule
+    misses exp(-4 d pi/2).
     """
     little = min(roller.coating_thickness, half_width) / _LARGEST_WAVE_NUMBER
+    per_fold = -log(TOLERANCE) / (2.0 * pi)
     marks = np.log1p(np.array([0.0, *roller.interfaces]) / little)
     z, weight, owner = [], [], []
     for i, (top, bottom) in enumerate(pairwise(marks)):
-        points, weights, _ = gauss_legendre(int(np.ceil(_DEPTHS_PER_FOLD * (bottom - top + 1.0))))
+        points, weights, _ = gauss_legendre(int(np.ceil(per_fold * (bottom - top + 1.0))))
         grown = little * np.exp(0.5 * (bottom + top) + 0.5 * (bottom - top) * points)
         z.append(grown - little)
         weight.append(0.5 * (bottom - top) * weights * grown)

@@ -87,7 +87,7 @@ class Shell:
 )
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Cooling:
-    """How one roller loses heat.
+    """The ways in which one roller loses heat.
 
     Parameters
     ----------

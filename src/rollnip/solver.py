@@ -106,7 +106,7 @@ def solve(
         if nip.sheet is None:
             solution = _solved(nip, model, cache, near, start)
         else:
-            from rollnip.sheet import solve_sheet  # likewise
+            from rollnip.sheet import solve_sheet  # a slow import, too
 
             model = replace(model, geometry=geometry_for(nip, model))
             solution = solve_sheet(nip, model, cache, _version())

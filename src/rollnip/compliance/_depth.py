@@ -242,7 +242,7 @@ def _fill(
         if columns.size == 0:
             continue
         part = RingWave(*(value[columns] for value in wave))
-        head = top.take(columns, axis=-1)  # top[..., columns] would be laid out column by column
+        head = top.take(columns, axis=-1)  # top[..., columns] would be stored column by column
         if thin[columns[0]]:
             terms = _thin_terms(z, ply, part, head)
         else:

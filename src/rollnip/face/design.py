@@ -258,7 +258,7 @@ class PlainWall:
     roller : "upper" or "lower".
     within : largest departure of the local load from the mean, over the mean, that is allowed.
     bore : largest bore that keeps within it, straight [mm]; None where not even a solid core does.
-    wall : the core's wall with that bore [mm]; None likewise.
+    wall : the core's wall with that bore [mm]; None where the bore is.
     solid : largest departure with a solid core.
     """
 

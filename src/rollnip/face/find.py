@@ -112,7 +112,9 @@ def solve_face(
             return _with_sheet(problem, model, law, rows, cache, progress, executor)
     with one_blas_thread():
         if isinstance(law, SheetLaw):
-            raise InvalidInputError("`law` is of a nip with a sheet, and this one has none.")
+            raise InvalidInputError(
+                "`law` must be of this nip; it is of one with a sheet, and this one has none."
+            )
         if law is not None:
             _require_same(law, problem, model)
         if rows is None:
@@ -189,11 +191,13 @@ def _without_sheet(
 
 def _require_plain(nip: Nip, face: Face) -> None:
     if nip.has_profile:
-        raise InvalidInputError("`profile` and a face cannot be solved together.")
+        raise InvalidInputError(
+            "`profile` and a face cannot be solved together; leave one of them out."
+        )
     if nip.sheet is None and face.sheet_across != "free":
         raise InvalidInputError("`sheet_across` needs a sheet in the nip.")
     if face.end_loads is not None and isinstance(nip.normal, Approach):
-        raise InvalidInputError("`end_loads` and `approach` exclude each other.")
+        raise InvalidInputError("`end_loads` and `approach` exclude each other; give one of them.")
     if nip.face_width is not None and abs(nip.face_width / face.length - 1.0) > 1e-9:
         raise InvalidInputError(
             f"`face_width` must be the length of the face, {face.length:g} mm, or be left out, got "

@@ -315,7 +315,7 @@ class NipLaw:
             if is_beyond:
                 mixed = mixed + share * self._by_slip(spline, name, near, inside, dx=1)
         value = value + by_load * farther + by_s * slipped
-        # The plane that goes on turns with its place on the rim of the table.
+        # The plane that continues the table turns with its place on the rim.
         by_load = by_load + np.where(farther == 0.0, mixed * slipped, 0.0)
         return value, by_load, by_s + np.where(slipped == 0.0, mixed * farther, 0.0)
 

@@ -79,7 +79,7 @@ class SheetFaceSolution(FaceSolution):
 
     @property
     def feed_difference(self) -> float:
-        """How much more both ends of the face feed than the middle [mm per metre of sheet].
+        """Feed of both ends of the face less that of the middle [mm per metre of sheet].
 
         The mean of both ends less the middle; 0 where the sheet runs at one speed.
         """

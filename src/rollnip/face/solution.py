@@ -190,7 +190,7 @@ class FaceSolution:
 
     @property
     def bearing_offset(self) -> float | None:
-        """How much further the upper bearing at y > 0 has come than the other [mm].
+        """Travel of the upper bearing at y > 0 less that of the other [mm].
 
         None without a shaft of the upper roller.
         """

@@ -33,7 +33,7 @@ class Span:
 
     @property
     def steps(self) -> tuple[int, int]:
-        """How often both steps are halved: so that the span itself holds enough of them."""
+        """Number of times that each step is halved, so that the span holds enough of them."""
         loads = max(_needed(log(self.high / self.low) * PER_E), self.halved[0])
         if self.slips is None:
             return loads, 0

@@ -328,7 +328,7 @@ class Body:
         return self.at_first.solved(Pull.undeformed(self.strip, tractions).loads, left)
 
     def linear_state(self, tractions: Tractions, left: float = LEFT) -> State:
-        """Return the displacements of linear theory with their pressures, likewise."""
+        """Return the displacements of linear theory with their pressures, in the same form."""
         displacement = self.linear_displacements(tractions, left)
         local = np.append(displacement, 0.0)[self.strip.unknowns]
         return State(displacement, self.at_first.pressures(local))

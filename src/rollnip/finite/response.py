@@ -33,10 +33,12 @@ _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
 _SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
 _STAYS = 0.01  # by which places may move and keep their mesh, over the width of the contact
 _SHARE = 0.01  # what equilibria may be off, over the change since the last one
-_KEPT_ROUGHLY = 0.5  # of the wave numbers, while tractions are far from their solution
-_LOOSELY = 2.5  # times `_STAYS`, likewise
-_LOOSELY_WITH_MEMORY = 10.0  # the same where a layer is viscoelastic
-_LEFT_ROUGHLY = 1e-4  # of the loads by an iterative solution, likewise
+# While tractions are far from their solution:
+_COARSE_WAVE_SHARE = 0.5  # of the wave numbers that are kept
+_COARSE_MOVE_FACTOR = 2.5  # times `_STAYS`
+_COARSE_MOVE_FACTOR_WITH_MEMORY = 10.0  # the same where a layer is viscoelastic
+_COARSE_RESIDUAL = 1e-4  # that an iterative solution leaves, over the loads
+
 _SAME_SIZE = 0.05  # change of a contact, over its half-width, that keeps the points of smoothing
 _LEAST_SHARE = 0.1  # of a step between tractions
 _MOST_MESHES = 6
@@ -155,8 +157,10 @@ class FiniteResponse:
             self._near = min(self._near, _FRONT * roller.radius)
         self._mesh = None if start is None else self._begun(start)
         self._share_kept = 1.0
-        self._loosely, self._left = 1.0, LEFT
-        self._most_loosely = _LOOSELY_WITH_MEMORY if roller.is_viscoelastic else _LOOSELY
+        self._move_factor, self._left = 1.0, LEFT
+        self._coarsest_move = (
+            _COARSE_MOVE_FACTOR_WITH_MEMORY if roller.is_viscoelastic else _COARSE_MOVE_FACTOR
+        )
         self._off: Array | None = None
         self._smoothing: Smoothing | None = None
         self._smoothed_for: Array | None = None
@@ -209,9 +213,9 @@ class FiniteResponse:
         roughly : whether less is good enough while tractions are far from their solution: a mesh
             of before if the contact has not moved far, its errors as they were, and half the waves.
         """
-        self._left = _LEFT_ROUGHLY if roughly else LEFT
-        self._share_kept = _KEPT_ROUGHLY if roughly else 1.0
-        self._loosely = self._most_loosely if roughly else 1.0
+        self._left = _COARSE_RESIDUAL if roughly else LEFT
+        self._share_kept = _COARSE_WAVE_SHARE if roughly else 1.0
+        self._move_factor = self._coarsest_move if roughly else 1.0
         self._speed_now = None if self._speed is None else rate * self._speed
         if not np.any(pressure > 0.0):
             self.rough, self.lost, self.moved = _nothing(nodes), 0.0, None
@@ -310,7 +314,7 @@ class FiniteResponse:
     def _solved_now(self, places: Array, loaded: slice, acting: Acting) -> _LoadedMesh:
         """Return the equilibrium under these tractions."""
         last, tractions = self._mesh, acting.tractions
-        stays = self._loosely * _STAYS * float(np.ptp(places[loaded]))
+        stays = self._move_factor * _STAYS * float(np.ptp(places[loaded]))
         if last is not None and last.is_near(places[loaded], self._speed_now, stays):
             state = last.body.equilibrium(tractions, last.state, STILL, _SHARE)
             return replace(last, state=state, acting=acting)

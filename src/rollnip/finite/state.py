@@ -11,7 +11,7 @@ from rollnip.finite.strip import Array, Indices
 from rollnip.finite.viscous import Relaxing
 
 LEFT = 1e-7  # of the loads by an iterative solution
-_KEPT = 60  # directions of the iterative solution before it starts anew
+_KEPT = 60  # directions of the iterative solution before it restarts
 _MOST_STARTS = 3
 
 

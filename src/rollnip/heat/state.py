@@ -50,7 +50,7 @@ class ThermalState:
 
     @cached_property
     def rise(self) -> Array:
-        """How much warmer than without heat the new temperatures are, (n+2,) [K]."""
+        """Rise of the new temperatures over those without heat, (n+2,) [K]."""
         return self.new - self.base
 
     @property

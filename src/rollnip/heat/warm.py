@@ -44,7 +44,7 @@ def at_temperature(material: Material, temperature: float) -> Material:
 
 @dataclass(frozen=True, slots=True)
 class Divided:
-    """How both rollers are divided into sub-layers.
+    """The division of both rollers into sub-layers.
 
     Attributes
     ----------

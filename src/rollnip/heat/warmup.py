@@ -133,7 +133,7 @@ def warm_up(
             "`shell` must be given for at least one roller that has no layers: without it there is "
             "nothing that could warm up."
         )
-    path = _Path(thermal, steady)
+    path = _WarmingPath(thermal, steady)
     length = _LONG * path.slowest if duration is None else duration
     time = length * np.linspace(0.0, 1.0, _TIMES) ** 2
     path.tabulate([path.guess(f) for f in _NODES])
@@ -166,7 +166,7 @@ def warm_up(
     )
 
 
-class _Path:
+class _WarmingPath:
     """The table of heat over theta, and the integration with it."""
 
     def __init__(self, thermal: HeatProblem, steady: HeatSolution) -> None:

@@ -161,7 +161,7 @@ def straightened(misfit: Misfit, end: Local) -> Local:
 
 
 def reweighted(misfit: Misfit, end: Local, factors: Array) -> Local:
-    """Return an end with every residual and its derivatives multiplied, its cost counted anew.
+    """Return an end with every residual and its derivatives multiplied, its cost counted again.
 
     Parameters
     ----------

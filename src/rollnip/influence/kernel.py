@@ -341,7 +341,7 @@ def _product(matrix: Array, rows: Array) -> Array:
     out = np.zeros((matrix.shape[0], rows.shape[0]))
     used = np.flatnonzero(rows.any(axis=1))
     if used.size:
-        # OpenBLAS takes three times as long where the columns are not laid out anew.
+        # OpenBLAS takes three times as long where the columns are not contiguous.
         out[:, used] = matrix @ np.ascontiguousarray(rows[used].T)
     return out
 

@@ -66,7 +66,7 @@ class InteriorField:
         elastic.
     poisson : (nz,) Poisson ratios.
     axial : (nz, nx) axial stress at finite strain [MPa]; None: as in linear theory.
-    stored : (nz, nx) strain energy per undeformed volume at finite strain [MPa]; None: likewise.
+    stored : (nz, nx) strain energy per undeformed volume at finite strain [MPa]; None: linear.
     """
 
     x: Array
@@ -88,7 +88,7 @@ class InteriorField:
 
     @property
     def is_finite(self) -> bool:
-        """Whether these are the fields of finite strain, and not of linear theory."""
+        """True where these are fields of finite strain, and not of linear theory."""
         return self.axial is not None
 
     @property

@@ -35,7 +35,7 @@ Speeds = tuple[float, float]
 _COLUMNS = 48  # elements under the tractions
 _GROWTH = 1.5  # of elements beside them
 _LONGEST = 1.0  # element, over the thickness that counts
-_REACH = 8.0  # of the mesh beyond the tractions, likewise
+_REACH = 8.0  # of the mesh beyond the tractions, over the same thickness
 _LEAST_THICKNESS = 0.5  # that counts, over the half-width
 _TURN = 2.5  # of the radius: how far arcs reach at most
 _NEAR = 2.0  # half-widths up to which places are abscissae
@@ -60,7 +60,7 @@ class FiniteFields:
     ends : (rows + 1,) depths of the ends of rows of elements [mm].
     places, values : (rows, 2, n) and (parts, rows, 2, n) at finite strain on the two lines of Gauss
         of each row, the parts named by `rollnip.finite.PARTS`.
-    linear_places, linear_values : likewise of linear theory.
+    linear_places, linear_values : the same of linear theory.
     """
 
     ends: Array

@@ -64,7 +64,7 @@ def _core(value: Any) -> str:
 
 
 class RollerHeatTable(FileTable):
-    """How a roller loses heat."""
+    """The ways in which a roller loses heat."""
 
     film: Film = Field(description="Film coefficient between the surface and the ambient air.")
     core: Annotated[

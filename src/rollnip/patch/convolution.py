@@ -71,7 +71,7 @@ class Convolutions:
 
     @cached_property
     def couples(self) -> bool:
-        """Whether pressure shears the surfaces against each other."""
+        """True where pressure shears the surfaces against each other."""
         c = self.coefficients
         return bool(np.any(c.xz) or np.any(c.yz))
 

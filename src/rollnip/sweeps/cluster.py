@@ -135,15 +135,21 @@ def _checked(client: Any, name: str) -> Given:
     ours = own_version()
     for worker, theirs in answers.items():
         if isinstance(theirs, ImportError):
-            raise RollnipError(f"{name}: worker {worker} has no rollnip ({theirs}).")
+            raise RollnipError(
+                f"{name}: worker {worker} has no rollnip ({theirs}); install it there."
+            )
         if isinstance(theirs, Exception) and not isinstance(theirs, OSError):
             said = f"{type(theirs).__name__}: {theirs}"
             raise RollnipError(f"{name}: worker {worker} cannot say its version ({said}).")
         if isinstance(theirs, str) and theirs != ours:
-            raise RollnipError(f"{name}: worker {worker} has rollnip {theirs}, this is {ours}.")
+            raise RollnipError(
+                f"{name}: worker {worker} has rollnip {theirs}, this is {ours}; install that there."
+            )
     with _scheduler_told(name):
         threads = sum(client.nthreads().values())
     if not threads:
         lost = f"; {len(answers)} were lost while they were asked" if answers else ""
-        raise RollnipError(f"{name}: the Dask scheduler has no workers{lost}.")
+        raise RollnipError(
+            f"{name}: the Dask scheduler has no workers{lost}; start one with `dask worker`."
+        )
     return DaskCrew(client, threads, name)

@@ -97,7 +97,7 @@ def _require_study(path: Path, about: About) -> None:
 def _require_same(path: Path, found: About, first: Path, about: About) -> None:
     _require_same_version(path, found, first, about)
     if found.study != about.study:
-        raise RollnipError(f"{path}: holds another study than {first}.")
+        raise RollnipError(f"{path}: holds another study than {first}; merge each apart.")
 
 
 def _require_same_version(path: Path, found: About, first: Path, about: About) -> None:

@@ -286,7 +286,9 @@ class Store:
         mark = self._base.execute("PRAGMA application_id").fetchone()[0]
         is_new = not self._base.execute("PRAGMA schema_version").fetchone()[0]
         if mark != _APPLICATION and not (is_new and not must_be_there):
-            raise RollnipError(f"{self.name}: is no database of a sweep.")
+            raise RollnipError(
+                f"{self.name}: is no database of a sweep; name one that `--database` made."
+            )
 
     def _prepare(self) -> None:
         """Make the tables where the file is empty."""

@@ -250,7 +250,9 @@ class _StudyReader:
         for group in _EITHER:
             both = [path for path in paths if path in group]
             if len(both) > 1:
-                raise self._wrong(f"parameters: {' and '.join(both)} exclude each other.")
+                raise self._wrong(
+                    f"parameters: {' and '.join(both)} exclude each other; leave one out."
+                )
 
     def _check_cases(self, study: Study) -> None:
         """A case that is wrong at both ends of the study is wrong itself: say so before it runs."""

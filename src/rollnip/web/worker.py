@@ -63,7 +63,7 @@ def _hold(megabytes: int) -> None:
 
 
 def _listen(stream: BinaryIO, tasks: queue.SimpleQueue[bytes]) -> None:
-    """Queue what comes; leave at once when the server is gone, even in the midst of a solve."""
+    """Queue what comes; leave at once when the server is gone, even during a solve."""
     while len(head := stream.read(HEAD.size)) == HEAD.size:
         tasks.put(stream.read(HEAD.unpack(head)[0]))
     os._exit(0)

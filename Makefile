@@ -12,7 +12,8 @@ DOCS_STAMP := $(VENV)/.installed-docs
 CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
 
 .DEFAULT_GOAL := help
-.PHONY: help venv demo serve test test-slow test-browser bench check docs clean
+.PHONY: help venv demo serve test test-first-half test-second-half test-slow test-slow-laws \
+        test-slow-others test-browser bench check docs clean
 
 help: ## list the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
@@ -48,15 +49,30 @@ HALF := $(addprefix tests/,cli design dma face heat identification io sweeps web
 test: venv ## the tests, in some minutes
 	@log=$$(mktemp); trap 'rm -f "$$log"' EXIT; \
 	echo '$(FAST), in two halves'; \
-	$(FAST) $(addprefix --ignore=,$(HALF)) >"$$log" 2>&1 & other=$$!; \
-	failed=0; $(FAST) $(HALF) || failed=1; wait $$other || failed=1; \
+	$(MAKE) -s test-second-half >"$$log" 2>&1 & other=$$!; \
+	failed=0; $(MAKE) -s test-first-half || failed=1; wait $$other || failed=1; \
 	cat "$$log"; exit $$failed
 
+test-first-half: venv
+	$(FAST) $(HALF)
+
+test-second-half: venv
+	$(FAST) $(addprefix --ignore=,$(HALF))
+
+SLOW := $(BIN)/python -m pytest -m slow
+LAWS := $(addprefix tests/,properties rolling sheet)
+
 test-slow: venv ## the tests that take more: with killed processes, on many random nips, of the built pages
-	$(BIN)/python -m pytest -m slow --ignore=tests/browser
+	$(SLOW) --ignore=tests/browser
+
+test-slow-laws: venv
+	$(SLOW) $(LAWS)
+
+test-slow-others: venv
+	$(SLOW) --ignore=tests/browser $(addprefix --ignore=,$(LAWS))
 
 test-browser: venv ## the tests in a browser
-	$(BIN)/python -m pytest -m slow tests/browser
+	$(SLOW) tests/browser
 
 bench: venv ## how long things take, as ratios to a calibration on this machine
 	$(BIN)/python -m pytest benchmarks -q -p no:cacheprovider --benchmark-timer=time.process_time --benchmark-quiet

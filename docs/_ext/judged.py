@@ -98,15 +98,13 @@ def cases() -> tuple[dict[str, Any], ...]:
 
 
 @cache
-def judged(geometry: str) -> tuple[Judged | None, ...]:
-    """Return one geometry beside every finite-element result; None for stiff skins in `finite`.
+def judged(number: int, geometry: str) -> Judged | None:
+    """Return one geometry beside a finite-element result; None for stiff skins in `finite`.
 
     These take seconds each: the slow tests hold them.
     """
-    return tuple(
-        None if geometry == "finite" and is_skinned(case) else _judge(case, geometry)
-        for case in cases()
-    )
+    case = cases()[number]
+    return None if geometry == "finite" and is_skinned(case) else _judge(case, geometry)
 
 
 def _judge(case: dict[str, Any], geometry: str) -> Judged:
@@ -157,7 +155,8 @@ GROUPS = {
 
 def in_group(group: str, geometry: str) -> list[Judged]:
     """Return the results of a group in one geometry."""
-    return [one for one in judged(geometry) if one and GROUPS[group](one.case)]
+    numbers = [number for number, case in enumerate(cases()) if GROUPS[group](case)]
+    return [one for number in numbers if (one := judged(number, geometry)) is not None]
 
 
 def largest(group: str, geometry: str, figure: str) -> float:
@@ -209,9 +208,8 @@ def case_table() -> str:
     for name in names:
         head += [f"{name}: δ", "edges", "peak", "ξ"]
     lines = [f"| {' | '.join(head)} |", "|" + "---|" * len(head)]
-    for rows in zip(*(judged(name) for name in names), strict=True):
-        assert rows[0] is not None
-        case = rows[0].case
+    for number, case in enumerate(cases()):
+        rows = [judged(number, name) for name in names]
         share = "none" if case["friction"] == 0.0 else f"{drive(case) + 0.0:+.2g}"
         cells = [case["case"], share]
         for one in rows:
@@ -298,9 +296,12 @@ def skins() -> tuple[int, list[float], float]:
     largest deviation of those without it.
     """
     ratios, unwarned = [], [0.0]
-    for one in judged("second"):
-        layers = one.case["upper"].get("layers", [])
-        if one.creepage is None or len(layers) < 2 or layers[0]["modulus"] <= layers[1]["modulus"]:
+    for number, case in enumerate(cases()):
+        layers = case["upper"].get("layers", [])
+        if len(layers) < 2 or layers[0]["modulus"] <= layers[1]["modulus"]:
+            continue
+        one = judged(number, "second")
+        if one is None or one.creepage is None:
             continue
         if one.skin is None:
             unwarned.append(abs(one.creepage))

@@ -17,6 +17,11 @@ def rows():
     return list(effects(figures=["6 A", "8 A", "8 B", "7 A"]))
 
 
+@pytest.fixture(scope="module")
+def all_rows():
+    return list(effects())
+
+
 def change(rows, figure, instead, measure):
     found = [
         row
@@ -62,19 +67,18 @@ def test_what_could_not_be_solved_is_not_a_number():
 
 
 @pytest.mark.slow
-def test_every_choice_is_solved():
+def test_every_choice_is_solved(all_rows):
     """But one: a foil with friction in "curved", 1.4 times the tolerance off ("finite" has it)."""
-    rows = list(effects())
-    assert len(rows) > 100
-    open_ones = {(row.figure, row.missing) for row in rows if math.isnan(row.after)}
+    assert len(all_rows) > 100
+    open_ones = {(row.figure, row.missing) for row in all_rows if math.isnan(row.after)}
     assert open_ones <= {("4 (0.1 mm)", "friction")}
     foil = replace(figure_4(0.1), friction=2.7, tangential=rn.Traction(0.0))
     assert rn.solve(foil).converged
 
 
 @pytest.mark.slow
-def test_the_page_lists_every_choice():
-    page = effects_table(list(effects()))
+def test_the_page_lists_every_choice(all_rows):
+    page = effects_table(all_rows)
     assert "effects_table(list(effects()))" in PAGE.read_text("utf-8")  # made while it is built
-    for row in effects():
+    for row in all_rows:
         assert f"| {row.figure} | {row.missing} | {row.assumed} | {row.instead} |" in page

@@ -8,8 +8,8 @@ import rollnip as rn
 from rollnip.finite import (
     Body,
     Depths,
+    MeshState,
     NoEquilibriumError,
-    State,
     Strip,
     deformed_surface,
 )
@@ -149,10 +149,10 @@ def test_steps_follow_the_derivative(poisson, energy):
         return bump, 0.5 * bump, -2.0 * x * bump, -x * bump
 
     target = body.equilibrium(tractions, body.at_rest(), still=1e-10).displacement
-    near = State(1.03 * target, body.at_rest().pressure)
+    near = MeshState(1.03 * target, body.at_rest().pressure)
     errors = []
     for _ in range(3):
-        fresh = State(near.displacement, near.pressure)  # without a derivative
+        fresh = MeshState(near.displacement, near.pressure)  # without a derivative
         near = body.equilibrium(tractions, fresh, still=np.inf)
         errors.append(np.abs(near.displacement - target).max() / np.abs(target).max())
     assert errors[0] < 2e-2

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.finite import Body, Depths, State, Strip, deformed_surface, linear_surface, nodal
+from rollnip.finite import Body, Depths, MeshState, Strip, deformed_surface, linear_surface, nodal
 from rollnip.finite.memory import Memory
 from rollnip.finite.power import heat_inside, linear_heat_inside
 from rollnip.finite.viscous import Relaxing
@@ -136,10 +136,10 @@ def test_steps_follow_the_derivative(poisson, energy):
     """Steps of Newton's method double the correct digits: memory is in the derivative whole."""
     body = Body(strip(covered(prony(1.0, poisson, energy)), columns=24), SPEED)
     target = body.equilibrium(bump, body.at_rest(), still=1e-10).displacement
-    near = State(1.03 * target, body.at_rest().pressure)
+    near = MeshState(1.03 * target, body.at_rest().pressure)
     errors = []
     for _ in range(2):
-        fresh = State(near.displacement, near.pressure)  # without a derivative
+        fresh = MeshState(near.displacement, near.pressure)  # without a derivative
         near = body.equilibrium(bump, fresh, still=np.inf)
         errors.append(np.abs(near.displacement - target).max() / np.abs(target).max())
     assert errors[0] < 2e-3

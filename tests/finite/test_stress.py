@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.finite import PARTS, Body, Depths, State, Strip, element_fields
+from rollnip.finite import PARTS, Body, Depths, MeshState, Strip, element_fields
 
 DEEP = 2.0
 ENERGIES = [
@@ -29,7 +29,7 @@ def deformed(material, radius, deform, pressure=0.0):
     else:
         x, y = (radius - z) * np.sin(arcs / radius), radius - (radius - z) * np.cos(arcs / radius)
     moved = np.stack([x, y], axis=-1) @ (np.asarray(deform) - np.eye(2)).T
-    state = State(moved[:, :-1].ravel(), np.tile([pressure, 0.0, 0.0], (strip.layer.size, 1)))
+    state = MeshState(moved[:, :-1].ravel(), np.tile([pressure, 0.0, 0.0], (strip.layer.size, 1)))
     _, values = element_fields(Body(strip), state, np.array([0.3]), np.array([-0.4]), 1.0)
     upper = slice(0, strip.depths.owner.size - 1)  # the last row is held by the core
     return dict(zip(PARTS, values[:, 4, upper, 0], strict=True))

@@ -12,7 +12,7 @@ from rollnip.finite.response import (
     deformed_surface,
     linear_surface,
 )
-from rollnip.finite.state import NoEquilibriumError, State
+from rollnip.finite.state import MeshState, NoEquilibriumError
 from rollnip.finite.stress import PARTS, element_fields, present_place
 from rollnip.finite.strip import Depths, Strip
 
@@ -24,9 +24,9 @@ __all__ = [
     "Depths",
     "Equilibrium",
     "FiniteResponse",
+    "MeshState",
     "NoEquilibriumError",
     "Spline",
-    "State",
     "Strip",
     "Tractions",
     "deformed_surface",

@@ -25,7 +25,7 @@ from scipy.linalg import lapack
 
 from rollnip.finite.memory import Memory
 from rollnip.finite.pull import Pull, Tractions, summed
-from rollnip.finite.state import LEFT, NoEquilibriumError, State, Tangent
+from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError, Tangent
 from rollnip.finite.strip import LINEAR, Array, Indices, Strip
 from rollnip.finite.viscous import Relaxing, Viscous
 from rollnip.materials import Energy, NeoHookean, Slopes
@@ -123,9 +123,9 @@ class Body:
             raise NoEquilibriumError
         return Slopes(*out)
 
-    def at_rest(self) -> State:
+    def at_rest(self) -> MeshState:
         """Return the undeformed state."""
-        return State(np.zeros(self.strip.size), np.zeros((self.strip.layer.size, 3)))
+        return MeshState(np.zeros(self.strip.size), np.zeros((self.strip.layer.size, 3)))
 
     def deformation(self, displacement: Array) -> Array:
         """Return F_xx, F_xy, F_yx and F_yy at the points of Gauss, (4, elements, 9)."""
@@ -179,7 +179,7 @@ class Body:
         """Return whether all layers are neo-Hookean."""
         return all(isinstance(energy, NeoHookean) for energy, _ in self._energies)
 
-    def _fields(self, state: State, deformation: Array | None = None) -> _Fields:
+    def _fields(self, state: MeshState, deformation: Array | None = None) -> _Fields:
         """Return the fields of a state; ``deformation`` is what `deformation` gives of it."""
         if deformation is None:
             deformation = self.deformation(state.displacement)
@@ -200,7 +200,7 @@ class Body:
             c = c + second.j
         return _Fields(deformation, c, straight, step, rate, second, viscous)
 
-    def relaxing(self, state: State) -> Viscous | None:
+    def relaxing(self, state: MeshState) -> Viscous | None:
         """Return the stresses of a state that relax; None where all layers are elastic."""
         return None if self.memory is None else self._fields(state).viscous
 
@@ -327,15 +327,15 @@ class Body:
         """
         return self.at_first.solved(Pull.undeformed(self.strip, tractions).loads, left)
 
-    def linear_state(self, tractions: Tractions, left: float = LEFT) -> State:
+    def linear_state(self, tractions: Tractions, left: float = LEFT) -> MeshState:
         """Return the displacements of linear theory with their pressures, in the same form."""
         displacement = self.linear_displacements(tractions, left)
         local = np.append(displacement, 0.0)[self.strip.unknowns]
-        return State(displacement, self.at_first.pressures(local))
+        return MeshState(displacement, self.at_first.pressures(local))
 
     def equilibrium(
-        self, tractions: Tractions, start: State, still: float = STILL, share: float = 0.0
-    ) -> State:
+        self, tractions: Tractions, start: MeshState, still: float = STILL, share: float = 0.0
+    ) -> MeshState:
         """Solve by Newton's method, until ``still`` times the displacement or less is left.
 
         Or until no more is left than a ``share`` of the first step. A derivative is kept as long as
@@ -347,10 +347,12 @@ class Body:
         try:
             return self._by_steps(tractions, start, still, share)
         except NoEquilibriumError:
-            afresh = State(start.displacement, start.pressure)
+            afresh = MeshState(start.displacement, start.pressure)
             return self._by_steps(tractions, afresh, still, share)
 
-    def _by_steps(self, tractions: Tractions, start: State, still: float, share: float) -> State:
+    def _by_steps(
+        self, tractions: Tractions, start: MeshState, still: float, share: float
+    ) -> MeshState:
         """Solve from a state, the first steps with its derivative if that is known."""
         state, tangent, before, first = start, start.tangent, inf, 0.0
         deformation = self.deformation(state.displacement)
@@ -366,7 +368,7 @@ class Body:
             local = np.append(part * step, 0.0)[self.strip.unknowns]
             change = part * fields.step + tangent.pressures(local)
             moved, pressed = state.displacement + part * step, state.pressure + change
-            state = State(moved, pressed, tangent)
+            state = MeshState(moved, pressed, tangent)
             size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
             first = max(first, size)
             is_first = before == inf

@@ -22,7 +22,7 @@ from rollnip.finite.acting import Acting, Linear
 from rollnip.finite.columns import Columns
 from rollnip.finite.equilibrium import STILL, Body
 from rollnip.finite.power import heat_inside, linear_heat_inside
-from rollnip.finite.state import LEFT, NoEquilibriumError, State
+from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
 from rollnip.rollers import Roller
 
@@ -72,7 +72,7 @@ class Equilibrium:
     ends : (columns + 1,) arcs of the ends of elements [mm].
     loaded : the columns under the tractions.
     displacement : (unknowns,) [mm].
-    pressure : (elements, 3), see `State` [MPa].
+    pressure : (elements, 3), see `MeshState` [MPa].
     acting : the tractions.
     speed : V at which viscoelastic layers pass [mm/s].
     """
@@ -85,7 +85,7 @@ class Equilibrium:
     speed: float | None
 
 
-def deformed_surface(body: Body, state: State) -> DeformedSurface:
+def deformed_surface(body: Body, state: MeshState) -> DeformedSurface:
     """Return where the surface of a mesh is."""
     strip, curvature = body.strip, body.strip.depths.roller.curvature
     moved, arcs = strip.on_surface(state.displacement)[::2], strip.ends
@@ -191,7 +191,7 @@ class FiniteResponse:
         if flat.strip.size != start.displacement.size:
             return None
         body = flat if self._speed is None else replace(flat, speed=start.speed)
-        state = State(start.displacement, start.pressure)
+        state = MeshState(start.displacement, start.pressure)
         return _LoadedMesh(flat, body, state, start.loaded, start.acting)
 
     def displacement(
@@ -303,7 +303,7 @@ class FiniteResponse:
         while self.share > _LEAST_SHARE:
             self.share *= 0.5
             mixed = last.acting.towards(acting, self.share)
-            start = State(last.state.displacement, last.state.pressure)
+            start = MeshState(last.state.displacement, last.state.pressure)
             try:
                 state = last.body.equilibrium(mixed.tractions, start)
             except NoEquilibriumError:
@@ -333,7 +333,9 @@ class FiniteResponse:
             flat, body, state = self._moved(mesh, places, loaded)
         return mesh
 
-    def _moved(self, mesh: _LoadedMesh, places: Array, loaded: slice) -> tuple[Body, Body, State]:
+    def _moved(
+        self, mesh: _LoadedMesh, places: Array, loaded: slice
+    ) -> tuple[Body, Body, MeshState]:
         """Return a mesh whose loaded columns come to lie at their places, with a state."""
         surface = deformed_surface(mesh.body, mesh.state)
         strip, state = mesh.body.strip, mesh.state
@@ -344,8 +346,8 @@ class FiniteResponse:
         flat, body = self._on(places, loaded, under)
         displacement = strip.moved_to(body.strip, state.displacement)
         if body.strip.layer.size != strip.layer.size:
-            return flat, body, State(displacement, body.at_rest().pressure)
-        return flat, body, State(displacement, state.pressure, state.tangent)
+            return flat, body, MeshState(displacement, body.at_rest().pressure)
+        return flat, body, MeshState(displacement, state.pressure, state.tangent)
 
     def _on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
         """Return a mesh whose loaded columns are at some arcs, of linear theory and as it is.
@@ -369,7 +371,7 @@ class _LoadedMesh:
 
     flat: Body
     body: Body
-    state: State
+    state: MeshState
     loaded: slice
     acting: Acting
 

@@ -81,7 +81,7 @@ class Tangent:
 
 
 @dataclass(frozen=True)
-class State:
+class MeshState:
     """A state of a mesh.
 
     Attributes

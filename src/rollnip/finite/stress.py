@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.finite.equilibrium import Body
-from rollnip.finite.state import State
+from rollnip.finite.state import MeshState
 from rollnip.finite.strip import LINEAR, Array, Strip, below_radius, on_circle, quadratics
 from rollnip.finite.viscous import Viscous
 from rollnip.materials import Energy, NeoHookean
@@ -56,7 +56,7 @@ class _Law:
 
 
 def element_fields(
-    body: Body, state: State, along: Array, down: Array, near: float | None = None
+    body: Body, state: MeshState, along: Array, down: Array, near: float | None = None
 ) -> tuple[Array, Array]:
     """Return the fields of a state at the same places of every element.
 

@@ -18,9 +18,9 @@ from rollnip.finite import (
     PARTS,
     Body,
     Depths,
+    MeshState,
     NoEquilibriumError,
     Spline,
-    State,
     Strip,
     Tractions,
     deformed_surface,
@@ -166,7 +166,7 @@ def _solved(
     acting = nodal(tractions.nodes, tractions.t_z[1:-1], tractions.t_x[1:-1])
     flat = Body(Strip(depths, places), None if speeds is None else speeds[0])
     small = flat.equilibrium(_weak(acting, roller.curvature), flat.at_rest(), still=_STILL)
-    linear = State(small.displacement / _SMALL, small.pressure / _SMALL)
+    linear = MeshState(small.displacement / _SMALL, small.pressure / _SMALL)
     passing = flat if speeds is None else Body(flat.strip, speeds[1])
     body, state = _equilibrium(passing, linear, acting, near)
     at, values = _sampled(element_fields(body, state, _ALONG, _DOWN, near))
@@ -197,7 +197,9 @@ def _weak(acting: Tractions, curvature: float) -> Tractions:
     return at
 
 
-def _equilibrium(flat: Body, linear: State, acting: Tractions, near: float) -> tuple[Body, State]:
+def _equilibrium(
+    flat: Body, linear: MeshState, acting: Tractions, near: float
+) -> tuple[Body, MeshState]:
     """Return the equilibrium on a mesh whose columns are at the places of the linear one, now."""
     places, allowed = flat.strip.ends, _ALIGNED * near
     circle = (flat.strip.depths.roller.curvature, near)
@@ -209,12 +211,12 @@ def _equilibrium(flat: Body, linear: State, acting: Tractions, near: float) -> t
         if float(np.abs(arcs - body.strip.ends)[1:-1].max()) <= allowed:
             break
         new = Body(Strip(body.strip.depths, arcs), body.speed)
-        start = State(body.strip.moved_to(new.strip, state.displacement), state.pressure)
+        start = MeshState(body.strip.moved_to(new.strip, state.displacement), state.pressure)
         body, state = new, new.equilibrium(acting, start)
     return body, state
 
 
-def _reached(body: Body, linear: State, acting: Tractions) -> State:
+def _reached(body: Body, linear: MeshState, acting: Tractions) -> MeshState:
     """Solve for the tractions at once, or in steps that are halved as long as they must be."""
     try:
         return body.equilibrium(acting, linear)

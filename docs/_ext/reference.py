@@ -144,7 +144,7 @@ def registries() -> dict[str, Any]:
     """Return every registry of figures by the word that a page asks for it with."""
     from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES, SHEET_FACE_FIGURES
     from rollnip.figures import FIELDS, FIGURES, INTERFACE_FIGURES, PROFILES
-    from rollnip.heat.figures import ROLLER_FIGURES
+    from rollnip.heat.figures import BALANCE_FIGURES, COURSES, ROLLER_FIGURES, WARM_UP_FIGURES
     from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES
     from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 
@@ -159,6 +159,8 @@ def registries() -> dict[str, Any]:
         "face-profiles": FACE_PROFILES,
         "face-sheet": SHEET_FACE_FIGURES,
         "heat": ROLLER_FIGURES,
+        "heat-balance": BALANCE_FIGURES,
+        "warm-up": {**WARM_UP_FIGURES, **{key: COURSES[key] for key in ("time", "power")}},
         "patch": PATCH_FIGURES,
         "patch-fields": PATCH_FIELDS,
     }

@@ -207,3 +207,16 @@ def test_the_smallest_losses_that_are_meant_are_shown():
         value = FIGURES[key].value(solution)
         assert value is not None
         assert FIGURES[key].cleaned(solution) == value != 0.0
+
+
+def test_long_times_are_shown_in_minutes():
+    time = COURSES["time"]
+    assert time.text(90.0) == "90.0 s"
+    assert time.text(600.0) == "10.0 min"
+    assert time.shown_for(3600.0) == ("min", pytest.approx(1.0 / 60.0))
+    assert time.axis == "time [s]"
+
+
+def test_a_text_may_have_other_digits_than_the_figure():
+    assert FIGURES["load"].text(2.0) == "2.000 N/mm"
+    assert FIGURES["load"].text(2.0, 2) == "2.0 N/mm"

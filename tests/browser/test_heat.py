@@ -91,7 +91,7 @@ def test_temperatures_powers_and_the_warm_nip_are_those_of_the_solver(heat):
     assert cell(heat, "to_nip", 2) == pytest.approx(-upper.to_nip, rel=6e-3)
     assert cell(heat, "nip-nip_width", 2) == pytest.approx(solution.warm.nip_width, rel=1e-3)
     text = heat.page.inner_text("#heat-verdict")
-    assert f"{upper.hot_spot:.3g}" in text
+    assert f"{upper.hot_spot:.4g}" in text
     assert "deep in the upper roller" in text
     assert "has no shift" in heat.page.inner_text("#heat-notes")
 

@@ -50,13 +50,12 @@ def test_a_pulled_web_on_a_bare_roller_meets_the_tolerance_on_the_finest_mesh():
     assert rn.solve(random_case(61005).nip, rn.Model(geometry="linear")).converged
 
 
-@pytest.mark.parametrize("number", [13013, 95030])
-def test_boards_that_may_not_resist_bending_are_solved(number):
-    """As thick as their nip is wide: the curvature of their path is as large as the creepages.
+def test_a_board_that_may_not_resist_bending_is_solved():
+    """As thick as its nip is wide: the curvature of its path is as large as the creepages.
 
     Found in turns with the contact it grew from turn to turn.
     """
-    solution = rn.solve(random_case(number).nip, rn.Model(geometry="curved"))
+    solution = rn.solve(random_case(13013).nip, rn.Model(geometry="curved"))
     assert solution.converged
     assert any("Both may be far off" in warning for warning in solution.warnings)
 

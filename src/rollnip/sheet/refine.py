@@ -11,10 +11,11 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.contact import elements_of_zones
 from rollnip.model import Geometry, Model
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling import Figures, PairKernels
-from rollnip.rolling.round import peak_pressure, scale_of_creepage
+from rollnip.rolling.round import peak_at, peak_pressure, scale_of_creepage
 from rollnip.sheet.powers import SheetPowers, sheet_powers
 from rollnip.sheet.search import SheetAttempt, SheetSearch, overlap, violation
 from rollnip.sheet.system import frictions_of
@@ -35,7 +36,7 @@ _ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and w
 FEWEST = 2
 FEWEST_WITH_SLIP = 3
 _MOST_FAILURES = 3  # sizes of mesh whose zones do not come to rest
-_ROUGHLY, LAST_CLOSELY = 1.0, 0.1  # of the tolerance: what ends may be off on first, last sizes
+_ROUGHLY, LAST_CLOSELY = 1.0, 0.03  # of the tolerance: what ends may be off on first, last sizes
 _LAST_COUNT = 60  # elements beyond which ends are placed better
 _ROUNDING = 1e-12
 _WATCHED = 7  # of the figures: those that the tolerance is for
@@ -85,10 +86,11 @@ class SheetFigures:
             state.creepage_lower,
             float(weights @ state.shear),
             float(weights @ state.shear_lower),
-            float(tension.max()),
-            float(tension.min()),
+            largest_of(mesh.inner, tension),
+            -largest_of(mesh.inner, -tension),
         ]
-        last = [place, float(strain[np.argmax(np.abs(strain))])]
+        widest = 1.0 if strain.max() > -strain.min() else -1.0
+        last = [place, widest * largest_of(mesh.inner, widest * strain)]
         return cls(np.array([*first, *spent.array().tolist(), *last]))
 
     def __getattr__(self, name: str) -> float:
@@ -114,6 +116,11 @@ NAMES = (
     "friction_upper", "friction_lower", "lost_upper", "lost_lower", "pull_upper", "pull_lower",
     "into_sheet", "peak_pressure_x", "strain_max",
 )  # fmt: skip
+
+
+def largest_of(x: Array, values: Array) -> float:
+    """Return the largest value, between nodes too."""
+    return peak_at(x, values, int(np.argmax(values)))[0]
 
 
 def strain_at(stand: SheetAttempt) -> Array:
@@ -181,7 +188,8 @@ def refine_sheet(
             failures, count = failures + 1, _next_count(count, inf)
             continue
         figures = SheetFigures.of(stand, model.geometry)
-        here = (count, figures, stand.zones)
+        elements = stand.problem.mesh.inner.size - 1
+        here = (float(elements), figures, stand.zones)
         errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
         latest = SheetRefined(stand, figures, errors, violation(stand), round(count))
         if stand.stands_still:
@@ -194,7 +202,10 @@ def refine_sheet(
         else:
             best = best or latest
             failures += 1
+        least = _LEAST_GROWTH * _elements(stand.zones, count)
         count = _next_count(count, ratio(nip, figures, errors) / model.tolerance)
+        while count < MOST_COUNT and _elements(stand.zones, count) < least:
+            count = _next_count(count, 0.0)  # short zones have their fewest elements still
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return _with_overlap(best, kernels, model.geometry)
@@ -206,7 +217,12 @@ def _next_count(count: float, ratio: float) -> float:
     As if errors were of second order in the size of the elements.
     """
     growth = min(max(_MORE * sqrt(ratio), _LEAST_GROWTH), GROWTH)
-    return min(count * growth, MOST_COUNT) if count < MOST_COUNT else inf
+    return min(count * growth, MOST_COUNT) if _LEAST_GROWTH * count < MOST_COUNT else inf
+
+
+def _elements(zones: Zones, count: float) -> int:
+    """Return how many elements a mesh of some size has, apart from those that crowd."""
+    return int(elements_of_zones(zones.breaks, round(count)).sum())
 
 
 def _closely(count: float) -> float:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from math import inf, sqrt
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -32,8 +32,9 @@ from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.attempt import Attempt
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
+from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves
-from rollnip.sheet.settled import settled, slipping
+from rollnip.sheet.settled import next_slip, settled, slipping
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import (
     SIGNS,
@@ -42,7 +43,6 @@ from rollnip.sheet.system import (
     SheetMesh,
     SheetProblem,
     SheetState,
-    next_slip,
     sheet_displacements,
     sheet_mesh_on,
 )
@@ -159,7 +159,8 @@ class SheetSearch:
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return how nodes crowd at ends that are known to some share of the width."""
         width = float(breaks[-1] - breaks[0])
-        return crowding_of(breaks, max(self.boundary, max(known, SHORTEST_LAYER) * width))
+        shortest = min(self.boundary, unlike_layer(self.nip, self.model.tolerance) * width)
+        return crowding_of(breaks, max(shortest, max(known, SHORTEST_LAYER) * width))
 
     @cached_property
     def boundary(self) -> float:
@@ -354,39 +355,6 @@ def longest_run(values: Array) -> float:
     total = np.concatenate([[0.0], np.cumsum(values)])
     rest = np.maximum.accumulate(np.where(np.append(values, 0.0) > 0.0, 0.0, total))
     return float(np.max(total - np.concatenate([[0.0], rest[:-1]])))
-
-
-def sheet_layer(nip: Nip) -> float:
-    """Return the length over which the sheet takes over a change of the shear [mm].
-
-    Over shorter lengths the surface of a roller yields less than the sheet is stretched by the
-    shears on it, over longer ones more: 1/(a E), a the strain of the sheet per tension and E the
-    glassy modulus of the surface. Beside a stiffer roller, a rigid one too, the shear through the
-    sheet's own thickness counts: sqrt(h/(3 G a)), about h.
-    """
-    sheet = nip.sheet
-    assert sheet is not None
-    by_tension = sheet.stretch_by_tension
-    through = sqrt(sheet.shear_by_thickness / (3.0 * by_tension))
-    materials = [roller.materials[0] for roller in (nip.upper, nip.lower) if roller.materials]
-    stiffest = max(material.glassy_modulus for material in materials)
-    along = 1.0 / (by_tension * stiffest)
-    rigid = nip.upper.is_rigid or nip.lower.is_rigid
-    return through if rigid else max(through, along)
-
-
-def squeeze_layer(nip: Nip) -> float:
-    """Return the length over which the sheet's thickness takes part in a change of the pressure.
-
-    That is its thickness h where the surfaces are stiff, for beyond h its compliance is that of
-    springs and below that of half-spaces. On surfaces much softer than the sheet it changes little
-    there, and over lengths longer by the ratio of the two compliances over h.
-    """
-    sheet = nip.sheet
-    assert sheet is not None
-    tops = [roller.materials[0] for roller in (nip.upper, nip.lower) if roller.materials]
-    yielding = sum((1.0 - top.poisson**2) / top.glassy_modulus for top in tops)
-    return sheet.thickness * (1.0 + 0.5 * sheet.thickness * yielding / sheet.squeeze)
 
 
 def carried(stand: SheetAttempt, problem: SheetProblem) -> Lagged:

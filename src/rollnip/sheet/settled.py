@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, States, interior_point
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.system import Lagged, SheetProblem, SheetState, next_slip
+from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
 
@@ -66,6 +66,28 @@ def slipping(
         except np.linalg.LinAlgError:  # nothing is left that sticks
             return None
     return None
+
+
+def next_slip(problem: SheetProblem, state: SheetState, creeps: Array, slack: float) -> States:
+    """Return the states of both interfaces that creep (2, n) and shear call for; (2, n).
+
+    Free nodes and those under tension keep theirs. Within ``slack`` of the highest pressure's
+    bound a node keeps its state.
+    """
+    states = state.both_states
+    little = slack * float(np.abs(state.pressure).max())
+    kept = (states[0] != State.FREE) & (state.pressure >= -little)
+    out = states.copy()
+    for side, friction in enumerate(problem.frictions):
+        sought = state.shears[side] - creeps[side] / problem.own[side]
+        bound = friction * np.maximum(state.pressure, 0.0)
+        room = friction * little
+        plus = sought > bound + np.where(states[side] == State.SLIP_PLUS, -room, room)
+        minus = sought < -bound - np.where(states[side] == State.SLIP_MINUS, -room, room)
+        out[side, kept] = State.STICK
+        out[side, kept & plus] = State.SLIP_PLUS
+        out[side, kept & minus] = State.SLIP_MINUS
+    return out
 
 
 def _inequalities(

@@ -22,6 +22,7 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.layers import sheet_layer, squeeze_layer
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.plate.attempt import PlateAttempt, carried, shear_over, violation
 from rollnip.sheet.plate.factorised import FactorisedPlate
@@ -37,7 +38,7 @@ from rollnip.sheet.plate.settled import settled
 from rollnip.sheet.plate.sides import path_ratio, side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.search import SHORTEST_LAYER, sheet_layer, squeeze_layer
+from rollnip.sheet.search import SHORTEST_LAYER
 
 Array = NDArray[np.float64]
 

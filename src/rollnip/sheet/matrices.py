@@ -67,7 +67,7 @@ class Integrals:
 
 
 @dataclass(frozen=True, slots=True)
-class Path:
+class SheetPath:
     """The path of a sheet: the polynomial nearest to some heights over the contact.
 
     The path is as smooth as the sheet's bending stiffness makes it, and its curvature matters on
@@ -85,7 +85,7 @@ class Path:
     nearest: Array
 
     @classmethod
-    def on(cls, mesh: Mesh) -> Path:
+    def on(cls, mesh: Mesh) -> SheetPath:
         """Find it on a mesh, in the mean of the square."""
         x = mesh.inner
         middle, half = 0.5 * (x[0] + x[-1]), 0.5 * (x[-1] - x[0])

@@ -32,7 +32,7 @@ from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import Displacements, PairKernels
 from rollnip.rolling.displacements import SecondFields
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.matrices import Integrals, Path, influence, stable
+from rollnip.sheet.matrices import Integrals, SheetPath, influence, stable
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -224,9 +224,9 @@ class SheetProblem:
         return self.mesh.dx
 
     @cached_property
-    def path(self) -> Path:
+    def path(self) -> SheetPath:
         """The path of the sheet on this mesh."""
-        return Path.on(self.mesh)
+        return SheetPath.on(self.mesh)
 
     def right(self, lagged: Lagged) -> Array:
         """Return what the tractions must make up for: (3, n) gaps and creeps, without unknowns."""

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._sealed import sealed
 from rollnip.contact import State, contact_intervals
 from rollnip.interior import SurfaceTractions
 from rollnip.rolling import (
@@ -34,7 +35,7 @@ from rollnip.solution import Solution
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SmoothSolution(Solution):
     """A solved nip of smooth rollers, as `Solution` says.
 
@@ -156,7 +157,7 @@ class SmoothSolution(Solution):
     @property
     def nodes(self) -> Array:
         """Nodes of the mesh that carry tractions, from trailing to leading, (n,) [mm]."""
-        return self.final.x
+        return sealed(self.final.x)
 
     @property
     def pressure(self) -> Array:
@@ -164,7 +165,7 @@ class SmoothSolution(Solution):
 
         Between nodes its mean is right, so at a node it may exceed ``peak_pressure`` by a few 1e-4.
         """
-        return self.final.pressure
+        return sealed(self.final.pressure)
 
     @property
     def shear(self) -> Array:
@@ -172,7 +173,7 @@ class SmoothSolution(Solution):
 
         In stick next to a transition it is within friction times pressure to the tolerance only.
         """
-        return self.final.shear
+        return sealed(self.final.shear)
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
         """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""

@@ -41,7 +41,7 @@ __all__ = ["DeformedSurfaces", "Profiles", "Solution", "SolverInfo", "Zone"]
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class Solution(Presented, ABC):
     """A solved nip. Units mm, N, MPa, s; x points to the leading edge (the inlet).
 

@@ -1,12 +1,16 @@
 """A case written out again is the same case."""
 
 import tomllib
+from dataclasses import is_dataclass
 from math import inf
 from pathlib import Path
+from typing import get_args, get_type_hints
 
 import pytest
 
+import rollnip as rn
 from rollnip._errors import CaseFileError, RollnipError
+from rollnip.cooling import HeatBalance
 from rollnip.io import (
     base_tree,
     case_hash,
@@ -17,6 +21,10 @@ from rollnip.io import (
     units_of,
 )
 from rollnip.io.document import read_document
+from rollnip.io.script import _TYPES
+from rollnip.nip import Nip
+from rollnip.rollers import Profile
+from rollnip.shafts import Face
 
 ROOT = Path(__file__).parents[2]
 # A case that names a file of heights is no text of its own.
@@ -70,9 +78,40 @@ temperature = "104 degF"
 shift = { model = "wlf", c1 = 17.44, c2 = 51.6, reference = "23 degC" }
 """
 
+ALONG_THE_FACE = """
+[nip]
+friction = 0.4
+[face]
+length = "1600 mm"
+skew = "0.02 deg"
+ends = "edge"
+end_radius = "0.5 mm"
+arms = [{ bearing_lever = "300 mm", forces = [{ force = "3 kN", lever = "400 mm" }] }]
+[upper]
+radius = "75 mm"
+layers = [{ thickness = "12 mm", material = { model = "elastic", shore_a = 60, poisson = 0.5 } }]
+[upper.shaft]
+bearing_distance = "1900 mm"
+bearing_middle = "20 mm"
+bore = "50 mm"
+journals = [{ diameter = "80 mm", length = "60 mm" }, { diameter = "60 mm" }]
+density = "2700 kg/m3"
+crown = { y = ["-800 mm", "0 mm", "800 mm"], diameter = ["-0.02 mm", "0.02 mm", "-0.01 mm"] }
+covering = { y = [-800, 0, 800], thickness = [12, 11.5, 12] }
+[lower]
+radius = "75 mm"
+[lower.shaft]
+bearing_distance = "1900 mm"
+journal_diameter = "60 mm"
+crown = { height = "0.02 mm", shape = "cosine" }
+profiles = [{ height = "0.02 mm", shape = "circular" }]
+covering = { y = [-800, 0, 800], stiffness = [1, 1.1, 1] }
+"""
+
 
 def trees():
     yield pytest.param(tomllib.loads(EVERYTHING), id="everything")
+    yield pytest.param(tomllib.loads(ALONG_THE_FACE), id="along-the-face")
     for path in FILES:
         tree = read_document(path)
         if "profile" not in tree["upper"]:
@@ -86,16 +125,35 @@ def test_a_measured_profile_is_too_much_for_a_text():
 
 
 def run(text):
-    """What the text defines, without solving."""
+    """What the text defines, without solving or printing: nip, model, face, heat."""
     names = {}
-    exec(text.replace("rn.solve(nip, ", "(").partition("print(")[0], names)
-    return names["nip"], names["solution"]
+    for solve in ("solve(nip, ", "solve_face(nip, face, ", "solve_heat(nip, heat, "):
+        text = text.replace(f"rn.{solve}", "(")
+    exec("\n".join(line for line in text.splitlines() if "print(" not in line), names)
+    return names["nip"], names["solution"], names.get("face"), names.get("heat")
+
+
+def parts_of(kind, seen):
+    """Every dataclass that an object of a kind may hold, itself included."""
+    if is_dataclass(kind) and kind not in seen:
+        seen.add(kind)
+        for hint in get_type_hints(kind).values():
+            parts_of(hint, seen)
+    for one in get_args(kind):
+        parts_of(one, seen)
+    return seen
+
+
+def test_python_can_name_every_part_that_a_case_may_hold():
+    parts = parts_of(Nip, set()) | parts_of(Face, set()) | parts_of(HeatBalance, set())
+    assert {one for one in parts if one not in _TYPES} == {Profile}
+    assert all(getattr(rn, one.__name__) is one for one in _TYPES)
 
 
 @pytest.mark.parametrize("tree", list(trees()))
 def test_python_builds_the_same_nip_and_model(tree):
     case = parse_case(tree)
-    assert run(case_python(case)) == (case.nip, case.model)
+    assert run(case_python(case)) == (case.nip, case.model, case.face, case.heat)
 
 
 @pytest.mark.parametrize("tree", list(trees()))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip._sealed import Sealed
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw, slip_measure
 from rollnip.face.problem import FaceProblem, face_problem
@@ -32,8 +33,8 @@ _BALANCED = 1e-9  # moment over load times length, below which both sides carry 
 _THINNEST = 0.005  # wall over core diameter; thinner ones are no roller
 
 
-@dataclass(frozen=True, slots=True)
-class EvenCrown:
+@dataclass(frozen=True, slots=True, eq=False)
+class EvenCrown(Sealed):
     """The crown that evens out a load.
 
     Attributes
@@ -174,8 +175,8 @@ def with_crown(nip: Nip, roller: Name, crown: Crown | CrownTable) -> Nip:
     return replace(nip, upper=crowned) if roller == "upper" else replace(nip, lower=crowned)
 
 
-@dataclass(frozen=True, slots=True)
-class LoadRange:
+@dataclass(frozen=True, slots=True, eq=False)
+class LoadRange(Sealed):
     """The mean line loads that a crown serves.
 
     Attributes

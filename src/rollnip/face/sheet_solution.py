@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._sealed import sealed
 from rollnip.face.figures import SHEET_FACE_FIGURES
 from rollnip.face.notes import energies_of, places
 from rollnip.face.sheet_balance import SheetBalance
@@ -23,7 +24,7 @@ _LEAST = SHEET_FACE_FIGURES["least_tension_in"]
 _SLACK = 1e-6  # of the load: a tension below zero that is more than rounding
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class SheetFaceSolution(FaceSolution):
     """A solved face with a sheet.
 
@@ -47,17 +48,17 @@ class SheetFaceSolution(FaceSolution):
     @property
     def feed_upper(self) -> Array:
         """V_s/V_u - 1 over the face, (n,); V_s is the speed of the sheet free of tension."""
-        return np.asarray(self.sheet_balance.feeds[0])
+        return sealed(self.sheet_balance.feeds[0])
 
     @property
     def feed_lower(self) -> Array:
         """V_s/V_l - 1 over the face, (n,)."""
-        return np.asarray(self.sheet_balance.feeds[1])
+        return sealed(self.sheet_balance.feeds[1])
 
     @cached_property
     def traction_upper(self) -> Array:
         """Traction that the upper roller gives to the sheet, (n,) [N/mm]."""
-        return self._sheet_law.tractions(self.sheet_balance.points)[0]
+        return sealed(self._sheet_law.tractions(self.sheet_balance.points)[0])
 
     @property
     def tension_in(self) -> Array:
@@ -134,7 +135,7 @@ class SheetFaceSolution(FaceSolution):
         if getattr(self.nip, roller).curvature == 0.0:
             return None
         values = self._sheet_law.figure(f"torque_{roller}", self.sheet_balance.points)
-        return np.asarray(values * (1.0 + self.problem.rise[0 if roller == "upper" else 1]))
+        return sealed(values * (1.0 + self.problem.rise[0 if roller == "upper" else 1]))
 
     def _of_law(self, name: str) -> Array:
-        return self._sheet_law.figure(name, self.sheet_balance.points)
+        return sealed(self._sheet_law.figure(name, self.sheet_balance.points))

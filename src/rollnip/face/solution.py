@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._extras import require_extra
+from rollnip._sealed import sealed
 from rollnip.face.law import NipLaw
 from rollnip.face.problem import FaceProblem
 from rollnip.face.sheet_law import SheetLaw
@@ -38,7 +39,7 @@ class Bearings:
     second: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class FaceSolution:
     """A nip along its face. Units mm, N, MPa, s; y from one end of the face to the other.
 
@@ -66,22 +67,22 @@ class FaceSolution:
     @property
     def y(self) -> Array:
         """Places along the face, (n,), from -length/2 to length/2 [mm]."""
-        return self.problem.grid.y
+        return sealed(self.problem.grid.y)
 
     @property
     def load(self) -> Array:
         """Line load, (n,) [N/mm]; 0 where the nip is open."""
-        return self.balance.section.load
+        return sealed(self.balance.section.load)
 
     @property
     def approach(self) -> Array:
         """Approach of the surfaces, (n,) [mm]; negative where the nip is open by as much."""
-        return self.balance.approach
+        return sealed(self.balance.approach)
 
     @property
     def traction(self) -> Array:
         """Traction, (n,) [N/mm]; the upper roller drives where it is positive."""
-        return self.balance.section.traction
+        return sealed(self.balance.section.traction)
 
     @property
     def creepage(self) -> float:
@@ -106,12 +107,12 @@ class FaceSolution:
             return self._of_law("peak_pressure")
         load, peak = relief.ratios(self.problem.grid)
         safe = np.where(load > 0.0, load, 1.0)
-        return self._of_law("peak_pressure") * np.where(load > 0.0, peak / safe, 0.0)
+        return sealed(self._of_law("peak_pressure") * np.where(load > 0.0, peak / safe, 0.0))
 
     @cached_property
     def slip_width(self) -> Array:
         """Part of the nip width over which the surfaces slip, (n,) [mm]; 0 without friction."""
-        return np.clip(self._of_law("slip_width"), 0.0, self.nip_width)
+        return sealed(np.clip(self._of_law("slip_width"), 0.0, self.nip_width))
 
     @cached_property
     def torque_upper(self) -> Array | None:
@@ -203,7 +204,7 @@ class FaceSolution:
 
         Like `load`, but for what the ends of the face do.
         """
-        return plane_load(self.problem, self.balance)
+        return sealed(plane_load(self.problem, self.balance))
 
     @property
     def added_length(self) -> float | None:
@@ -279,7 +280,7 @@ class FaceSolution:
         found = self.balance
         assert isinstance(self.law, NipLaw)
         values = torque(self.problem, self.law, found.section, found.places, roller)
-        return None if np.isnan(values).any() else values
+        return None if np.isnan(values).any() else sealed(values)
 
     def _power(self, torque: float | None, curvature: float, sign: float) -> float | None:
         """Return torque times angular speed: both rollers turn as wholes, by nominal radii."""
@@ -298,4 +299,4 @@ class FaceSolution:
         found = self.balance
         assert isinstance(self.law, NipLaw)
         values = self.law.figure(name, found.section.log_load, found.section.s, found.places)
-        return np.where(self.load > 0.0, values, 0.0)
+        return sealed(np.where(self.load > 0.0, values, 0.0))

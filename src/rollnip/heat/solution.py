@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._sealed import Sealed
 from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction, Outflow
 from rollnip.heat.grid import RadialGrid
@@ -19,8 +20,8 @@ from rollnip.solution import Solution
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class RollerHeat:
+@dataclass(frozen=True, slots=True, eq=False)
+class RollerHeat(Sealed):
     """One roller in thermal balance; temperatures in degC, powers in W/m = mW/mm.
 
     Attributes
@@ -90,7 +91,7 @@ def _halves(grid: RadialGrid, cell: int) -> tuple[float, float]:
     return float(above), float(below)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class HeatSolution:
     """A nip in thermal balance. Units mm, N, MPa, s, degC; powers in W/m = mW/mm.
 

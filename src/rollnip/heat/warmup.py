@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError, require_positive
+from rollnip._sealed import Sealed
 from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction
 from rollnip.heat.figures import RISE
@@ -39,8 +40,8 @@ _RTOL, _ATOL = 1e-6, 1e-4  # of the integration: relative, and K
 _RUNAWAY = 200.0  # K over the start: how far the table goes where there is no steady state
 
 
-@dataclass(frozen=True)
-class WarmUp:
+@dataclass(frozen=True, eq=False)
+class WarmUp(Sealed):
     """Temperatures of both rollers over time.
 
     Attributes

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._frames import Column, Frame, Framed, numbers
 from rollnip._html import html_table
+from rollnip._sealed import Sealed
 from rollnip._units import format_quantity
 from rollnip.identification.costs import Measurements
 from rollnip.identification.loss import Loss
@@ -58,8 +59,8 @@ class Estimate:
         return self.standard_error < self.bounds[1] - self.bounds[0]
 
 
-@dataclass(frozen=True, slots=True)
-class FittedSet(Framed):
+@dataclass(frozen=True, slots=True, eq=False)
+class FittedSet(Framed, Sealed):
     """One set of measurements beside its predictions.
 
     Attributes
@@ -137,8 +138,8 @@ class Start:
     cost: float
 
 
-@dataclass(frozen=True, slots=True, kw_only=True, repr=False)
-class Fit(Framed):
+@dataclass(frozen=True, slots=True, kw_only=True, eq=False, repr=False)
+class Fit(Framed, Sealed):
     """A fit of unknown values to measurements.
 
     Attributes

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rollnip._sealed import Sealed
 from rollnip.interior.evaluate import interior_field
 from rollnip.interior.field import InteriorField
 from rollnip.interior.finite import FiniteFields
@@ -13,8 +14,8 @@ from rollnip.interior.tractions import Array, SurfaceTractions
 from rollnip.rollers import Roller
 
 
-@dataclass(frozen=True, slots=True)
-class InterfaceStress:
+@dataclass(frozen=True, slots=True, eq=False)
+class InterfaceStress(Sealed):
     """Stresses on one interface as material passes the nip; each revolution is one cycle.
 
     Attributes

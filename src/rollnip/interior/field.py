@@ -7,11 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._sealed import Sealed
 from rollnip.interior.tractions import Array
 
 
-@dataclass(frozen=True, slots=True)
-class StressRanges:
+@dataclass(frozen=True, slots=True, eq=False)
+class StressRanges(Sealed):
     """Ranges of the stresses as material passes the nip: largest less smallest value.
 
     The stress far from the nip, 0, counts too. Each revolution is one such cycle. Each range is
@@ -30,8 +31,8 @@ class StressRanges:
     max_shear: Array
 
 
-@dataclass(frozen=True, slots=True)
-class InteriorField:
+@dataclass(frozen=True, slots=True, eq=False)
+class InteriorField(Sealed):
     """Displacements, stresses and strains inside one roller, in its own frame.
 
     x along the nip towards the leading edge, z from the surface into the body; tension positive.

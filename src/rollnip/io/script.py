@@ -7,6 +7,7 @@ from dataclasses import MISSING, fields, is_dataclass
 from math import isinf
 from typing import Any
 
+import numpy as np
 import tomli_w
 
 from rollnip._errors import RollnipError
@@ -20,6 +21,7 @@ from rollnip.cooling import (
     PassingSheet,
     Shell,
 )
+from rollnip.crowns import CoveringTable, CrownTable
 from rollnip.io.case import Case, parse_case
 from rollnip.io.paths import dimension_at
 from rollnip.io.tables import CaseTable
@@ -40,7 +42,7 @@ from rollnip.materials import (
 )
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Layer, Roller
-from rollnip.shafts import Crown, Face, Shaft
+from rollnip.shafts import Crown, Face, JournalStep, Shaft
 from rollnip.sheets import Sheet
 
 _WIDTH = 88
@@ -50,7 +52,7 @@ _TYPES = (
     *(Elastic, StandardLinearSolid, Prony, FractionalZener, LossFactor),
     *(WLF, Arrhenius, TabulatedShift),
     *(NeoHookean, Yeoh, Gent, Ogden),
-    *(Shaft, Crown, Face, Sheet),
+    *(Shaft, JournalStep, Crown, CrownTable, CoveringTable, Face, Sheet),
     *(Thermal, HeatBalance, Cooling, Insulated, Held, Coolant, Shell, PassingSheet),
 )
 
@@ -127,6 +129,8 @@ def _python(value: Any, depth: int) -> str:
     if isinstance(value, tuple):
         parts = [_python(part, depth + 1) for part in value]
         return _call("(", parts, ")", depth, comma=len(parts) == 1)
+    if isinstance(value, np.ndarray):
+        return _call("[", [repr(part) for part in value.tolist()], "]", depth)
     if is_dataclass(value):
         name = type(value).__name__
         if type(value) not in _TYPES:
@@ -150,7 +154,8 @@ def _given(value: Any) -> Iterator[tuple[str, Any]]:
     """The fields of a dataclass that differ from their defaults."""
     for field in fields(value):
         here = getattr(value, field.name)
-        if field.default is MISSING or here != field.default:
+        given = field.default is MISSING or isinstance(here, np.ndarray) or here != field.default
+        if given:
             yield field.name, here
 
 

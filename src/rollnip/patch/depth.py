@@ -22,6 +22,7 @@ from numpy.typing import NDArray
 from scipy.fft import irfft2, next_fast_len, rfft2
 
 from rollnip._errors import InvalidInputError, require_positive
+from rollnip._sealed import Sealed
 from rollnip.compliance import flat_fields, shear_fields
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.memory import roller_stack
@@ -67,8 +68,8 @@ _AT_ONCE = 100_000
 """Wave vectors at which viscoelastic layers are computed at once."""
 
 
-@dataclass(frozen=True)
-class PatchStress:
+@dataclass(frozen=True, eq=False)
+class PatchStress(Sealed):
     """Stresses in one roller under a patch, in its own frame: z into the body, tension positive.
 
     Attributes

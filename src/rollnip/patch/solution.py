@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
+from rollnip._sealed import sealed
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.depth import PatchStress, Side, stress_at_depth
 from rollnip.patch.level import Level
@@ -25,7 +26,7 @@ _LARGE = 0.5  # of a radius: length of a patch
 _DEEP = 0.15  # of the coverings: approach
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class PatchSolution:
     """A solved patch.
 
@@ -61,32 +62,32 @@ class PatchSolution:
     @property
     def x(self) -> Array:
         """Middles of the rectangles along x, (nx,) [mm]."""
-        return self.grid.x
+        return sealed(self.grid.x)
 
     @property
     def y(self) -> Array:
         """Middles of the rectangles along y, (ny,) [mm]."""
-        return self.grid.y
+        return sealed(self.grid.y)
 
     @property
     def pressure(self) -> Array:
         """Contact pressure, (ny, nx) [MPa]."""
-        return self.level.normal.pressure
+        return sealed(self.level.normal.pressure)
 
     @property
     def shear_x(self) -> Array:
         """Shear traction on the upper roller along +x, (ny, nx) [MPa]."""
-        return np.asarray(self.level.shear[0])
+        return sealed(self.level.shear[0])
 
     @property
     def shear_y(self) -> Array:
         """Shear traction on the upper roller along +y, (ny, nx) [MPa]."""
-        return np.asarray(self.level.shear[1])
+        return sealed(self.level.shear[1])
 
     @property
     def gap(self) -> Array:
         """Gap of the deformed surfaces, (ny, nx) [mm]; inf where a face has ended."""
-        return self.level.normal.gap
+        return sealed(self.level.normal.gap)
 
     @cached_property
     def slip(self) -> Array:
@@ -95,25 +96,25 @@ class PatchSolution:
         0 where the surfaces stick and outside the patch.
         """
         if self.level.rolling is None:
-            return np.zeros((2, *self.pressure.shape))
-        return -self.level.rolling.creep
+            return sealed(np.zeros((2, *self.pressure.shape)))
+        return sealed(-self.level.rolling.creep)
 
     @property
     def slip_x(self) -> Array:
         """Slip velocity over V along x, (ny, nx)."""
-        return np.asarray(self.slip[0])
+        return sealed(self.slip[0])
 
     @property
     def slip_y(self) -> Array:
         """Slip velocity over V along y, (ny, nx)."""
-        return np.asarray(self.slip[1])
+        return sealed(self.slip[1])
 
     @cached_property
     def state(self) -> IntArray:
         """State of each rectangle, (ny, nx): 0 apart, 1 stick, 2 slip; without friction 2."""
         contact = self.pressure > 0.0
         slip = contact if self.level.rolling is None else self.level.rolling.slip
-        return np.where(contact, np.where(slip, 2, 1), 0).astype(np.int8)
+        return sealed(np.where(contact, np.where(slip, 2, 1), 0).astype(np.int8))
 
     @cached_property
     def figures(self) -> dict[str, float]:

@@ -8,6 +8,8 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._sealed import Sealed
+
 Array = NDArray[np.float64]
 
 
@@ -28,8 +30,8 @@ class Zone:
     direction: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Profiles:
+@dataclass(frozen=True, slots=True, eq=False)
+class Profiles(Sealed):
     """Distributions over x, from trailing to leading, to one nip width outside the contact.
 
     Attributes
@@ -54,8 +56,8 @@ class Profiles:
     speed_lower: Array | None
 
 
-@dataclass(frozen=True, slots=True)
-class DeformedSurfaces:
+@dataclass(frozen=True, slots=True, eq=False)
+class DeformedSurfaces(Sealed):
     """Both deformed surfaces in one frame: the lower axle below, heights above first touch.
 
     Attributes

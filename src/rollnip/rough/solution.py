@@ -9,6 +9,7 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._sealed import sealed
 from rollnip.interior import InterfaceStress, SurfaceTractions, interface_stresses
 from rollnip.nip import Approach
 from rollnip.rollers import Roller
@@ -28,7 +29,7 @@ Array = NDArray[np.float64]
 _MOST_INSIDE = 2000  # nodes whose pressures the stresses inside are computed from
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class RoughSolution(Solution):
     """A snapshot of rough rollers, elastic and without friction.
 
@@ -161,12 +162,12 @@ class RoughSolution(Solution):
     @property
     def nodes(self) -> Array:
         """Nodes of the grid, from trailing to leading, (n,) [mm]."""
-        return self.rough.x
+        return sealed(self.rough.x)
 
     @property
     def pressure(self) -> Array:
         """Pressure at the nodes, linear between them, (n,) [MPa]."""
-        return self.rough.pressure
+        return sealed(self.rough.pressure)
 
     @property
     def shear(self) -> Array:

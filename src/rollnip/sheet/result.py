@@ -9,14 +9,15 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._sealed import Sealed
 from rollnip.contact import ContactZone
 from rollnip.rolling import Zone
 
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class SheetProfiles:
+@dataclass(frozen=True, slots=True, eq=False)
+class SheetProfiles(Sealed):
     """Distributions along the sheet, at the same places as those of the solution.
 
     Attributes
@@ -73,7 +74,7 @@ class Grip:
         return min(self.largest - self.pull, self.pull - self.smallest)
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class SheetResult:
     """The sheet of a solved nip. Units mm, N, MPa, s.
 

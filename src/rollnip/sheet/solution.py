@@ -50,7 +50,7 @@ _KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
 }
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SheetSolution(SmoothSolution):
     """A solved nip with a sheet.
 

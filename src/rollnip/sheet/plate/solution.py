@@ -33,7 +33,7 @@ from rollnip.sheet.system import SheetState
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, repr=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PlateSolution(SheetSolution):
     """A solved nip with a sheet that resists bending.
 

@@ -1,0 +1,33 @@
+"""Results that nobody changes by accident: arrays that cannot be written."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+def sealed(values: NDArray[Any]) -> NDArray[Any]:
+    """Return an array as a view that cannot be written; ``values`` themselves stay as they are."""
+    view = values.view()
+    view.setflags(write=False)
+    return view
+
+
+class Sealed:
+    """Base class of results that are dataclasses: the arrays in their fields cannot be written.
+
+    Arrays have no truth value, so such a result is to be a dataclass with ``eq=False``: it equals
+    itself alone, and can stand in a set.
+    """
+
+    __slots__ = ()
+    __dataclass_fields__: ClassVar[dict[str, Any]]
+
+    def __post_init__(self) -> None:
+        for one in fields(self):
+            value = getattr(self, one.name)
+            if isinstance(value, np.ndarray):
+                object.__setattr__(self, one.name, sealed(value))

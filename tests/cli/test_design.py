@@ -13,6 +13,8 @@ from typer.testing import CliRunner
 import rollnip as rn
 from rollnip.cli.app import app
 from rollnip.closed_forms import contact_modulus, effective_radius
+from rollnip.design.quantities import QUANTITIES
+from rollnip.design.report import result_lines
 from rollnip.sweeps import row as row_module
 from rollnip.sweeps.store import Store
 
@@ -67,6 +69,14 @@ def test_find_says_what_where_and_how_sure(case):
     assert "solved afresh" in result.stdout
 
 
+def test_whatever_was_asked_for_stands_among_the_results(case):
+    row = json.loads(run(*ask(case), "--json").stdout)["scalars"]
+    defined = [name for name in QUANTITIES if row.get(name) is not None]
+    assert len(defined) > 5
+    for name in defined:
+        assert name in {line.partition("  ")[2].split(" ")[0] for line in result_lines(row, name)}
+
+
 def test_find_answers_in_the_unit_of_the_question_too(case):
     result = run(*ask(case, between=("100 pli", "10000 pli")))
     assert " pli." in result.stdout.splitlines()[0]
@@ -117,6 +127,7 @@ def test_find_nothing_is_exit_1_and_no_file(case, tmp_path):
     [
         ({"wanted": "nip_width"}, "`--for` must be a result and its value"),
         ({"wanted": "nip_width="}, "`--for` must be a result and its value"),
+        ({"wanted": "nipwidth=4 mm"}, "--for: "),
         ({"wanted": "nipwidth=4 mm"}, 'did you mean "nip_width"?'),
         ({"wanted": "nip_width=4"}, '--for: `wanted` must be a length such as "4.5 mm", got "4"'),
         ({"path": "nip.lod"}, 'did you mean "load"'),

@@ -256,7 +256,8 @@ def pareto(
 @contextmanager
 def _option_named(case: str) -> Iterator[None]:
     """Prefix an input error raised inside the block with its option, else with the case file."""
-    options = {"wanted": "--for", "low": "--between", "high": "--between", "points": "--points"}
+    options = {"wanted": "--for", "quantity": "--for", "points": "--points"}
+    options |= dict.fromkeys(("low", "high"), "--between")
     try:
         yield
     except InvalidInputError as error:
@@ -339,7 +340,7 @@ def _text(found: Found, limit: str) -> str:
     other = _elsewhere(found, limit)
     if other:
         lines[0] += f" That is {other}."
-    return "\n".join(lines + result_lines(found.scalars)) + "\n"
+    return "\n".join(lines + result_lines(found.scalars, found.quantity)) + "\n"
 
 
 def _elsewhere(found: Found, limit: str) -> str:

@@ -50,23 +50,21 @@ def optimum_report(found: Optimum, title: str = "") -> str:
     if found.limits:
         lines += ["", "Limits"]
         lines += [f"  {_limit(one)}" for one in found.limits]
-    lines += [*result_lines(found.scalars), ""]
+    asked = (found.quantity, *(one.quantity for one in found.limits))
+    lines += [*result_lines(found.scalars, *asked), ""]
     lines.append(f"{found.solves} cases solved, {len(found.failures)} of them in vain.")
     return "\n".join(lines) + "\n"
 
 
-def result_lines(row: Mapping[str, Any]) -> list[str]:
-    """The main results of a row of `rollnip.sweeps.evaluate`, each with its error; warnings."""
+def result_lines(row: Mapping[str, Any], *asked: str) -> list[str]:
+    """The main results of a row of `rollnip.sweeps.evaluate`, each with its error; warnings.
+
+    Those ``asked`` for beside them come last.
+    """
     lines = ["", "Results there, solved afresh"]
-    for name in _SHOWN:
-        if row.get(name) is not None:
-            lines.append(f"  {name:20s}{_with_error(row, name)}")
-    for name in _SHOWN_OF_FACE:
-        if row.get(name) is not None:
-            lines.append(f"  {name:25s}{_shown(float(row[name]), QUANTITIES[name])}")
-    for key in _SHOWN_OF_SHEET:
-        if row.get(key) is not None:
-            lines.append(f"  {key:25s}{_with_error(row, key)}")
+    for name in dict.fromkeys((*_SHOWN, *_SHOWN_OF_FACE, *_SHOWN_OF_SHEET, *asked)):
+        if name in QUANTITIES and row.get(name) is not None:
+            lines.append(f"  {name:{25 if '.' in name else 20}s}{_with_error(row, name)}")
     warnings = str(row.get("warnings") or "")
     return [*lines, f"Note: {warnings}"] if warnings else lines
 

@@ -18,31 +18,31 @@ _ALIKE = 1e-4  # of a creepage, by which meshes make equal sides differ
 
 
 def grip_of(
-    nip: Nip, load: float, pulls: tuple[float, float], sliding: tuple[Array, Array]
+    nip: Nip, pressed: float, pulls: tuple[float, float], sliding: tuple[Array, Array]
 ) -> Grip:
     """Return the pulls that a nip holds.
 
     Parameters
     ----------
     nip : with a sheet.
-    load : line load [N/mm].
+    pressed : int p dx [N/mm], at finite strain the load and what the shears take of it.
     pulls : T_u and T_l [N/mm].
     sliding : see `first_to_slide`; used where the rollers are geared together.
     """
     (mu_u, mu_l), (upper, lower), sheet = frictions_of(nip), pulls, nip.sheet
     assert sheet is not None
     first: Literal["upper", "lower"] = "upper"
-    reach, kept = mu_u * load, lower
+    reach, kept = mu_u * pressed, lower
     if isinstance(nip.tangential, Creepage):
-        reach, kept = (mu_u + mu_l) * load, 0.0
+        reach, kept = (mu_u + mu_l) * pressed, 0.0
         first = first_to_slide(sliding, nip.tangential.creepage)
     return Grip(
         pull=sheet.tension_in - sheet.tension_out,
         largest=reach - kept,
         smallest=-reach - kept,
         first=first,
-        use_upper=abs(upper) / (mu_u * load),
-        use_lower=abs(lower) / (mu_l * load),
+        use_upper=abs(upper) / (mu_u * pressed),
+        use_lower=abs(lower) / (mu_l * pressed),
     )
 
 

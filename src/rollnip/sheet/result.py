@@ -49,7 +49,9 @@ class Grip:
 
     The pull is the tension on the inlet side less that on the outlet side: what the rollers give
     to the sheet, T_u - T_l (at finite strain up to a hundredth more, for tension grows along the
-    path of the sheet). In full sliding each roller gives its friction times the load.
+    path of the sheet). In full sliding each roller gives its friction times int p dx. That is the
+    load; at finite strain the shears carry part of it along the bent path, some hundredths of it at
+    most, which is taken as it is now.
 
     Attributes
     ----------
@@ -58,7 +60,7 @@ class Grip:
         traction or torque the lower roller's share stays as it is.
     first : the side that slides all over first where the pull is raised. With geared rollers the
         sheet is lost when the other one does, too.
-    use_upper, use_lower : traction of each interface over friction times load, in size.
+    use_upper, use_lower : traction of each interface over friction times int p dx, in size.
     """
 
     pull: float

@@ -162,8 +162,7 @@ class SheetSolution(SmoothSolution):
 
     @cached_property
     def _sheet(self) -> SheetResult:
-        state, speed = self._state, self.nip.speed
-        half = 0.5 * self.creepage
+        state, speed, half = self._state, self.nip.speed, 0.5 * self.creepage
         rate = sheet_rate(state.creepage, state.creepage_lower)
         spent = self._spent
 
@@ -171,6 +170,7 @@ class SheetSolution(SmoothSolution):
             return None if speed is None else speed * value
 
         pulls = self._figure("traction_upper"), self.traction
+        pressed = self.load + self.refined.stand.lagged.lean
         return SheetResult(
             creepage_upper=state.creepage,
             creepage_lower=state.creepage_lower,
@@ -192,7 +192,7 @@ class SheetSolution(SmoothSolution):
             bends=self._bends,
             nip_width_lower=self._lower[0],
             peak_pressure_lower=self._lower[1],
-            grip=grip_of(self.nip, self.load, pulls, self._sliding()),
+            grip=grip_of(self.nip, pressed, pulls, self._sliding()),
             profiles=self._sheet_profiles(),
             error=self._sheet_errors(),
         )

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from judged_rollers import judged_roller
 
 import rollnip as rn
 
@@ -13,17 +14,10 @@ CASES = json.loads(DATA.read_text(encoding="utf-8"))["results"]
 
 
 def solved(case):
-    def roller(of):
-        layers = tuple(
-            rn.Layer(one["thickness"], rn.Elastic(modulus=one["modulus"], poisson=one["poisson"]))
-            for one in of.get("layers", ())
-        )
-        return rn.Roller(radius=of["radius"], layers=layers)
-
     return rn.solve(
         rn.Nip(
-            upper=roller(case["upper"]),
-            lower=roller(case["lower"]),
+            upper=judged_roller(case["upper"]),
+            lower=judged_roller(case["lower"]),
             normal=rn.LineLoad(case["load"]),
             friction=case["friction"],
             tangential=rn.Traction(case["traction"]),

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from judged_rollers import judged_roller
 
 import rollnip as rn
 
@@ -15,14 +16,6 @@ QUICK = ("both coated", "bare lower roller driven", "equal rollers, pulled")
 
 def nip_of(case):
     """The nip of a case; its sheet is so thin that of its thickness nothing is left."""
-
-    def roller(of):
-        layers = tuple(
-            rn.Layer(one["thickness"], rn.Elastic(modulus=one["modulus"], poisson=one["poisson"]))
-            for one in of.get("layers", ())
-        )
-        return rn.Roller(radius=of["radius"], layers=layers)
-
     given = case["sheet"]
     sheet = rn.Sheet(
         thickness=1e-7,
@@ -35,8 +28,8 @@ def nip_of(case):
         friction_lower=given["friction"][1],
     )
     return rn.Nip(
-        upper=roller(case["upper"]),
-        lower=roller(case["lower"]),
+        upper=judged_roller(case["upper"]),
+        lower=judged_roller(case["lower"]),
         normal=rn.LineLoad(case["load"]),
         friction=0.5,
         tangential=rn.Traction(case["traction"]),

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from judged_rollers import judged_roller
 
 import rollnip as rn
 
@@ -14,13 +15,6 @@ BETWEEN_COVERINGS = [name for name in CASES if "steel" not in name or name == "s
 
 
 def solved(case):
-    def roller(of):
-        layers = tuple(
-            rn.Layer(one["thickness"], rn.Elastic(modulus=one["modulus"], poisson=one["poisson"]))
-            for one in of.get("layers", ())
-        )
-        return rn.Roller(radius=of["radius"], layers=layers)
-
     given = case["plate"]
     sheet = rn.Sheet(
         bending=True,
@@ -30,8 +24,8 @@ def solved(case):
         **{key: given[key] for key in ("tension_in", "tension_out")},
     )
     nip = rn.Nip(
-        upper=roller(case["upper"]),
-        lower=roller(case["lower"]),
+        upper=judged_roller(case["upper"]),
+        lower=judged_roller(case["lower"]),
         normal=rn.LineLoad(case["load"]),
         friction=given["friction"][0],
         tangential=rn.Traction(case["traction"]),

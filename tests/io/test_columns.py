@@ -1,5 +1,6 @@
 """Tables with units in their heads."""
 
+import re
 import zipfile
 
 import numpy as np
@@ -129,6 +130,16 @@ def test_files_that_are_no_tables(table, tmp_path):
     binary.write_bytes(b"\xff\xfe\x00")
     with pytest.raises(InvalidInputError, match="UTF-8"):
         read_columns(binary)
+
+
+@pytest.mark.parametrize("error", ["#DIV/0!", "#N/A", "#NV", "#NAME?", "#WERT!", "#ÜBERLAUF!"])
+def test_an_error_of_a_spreadsheet_is_no_comment(table, error):
+    read = read_columns(table(f"load;note\n1;a\n{error};b\n2;c\n#3;left out\n# WEAR! noted\n"))
+    assert read.comments == ((5, "3;left out"), (6, "WEAR! noted"))
+    with pytest.raises(
+        InvalidInputError, match=rf'line 3: "load" must be .* got "{re.escape(error)}'
+    ):
+        read.numbers("load", "line load")
 
 
 def workbook(path, sheets):

@@ -19,7 +19,7 @@ from rollnip._extras import require_extra
 from rollnip._files import reading
 from rollnip.figure import axis_label
 from rollnip.io import read_columns
-from rollnip.io.columns import EXCEL, head_parts
+from rollnip.io.columns import EXCEL, head_parts, is_comment
 
 Cell = str | float | int | None
 Array = NDArray[np.float64]
@@ -138,7 +138,7 @@ class _Text(ResultTable):
         if path.is_dir() or (path.exists() and not path.is_file()):
             raise InvalidInputError(f"{path}: must be a file, it is none.")
         with self._lines() as lines:
-            head = next((one for one in lines if one.strip() and not one.startswith("#")), "")
+            head = next((one for one in lines if one.strip() and not is_comment(one)), "")
         self._mark = next((mark for mark in (";", "\t") if mark in head), ",")
         self._name(str(path), [one.strip() for one in self._split([head])])
 
@@ -163,7 +163,7 @@ class _Text(ResultTable):
         with self._lines() as lines:
             parted = csv.reader(lines, delimiter=self._mark)
             for cells in parted:
-                if not any(cells) or cells[0].lstrip().startswith("#"):
+                if not any(cells) or is_comment(cells[0]):
                     continue
                 if is_head:
                     is_head = False

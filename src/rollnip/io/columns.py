@@ -11,6 +11,7 @@ decimal comma needs one of the first two. In Excel the first sheet counts unless
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -36,6 +37,8 @@ MOST_CELLS = 2**22
 _SPARSEST = 64  # cells of the rectangle for each that is filled
 _SMALL = 2**16  # cells of a rectangle that may be as empty as it likes
 EXCEL = (".xlsx", ".xls", ".xlsb", ".ods")
+# #DIV/0!, #NAME?, #WERT!, #N/A and #NV alone in a cell: a value that is missing, and no comment.
+_SPREADSHEET_ERROR = re.compile(r"\s*#(N/A|NV|[^\W\d_a-z][^\W_a-z/]*(/0)?[!?])\s*([;,\t]|$)")
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,12 +193,12 @@ def _text_rows(file: Path, data: bytes) -> tuple[list[_Line], bool]:
     except UnicodeDecodeError:
         raise InvalidInputError(f"{file}: must be a text file in UTF-8.") from None
     lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
-    head = next((line for _, line in lines if not _is_comment(line)), "")
+    head = next((line for _, line in lines if not is_comment(line)), "")
     mark = next((mark for mark in (";", "\t") if mark in head), ",")
     if len(lines) + text.count(mark) > MOST_CELLS:
         raise InvalidInputError(f"{file}: must hold at most {MOST_CELLS:,} cells, it holds more.")
     parted: list[_Line] = [
-        (number, [line] if _is_comment(line) else _split(line, mark)) for number, line in lines
+        (number, [line] if is_comment(line) else _split(line, mark)) for number, line in lines
     ]
     return parted, mark != ","
 
@@ -258,9 +261,9 @@ def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> TableC
     comments = tuple(
         (number, " ".join(map(str, cells)).strip().lstrip("#").strip())
         for number, cells in lines
-        if _is_comment(cells[0])
+        if is_comment(cells[0])
     )
-    numbered = [(number, cells) for number, cells in lines if not _is_comment(cells[0])]
+    numbered = [(number, cells) for number, cells in lines if not is_comment(cells[0])]
     if len(numbered) < 2:
         raise InvalidInputError(f"{source}: must hold a line of column names and rows below it.")
     heads = [str(head) for head in numbered[0][1]]
@@ -303,8 +306,9 @@ def _row(source: str, line: int, cells: list[Cell], count: int) -> tuple[Cell, .
     return tuple(cells)
 
 
-def _is_comment(cell: Cell) -> bool:
-    return str(cell).lstrip().startswith("#")
+def is_comment(text: Cell) -> bool:
+    """Return whether a line, or its first cell, is a comment and no error of a spreadsheet."""
+    return str(text).lstrip().startswith("#") and not _SPREADSHEET_ERROR.match(str(text))
 
 
 def _is_plain(cell: Cell) -> bool:

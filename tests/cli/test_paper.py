@@ -5,6 +5,7 @@ from typer.testing import CliRunner
 
 import rollnip.plots.paper as pictures
 from rollnip.cli.app import app
+from rollnip.paper import effects, effects_table
 
 
 def run(*arguments):
@@ -12,12 +13,16 @@ def run(*arguments):
 
 
 @pytest.mark.slow
-def test_writes_all_figures_and_the_table(tmp_path):
+def test_writes_all_figures_and_the_table(tmp_path, monkeypatch):
+    few = list(effects(figures=["8 A"]))  # tests/paper/test_assumptions.py solves all of them
+    monkeypatch.setattr("rollnip.paper.effects", lambda: few)
     result = run("--out", tmp_path / "new" / "folder", "--table")
     assert result.exit_code == 0, result.stderr
     names = {path.name for path in (tmp_path / "new" / "folder").iterdir()}
     assert names == {*pictures.PICTURES, "assumptions.md"}
     assert len(result.stdout.splitlines()) == 6
+    table = (tmp_path / "new" / "folder" / "assumptions.md").read_text("utf-8")
+    assert table == effects_table(few)
 
 
 def test_prints_what_it_wrote(tmp_path, monkeypatch):

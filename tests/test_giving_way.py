@@ -62,7 +62,9 @@ def test_an_error_beyond_the_tolerance_does_not_change_the_model():
     assert not solution.converged
     assert solution.model.geometry == "second"
     assert not gave_way(solution)
-    assert "estimated error" in solution.status
+    # Estimated errors or violated contact conditions: rounding of the tables decides which is said.
+    assert "more than the tolerance 0.0001" in solution.status
+    assert solution.error["peak_pressure"] > 0.1 * solution.peak_pressure
     coarse = rn.solve(fuser(0.1), SECOND)
     assert coarse.converged
     assert solution.nip_width == pytest.approx(coarse.nip_width, rel=1e-2)

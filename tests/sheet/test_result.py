@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from sheet_nips import nip_with, paper
+from sheet_nips import SOFT, nip_with, paper
 
 import rollnip as rn
 from rollnip._results.tree import result_dict
@@ -214,3 +214,19 @@ def test_the_verdict_asks_for_the_creepage_on_either_side(pulled, place, side):
     is_met, status = sheet_verdict(pulled.nip, pulled.model, worse, pulled.final)
     assert not is_met
     assert f"creepage on the {side} roller is 3.0e-03 (relative), 3.0 times" in status
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("bending", [False, True])
+def test_a_creepage_given_back_gives_the_traction_within_its_error(bending):
+    """Under a stiff skin half a per cent of the creepage is five times that of the traction."""
+    skin = rn.Layer(0.05, rn.Elastic(modulus=200.0, poisson=0.3))
+    upper = rn.Roller(radius=50, layers=[skin, *SOFT.layers])
+    nip = nip_with(paper(bending=bending), upper=upper)
+    first = rn.solve(nip, rn.Model(geometry="finite"))
+    back = rn.solve(replace(nip, tangential=rn.Creepage(first.creepage)), first.model)
+    assert first.converged
+    assert back.converged
+    assert abs(back.traction) <= back.error["traction"]
+    assert abs(back.traction) <= back.sheet.error["traction_lower"]
+    assert back.error["traction"] <= 2e-3 * nip.normal.load

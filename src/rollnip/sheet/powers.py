@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.rolling.assemble import loss_inside
-from rollnip.rolling.powers import rates_of, slip_losses
+from rollnip.rolling.powers import Powers, rates_of, slip_losses
 from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state, uncut_terms
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
@@ -47,6 +47,17 @@ class SheetPowers:
     def array(self) -> Array:
         """Return all of them in order, (7,)."""
         return np.array(astuple(self))
+
+    @property
+    def as_bare(self) -> Powers:
+        """Return losses and pulls as those of a bare nip."""
+        return Powers(
+            friction=self.friction_upper + self.friction_lower,
+            lost_upper=self.lost_upper,
+            lost_lower=self.lost_lower,
+            pull_upper=self.pull_upper,
+            pull_lower=self.pull_lower,
+        )
 
     @property
     def driving_upper(self) -> float:

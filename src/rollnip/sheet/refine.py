@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import elements_of_zones
 from rollnip.model import Geometry, Model
-from rollnip.nip import LineLoad, Nip
+from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import Figures, PairKernels
 from rollnip.rolling.round import peak_at, peak_pressure, scale_of_creepage
 from rollnip.sheet.powers import SheetPowers, sheet_powers
@@ -353,3 +353,17 @@ def shares_of_model(geometry: Geometry, bends: bool) -> Array:
         at = [n for n, name in enumerate(NAMES) if name.startswith("creepage")]
         shares[at] *= _PLATE_CREEPAGES
     return shares
+
+
+def traction_slope(stand: SheetAttempt) -> float:
+    """Return how fast both tractions grow with the creepage, where the same nodes stick [N/mm].
+
+    An error of the creepage at a given traction is one of the traction at a given creepage, as
+    without a sheet.
+    """
+    tractions = []
+    for creepage in (0.0, 1.0):  # the tractions are linear in it
+        nip = replace(stand.problem.nip, tangential=Creepage(creepage))
+        found = replace(stand.problem, nip=nip).solve(stand.state.both_states, stand.lagged)
+        tractions.append(float(stand.problem.mesh.weights @ found.shear_lower))
+    return abs(tractions[1] - tractions[0])

@@ -35,19 +35,21 @@ from rollnip.sheet.freely import left_by_bending_freely, wrapped_length
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
-from rollnip.sheet.refine import NAMES, SheetFigures, SheetRefined, scales, shares_of_model
-from rollnip.sheet.result import SheetProfiles, SheetResult, inside_zone, slip_share_of
+from rollnip.sheet.refine import (
+    NAMES,
+    SheetFigures,
+    SheetRefined,
+    scales,
+    shares_of_model,
+    traction_slope,
+)
+from rollnip.sheet.result import SheetProfiles, SheetResult, inside_zone, slip_share_of, zones_of
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
 from rollnip.smooth import SmoothSolution
 
 Array = NDArray[np.float64]
 _Side = Literal["upper", "lower"]
-_KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
-    State.STICK: ("stick", None),
-    State.SLIP_PLUS: ("slip", -1),
-    State.SLIP_MINUS: ("slip", 1),
-}
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -112,8 +114,7 @@ class SheetSolution(SmoothSolution):
         for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
             off = mine[f"pull_{side}"] + mine[f"lost_{side}"]
             out[f"torque_{side}"] = nan if isinf(roller.radius) else roller.radius * off
-        half = 0.5 * self.creepage
-        traction = mine["traction_lower"]
+        half, traction = 0.5 * self.creepage, mine["traction_lower"]
         if isinstance(nip.tangential, Traction):
             traction = abs(self.traction - nip.tangential.traction)
         return out | {
@@ -242,6 +243,10 @@ class SheetSolution(SmoothSolution):
         """Errors of all figures of the refinement, none less than the model's own."""
         figures = self.refined.figures
         mine = self._claimed(figures, self.refined.errors)
+        if isinstance(self.nip.tangential, Creepage) and self.model.geometry in FINITE:
+            passed = mine["creepage"] * self._traction_slope()
+            sides = ("traction_upper", "traction_lower")
+            mine |= {name: max(mine[name], passed) for name in sides}
         if isinstance(self.nip.tangential, Creepage | Torque):
             return mine
         sheet = self.nip.sheet
@@ -252,6 +257,10 @@ class SheetSolution(SmoothSolution):
         wanted = self.nip.tangential.traction + sheet.tension_in - sheet.tension_out
         mine["traction_upper"] = abs(figures.traction_upper - wanted)
         return mine
+
+    def _traction_slope(self) -> float:
+        """Return how fast both tractions grow with the creepage, see `traction_slope` [N/mm]."""
+        return traction_slope(self.refined.stand)
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, none less than what the model's own order leaves open."""
@@ -280,8 +289,7 @@ class SheetSolution(SmoothSolution):
         return self._zones(0)
 
     def _zones(self, side: int) -> tuple[Zone, ...]:
-        layout = self.refined.stand.zones.sides[side]
-        return tuple(Zone(z.start, z.stop, *_KINDS[z.state]) for z in layout.zones)
+        return zones_of(self.refined.stand.zones.sides[side])
 
     @property
     def _state(self) -> SheetState:
@@ -296,14 +304,7 @@ class SheetSolution(SmoothSolution):
 
     @cached_property
     def _powers(self) -> Powers:
-        spent = self._spent
-        return Powers(
-            friction=spent.friction_upper + spent.friction_lower,
-            lost_upper=spent.lost_upper,
-            lost_lower=spent.lost_lower,
-            pull_upper=spent.pull_upper,
-            pull_lower=spent.pull_lower,
-        )
+        return self._spent.as_bare
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
         """Tractions on one surface in its own frame: (q_u, p) above and (-q_l, p) below."""
@@ -382,8 +383,7 @@ class SheetSolution(SmoothSolution):
         speed = self.nip.speed
         if speed is None:
             return None
-        x, u = self._points
-        stand = self.refined.stand
+        (x, u), stand = self._points, self.refined.stand
         dx, state = np.diff(x), self._state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = self._strain_of_sheet(x)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from rollnip.contact import ContactProblem, Control, State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
+from rollnip.nip import Creepage
 from rollnip.rolling import (
     Displacements,
     Round,
@@ -23,6 +24,7 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.claims import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.plate.attempt import PlateAttempt
+from rollnip.sheet.plate.factorised import FactorisedPlate
 from rollnip.sheet.plate.refine import PlateRefined
 from rollnip.sheet.plate.sides import NAMES, SIGNS, values_at
 from rollnip.sheet.refine import SheetFigures
@@ -86,6 +88,15 @@ class PlateSolution(SheetSolution):
             left = SHARE_OF_EDGE_PEAK["finite"] * figures.peak_pressure
             out["peak_pressure"] = max(out["peak_pressure"], left)
         return out
+
+    def _traction_slope(self) -> float:
+        stand, tractions = self._standing, []
+        for creepage in (0.0, 1.0):  # the tractions are linear in it
+            nip = replace(self.nip, tangential=Creepage(creepage))
+            system = FactorisedPlate.of(replace(stand.problem, nip=nip), stand.state.states)
+            shear = system.solved(stand.lagged).shear[1]
+            tractions.append(float(stand.problem.meshes[1].weights @ shear))
+        return abs(tractions[1] - tractions[0])
 
     @cached_property
     def _path(self) -> tuple[float, float]:

@@ -222,7 +222,7 @@ def test_what_cannot_be_with_a_sheet(one_speed):
         solve_face(covered, FACE, COARSE, law=one_speed.law)
     with pytest.raises(rn.InvalidInputError, match="same cross-section, sheet and model"):
         solve_face(replace(web_nip(), friction=0.4), FACE, COARSE, law=one_speed.law)
-    with pytest.raises(rn.InvalidInputError, match="is of a nip with a sheet"):
+    with pytest.raises(rn.InvalidInputError, match="it is of one with a sheet"):
         solve_face(replace(web_nip(), sheet=None), FACE, COARSE, law=one_speed.law)
     with pytest.raises(rn.InvalidInputError, match='`sheet_across` must be "free" or "one-speed"'):
         replace(FACE, sheet_across="tight")

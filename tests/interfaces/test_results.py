@@ -1,6 +1,7 @@
 """Results stay as they were computed, whatever is done with what they hand out."""
 
 import pickle
+import re
 from dataclasses import is_dataclass
 from pathlib import Path
 
@@ -63,4 +64,6 @@ def test_a_result_cannot_be_written_and_equals_itself_alone(kind):
     assert arrays
     assert [name for name, array in arrays.items() if array.flags.writeable] == []
     assert result in {result}
+    assert re.fullmatch(rf"<{type(result).__name__} .+>", repr(result))
+    assert len(repr(result)) < 250
     assert result != pickle.loads(pickle.dumps(result))

@@ -1,7 +1,21 @@
+import numpy as np
 import pytest
 
 from rollnip._errors import CaseFileError
+from rollnip.io import case_hash, parse_case
 from rollnip.io.document import LARGEST, parse_document, read_document
+from rollnip.sweeps.study_file import read_study
+
+CASE = {
+    "nip": {"load": 1.0, "friction": 0.5},
+    "upper": {
+        "radius": 50,
+        "layers": [
+            {"thickness": 2.0, "material": {"model": "elastic", "modulus": 1.0, "poisson": 0.5}}
+        ],
+    },
+    "lower": {"radius": 25.0},
+}
 
 
 def refused(path) -> str:
@@ -11,6 +25,17 @@ def refused(path) -> str:
     assert "\n" not in message
     assert message.startswith(str(path)) or "\0" in str(path)
     return message
+
+
+def test_numbers_of_numpy_are_numbers():
+    loads = np.linspace(0.5, 2.0, 4, dtype=np.float32)
+    study = {"case": CASE, "parameters": [{"path": "nip.load", "values": loads}]}
+    lists = {"case": CASE, "parameters": [{"path": "nip.load", "values": [0.5, 1, 1.5, 2]}]}
+    cases = [[read_study(tree).case(place) for place in range(4)] for tree in (study, lists)]
+    assert cases[0] == cases[1]
+    of_numpy = CASE | {"nip": {"load": np.int64(2), "friction": np.float32(0.5)}}
+    plain = CASE | {"nip": {"load": 2.0, "friction": 0.5}}
+    assert case_hash(parse_case(of_numpy)) == case_hash(parse_case(plain))
 
 
 def test_toml_and_json_are_the_same_tree(tmp_path):

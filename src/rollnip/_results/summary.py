@@ -99,14 +99,16 @@ def verdict(solution: Any) -> tuple[str, str]:
 
 def brief(solution: Any) -> str:
     """Return one line: the title, whether the solution converged, and the main figures."""
-    name = f'"{solution.nip.title}", ' if solution.nip.title else ""
-    state = "converged" if solution.converged else "NOT CONVERGED"
     figures = (line(FIGURES[key], solution) for key in _BRIEF)
-    texts = ", ".join(
-        f"{one.label} {one.value} {one.unit}".rstrip() for one in figures if one.value != "-"
-    )
-    kind = type(solution).__name__
-    return f"<{kind} {name}{state}, geometry {solution.model.geometry}: {texts}>"
+    texts = [f"{one.label} {one.value} {one.unit}".rstrip() for one in figures if one.value != "-"]
+    return one_line(solution, solution.nip.title, f", geometry {solution.model.geometry}", *texts)
+
+
+def one_line(result: Any, title: str, model: str, *texts: str) -> str:
+    """Return a result of any kind in one line, from texts on its main figures."""
+    name = f'"{title}", ' if title else ""
+    state = "converged" if result.converged else "NOT CONVERGED"
+    return f"<{type(result).__name__} {name}{state}{model}: {', '.join(texts)}>"
 
 
 def text(solution: Any) -> str:

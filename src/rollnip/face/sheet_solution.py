@@ -24,7 +24,7 @@ _LEAST = SHEET_FACE_FIGURES["least_tension_in"]
 _SLACK = 1e-6  # of the load: a tension below zero that is more than rounding
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class SheetFaceSolution(FaceSolution):
     """A solved face with a sheet.
 

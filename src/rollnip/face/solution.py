@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._extras import require_extra
+from rollnip._results.summary import one_line
 from rollnip._sealed import sealed
+from rollnip._units import format_quantity
 from rollnip.face.law import NipLaw
 from rollnip.face.problem import FaceProblem
 from rollnip.face.sheet_law import SheetLaw
@@ -39,7 +41,7 @@ class Bearings:
     second: float
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class FaceSolution:
     """A nip along its face. Units mm, N, MPa, s; y from one end of the face to the other.
 
@@ -63,6 +65,17 @@ class FaceSolution:
     law: NipLaw | SheetLaw = field(repr=False)
     problem: FaceProblem = field(repr=False)
     balance: Balance = field(repr=False)
+
+    def __repr__(self) -> str:
+        texts = [
+            f"{name} {values.min():.4g} to {format_quantity(values.max(), unit, digits=4)}"
+            for name, values, unit in (
+                ("line load", self.load, "N/mm"),
+                ("nip width", self.nip_width, "mm"),
+                ("peak pressure", self.peak_pressure, "MPa"),
+            )
+        ]
+        return one_line(self, self.nip.title, f", geometry {self.model.geometry}", *texts)
 
     @property
     def y(self) -> Array:

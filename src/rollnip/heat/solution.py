@@ -8,7 +8,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.summary import one_line
 from rollnip._sealed import Sealed
+from rollnip._units import format_quantity
 from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction, Outflow
 from rollnip.heat.grid import RadialGrid
@@ -91,7 +93,7 @@ def _halves(grid: RadialGrid, cell: int) -> tuple[float, float]:
     return float(above), float(below)
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class HeatSolution:
     """A nip in thermal balance. Units mm, N, MPa, s, degC; powers in W/m = mW/mm.
 
@@ -121,6 +123,11 @@ class HeatSolution:
     sublayers: int
     state: ThermalState = field(repr=False)
     conduction: Conduction = field(repr=False)
+
+    def __repr__(self) -> str:
+        spots = f"{self.upper.hot_spot:.4g} (upper) and {self.lower.hot_spot:.4g} degC (lower)"
+        texts = f"hot spots {spots}", f"heat {format_quantity(self.power, 'W/m', digits=4)}"
+        return one_line(self, self.nip.title, f", geometry {self.model.geometry}", *texts)
 
     @property
     def warm(self) -> Solution:

@@ -10,6 +10,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from rollnip._errors import CaseFileError
 from rollnip._files import reading
 from rollnip._reading import UnreadableError, read_regular
@@ -59,7 +61,20 @@ def parse_document(text: str, name: str) -> dict[str, Any]:
 
 def tree_of(case: str | Mapping[str, Any], name: str) -> dict[str, Any]:
     """Return the tree of a case that is a text (TOML or JSON) or that tree itself."""
-    return parse_document(case, name) if isinstance(case, str) else dict(case)
+    return parse_document(case, name) if isinstance(case, str) else plain_tree(case)
+
+
+def plain_tree(tree: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a tree with plain numbers and lists in place of numpy's, as a file would hold them."""
+    return {name: _plain(value) for name, value in tree.items()}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, np.generic | np.ndarray):
+        return value.tolist()
+    if isinstance(value, Mapping):
+        return plain_tree(value)
+    return [_plain(one) for one in value] if isinstance(value, list | tuple) else value
 
 
 def _has_deep_key(text: str) -> bool:

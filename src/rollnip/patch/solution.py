@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
+from rollnip._results.summary import one_line
 from rollnip._sealed import sealed
+from rollnip._units import format_quantity
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.depth import PatchStress, Side, stress_at_depth
 from rollnip.patch.level import Level
@@ -26,7 +28,7 @@ _LARGE = 0.5  # of a radius: length of a patch
 _DEEP = 0.15  # of the coverings: approach
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PatchSolution:
     """A solved patch.
 
@@ -53,6 +55,14 @@ class PatchSolution:
     converged: bool
     status: str
     levels: tuple[tuple[int, int], ...]
+
+    def __repr__(self) -> str:
+        figures = ("load", "N"), ("length", "mm"), ("width", "mm"), ("peak_pressure", "MPa")
+        texts = [
+            f"{key.replace('_', ' ')} {format_quantity(self.figures[key], unit, digits=4)}"
+            for key, unit in figures
+        ]
+        return one_line(self, self.patch.title, "", *texts)
 
     @property
     def grid(self) -> Grid:

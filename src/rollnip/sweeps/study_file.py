@@ -16,7 +16,7 @@ from rollnip._errors import CaseFileError, InvalidInputError, RollnipError
 from rollnip._units import Dimension, base_unit, parse_quantity
 from rollnip.figures import PROFILES
 from rollnip.io import TableColumns, dimension_at, read_columns, value_at
-from rollnip.io.document import folder_of, read_document
+from rollnip.io.document import folder_of, plain_tree, read_document
 from rollnip.io.patch_case import any_case
 from rollnip.io.study import ParameterTable, StudyTable, parse_study
 from rollnip.sweeps.row import SCALARS
@@ -46,7 +46,7 @@ def read_study(study: str | Path | Mapping[str, Any]) -> Study:
         where a table of designs is wrong, with file, line and column.
     """
     if isinstance(study, Mapping):
-        return _StudyReader(study, "study", Path()).study()
+        return _StudyReader(plain_tree(study), "study", Path()).study()
     folder = folder_of(study)
     return _StudyReader(read_document(study), str(study), folder).study()
 

@@ -255,7 +255,8 @@ def test_killed_at_any_moment_nothing_finished_is_lost(study: Path, tmp_path: Pa
             time.sleep(chance.uniform(0.0, 0.05))
             kills += process.poll() is None
             process.kill()
-        process.communicate()
+        _, said = process.communicate()
+        assert process.returncode in (0, -signal.SIGKILL), said  # or it would never end
         found = rows(database)
         assert known.items() <= found.items()
         known = found

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rollnip._extras import require_extra
 from rollnip._results.summary import one_line
 from rollnip._sealed import sealed
-from rollnip._units import format_quantity
+from rollnip.face.figures import FACE_PROFILES
 from rollnip.face.law import NipLaw
 from rollnip.face.problem import FaceProblem
 from rollnip.face.sheet_law import SheetLaw
@@ -68,11 +68,11 @@ class FaceSolution:
 
     def __repr__(self) -> str:
         texts = [
-            f"{name} {values.min():.4g} to {format_quantity(values.max(), unit, digits=4)}"
-            for name, values, unit in (
-                ("line load", self.load, "N/mm"),
-                ("nip width", self.nip_width, "mm"),
-                ("peak pressure", self.peak_pressure, "MPa"),
+            f"{one.label} {one.text(values.min())} to {one.text(values.max())}"
+            for one, values in (
+                (FACE_PROFILES["load"], self.load),
+                (FACE_PROFILES["nip_width"], self.nip_width),
+                (FACE_PROFILES["peak_pressure"], self.peak_pressure),
             )
         ]
         return one_line(self, self.nip.title, f", geometry {self.model.geometry}", *texts)

@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from rollnip._results.summary import one_line
 from rollnip._sealed import Sealed
-from rollnip._units import format_quantity
 from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction, Outflow
+from rollnip.heat.figures import COURSES, TEMPERATURE
 from rollnip.heat.grid import RadialGrid
 from rollnip.heat.state import SIDES, Side, ThermalState
 from rollnip.model import Model
@@ -125,8 +125,12 @@ class HeatSolution:
     conduction: Conduction = field(repr=False)
 
     def __repr__(self) -> str:
-        spots = f"{self.upper.hot_spot:.4g} (upper) and {self.lower.hot_spot:.4g} degC (lower)"
-        texts = f"hot spots {spots}", f"heat {format_quantity(self.power, 'W/m', digits=4)}"
+        upper, lower = (TEMPERATURE.text(one.hot_spot) for one in (self.upper, self.lower))
+        heat = COURSES["power"]
+        texts = (
+            f"{TEMPERATURE.label} {upper} (upper) and {lower} (lower)",
+            f"{heat.label} {heat.text(self.power)}",
+        )
         return one_line(self, self.nip.title, f", geometry {self.model.geometry}", *texts)
 
     @property

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError
 from rollnip._results.summary import one_line
 from rollnip._sealed import sealed
-from rollnip._units import format_quantity
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.depth import PatchStress, Side, stress_at_depth
+from rollnip.patch.figures import PATCH_FIGURES
 from rollnip.patch.level import Level
 from rollnip.patch.measures import figures_of, slope_of
 from rollnip.patch.tables import PairTables
@@ -57,11 +57,8 @@ class PatchSolution:
     levels: tuple[tuple[int, int], ...]
 
     def __repr__(self) -> str:
-        figures = ("load", "N"), ("length", "mm"), ("width", "mm"), ("peak_pressure", "MPa")
-        texts = [
-            f"{key.replace('_', ' ')} {format_quantity(self.figures[key], unit, digits=4)}"
-            for key, unit in figures
-        ]
+        shown = (PATCH_FIGURES[key] for key in ("load", "length", "width", "peak_pressure"))
+        texts = [f"{one.label} {one.text(self.figures[one.key])}" for one in shown]
         return one_line(self, self.patch.title, "", *texts)
 
     @property

@@ -46,8 +46,8 @@ from rollnip.rolling.turns import (
     solve_on_mesh,
 )
 
-# Meshes of one size at a tolerance of 1e-3, and one more for each digit. Of 708 sizes of 200 random
-# nips one needed more, and those that failed would have taken 10 to 19.
+# Meshes of one size with the same zones at a tolerance of 1e-3, and one more for each digit. Of 708
+# sizes of 200 random nips one needed more, and those that failed would have taken 10 to 19.
 _MOST_MESHES = 8
 # Meshes more for the edges of a single zone with boundary layers: outside of these a solution says
 # only which way an edge should go, and the way between the last two is halved.
@@ -161,7 +161,7 @@ class Placing:
             moves_on = other is not None and other.layout.is_like(layout)
             if other is not None and not moves_on and other.layout.key not in tried:
                 tried.add(other.layout.key)
-                stand, shape, ends = self._renewed(other), None, Secants()
+                stand, shape, ends, meshes = self._renewed(other), None, Secants(), 0
             elif is_placed and not moves_on:
                 if self.search.pulls(latest):
                     return None

@@ -62,3 +62,21 @@ def test_the_surfaces_close_on_a_squeezed_sheet():
         # it opens from zero, as (distance)^(3/2), without a step
         assert profiles.gap[beside][0] < 0.02 * profiles.gap[beside][-1]
         assert np.all(np.diff(profiles.gap[beside]) >= 0.0)
+
+
+@pytest.mark.parametrize("alike", [True, False])
+def test_over_lengths_far_below_its_thickness_a_face_yields_as_a_half_space(alike):
+    """A hat presses a half-space deeper at 0 than ten of its lengths away by so much per length.
+
+    That depth is the same for all lengths; with 1000 roots alone it is a third larger for the
+    shorter one of these two.
+    """
+    shares = (1.0, 0.0) if alike else (0.0, 1.0)
+    depths = []
+    for length in (3e-4, 1e-4):
+        half = length * LAYER.thickness
+        x, nodes = np.array([0.0, 10.0 * half]), np.array([-half, 0.0, half])
+        made = squeezed(LAYER, x, nodes, np.ones((1, 1)), shares)[:, 0]
+        depths.append((made[0] - made[1]) / half)
+    # what a layer bends besides, and the table of 400 places, leave 2e-3
+    assert depths[1] == pytest.approx(depths[0], rel=5e-3)

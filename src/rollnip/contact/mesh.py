@@ -17,7 +17,7 @@ Indices = NDArray[np.intp]
 FEWEST_ELEMENTS_OF_A_ZONE = 6
 # Share of all elements that a zone has at least: errors show between sizes only where each zone is
 # refined.
-_LEAST_SHARE_OF_A_ZONE = 0.08
+LEAST_SHARE_OF_A_ZONE = 0.08
 # Share taken off the creep from the last node to an edge per shear at that node: the square root of
 # the shear at the edge leaves it there although the shear is right. Half-plane (tests).
 CREEP_TO_EDGE = 0.02655
@@ -221,15 +221,19 @@ def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
 
 
 def elements_of_zones(
-    breaks: Array, count: int, crowding: tuple[float, ...] | None = None
+    breaks: Array,
+    count: int,
+    crowding: tuple[float, ...] | None = None,
+    least_share: float = LEAST_SHARE_OF_A_ZONE,
 ) -> Indices:
     """Return the number of elements in each zone between ``breaks`` (m,) [mm]; (m - 1,).
 
-    They are about ``count`` in all, and more where nodes crowd.
+    They are about ``count`` in all, and more where nodes crowd. A zone has ``least_share`` of them,
+    and six, at least.
     """
     shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
     total = sum(shares)
-    fewest = max(FEWEST_ELEMENTS_OF_A_ZONE, round(_LEAST_SHARE_OF_A_ZONE * count))
+    fewest = max(FEWEST_ELEMENTS_OF_A_ZONE, round(least_share * count))
     more = [1.0] * len(shares) if crowding is None else [more_elements(crowd) for crowd in crowding]
     return np.array(
         [

@@ -14,7 +14,7 @@ from rollnip.face.notes import energies_of, places
 from rollnip.face.sheet_balance import SheetBalance
 from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solution import FaceSolution
-from rollnip.sheet.bending import STIFF, bending_length
+from rollnip.sheet.bending import STIFF, spreading_length
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -117,12 +117,13 @@ class SheetFaceSolution(FaceSolution):
                 f"The nip pushes the sheet back at the inlet {places(self.y, pushed)}, by up to "
                 f"{_LEAST.text(-self.least_tension_in)}: a thin sheet goes slack or wrinkles there."
             )
-        share = bending_length(self.nip) / float(self.nip_width.max())
+        share = spreading_length(self.nip) / float(self.nip_width.max())
         if not self.sheet.bending and share > STIFF:
             out.append(
-                "Along the face the sheet bends freely. Its stiffness against bending, which counts"
-                f" over {100.0 * share:.0f} % of the nip width, is left out: a cross-section "
-                "solved without the face, with `bending = true`, shows what it changes."
+                "Along the face the sheet bends freely. Its stiffness against bending and its "
+                f"tension, which count over {100.0 * share:.0f} % of the nip width, are left out: a "
+                "cross-section solved without the face, with `bending = true`, shows what they "
+                "change."
             )
         return (*out, *energies_of(self.nip))
 

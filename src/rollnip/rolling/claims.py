@@ -300,12 +300,15 @@ def worst_error(relative: Mapping[str, float], allowed: Mapping[str, float]) -> 
 def left_open(shares: Mapping[str, float], tolerance: float, by: str) -> str:
     """Return words on the errors that exceed the tolerance and that something leaves.
 
-    ``by`` names it with its verb, as in "the samples leave".
+    ``shares``: relative, by the names of `WORDS` or by words. ``by`` names what leaves them with
+    its verb, as in "the samples leave".
     """
-    larger = {name: share for name, share in shares.items() if share > tolerance}
+    beyond = tolerance * (1.0 + ROUNDING)
+    larger = {name: share for name, share in shares.items() if share > beyond}
     if not larger:
         return ""
-    named = ", ".join(f"{WORDS[name]} {100.0 * share:.2g} %" for name, share in larger.items())
+    words = {WORDS.get(name, name): 100.0 * share for name, share in larger.items()}
+    named = ", ".join(f"{word} {share:.2g} %" for word, share in words.items())
     return f", and what {by} open ({named})"
 
 

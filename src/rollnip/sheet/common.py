@@ -119,7 +119,7 @@ def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
 
 
 def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:
-    """Return whether the solution is valid, and a sentence that says so or what to do."""
+    """Return whether the solution is valid, and what to do; if it is, the words up to it."""
     if not refined.stand.stands_still:
         if not isfinite(refined.residual):
             return False, (
@@ -137,13 +137,17 @@ def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tup
     if not refined.residual <= model.tolerance:
         wrong = violated(refined.residual, model.tolerance)
         return False, f"{wrong}; try another tolerance or a smaller load."
-    is_met, words = verdict(nip, model, final)
+    is_met, missing = verdict(nip, model, final)
     for side, error in zip(("upper", "lower"), creepage_errors(nip, refined), strict=True):
         if is_met and not error <= model.tolerance:
             figure = f"creepage on the {side} roller"
             return False, missed(figure, error, error / model.tolerance, model.tolerance)
-    left = f"{refined.residual:.1e}"
-    return is_met, f"Solved and verified: residual {left}, {words}" if is_met else words
+    if not is_met:
+        return False, missing
+    return (
+        True,
+        f"Solved and verified: residual {refined.residual:.1e}, errors within the tolerance",
+    )
 
 
 def creepage_errors(nip: Nip, refined: Refined) -> tuple[float, float]:

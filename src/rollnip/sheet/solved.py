@@ -35,6 +35,7 @@ from rollnip.sheet.common import (
 from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.solved import longest_freely, solve_plate
 from rollnip.sheet.refine import SheetRefined, refine_sheet
+from rollnip.sheet.said import with_errors_said
 from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import StrainSizes, validity_warnings
 
@@ -96,7 +97,7 @@ def _bending_freely(
         (False, simpler[0]) if simpler else sheet_verdict(nip, model, refined, final)
     )
     strains = StrainSizes.of(nip, model, final)
-    return SheetSolution(
+    solution = SheetSolution(
         nip=nip,
         model=model,
         converged=converged,
@@ -115,6 +116,7 @@ def _bending_freely(
         max_surface_strain=strains.surface,
         refined=refined,
     )
+    return with_errors_said(solution)
 
 
 def _refined(

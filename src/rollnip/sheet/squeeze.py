@@ -13,12 +13,19 @@ make the pressure rise in proportion to the distance from the edge of the contac
 h E_rubber/E_z far below the thickness, where they no longer apply.
 
 In space the share is 1/h times a function of x/h, whose double integral is |x|/2 plus h times the
-function `_spread` of |x|/h. It is a sum over the roots of sinh y = -y in the first quadrant.
+function `_spread` of t = |x|/h. It is a sum over the roots of sinh y = -y in the first quadrant.
+Close to 0 this would take all roots. There f is 4/y, but for what falls as exp(-y), and so the
+function is
+
+    (3 t^2 - 2 t^2 log t)/pi - t/2
+
+and a power series in t^2.
 
 Pressures that differ on the two faces also bend the layer: half of the difference moves both faces
 the same way, by the share (4/y) (cosh y + 1)/(sinh y - y) of c. All but its first two terms,
 48/y^4 + 9.6/y^2, which are those of a plate, is local too: 81/175 for long waves, 4/y for short
-ones. Its spread is a sum over the roots of sinh y = y.
+ones. Its spread is a sum over the roots of sinh y = y; close to 0 the line has the slope 81/350,
+and the two terms left to the plate take 0.2 t^5 - 0.8 t^3 off the rest.
 """
 
 from __future__ import annotations
@@ -36,6 +43,8 @@ Array = NDArray[np.float64]
 _FAR = 9.0  # over the thickness: there `_spread` is 1e-17, it falls as exp(-4.2 distance)
 _PLACES = 400  # of the table, crowded at 0
 _ROOTS = 1000
+_SUMMED = 0.01, 0.2  # over the thickness: so many roots are enough there, and a series still is
+_OF_SERIES = 6  # its terms
 _AT_ONCE = 32  # nodes: what these need stays in a fast memory
 _BENT = 81.0 / 175.0  # share of the springs' compliance under pressures that differ, long waves
 
@@ -117,11 +126,33 @@ def _table(shares: tuple[float, float]) -> Array:
 
     place = np.linspace(0.0, 1.0, _PLACES)
     values = sum(
-        share * _summed(sign, _FAR * place**3)
+        share * _alone(sign, _FAR * place**3)
         for share, sign in zip(shares, (1.0, -1.0), strict=True)
         if share
     )
     return np.asarray(CubicSpline(np.arange(_PLACES), values).c)
+
+
+def _alone(sign: float, away: Array) -> Array:
+    """Return the spread of one share at distances over h; ``sign``: of the pressures' likeness."""
+    first, last = _SUMMED
+    places = np.sqrt(np.linspace(first**2, last**2, _OF_SERIES))
+    smooth = _summed(sign, places) - _close(sign, places)
+    series = np.polynomial.Polynomial.fit(places**2, smooth, _OF_SERIES - 1)
+    return np.where(
+        away < first,
+        _close(sign, away) + series(np.minimum(away, first) ** 2),
+        _summed(sign, np.maximum(away, first)),
+    )
+
+
+def _close(sign: float, away: Array) -> Array:
+    """Return the part of one spread that is no power series in the square of the distance."""
+    logs = np.log(np.maximum(away, np.finfo(float).tiny))
+    out = (3.0 - 2.0 * logs) * away**2 / pi
+    if sign > 0.0:
+        return np.asarray(out - 0.5 * away)
+    return np.asarray(out - 0.5 * _BENT * away + 0.8 * away**3 - 0.2 * away**5)
 
 
 def _summed(sign: float, away: Array) -> Array:

@@ -33,6 +33,7 @@ from rollnip.sheet.common import (
 from rollnip.sheet.plate.all_orders import Bending
 from rollnip.sheet.plate.refine import PlateRefined, refine_plate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
+from rollnip.sheet.said import with_errors_said
 from rollnip.validity import StrainSizes, validity_warnings
 
 _HARDLY = 0.01  # violation of the conditions that moves of the ends make
@@ -140,7 +141,7 @@ def _solution(
     strains = _strains(nip, model, both)
     warned = said + _pushed(refined) + validity_warnings(nip, model, final, strains)
     plain: Any = refined
-    return PlateSolution(
+    solution = PlateSolution(
         nip=nip,
         model=model,
         converged=converged,
@@ -159,6 +160,7 @@ def _solution(
         max_surface_strain=strains.surface,
         refined=plain,
     )
+    return with_errors_said(solution)
 
 
 def _verdict(

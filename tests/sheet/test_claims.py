@@ -4,12 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from sheet_nips import RIGID, nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, SheetFigures, scales
+from rollnip.sheet.said import relative_errors
 from rollnip.sheet.search import SheetSearch
 
 ALLOWED = 3.0  # times the claim, as for a bare nip (tests/properties)
@@ -106,3 +108,17 @@ def test_no_error_on_the_lower_side_is_claimed_smaller_than_a_third_of_it():
     assert not wrong
     beyond = [np.mean(error > claim) for error, claim in judged.values()]
     assert np.mean(beyond) < 0.05
+
+
+@pytest.mark.parametrize("geometry", ["curved", "finite"])
+def test_the_status_names_the_errors_beyond_the_tolerance_as_they_are_claimed(geometry):
+    nip = nip_with(paper(bending=True), lower=RIGID)
+    solution = rn.solve(nip, rn.Model(geometry=geometry))
+    assert solution.converged
+    errors, tolerance = relative_errors(solution), solution.model.tolerance
+    named = {name: f"{name} {100.0 * error:.2g} %" for name, error in errors.items()}
+    assert "peak pressure on the lower roller" in named
+    below = solution.sheet.error["peak_pressure_lower"] / solution.sheet.peak_pressure_lower
+    assert errors["peak pressure on the lower roller"] == pytest.approx(below, rel=1e-12)
+    for name, error in errors.items():
+        assert (named[name] in solution.status) == (error > 1.0001 * tolerance), name

@@ -18,7 +18,7 @@ from rollnip.face.sheet_law import along_the_face
 from rollnip.io import parse_case
 from rollnip.plots import plot_face
 from rollnip.shafts import Crown, Shaft
-from rollnip.sheet.bending import bending_length
+from rollnip.sheet.bending import spreading_length
 
 COARSE = rn.Model(geometry="linear", tolerance=3e-3)
 ONE_SPEED = replace(FACE, sheet_across="one-speed")
@@ -117,9 +117,9 @@ def test_a_sheet_bends_freely_along_the_face_and_where_its_stiffness_would_show_
     assert not along_the_face(paper).bending
     assert along_the_face(replace(paper, bending=True)).bending
     found = solve_face(nip, ONE_SPEED, COARSE)
-    share = 100.0 * bending_length(nip) / found.nip_width.max()
+    share = 100.0 * spreading_length(nip) / found.nip_width.max()
     assert share > 5.0  # a cross-section would count it
-    assert f"counts over {share:.0f} % of the nip width, is left out" in " ".join(found.warnings)
+    assert f"count over {share:.0f} % of the nip width, are left out" in " ".join(found.warnings)
     freely = solve_face(replace(nip, sheet=replace(paper, bending=False)), ONE_SPEED, COARSE)
     np.testing.assert_array_equal(freely.feed_upper, found.feed_upper)
 

@@ -121,8 +121,8 @@ class SheetFaceSolution(FaceSolution):
         if not self.sheet.bending and share > STIFF:
             out.append(
                 "Along the face the sheet bends freely. Its stiffness against bending and its "
-                f"tension, which count over {100.0 * share:.0f} % of the nip width, are left out: a "
-                "cross-section solved without the face, with `bending = true`, shows what they "
+                f"tension, which count over {100.0 * share:.0f} % of the nip width, are left out: "
+                "a cross-section solved without the face, with `bending = true`, shows what they "
                 "change."
             )
         return (*out, *energies_of(self.nip))

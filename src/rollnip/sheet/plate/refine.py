@@ -131,7 +131,7 @@ def refine_plate(
         here_below = (count, lower, stand.zones)
         errors = SheetFigures(errors_between(nip, [*history, here]))
         lower_errors = SheetFigures(errors_between(nip, [*below, here_below]))
-        left = max(violation(stand), overlap(stand, kernels, model.geometry))
+        left = violation(stand)
         latest = PlateRefined(stand, figures, errors, left, lower, lower_errors, round(count))
         if stand.stands_still:
             history.append(here)
@@ -140,7 +140,9 @@ def refine_plate(
             slips = any(side.states.size > 1 for side in stand.zones.sides)
             enough = len(history) >= (FEWEST_WITH_SLIP if slips else FEWEST)
             if enough and max(left, latest.ratio(nip, model)) <= model.tolerance:
-                return latest
+                best = _with_overlap(latest, kernels, model.geometry)
+                if best.residual <= model.tolerance:
+                    return best
             failed = 0
         else:
             best, failed = best or latest, failed + 1
@@ -148,7 +150,13 @@ def refine_plate(
             break
         count *= GROWTH
     assert best is not None
-    return best
+    return _with_overlap(best, kernels, model.geometry)
+
+
+def _with_overlap(refined: PlateRefined, kernels: PairKernels, geometry: Geometry) -> PlateRefined:
+    """Return a solution with what it overlaps outside the contacts, too."""
+    left = max(refined.residual, overlap(refined.stand, kernels, geometry))
+    return replace(refined, residual=left)
 
 
 def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:

@@ -8,7 +8,7 @@ from importlib.metadata import version as installed
 from pathlib import Path
 
 from rollnip.model import Model
-from rollnip.rolling.claims import MODEL_SHARES, SHARE_OF_EDGE_PEAK
+from rollnip.rolling.claimed_errors import MODEL_SHARES, SHARE_OF_EDGE_PEAK
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))

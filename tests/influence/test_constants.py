@@ -14,10 +14,18 @@ MODULES = (
     ),
     *(
         ROOT / "src" / "rollnip" / "rolling" / f"{name}.py"
-        for name in ("changes", "check", "claims", "estimates", "further", "impossible", "round")
+        for name in (
+            "changes",
+            "check",
+            "claimed_errors",
+            "estimates",
+            "further",
+            "no_nip",
+            "round",
+        )
     ),
 )
-DEFINITIONS = {"rolling.impossible.MOST_CREEPAGE"}  # the creepage at which one roller stands still
+DEFINITIONS = {"rolling.no_nip.MOST_CREEPAGE"}  # the creepage at which one roller stands still
 
 
 def numbers_of(module):

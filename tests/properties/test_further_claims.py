@@ -12,7 +12,7 @@ from population import random_case
 
 import rollnip as rn
 from rollnip.rolling import further_figures, further_sizes
-from rollnip.rolling.powers import rates_of
+from rollnip.rolling.power_balance import rates_of
 
 MOST = 800  # elements of a reference, for time
 

@@ -10,7 +10,7 @@ from rollnip.rolling.check import (
     surface_strain,
     surface_strain_in_nip,
 )
-from rollnip.rolling.claims import (
+from rollnip.rolling.claimed_errors import (
     ACCEPT_IT,
     WORDS,
     claims,
@@ -24,9 +24,9 @@ from rollnip.rolling.claims import (
 )
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.further import further_figures, further_sizes
-from rollnip.rolling.impossible import MOST_PRESSED_IN, impossible
 from rollnip.rolling.nearby import Nearby
-from rollnip.rolling.powers import Powers, powers, rates_of
+from rollnip.rolling.no_nip import MOST_PRESSED_IN, impossible
+from rollnip.rolling.power_balance import Powers, powers, rates_of
 from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import (

@@ -23,7 +23,7 @@ from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.check import surface_strain_in_nip
-from rollnip.rolling.claims import skin_thickness
+from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, WeightedSum
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
 from rollnip.rolling.held import Asked, Stage, anew, begin, solved_next

@@ -14,7 +14,7 @@ from rollnip.interior import SurfaceTractions, loss_per_distance
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.displacements import Field, SecondFields
-from rollnip.rolling.powers import rates_of
+from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import PairKernels
 

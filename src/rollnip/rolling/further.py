@@ -10,7 +10,7 @@ from rollnip.contact import ContactState, ContactZone, contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
 from rollnip.rolling.changes import errors_from_changes, shown_order
-from rollnip.rolling.powers import powers
+from rollnip.rolling.power_balance import powers
 from rollnip.rolling.round import Further, Round, peak_pressure
 from rollnip.rolling.surfaces import Array, Mesh
 

@@ -18,7 +18,7 @@ from rollnip.contact import Layout
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.claims import skin_thickness
+from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (

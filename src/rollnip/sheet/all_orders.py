@@ -29,7 +29,7 @@ from rollnip.rolling.beyond import (
     places_by_the_edges,
     to_come_after,
 )
-from rollnip.rolling.claims import skin_thickness
+from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
 from rollnip.rolling.held import NEARLY, coarsely

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.rolling.assemble import loss_inside
-from rollnip.rolling.powers import Powers, rates_of, slip_losses
+from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
 from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state, uncut_terms
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 

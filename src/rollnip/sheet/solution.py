@@ -27,7 +27,7 @@ from rollnip.rolling import (
     surface_depths,
     surface_strain,
 )
-from rollnip.rolling.claims import SHARE_OF_CUT
+from rollnip.rolling.claimed_errors import SHARE_OF_CUT
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.common import not_prescribed

@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
-from rollnip.rolling.claims import SHARE_OF_EDGE_PEAK
-from rollnip.rolling.powers import slip_losses
+from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
+from rollnip.rolling.power_balance import slip_losses
 from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.lagged import sheet_rate

@@ -21,7 +21,7 @@ from rollnip.rolling import (
     surface_strain,
 )
 from rollnip.rolling.assemble import SecondOrder
-from rollnip.rolling.claims import SHARE_OF_EDGE_PEAK
+from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.plate.attempt import PlateAttempt
 from rollnip.sheet.plate.factorised import FactorisedPlate

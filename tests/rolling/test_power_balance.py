@@ -8,8 +8,8 @@ import pytest
 import rollnip as rn
 from rollnip.paper import configuration
 from rollnip.rolling import powers, surface_depths
-from rollnip.rolling.claims import further_claims
-from rollnip.rolling.powers import slip_losses
+from rollnip.rolling.claimed_errors import further_claims
+from rollnip.rolling.power_balance import slip_losses
 
 GEOMETRIES = ("linear", "corrected", "curved", "second")
 SOLID = rn.StandardLinearSolid(modulus=2.0, stiffening=0.2, relaxation_time=3e-3, poisson=0.45)

@@ -19,7 +19,7 @@ from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.changes import ROUNDING
 from rollnip.rolling.further import further_figures, further_sizes
 from rollnip.rolling.largest import largest
-from rollnip.rolling.powers import Powers, rates_of
+from rollnip.rolling.power_balance import Powers, rates_of
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
 
 FINEST_OF_FINITE = Model().tolerance

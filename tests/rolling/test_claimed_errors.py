@@ -153,12 +153,12 @@ def test_a_given_creepage_leaves_the_traction_open_by_as_much_as_a_given_tractio
     ],
 )
 def test_shares_are_no_less_than_what_was_measured_and_less_than_twice_that(name, measured):
-    share = getattr(importlib.import_module("rollnip.rolling.claims"), name)
+    share = getattr(importlib.import_module("rollnip.rolling.claimed_errors"), name)
     assert measured <= share < 2.0 * measured
 
 
 def test_peaks_at_an_edge_are_as_uncertain_as_finite_elements_found():
     """Of tests/data/: at most 15 % off in "second", 1.2 % off and known to 1.2 % in "finite"."""
-    shares = importlib.import_module("rollnip.rolling.claims").SHARE_OF_EDGE_PEAK
+    shares = importlib.import_module("rollnip.rolling.claimed_errors").SHARE_OF_EDGE_PEAK
     assert 0.15 <= shares["second"] < 0.3
     assert 1.2e-2 <= shares["finite"] < 2.4e-2

@@ -8,9 +8,14 @@ from pathlib import Path
 import pytest
 from tests.browser.test_static import messages
 
+from rollnip.heat.figures import PARAMETERS, RISE, TEMPERATURE
+
 PACKAGE = Path(__file__).parents[2] / "src" / "rollnip"
 WHERE = re.compile(r"^(?:[\w.\[\]]+: )*(?:`[\w.]+` )?")
 HOLE = re.compile(r"\{\w+\}")
+# The solver fills in a value with the unit of its figure.
+UNITS = {one.shown_unit for one in (RISE, TEMPERATURE, *PARAMETERS.values())}
+WITH_UNIT = re.compile(f"7 (?:7|{'|'.join(map(re.escape, sorted(UNITS)))})(?!\\w)")
 KNOWN = {key: text for key, text in messages("en").items() if key.startswith("solver.")}
 FOLDERS = ("", "rolling", "sheet", "sheet/plate", "patch", "face", "heat", "materials", "web")
 OWN = {"solver.english", "solver.line", "solver.change"}  # of the page itself
@@ -43,7 +48,8 @@ def test_a_known_sentence_is_one_of_the_solver(key):
     """
     whole = HOLE.sub("7", KNOWN[key])
     filled = (whole.replace(text, "7") for text in written() if text in whole)
-    assert any(wanted in written() or _is_put_together(wanted) for wanted in (whole, *filled))
+    wholes = (whole, WITH_UNIT.sub("7", whole), *filled)
+    assert any(wanted in written() or _is_put_together(wanted) for wanted in wholes)
 
 
 def _is_put_together(wanted):

@@ -161,7 +161,8 @@ class Placing:
             moves_on = other is not None and other.layout.is_like(layout)
             if other is not None and not moves_on and other.layout.key not in tried:
                 tried.add(other.layout.key)
-                stand, shape, ends, meshes = self._renewed(other), None, Secants(), 0
+                stand, shape, ends = self._renewed(other), None, Secants()
+                meshes = meshes if known else 0
             elif is_placed and not moves_on:
                 if self.search.pulls(latest):
                     return None

@@ -152,7 +152,7 @@ class Placing:
             is_quiet = self.kernels.is_fixed or stand.is_quiet
             is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_placed = off <= placed and latest.stands_still and asked.is_proper and is_quiet
-            is_placed = is_placed and not self.search.pulls_at_edge(latest)
+            is_placed = is_placed and not latest.mesh.pulls_at_edge(latest.state.pressure)
             wanted = crowding_of(layout.breaks, self.boundary)
             is_placed = is_placed and not _crowds_more(wanted, shape[1])
             other = self.search.other_zones(

@@ -132,16 +132,6 @@ class ZoneSearch:
         between = (latest.x >= inner[1]) & (latest.x <= inner[-2])
         return bool(np.any(latest.pressure[between] < 0.0))
 
-    def pulls_at_edge(self, latest: Round) -> bool:
-        """Return whether surfaces in contact pull at each other in the elements at the edges.
-
-        An edge that lies outwards by delta of where it should leaves
-        p ~ sqrt(y) - delta/(2 sqrt(y)) beside it: negative where y < delta/2. So it is placed only
-        to a part of that element, which beside a short zone is far less than the tolerance.
-        """
-        x, inner = latest.x, latest.mesh.inner
-        return bool(np.any(latest.pressure[(x < inner[1]) | (x > inner[-2])] < 0.0))
-
     def between_edges(
         self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry
     ) -> SearchState | None:

@@ -183,6 +183,19 @@ class Mesh:
         values = self.fine.values
         return traction if values is None else np.asarray(values[1:-1, 1:-1] @ traction)
 
+    def pulls_at_edge(self, pressure: Array) -> bool:
+        """Return whether surfaces in contact pull at each other in the elements at the edges.
+
+        An edge that lies outwards by delta of where it should leaves
+        p ~ sqrt(y) - delta/(2 sqrt(y)) beside it: negative where y < delta/2. So it is placed only
+        to a part of that element, which beside a short zone is far less than the tolerance.
+
+        ``pressure``: at nodes[1:-1] of the elements [MPa].
+        """
+        x, inner = self.fine.nodes[1:-1], self.inner
+        edges = (x < inner[1]) | (x > inner[-2])
+        return bool(np.any(self.acting(pressure)[edges] < 0.0))
+
     def work(self, traction: Array, displacement: Array) -> float:
         """Return int t du of a traction at nodes[1:-1] and a displacement at nodes[1:]."""
         values = self.fine.values

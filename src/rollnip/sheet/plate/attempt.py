@@ -68,6 +68,12 @@ def shear_over(stand: PlateAttempt) -> float:
     return most
 
 
+def pulls_at_edges(stand: PlateAttempt) -> bool:
+    """Return whether sheet and surfaces pull at each other beside an edge; see `Mesh`."""
+    sides = zip(stand.problem.meshes, stand.state.pressure, strict=True)
+    return any(mesh.pulls_at_edge(pressure) for mesh, pressure in sides)
+
+
 def overlap(stand: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how far surfaces and sheet overlap outside the contacts, and tension, relative.
 

@@ -24,7 +24,13 @@ from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.layers import sheet_layer, squeeze_layer
 from rollnip.sheet.moves import Moves
-from rollnip.sheet.plate.attempt import PlateAttempt, carried, shear_over, violation
+from rollnip.sheet.plate.attempt import (
+    PlateAttempt,
+    carried,
+    pulls_at_edges,
+    shear_over,
+    violation,
+)
 from rollnip.sheet.plate.factorised import FactorisedPlate
 from rollnip.sheet.plate.first import FirstZones
 from rollnip.sheet.plate.lagged import (
@@ -139,6 +145,7 @@ class PlateSearch:
             is_fair = violation(stand) <= self._slack
             is_met = is_fair and shear_over(stand) <= self._slack
             is_placed = off <= placed and stand.stands_still and is_fine
+            is_placed = is_placed and not pulls_at_edges(stand)
             if is_met and is_placed:
                 return replace(stand, zones=asked, off=off)
             if is_fair and is_placed and fair is None:

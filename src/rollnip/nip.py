@@ -281,9 +281,10 @@ class Nip:
             )
         if abs(traction + pull) >= upper:
             raise InvalidInputError(
-                "`traction` + `tension_in` - `tension_out` must be smaller than the upper friction "
-                f"* load = {upper:.6g} N/mm in size (beyond it the sheet slides on the upper "
-                f"roller), got {traction + pull:.6g}; lower it, or raise the load or the friction."
+                "`traction` must, added to the pull on the sheet (`tension_in` - `tension_out`), "
+                f"stay below the upper friction * load = {upper:.6g} N/mm in size (beyond it the "
+                f"sheet slides on the upper roller), got {traction + pull:.6g} in all; lower "
+                "the pull or the traction, or raise the load or the friction."
             )
 
     def _check_controls(self) -> None:

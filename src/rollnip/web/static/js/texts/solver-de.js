@@ -82,7 +82,7 @@ export const SOLVER_DE = {
   "solver.sheet-pull": "und die Züge verlangen von der {side} Walze {pull} N/mm, aber ihre Reibung an der Bahn trägt weniger als {limit} N/mm: Die Bahn rutscht durch. Verringern Sie sie, oder erhöhen Sie Last oder Reibung.",
   "solver.sheet-thin": "der Bahn muss kleiner sein als die Bezüge dick sind, zusammen {limit} mm, gegeben ist {got}: Die Bahn gilt als dünn. Nehmen Sie eine dünnere, oder dickere Bezüge.",
   "solver.sheet-lower": "muss dem Betrag nach kleiner sein als untere Reibung mal Last, {limit} N/mm (darüber gleitet die Bahn auf der unteren Walze), gegeben ist {got}. Verringern Sie den Wert, oder erhöhen Sie Last oder Reibung.",
-  "solver.sheet-upper": "plus Zug am Einlauf minus Zug am Auslauf muss dem Betrag nach kleiner sein als obere Reibung mal Last, {limit} N/mm (darüber gleitet die Bahn auf der oberen Walze), gegeben ist {got}. Verringern Sie den Wert, oder erhöhen Sie Last oder Reibung.",
+  "solver.sheet-upper": "muss zusammen mit dem Zug an der Bahn (Zug am Einlauf minus Zug am Auslauf) dem Betrag nach unter oberer Reibung mal Last bleiben, {limit} N/mm (darüber gleitet die Bahn auf der oberen Walze), gegeben sind zusammen {got}. Verringern Sie den Zug oder die Zugkraft, oder erhöhen Sie Last oder Reibung.",
   "solver.approach-radius": "muss kleiner sein als der Radius der kleineren Walze, {limit} mm, gegeben ist {got}.",
   "solver.approach-half": "lässt sich mit einem Halbraum als Kern nicht vorgeben (in ebener Dehnung ist sie unendlich); geben Sie die Linienlast vor.",
   "solver.no-friction": "muss ohne Reibung 0 sein, gegeben ist {got} bei der Reibungszahl 0.",

@@ -82,7 +82,7 @@ export const SOLVER_EN = {
   "solver.sheet-pull": "and the tensions ask the {side} roller for {pull} N/mm, but its friction on the sheet carries less than {limit} N/mm: the sheet slips through; lower them, or raise the load or the friction.",
   "solver.sheet-thin": "of the sheet must be smaller than the coverings are thick, {limit} mm in all, got {got}: the sheet is taken as thin; take a thinner one, or thicker coverings.",
   "solver.sheet-lower": "must be smaller than the lower friction * load = {limit} N/mm in size (beyond it the sheet slides on the lower roller), got {got}; lower it, or raise the load or the friction.",
-  "solver.sheet-upper": "+ `tension_in` - `tension_out` must be smaller than the upper friction * load = {limit} N/mm in size (beyond it the sheet slides on the upper roller), got {got}; lower it, or raise the load or the friction.",
+  "solver.sheet-upper": "must, added to the pull on the sheet (`tension_in` - `tension_out`), stay below the upper friction * load = {limit} N/mm in size (beyond it the sheet slides on the upper roller), got {got} in all; lower the pull or the traction, or raise the load or the friction.",
   "solver.approach-radius": "must be smaller than the radius {limit} mm, got {got}.",
   "solver.approach-half": "must not be prescribed with a half-space core (it is infinite in plane strain); prescribe `load`.",
   "solver.no-friction": "must be 0 without friction, got {got} with `friction` 0.",

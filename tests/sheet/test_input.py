@@ -35,7 +35,11 @@ def test_values_outside_their_range_are_refused(name, value):
     ("sheet", "more", "said"),
     [
         (paper(tension_in=2.0), {}, "slips through; lower the difference, or raise"),
-        (paper(tension_in=1.0), {}, "slides on the upper roller.*; lower it, or raise the load"),
+        (
+            paper(tension_in=1.0),
+            {},
+            "slides on the upper roller.*; lower the pull or the traction, or raise the load",
+        ),
         (paper(), {"tangential": rn.Traction(0.9)}, "slides on the lower roller.*; lower it, or"),
         (paper(), {"friction": 0.0}, "`friction_upper` of the sheet must be given"),
         (

@@ -69,3 +69,11 @@ def test_figures_of_linear_elements_converge_with_a_second_order(number):
     # of the mesh: the second order itself leaves more
     assert excess(solution.nip, solution.final, 1e-4) <= 1.0
     assert solution.solver.residual <= 1e-4
+
+
+def test_terms_that_run_away_are_no_fault_of_the_input():
+    """A torque is prescribed: where tractions overflow on the way, no traction belongs to it."""
+    case = random_case(920246, "curved")
+    assert isinstance(case.nip.tangential, rn.Torque)
+    solution = rn.solve(case.nip, rn.Model(geometry="curved"))
+    assert solution.nip_width > 0.0

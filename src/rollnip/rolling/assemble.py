@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import isnan, sqrt
+from math import isfinite, isnan, nan, sqrt
 from typing import Literal
 
 import numpy as np
@@ -314,10 +314,15 @@ def _lean(nip: Nip, mesh: Mesh, state: ContactState, u: Displacements) -> float:
 def _traction_for_torque(
     nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
 ) -> float:
-    """Return T for which the lower torque R_l (w_l - int q lambda_l ds) is as prescribed."""
+    """Return T for which the lower torque R_l (w_l - int q lambda_l ds) is as prescribed.
+
+    No number where the second-order terms have run away: such a solution is not verified.
+    """
     assert isinstance(nip.tangential, Torque)
     zones = contact_zones(mesh.inner, state, nip.friction)
     _, pull = pulls(nip, geometry, mesh, state, u, zones)
+    if not isfinite(pull):
+        return nan
     lost = loss_inside("lower", nip, geometry, mesh, state)
     wanted = nip.tangential.torque_lower * nip.lower.curvature
     return lost - wanted - (pull - float(mesh.weights @ state.shear))

@@ -59,16 +59,6 @@ class SheetPowers:
             pull_lower=self.pull_lower,
         )
 
-    @property
-    def driving_upper(self) -> float:
-        """Torque on the upper axle over the radius, M_u/R_u [N/mm]."""
-        return self.pull_upper + self.lost_upper
-
-    @property
-    def driving_lower(self) -> float:
-        """Torque on the lower axle over the radius, M_l/R_l [N/mm]."""
-        return self.lost_lower - self.pull_lower
-
 
 def sheet_powers(
     problem: SheetProblem, geometry: Geometry, state: SheetState, lagged: Lagged

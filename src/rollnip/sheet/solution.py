@@ -98,7 +98,8 @@ class SheetSolution(SmoothSolution):
         spent, upper, lower = self._spent, self._figure("traction_upper"), self.traction
         rate = rates(self.model.geometry, self._state)
         creep = 0.5 * self.creepage if self.model.geometry == "linear" else 0.0
-        work = rate[0] * spent.driving_upper + rate[1] * spent.driving_lower
+        axles = spent.as_bare
+        work = rate[0] * axles.driving_upper + rate[1] * axles.driving_lower
         return self.nip.speed * (work + creep * (upper + lower))
 
     @property

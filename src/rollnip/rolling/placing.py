@@ -59,7 +59,6 @@ _WEAKEST_CONTRACTION = 0.7  # of how far ends are off, from mesh to mesh of a tu
 # Of the tolerance: what an end of a zone may be off, over the width of the contact.
 _PLACEMENT_TOLERANCE = 0.1
 COARSE_PLACEMENT_FACTOR = 3.0  # times `_PLACEMENT_TOLERANCE` on the first size of mesh
-_TURNS_WHILE_MOVING = 4  # of the second-order terms on one mesh, while ends still move, but not far
 _LARGEST_SERIES_RATIO = 0.9
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
@@ -96,9 +95,7 @@ class Placing:
         mesh = _mesh(layout, (elements, even), self.thinnest, kernels)
         states, zones = layout.states_on(mesh.inner), layout.zones
         start = states, first_guess(self.nip, mesh), 0
-        latest = self._solve_on_mesh(
-            replace(self.model, geometry="linear"), mesh, start, zones, _TURNS_WHILE_MOVING
-        )
+        latest = self._solve_on_mesh(replace(self.model, geometry="linear"), mesh, start, zones)
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         is_near = asked.distance(layout) < NEAR_ENOUGH_FOR_SLIP
         wanted = self.search.wanted(latest, layout, whole=False) if is_near else None
@@ -145,7 +142,7 @@ class Placing:
                 off = inf
             # Transitions that come from a guess will move again, whatever the second order.
             hasty = loosely and off > _NEARLY_PLACED and layout.states.size > 1
-            most = 1 if hasty else _TURNS_WHILE_MOVING
+            most = 1 if hasty else MOST_TURNS
             latest, asked = self._solved_on(stand, shape, placed, most)
             off = asked.distance(layout)
             known_to = min(known_to, off)
@@ -185,7 +182,7 @@ class Placing:
         shape, off = (np.array(fine.elements), fine.crowding), inf
         for _ in range(2):
             layout, before = stand.layout, off
-            latest, asked = self._solved_on(stand, shape, 0.0, _TURNS_WHILE_MOVING + 1)
+            latest, asked = self._solved_on(stand, shape, 0.0, MOST_TURNS)
             off = asked.distance(layout)
             is_placed = off <= _PLACEMENT_TOLERANCE * self.model.tolerance
             if (

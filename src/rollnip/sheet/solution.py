@@ -95,10 +95,9 @@ class SheetSolution(SmoothSolution):
         """
         if self.nip.speed is None:
             return None
-        spent, upper, lower = self._spent, self._figure("traction_upper"), self.traction
+        axles, upper, lower = self._spent.as_bare, self._figure("traction_upper"), self.traction
         rate = rates(self.model.geometry, self._state)
         creep = 0.5 * self.creepage if self.model.geometry == "linear" else 0.0
-        axles = spent.as_bare
         work = rate[0] * axles.driving_upper + rate[1] * axles.driving_lower
         return self.nip.speed * (work + creep * (upper + lower))
 

@@ -15,6 +15,13 @@ FINITE: tuple[Geometry, ...] = ("second", "finite")
 """Geometries of finite strain: tractions and displacements belong to present places."""
 RINGS: tuple[Geometry, ...] = ("curved", *FINITE)
 """Geometries that bend the layers to rings."""
+SIMPLER: Mapping[Geometry, Geometry] = {"finite": "second", "second": "curved"}
+"""The geometry that is solved where there is no solution of another one."""
+BEYOND: Mapping[Geometry, str] = {
+    "finite": "terms beyond the linear ones",
+    "second": "second-order terms",
+}
+"""Words for what geometries of finite strain add to linear elasticity."""
 
 _FINEST = 1e-6
 COARSEST = 0.1

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from hashlib import sha256
 from itertools import pairwise
 from math import inf
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +15,11 @@ from numpy.typing import ArrayLike, NDArray
 from rollnip._errors import InvalidInputError, require_positive, with_hints
 from rollnip.materials import Material
 from rollnip.shafts import Shaft
+
+Side = Literal["upper", "lower"]
+"""One of the two rollers of a nip."""
+SIDES: tuple[Side, Side] = ("upper", "lower")
+"""Both of them."""
 
 _MOST_SAMPLES = 2**18
 _ROUNDING = 1e-9  # of the length of a profile

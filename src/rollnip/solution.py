@@ -25,6 +25,7 @@ from rollnip.interior import (
 )
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.reservation import Reservation, texts
 from rollnip.rolling import (
     DeformedSurfaces,
     Powers,
@@ -53,7 +54,7 @@ class Solution(Presented, ABC):
     nip, model : the problem.
     converged : whether the fresh check and the error estimates meet the tolerance.
     status : a sentence that says so, or what is wrong and what helps.
-    warnings : reservations, in plain words.
+    reservations : what the user should know of it, each a record; `warnings` has their sentences.
     solver : how it was reached.
     max_surface_strain : of either surface in the contact, mean over an element; None where it was
         not looked for.
@@ -63,9 +64,14 @@ class Solution(Presented, ABC):
     model: Model
     converged: bool
     status: str
-    warnings: tuple[str, ...]
+    reservations: tuple[Reservation, ...]
     solver: SolverInfo
     max_surface_strain: float | None = field(default=None, kw_only=True, repr=False)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The sentences of the reservations."""
+        return texts(self.reservations)
 
     @property
     def sheet(self) -> Any:

@@ -18,7 +18,7 @@ import numpy as np
 from rollnip._blas import one_blas_thread
 from rollnip._errors import ConvergenceError, InvalidInputError, require_instance
 from rollnip.influence import KernelCache
-from rollnip.model import FINITE, Geometry, Model
+from rollnip.model import BEYOND, FINITE, SIMPLER, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.rolling import (
     ACCEPT_IT,
@@ -38,14 +38,9 @@ from rollnip.rolling import (
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import StrainSizes, validity_warnings
+from rollnip.validity import StrainSizes, instead_of, validity_reservations
 
 _CLEARLY = 1.5  # times a limit that is known roughly
-_SIMPLER: dict[Geometry, Geometry] = {"finite": "second", "second": "curved"}
-_BEYOND: dict[Geometry, str] = {
-    "finite": "terms beyond the linear ones",
-    "second": "second-order terms",
-}
 _THIN = 0.025  # covering over half the nip width, below which hardly compressible ones are hard
 _HARDLY_COMPRESSIBLE = 0.49  # Poisson ratio
 _DIVERGED = 0.1  # last change of second-order terms that approach no solution, relative
@@ -145,17 +140,13 @@ def _solved(
     nip: Nip, model: Model, cache: KernelCache, near: Solution | None, start: float
 ) -> Solution:
     """Solve one nip; ``start``: the clock at the call, from which the solver time counts [s]."""
-    left: tuple[str, ...] = ()
     model = replace(model, geometry=geometry_for(nip, model))
     kernels, final = _refined(nip, model, cache, near)
-    causes = []
+    left: list[tuple[Geometry, str]] = []
     while model.geometry in FINITE and (cause := _without_solution(model, final)):
-        causes.append(f'No solution of geometry "{model.geometry}" was found: {cause}.')
-        model = replace(model, geometry=_SIMPLER[model.geometry])
+        left.append((model.geometry, cause))
+        model = replace(model, geometry=SIMPLER[model.geometry])
         kernels, final = _refined(nip, model, cache, None)
-    if causes:
-        causes[-1] += f' All figures are those of geometry "{model.geometry}".'
-        left = (*left, *causes)
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
@@ -166,7 +157,8 @@ def _solved(
         model=model,
         converged=converged,
         status=status,
-        warnings=left + validity_warnings(nip, model, final, strains),
+        reservations=instead_of(left, model.geometry)
+        + validity_reservations(nip, model, final, strains),
         solver=SolverInfo(
             elements=int(final.problem.x.size + 1),
             iterations=final.steps,
@@ -193,7 +185,7 @@ def _without_solution(model: Model, final: Round) -> str:
         return _how_far(final.ended)
     if not final.geometry_change < _DIVERGED:
         return (
-            f"its {_BEYOND[model.geometry]} did not come to rest (they last changed by "
+            f"its {BEYOND[model.geometry]} did not come to rest (they last changed by "
             f"{final.geometry_change:.2g} of the first-order ones)"
         )
     return "" if final.stands_still else "contact, stick and slip did not settle"
@@ -291,7 +283,7 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     moves = model.geometry in FINITE and final.geometry_change > 0.5 * left
     if not left <= model.tolerance and moves:
         return False, (
-            f"The {_BEYOND[model.geometry]} of finite strain still change by "
+            f"The {BEYOND[model.geometry]} of finite strain still change by "
             f"{final.geometry_change:.1e} (relative), which leaves the contact conditions violated "
             f"by {left:.1e}, more than the tolerance {model.tolerance:g}; try a smaller load, a "
             'larger tolerance or `geometry = "curved"`.'

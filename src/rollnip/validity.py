@@ -1,11 +1,12 @@
-"""A fixed list of warnings where the model is used outside the range it was judged in.
+"""A fixed list of reservations where the model is used outside the range it was judged in.
 
 The thresholds come from the comparison with finite-strain finite elements (docs/geometry.md); the
-list with its reasons is in docs/validity.md. A warning never changes a result.
+list with its reasons is in docs/validity.md. A reservation never changes a result.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isnan
 
@@ -14,9 +15,10 @@ import numpy as np
 from rollnip.compliance import flat_compliance
 from rollnip.influence import is_ring
 from rollnip.materials import LossFactor, NeoHookean, Prony, Viscoelastic
-from rollnip.model import FINITE, RINGS, Model
+from rollnip.model import FINITE, RINGS, Geometry, Model
 from rollnip.nip import Nip
-from rollnip.rollers import Layer, Roller
+from rollnip.reservation import Reservation
+from rollnip.rollers import Layer, Roller, Side
 from rollnip.rolling import Round, surface_strain_in_nip
 
 NIP_STRAIN = 0.15
@@ -41,6 +43,8 @@ TEMPERATURE_SPAN = 60.0
 """Distance of a temperature from the reference of its shift [K]."""
 TIME_SPAN = 10.0
 """Factor by which the time in the nip may leave the relaxation times of a Prony series."""
+THIN_TOP_LAYER = "thin_top_layer"
+"""Kind of the reservation on a top layer that is thinner than half an element."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,74 +73,117 @@ class StrainSizes:
         return cls(surface, _second_share(nip, final), _skin_stretch(nip, final))
 
 
-def validity_warnings(
+def validity_reservations(
     nip: Nip, model: Model, final: Round, strains: StrainSizes
-) -> tuple[str, ...]:
-    """Reservations on a solution, each a sentence that says what is exceeded and what it costs."""
+) -> tuple[Reservation, ...]:
+    """Return reservations on a solution: what is exceeded, and what it costs."""
+    rollers = _rollers(nip)
     found = [
         _nip_strain(nip, final),
-        *(_thickness_ratio(name, roller, model) for name, roller in _rollers(nip)),
+        *(_thickness_ratio(side, roller, model) for side, roller in rollers),
         _contact_angle(nip, final),
-        "" if model.geometry == "finite" else _surface_strain(strains.surface),
+        None if model.geometry == "finite" else _surface_strain(strains.surface),
         _second_order(strains.second),
         _stiff_skin(strains.skin, final.figures.creepage),
-        *(_flat_half_space(name, roller, model) for name, roller in _rollers(nip)),
-        *(_thin_top_layer(name, roller, final) for name, roller in _rollers(nip)),
-        *(line for name, roller in _rollers(nip) for line in _materials(name, roller, nip, final)),
-        *(line for name, roller in _rollers(nip) for line in _energies(name, roller, model)),
+        *(_flat_half_space(side, roller, model) for side, roller in rollers),
+        *(_thin_top_layer(side, roller, final) for side, roller in rollers),
+        *(one for side, roller in rollers for one in _materials(side, roller, nip, final)),
+        *(one for side, roller in rollers for one in _energies(side, roller, model)),
     ]
-    return tuple(line for line in found if line)
+    return tuple(one for one in found if one is not None)
 
 
-def _rollers(nip: Nip) -> tuple[tuple[str, Roller], tuple[str, Roller]]:
+def instead_of(left: Sequence[tuple[Geometry, str]], geometry: Geometry) -> tuple[Reservation, ...]:
+    """Return reservations that say which geometries had no solution, and which is solved.
+
+    Parameters
+    ----------
+    left : geometries without a solution, the first tried first, each with the reason.
+    geometry : the one that is solved.
+    """
+    none = 'No solution of geometry "{geometry}" was found: {cause}.'
+    solved = ' All figures are those of geometry "{solved}".'
+    return tuple(
+        Reservation(
+            "other_geometry",
+            none if number < len(left) else none + solved,
+            {"geometry": one, "cause": cause, "solved": geometry},
+        )
+        for number, (one, cause) in enumerate(left, start=1)
+    )
+
+
+def _rollers(nip: Nip) -> tuple[tuple[Side, Roller], tuple[Side, Roller]]:
     return ("upper", nip.upper), ("lower", nip.lower)
 
 
-def _nip_strain(nip: Nip, final: Round) -> str:
+def _nip_strain(nip: Nip, final: Round) -> Reservation | None:
+    return pressed_in(nip, final.state.approach)
+
+
+def pressed_in(nip: Nip, approach: float) -> Reservation | None:
+    """Return the reservation on coverings that are pressed in far; None within the limit.
+
+    Parameters
+    ----------
+    nip : with any cores.
+    approach : how far the coverings are pressed in [mm].
+    """
     covering = nip.upper.coating_thickness + nip.lower.coating_thickness
-    if nip.has_half_space or covering == 0.0:
-        return ""
-    strain = final.state.approach / covering
-    if strain <= NIP_STRAIN:
-        return ""
-    return (
-        f"The coverings are pressed in by {100.0 * strain:.0f} % of their thickness; beyond "
-        f"{100.0 * NIP_STRAIN:.0f} % the model was not compared with finite elements."
+    if nip.has_half_space or approach <= NIP_STRAIN * covering or covering == 0.0:
+        return None
+    strain = approach / covering
+    return Reservation(
+        "pressed_in",
+        "The coverings are pressed in by {pressed:.0f} % of their thickness; beyond {limit:.0f} % "
+        "the model was not compared with finite elements.",
+        {"pressed": 100.0 * strain, "limit": 100.0 * NIP_STRAIN},
+        excess=strain / NIP_STRAIN,
     )
 
 
-def _thickness_ratio(name: str, roller: Roller, model: Model) -> str:
+def _thickness_ratio(side: Side, roller: Roller, model: Model) -> Reservation | None:
     limit = THICKNESS_RATIO_FINITE if model.geometry in FINITE else THICKNESS_RATIO
     if roller.radius == inf or roller.coating_thickness <= limit * roller.radius:
-        return ""
+        return None
     ratio = roller.coating_thickness / roller.radius
-    covering = f"The covering of the {name} roller is {ratio:.2f} of its radius"
+    figures = {"ratio": ratio, "limit": limit}
     if model.geometry in FINITE:
-        return f"{covering}; compared with finite elements was up to {limit:g}."
-    return (
-        f"{covering}; beyond {limit:g} the error of the creepage grows to some 20 % (at 0.4). "
-        'Geometry "finite" has it within 1.5 %.'
-    )
+        kind, beyond = "thick_covering_finite", "compared with finite elements was up to {limit:g}."
+    else:
+        kind = "thick_covering"
+        beyond = (
+            "beyond {limit:g} the error of the creepage grows to some 20 % (at 0.4). "
+            'Geometry "finite" has it within 1.5 %.'
+        )
+    sentence = f"The covering of the {{side}} roller is {{ratio:.2f}} of its radius; {beyond}"
+    return Reservation(kind, sentence, figures, side, excess=ratio / limit)
 
 
-def _contact_angle(nip: Nip, final: Round) -> str:
+def _contact_angle(nip: Nip, final: Round) -> Reservation | None:
     radius = min(nip.upper.radius, nip.lower.radius)
     angle = 0.5 * final.figures.nip_width / radius
     if angle <= CONTACT_ANGLE:
-        return ""
-    return (
-        f"The nip spans {2.0 * np.degrees(angle):.0f} degrees of the smaller roller; beyond "
-        f"{2.0 * np.degrees(CONTACT_ANGLE):.0f} the model was not compared with finite elements."
+        return None
+    return Reservation(
+        "contact_angle",
+        "The nip spans {angle:.0f} degrees of the smaller roller; beyond {limit:.0f} the model was "
+        "not compared with finite elements.",
+        {"angle": float(2.0 * np.degrees(angle)), "limit": float(2.0 * np.degrees(CONTACT_ANGLE))},
+        excess=angle / CONTACT_ANGLE,
     )
 
 
-def _surface_strain(largest: float) -> str:
+def _surface_strain(largest: float) -> Reservation | None:
     if largest <= SURFACE_STRAIN:
-        return ""
-    return (
-        f"Somewhere in the nip a surface is strained by {100.0 * largest:.0f} %, beside a slipping "
-        "edge as a rule: this geometry does not hold for such a strain; do not read the strain "
-        'there. Geometry "finite" has all orders, on rigid cores.'
+        return None
+    return Reservation(
+        "surface_strain",
+        "Somewhere in the nip a surface is strained by {strain:.0f} %, beside a slipping edge as a "
+        "rule: this geometry does not hold for such a strain; do not read the strain there. "
+        'Geometry "finite" has all orders, on rigid cores.',
+        {"strain": 100.0 * largest},
+        excess=largest / SURFACE_STRAIN,
     )
 
 
@@ -154,12 +201,15 @@ def _second_share(nip: Nip, final: Round) -> float:
     return float(largest / final.state.approach) if final.state.approach > 0.0 else inf
 
 
-def _second_order(share: float) -> str:
+def _second_order(share: float) -> Reservation | None:
     if share <= SECOND_SHARE:
-        return ""
-    return (
-        f"Finite strain changes the indentation by {100.0 * share:.0f} % of the approach; beyond "
-        f"{100.0 * SECOND_SHARE:.0f} % the second order was not compared with finite elements."
+        return None
+    return Reservation(
+        "second_order",
+        "Finite strain changes the indentation by {share:.0f} % of the approach; beyond "
+        "{limit:.0f} % the second order was not compared with finite elements.",
+        {"share": 100.0 * share, "limit": 100.0 * SECOND_SHARE},
+        excess=share / SECOND_SHARE,
     )
 
 
@@ -220,94 +270,122 @@ def _sheet_share(layers: tuple[Layer, ...], half_width: float) -> float:
     return largest
 
 
-def _stiff_skin(stretch: float, creepage: float) -> str:
-    if isnan(creepage) or stretch <= max(SKIN_CREEPAGE, SKIN_SHARE * abs(creepage)):
-        return ""
-    return (
+def _stiff_skin(stretch: float, creepage: float) -> Reservation | None:
+    limit = max(SKIN_CREEPAGE, SKIN_SHARE * abs(creepage))
+    if isnan(creepage) or stretch <= limit:
+        return None
+    return Reservation(
+        "stiff_skin",
         "A stiff top layer bends and resists stretch like a sheet: terms of third order, which "
-        f'geometry "second" leaves out, may change the creepage by about {stretch:.1g} (it is '
-        f'{creepage:.2g}). Geometry "finite", for layers on rigid cores, takes them in.'
+        'geometry "second" leaves out, may change the creepage by about {change:.1g} (it is '
+        '{creepage:.2g}). Geometry "finite", for layers on rigid cores, takes them in.',
+        {"change": stretch, "creepage": creepage},
+        excess=stretch / limit,
     )
 
 
-def _flat_half_space(name: str, roller: Roller, model: Model) -> str:
+def _flat_half_space(side: Side, roller: Roller, model: Model) -> Reservation | None:
     curved = model.geometry in RINGS and roller.radius < inf and bool(roller.layers)
     if not curved or roller.core is None or is_ring(roller, model.geometry):
-        return ""
-    return (
-        f"The {name} roller has a half-space core: its layers are taken as flat and its "
-        "hoop strain is left out."
+        return None
+    return Reservation(
+        "flat_half_space",
+        "{where} has a half-space core: its layers are taken as flat and its "
+        "hoop strain is left out.",
+        side=side,
     )
 
 
-def _thin_top_layer(name: str, roller: Roller, final: Round) -> str:
+def _thin_top_layer(side: Side, roller: Roller, final: Round) -> Reservation | None:
     if not roller.layers:
-        return ""
+        return None
     largest = float(np.max(np.diff(final.nodes[4:-4]), initial=0.0))
     thickness = roller.layers[0].thickness
     if thickness >= 0.5 * largest:
-        return ""
-    return (
-        f"The top layer of the {name} roller ({thickness:g} mm) is thinner than half an element "
-        f"({largest:.2g} mm); stresses within it vary faster than the solution shows."
+        return None
+    return Reservation(
+        THIN_TOP_LAYER,
+        "The top layer of the {side} roller ({thickness:g} mm) is thinner than half an element "
+        "({element:.2g} mm); stresses within it vary faster than the solution shows.",
+        {"thickness": thickness, "element": largest},
+        side,
+        excess=0.5 * largest / thickness,
     )
 
 
-def _materials(name: str, roller: Roller, nip: Nip, final: Round) -> list[str]:
-    lines = []
+def _materials(side: Side, roller: Roller, nip: Nip, final: Round) -> Iterator[Reservation | None]:
     for number, material in enumerate(roller.materials, start=1):
-        where = f"Material {number} (from the surface) of the {name} roller"
         if isinstance(material, LossFactor):
-            lines.append(
-                f"{where} has a constant loss factor: no real material has it at all "
-                "frequencies, so trust trends in load, not in speed."
+            yield Reservation(
+                "loss_factor",
+                "{where} has a constant loss factor: no real material has it at all frequencies, "
+                "so trust trends in load, not in speed.",
+                side=side,
+                material=number,
             )
         if isinstance(material, Prony) and len(material.terms) > 1:
-            lines.append(_outside_times(where, material, nip, final))
+            yield _outside_times(side, number, material, _dwell_time(nip, final))
         if isinstance(material, Viscoelastic) and material.shift is not None:
-            lines.append(_far_temperature(where, material))
-    return lines
+            yield _far_temperature(side, number, material)
 
 
-def _energies(name: str, roller: Roller, model: Model) -> list[str]:
-    return [] if model.geometry == "finite" else energies_left_out(name, roller)
+def _energies(side: Side, roller: Roller, model: Model) -> list[Reservation]:
+    return [] if model.geometry == "finite" else energies_left_out(side, roller)
 
 
-def energies_left_out(name: str, roller: Roller) -> list[str]:
-    """Return a sentence for each strain energy of a roller that a linear model does not see.
+def energies_left_out(side: Side, roller: Roller) -> list[Reservation]:
+    """Return a reservation for each strain energy of a roller that a linear model does not see.
 
     Parameters
     ----------
-    name : "upper" or "lower".
+    side : of the roller.
     roller : the roller.
     """
     return [
-        f"Material {number} (from the surface) of the {name} roller has a strain energy "
-        f'({type(material.energy).__name__}), which counts only in geometry "finite"; here its '
-        "modulus and Poisson ratio alone are used."
+        Reservation(
+            "energy",
+            '{where} has a strain energy ({law}), which counts only in geometry "finite"; here '
+            "its modulus and Poisson ratio alone are used.",
+            {"law": type(material.energy).__name__},
+            side,
+            number,
+        )
         for number, material in enumerate(roller.materials, start=1)
         if material.energy not in (None, NeoHookean())
     ]
 
 
-def _outside_times(where: str, material: Prony, nip: Nip, final: Round) -> str:
-    time = final.figures.nip_width / (nip.speed or inf)
+def _dwell_time(nip: Nip, final: Round) -> float:
+    return final.figures.nip_width / (nip.speed or inf)
+
+
+def _outside_times(side: Side, number: int, material: Prony, time: float) -> Reservation | None:
     shortest, longest = min(material.relaxation_times), max(material.relaxation_times)
     if shortest / TIME_SPAN <= time <= longest * TIME_SPAN:
-        return ""
-    return (
-        f"{where} is used beyond its data: the dwell time {time:.2g} s lies outside its "
-        f"relaxation times {shortest:.2g} to {longest:.2g} s."
+        return None
+    return Reservation(
+        "outside_times",
+        "{where} is used beyond its data: the dwell time {time:.2g} s lies outside its relaxation "
+        "times {shortest:.2g} to {longest:.2g} s.",
+        {"time": time, "shortest": shortest, "longest": longest},
+        side,
+        number,
+        excess=(max(time / longest, shortest / time) if time > 0.0 else inf) / TIME_SPAN,
     )
 
 
-def _far_temperature(where: str, material: Viscoelastic) -> str:
+def _far_temperature(side: Side, number: int, material: Viscoelastic) -> Reservation | None:
     assert material.shift is not None
     assert material.temperature is not None
     distance = abs(material.temperature - material.shift.reference)
     if distance <= TEMPERATURE_SPAN:
-        return ""
-    return (
-        f"{where} is shifted over {distance:.0f} K from the reference temperature; a shift is "
-        f"seldom measured over more than {TEMPERATURE_SPAN:.0f} K."
+        return None
+    return Reservation(
+        "far_temperature",
+        "{where} is shifted over {distance:.0f} K from the reference temperature; a shift is "
+        "seldom measured over more than {limit:.0f} K.",
+        {"distance": distance, "limit": TEMPERATURE_SPAN},
+        side,
+        number,
+        excess=distance / TEMPERATURE_SPAN,
     )

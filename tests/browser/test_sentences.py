@@ -13,6 +13,7 @@ from rollnip.heat.figures import PARAMETERS, RISE, TEMPERATURE
 PACKAGE = Path(__file__).parents[2] / "src" / "rollnip"
 WHERE = re.compile(r"^(?:[\w.\[\]]+: )*(?:`[\w.]+` )?")
 HOLE = re.compile(r"\{\w+\}")
+FIELD = re.compile(r"\{\w*(?::[^{}]*)?\}")  # of a sentence that is filled in by `str.format`
 # The solver fills in a value with the unit of its figure.
 UNITS = {one.shown_unit for one in (RISE, TEMPERATURE, *PARAMETERS.values())}
 WITH_UNIT = re.compile(f"7 (?:7|{'|'.join(map(re.escape, sorted(UNITS)))})(?!\\w)")
@@ -35,7 +36,7 @@ def written():
                     found.add("".join(parts))
                 elif isinstance(node, ast.Constant) and isinstance(node.value, str):
                     found.add(node.value)
-    texts = [text.strip().replace("{}", "7") for text in found]
+    texts = [FIELD.sub("7", text.strip()) for text in found]
     both = [*(WHERE.sub("", text) for text in texts), *texts]
     return frozenset(text for text in both if len(text) > 12)  # a short one would fit anything
 

@@ -15,7 +15,7 @@ from rollnip._results.case import case_tree
 from rollnip.cli.app import app
 from rollnip.face import with_crown
 from rollnip.face.figures import FACE_FIGURES, FACE_PROFILES
-from rollnip.face.notes import warnings_of
+from rollnip.face.reservations import reservations_of
 from rollnip.io import case_hash, parse_case
 from rollnip.io.document import parse_document
 from rollnip.plots import plot_face
@@ -374,5 +374,5 @@ def test_a_strain_energy_that_a_face_leaves_out_is_said_once(tmp_path):
     )
     along = rn.solve_face(case.nip, case.face, rn.Model(geometry="linear"))
     assert "strain energy" in along.warnings[-1]
-    full = warnings_of(along.problem, along.balance, rn.Model(geometry="finite"))
-    assert full == along.warnings[:-1]
+    full = reservations_of(along.problem, along.balance, rn.Model(geometry="finite"))
+    assert full == along.reservations[:-1]

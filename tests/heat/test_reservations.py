@@ -7,6 +7,8 @@ import pytest
 import rollnip as rn
 from rollnip.heat.reservations import of_whole_layers
 from rollnip.heat.warm import Divided
+from rollnip.reservation import Reservation, texts
+from rollnip.validity import THIN_TOP_LAYER
 
 WHEEL = Path(__file__).parents[2] / "examples" / "heat-wheel.toml"
 # Two layers, of three sub-layers and of one, on the upper roller; a core below them.
@@ -14,29 +16,31 @@ CUT = Divided(upper=((0, 2, 5, 8), (8, 12), (12, 20)), lower=())
 
 
 def shifted(number, kelvin, side="upper"):
-    return (
-        f"Material {number} (from the surface) of the {side} roller is shifted over {kelvin} K "
-        "from the reference temperature; a shift is seldom measured over more than 60 K."
-    )
+    figures = {"distance": float(kelvin)}
+    sentence = "{where} is shifted over {distance:.0f} K."
+    return Reservation("far_temperature", sentence, figures, side, number, kelvin / 60.0)
 
 
 def times(number, longest):
-    return (
-        f"Material {number} (from the surface) of the upper roller is used beyond its data: the "
-        f"dwell time 0.007 s lies outside its relaxation times 1e-07 to {longest} s."
-    )
+    sentence = "{where} is used beyond its data: {longest} s."
+    figures = {"longest": longest}
+    return Reservation("outside_times", sentence, figures, "upper", number, 7e-4 / longest)
 
 
-TOP = "The top layer of the upper roller ({} mm) is thinner than half an element (1 mm); stresses"
+def top(thickness):
+    sentence = "The top layer of the {side} roller ({thickness} mm) is thin."
+    return Reservation(THIN_TOP_LAYER, sentence, {"thickness": thickness}, "upper")
+
+
+WIDE = Reservation("wide", "The nip is wide.")
 
 
 def test_sub_layers_are_counted_as_their_layer():
-    warm = [shifted(2, 70), shifted(4, 90), shifted(5, 80), "The nip is wide."]
-    assert of_whole_layers(warm, (), CUT) == (
-        shifted(1, 70),
-        shifted(2, 90),
-        shifted(3, 80),
-        "The nip is wide.",
+    warm = [shifted(2, 70), shifted(4, 90), shifted(5, 80), WIDE]
+    found = of_whole_layers(warm, (), CUT)
+    assert found == (shifted(1, 70), shifted(2, 90), shifted(3, 80), WIDE)
+    assert texts(found)[1] == (
+        "Material 2 (from the surface) of the upper roller is shifted over 90 K."
     )
 
 
@@ -54,10 +58,10 @@ def test_several_sub_layers_say_it_once_by_the_farthest():
 
 
 def test_a_thin_top_sub_layer_is_no_thin_layer():
-    assert of_whole_layers([TOP.format(0.1)], (), CUT) == ()
-    assert of_whole_layers([TOP.format(0.1)], [TOP.format(0.4)], CUT) == (TOP.format(0.4),)
+    assert of_whole_layers([top(0.1)], (), CUT) == ()
+    assert of_whole_layers([top(0.1)], [top(0.4)], CUT) == (top(0.4),)
     whole = Divided(upper=((0, 8),), lower=())
-    assert of_whole_layers([TOP.format(0.4)], (), whole) == (TOP.format(0.4),)
+    assert of_whole_layers([top(0.4)], (), whole) == (top(0.4),)
 
 
 def test_a_plane_keeps_its_numbers():

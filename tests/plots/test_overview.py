@@ -10,6 +10,7 @@ from rich.console import Console
 import rollnip as rn
 from rollnip.cli.summary import print_summary
 from rollnip.plots import plot_overview, save_figure
+from rollnip.reservation import Reservation
 
 
 def words(figure) -> str:
@@ -88,7 +89,8 @@ def test_what_is_not_defined_is_a_dash(skin):
 
 
 def test_a_solution_that_did_not_converge_says_so(driven):
-    failed = replace(driven, converged=False, status="The mesh ran out.", warnings=("One." * 200,))
+    reservations = (Reservation("long", "One." * 200),)
+    failed = replace(driven, converged=False, status="The mesh ran out.", reservations=reservations)
     text = words(plot_overview(failed))
     assert "NOT CONVERGED" in text
     assert "The mesh ran out." in text

@@ -17,7 +17,7 @@ def test_equal_samples_are_nodes(coated, with_profile):
     np.testing.assert_allclose(made.x, x, atol=1e-12)
     np.testing.assert_allclose(made.upper, wavy(x).height, atol=1e-12)
     assert not np.any(made.lower)
-    assert made.notes == ()
+    assert made.reservations == ()
     assert made.spacing == pytest.approx(0.006)
 
 
@@ -26,7 +26,7 @@ def test_finer_where_samples_are_few(coated, with_profile):
     made = sampled(with_profile(coated, upper=wavy(x)), 3.0)
     assert 6.0 / made.spacing >= 512
     np.testing.assert_allclose(np.interp(x, made.x, made.upper), wavy(x).height, atol=1e-12)
-    assert "taken as straight" in made.notes[0]
+    assert "taken as straight" in made.reservations[0].text
 
 
 def test_only_what_both_cover(coated, with_profile):
@@ -43,20 +43,22 @@ def test_far_from_the_nip_nothing_is_looked_at(coated, with_profile):
     assert 4.0 <= made.x[-1] < 5.0
 
 
-def test_notes(coated, with_profile):
+def test_reservations(coated, with_profile):
     x = np.linspace(-6.0, 6.0, 2001)
     holed = np.delete(x, slice(900, 1000))
-    (note,) = sampled(with_profile(coated, upper=wavy(holed)), 3.0).notes
-    assert "gap of 0.606 mm at x = -0.606 mm" in note
+    (note,) = sampled(with_profile(coated, upper=wavy(holed)), 3.0).reservations
+    assert "gap of 0.606 mm at x = -0.606 mm" in note.text
     bent = rn.Profile(x=x, height=-(x**2) / 100.0 + wavy(x).height)
-    (note,) = sampled(with_profile(coated, upper=bent), 3.0).notes
-    assert "curvature of the roller" in note
+    (note,) = sampled(with_profile(coated, upper=bent), 3.0).reservations
+    assert "curvature of the roller" in note.text
     # micrometres taken for millimetres
-    (note,) = sampled(with_profile(coated, upper=wavy(x, height=1.0)), 3.0).notes
-    assert "rms slope of 4.9" in note
-    assert "right unit" in note
+    (note,) = sampled(with_profile(coated, upper=wavy(x, height=1.0)), 3.0).reservations
+    assert "rms slope of 4.9" in note.text
+    assert "right unit" in note.text
     # a hollow of the same size is a shape of its own
-    assert not sampled(with_profile(coated, upper=rn.Profile(x=x, height=x**2 / 100.0)), 3.0).notes
+    assert not sampled(
+        with_profile(coated, upper=rn.Profile(x=x, height=x**2 / 100.0)), 3.0
+    ).reservations
 
 
 def test_refuses(coated, with_profile):

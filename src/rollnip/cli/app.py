@@ -180,15 +180,13 @@ def _print_more(solution: Solution, along: FaceSolution | None, warm: HeatSoluti
     from rollnip.face.report import face_lines
     from rollnip.heat.report import balance_lines
 
-    said = {f"note: {one}" for one in solution.warnings} | {
-        f"Note: {one}" for one in solution.warnings
-    }
+    said = solution.warnings
     for part in (
-        None if along is None else face_lines(along),
-        None if warm is None else balance_lines(warm),
+        None if along is None else face_lines(along, said),
+        None if warm is None else balance_lines(warm, said),
     ):
         if part is not None:
-            write("\n" + "\n".join(one for one in part if one.strip() not in said) + "\n")
+            write("\n" + "\n".join(part) + "\n")
 
 
 @app.command()

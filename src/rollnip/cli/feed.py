@@ -46,13 +46,14 @@ def feed(
             )
         model = overridden(problem.model, geometry, tolerance)
         from rollnip.feed import feed_sensitivity
+        from rollnip.rollers import SIDES
         from rollnip.validity import energies_left_out
 
         with named(problem.source):
             changes = feed_sensitivity(problem.nip, model)
-        for side in ("upper", "lower"):
-            for said in energies_left_out(side, getattr(problem.nip, side)):
-                sys.stderr.write(f"rollnip: warning: {said}\n")
+        for side in SIDES:
+            for one in energies_left_out(side, getattr(problem.nip, side)):
+                sys.stderr.write(f"rollnip: warning: {one.text}\n")
         write((_as_json(changes) if json else _as_text(changes)) + "\n")
     if not all(one.converged for one in changes):
         raise typer.Exit(1)

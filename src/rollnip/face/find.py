@@ -20,9 +20,9 @@ from rollnip.face.checks import REPORTED, checked
 from rollnip.face.covering import CoveringAxis, axes_of, covers
 from rollnip.face.lattice import Lattice, cells_at, cells_of
 from rollnip.face.law import NipLaw, slip_measure
-from rollnip.face.notes import warnings_of
 from rollnip.face.problem import FaceProblem, face_problem
 from rollnip.face.relief import relief_of
+from rollnip.face.reservations import OPEN, reservations_of
 from rollnip.face.rows import NipRows
 from rollnip.face.sheet_find import require_even_covering, solve_face_with_sheet
 from rollnip.face.sheet_law import SheetLaw
@@ -132,8 +132,8 @@ def solve_face(
         if converged
         else f"The estimated error over the face is {worst:.1e}, more than {allowed:g}."
     )
-    notes = warnings_of(problem, found, model)
-    return FaceSolution(nip, face, model, converged, status, notes, error, law, problem, found)
+    said = reservations_of(problem, found, model)
+    return FaceSolution(nip, face, model, converged, status, said, error, law, problem, found)
 
 
 def _with_ends(maker: _Maker, law: NipLaw, found: Balance) -> tuple[FaceProblem, NipLaw, Balance]:
@@ -181,9 +181,10 @@ def _without_sheet(
     bare = replace(problem.nip, sheet=None, friction=0.0, tangential=Traction(0.0))
     face = replace(problem.face, sheet_across="free")
     plain = solve_face(bare, face, model, rows=rows, cache=kernels)
-    if not np.all(plain.load > 0.0):
+    opened = next((one for one in plain.reservations if one.kind == OPEN), None)
+    if opened is not None:
         raise ConvergenceError(
-            f"{plain.warnings[0]} With a sheet it must be closed all over the face; try a smaller "
+            f"{opened.text} With a sheet it must be closed all over the face; try a smaller "
             "crown, skew or offset, or a larger load."
         )
     return plain.load, plain.balance.middle

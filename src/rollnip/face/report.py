@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -125,8 +125,8 @@ def face_parts(solution: FaceSolution) -> dict[str, Any]:
     return {"case": case, "case_hash": digits, "face": face_dict(solution)}
 
 
-def face_lines(solution: FaceSolution) -> Iterator[str]:
-    """Yield the summary of a face, line by line."""
+def face_lines(solution: FaceSolution, said: Collection[str] = ()) -> Iterator[str]:
+    """Yield the summary of a face, line by line, without warnings that were ``said`` before."""
     word = "converged and verified" if solution.converged else "NOT CONVERGED"
     yield f"Face ({word}; {solution.law.solves} cross-sections)"
     yield f"  {'':28s} {'y < 0 end':>12s} {'middle':>12s} {'y > 0 end':>12s}"
@@ -148,7 +148,8 @@ def face_lines(solution: FaceSolution) -> Iterator[str]:
             ends = f"{figure.number(forces.first)} and {figure.text(forces.second)}"
             yield f"  {figure.label:28s} {ends}"
     for warning in solution.warnings:
-        yield f"  note: {warning}"
+        if warning not in said:
+            yield f"  Note: {warning}"
 
 
 def _has_friction(solution: FaceSolution) -> bool:

@@ -23,7 +23,7 @@ from rollnip.face.sheet_law import (
     sheet_law,
     values_at,
 )
-from rollnip.face.sheet_solution import SheetFaceSolution
+from rollnip.face.sheet_solution import SheetFaceSolution, sheet_reservations
 from rollnip.face.solve import Balance
 from rollnip.face.table import Progress
 from rollnip.influence import KernelCache
@@ -191,8 +191,8 @@ class SheetFaceMaker:
             "problem": problem,
             "balance": kept,
         }
-        solution = SheetFaceSolution(**shared, warnings=(), sheet_balance=found)
-        return replace(solution, warnings=solution.reservations)
+        solution = SheetFaceSolution(**shared, reservations=(), sheet_balance=found)
+        return replace(solution, reservations=sheet_reservations(solution))
 
 
 def _section(load: Array, traction: Array) -> CrossSections:

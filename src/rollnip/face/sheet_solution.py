@@ -10,10 +10,11 @@ from numpy.typing import NDArray
 
 from rollnip._sealed import sealed
 from rollnip.face.figures import SHEET_FACE_FIGURES
-from rollnip.face.notes import energies_of, places
+from rollnip.face.reservations import energies_of, places
 from rollnip.face.sheet_balance import SheetBalance
 from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solution import FaceSolution
+from rollnip.reservation import Reservation
 from rollnip.sheet.bending import STIFF, spreading_length
 from rollnip.sheets import Sheet
 
@@ -108,26 +109,6 @@ class SheetFaceSolution(FaceSolution):
         return behind / (1.0 + self.mean_feed) / self.sheet.stretch_by_tension
 
     @property
-    def reservations(self) -> tuple[str, ...]:
-        """Sentences on where the sheet is pushed, and on what its plane nips leave out."""
-        out = []
-        pushed = self.tension_in < -_SLACK * self.mean_load
-        if pushed.any():
-            out.append(
-                f"The nip pushes the sheet back at the inlet {places(self.y, pushed)}, by up to "
-                f"{_LEAST.text(-self.least_tension_in)}: a thin sheet goes slack or wrinkles there."
-            )
-        share = spreading_length(self.nip) / float(self.nip_width.max())
-        if not self.sheet.bending and share > STIFF:
-            out.append(
-                "Along the face the sheet bends freely. Its stiffness against bending and its "
-                f"tension, which count over {100.0 * share:.0f} % of the nip width, are left out: "
-                "a cross-section solved without the face, with `bending = true`, shows what they "
-                "change."
-            )
-        return (*out, *energies_of(self.nip))
-
-    @property
     def _sheet_law(self) -> SheetLaw:
         assert isinstance(self.law, SheetLaw)
         return self.law
@@ -140,3 +121,35 @@ class SheetFaceSolution(FaceSolution):
 
     def _of_law(self, name: str) -> Array:
         return sealed(self._sheet_law.figure(name, self.sheet_balance.points))
+
+
+def sheet_reservations(solution: SheetFaceSolution) -> tuple[Reservation, ...]:
+    """Return reservations: where the sheet is pushed, and what its plane nips leave out."""
+    out = []
+    pushed = solution.tension_in < -_SLACK * solution.mean_load
+    if pushed.any():
+        out.append(
+            Reservation(
+                "pushed_back",
+                "The nip pushes the sheet back at the inlet {places}, by up to {tension}: a thin "
+                "sheet goes slack or wrinkles there.",
+                {
+                    "places": places(solution.y, pushed),
+                    "tension": _LEAST.text(-solution.least_tension_in),
+                },
+            )
+        )
+    share = spreading_length(solution.nip) / float(solution.nip_width.max())
+    if not solution.sheet.bending and share > STIFF:
+        out.append(
+            Reservation(
+                "face_bends_freely",
+                "Along the face the sheet bends freely. Its stiffness against bending and its "
+                "tension, which count over {share:.0f} % of the nip width, are left out: a "
+                "cross-section solved without the face, with `bending = true`, shows what they "
+                "change.",
+                {"share": 100.0 * share},
+                excess=share / STIFF,
+            )
+        )
+    return (*out, *energies_of(solution.nip))

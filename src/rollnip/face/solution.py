@@ -19,6 +19,7 @@ from rollnip.face.sheet_law import SheetLaw
 from rollnip.face.solve import Balance, plane_load, torque
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.reservation import Reservation, texts
 from rollnip.shafts import Face
 
 Array = NDArray[np.float64]
@@ -50,6 +51,7 @@ class FaceSolution:
     nip, face, model : the problem.
     converged : whether the balance settled and every claimed error is within ``tolerance``.
     status : a sentence that says so, or what is wrong.
+    reservations : where it is open or slides, and what its plane nips leave out.
     error : relative errors: of approach, nip width and peak pressure by interpolation between plane
         nips, and of the load by the number of places along the face ("places").
     law : the table of cross-sections.
@@ -60,14 +62,14 @@ class FaceSolution:
     model: Model
     converged: bool
     status: str
-    warnings: tuple[str, ...]
+    reservations: tuple[Reservation, ...]
     error: dict[str, float]
     law: NipLaw | SheetLaw = field(repr=False)
     problem: FaceProblem = field(repr=False)
     balance: Balance = field(repr=False)
 
     def __repr__(self) -> str:
-        texts = [
+        shown = [
             f"{one.label} {one.text(values.min())} to {one.text(values.max())}"
             for one, values in (
                 (FACE_PROFILES["load"], self.load),
@@ -75,7 +77,12 @@ class FaceSolution:
                 (FACE_PROFILES["peak_pressure"], self.peak_pressure),
             )
         ]
-        return one_line(self, self.nip.title, f", geometry {self.model.geometry}", *texts)
+        return one_line(self, self.nip.title, f", geometry {self.model.geometry}", *shown)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The sentences of the reservations."""
+        return texts(self.reservations)
 
     @property
     def y(self) -> Array:

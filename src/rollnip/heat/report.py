@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from math import isfinite
 from typing import Any
 
@@ -135,10 +135,15 @@ def heat_lines(solution: HeatSolution) -> Iterator[str]:
     yield from _figures(solution)
 
 
-def balance_lines(solution: HeatSolution) -> Iterator[str]:
-    """Yield what a heat balance adds to the summary of its nip, line by line."""
+def balance_lines(solution: HeatSolution, said: Collection[str] = ()) -> Iterator[str]:
+    """Yield what a heat balance adds to the summary of its nip, line by line.
+
+    Parameters
+    ----------
+    said : warnings that were shown before, and are not shown again.
+    """
     yield f"Heat ({_verdict(solution)})"
-    yield from _figures(solution)
+    yield from _figures(solution, said)
 
 
 def _verdict(solution: HeatSolution) -> str:
@@ -146,7 +151,7 @@ def _verdict(solution: HeatSolution) -> str:
     return f"{word}: {solution.status}"
 
 
-def _figures(solution: HeatSolution) -> Iterator[str]:
+def _figures(solution: HeatSolution, said: Collection[str] = ()) -> Iterator[str]:
     yield f"\nTemperatures{'upper':>27s} {'lower':>12s}"
     for name in _TEMPERATURES:
         yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES])
@@ -159,7 +164,8 @@ def _figures(solution: HeatSolution) -> Iterator[str]:
     for figure in NIP_FIGURES.values():
         yield _row(figure, [solution.cold, solution.warm])
     for warning in solution.warnings:
-        yield f"Note: {warning}"
+        if warning not in said:
+            yield f"Note: {warning}"
 
 
 def _row(figure: Figure, results: list[Any]) -> str:

@@ -2,66 +2,51 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Hashable, Sequence
+from dataclasses import replace
 
+from rollnip.heat.state import SIDES
 from rollnip.heat.warm import Divided
-
-_MATERIAL = re.compile(r"Material (\d+) \(from the surface\) of the (upper|lower) roller (.*)")
-_TOP = re.compile(r"The top layer of the (upper|lower) roller \(")
-_SHIFTED = re.compile(r"is shifted over (\S+) K ")
-_TIMES = re.compile(r"the dwell time (\S+) s lies outside its relaxation times (\S+) to (\S+) s")
+from rollnip.reservation import Reservation
+from rollnip.validity import THIN_TOP_LAYER
 
 
-def of_whole_layers(warm: Sequence[str], cold: Sequence[str], cut: Divided) -> tuple[str, ...]:
-    """Return the warnings of a warm nip with the numbers of the layers that the user gave.
+def of_whole_layers(
+    warm: Sequence[Reservation], cold: Sequence[Reservation], cut: Divided
+) -> tuple[Reservation, ...]:
+    """Return the reservations of a warm nip with the numbers of the layers that the user gave.
 
     A sub-layer is no material of the user's. What several of one layer say is said once, by the
     one that goes farthest. That a top layer is thin is said of the whole one, as for the cold nip.
 
     Parameters
     ----------
-    warm, cold : warnings of the warm nip and of the cold one.
+    warm, cold : reservations of the warm nip and of the cold one.
     cut : the sub-layers of the warm nip.
     """
-    found: dict[tuple[str, ...], tuple[float, str]] = {}
-    divided = {side for side in ("upper", "lower") if _has_divided_top(cut, side)}
-    for text in (*warm, *(one for one in cold if _top_of(one) in divided)):
-        material = _MATERIAL.fullmatch(text)
-        if material is None:
-            if _top_of(text) not in divided or text in cold:
-                found.setdefault((text,), (0.0, text))
-            continue
-        number, side, rest = material.groups()
-        layers = _layers(cut, side)  # none on a plane, whose heat is carried away
-        layer = layers[int(number) - 1] if layers else int(number)
-        said = f"Material {layer} (from the surface) of the {side} roller {rest}"
-        key = (side, str(layer), " ".join(rest.split()[:3]))
-        found[key] = max(found.get(key, (-1.0, "")), (_distance(rest), said))
-    return tuple(text for _, text in found.values())
+    found: dict[Hashable, Reservation] = {}
+    for one in (
+        *(one for one in warm if not _is_of_divided_top(one, cut)),
+        *(one for one in cold if _is_of_divided_top(one, cut)),
+    ):
+        key: Hashable = one.text
+        if one.side is not None and one.material is not None:
+            one = replace(one, material=_layer(cut, one.side, one.material))
+            key = one.kind, one.side, one.material
+        if key not in found or one.excess > found[key].excess:
+            found[key] = one
+    return tuple(found.values())
 
 
-def _top_of(text: str) -> str | None:
-    found = _TOP.match(text)
-    return None if found is None else found[1]
-
-
-def _has_divided_top(cut: Divided, side: str) -> bool:
-    bounds = cut.of(("upper", "lower").index(side))
+def _is_of_divided_top(one: Reservation, cut: Divided) -> bool:
+    if one.kind != THIN_TOP_LAYER or one.side is None:
+        return False
+    bounds = cut.of(SIDES.index(one.side))
     return bool(bounds) and len(bounds[0]) > 2
 
 
-def _layers(cut: Divided, side: str) -> list[int]:
-    """Return the layer, counted from 1, of each material of a warm roller."""
-    bounds = cut.of(("upper", "lower").index(side))
-    return [index for index, part in enumerate(bounds, start=1) for _ in part[1:]]
-
-
-def _distance(rest: str) -> float:
-    """Return how far a material is used beyond its data: kelvin, or a ratio of times; else 0."""
-    if shifted := _SHIFTED.search(rest):
-        return float(shifted[1])
-    if times := _TIMES.search(rest):
-        time, shortest, longest = (float(one) for one in times.groups())
-        return max(time / longest, shortest / time)
-    return 0.0
+def _layer(cut: Divided, side: str, material: int) -> int:
+    """Return the layer, counted from 1, of a material of a warm roller."""
+    bounds = cut.of(SIDES.index(side))
+    layers = [index for index, part in enumerate(bounds, start=1) for _ in part[1:]]
+    return layers[material - 1] if layers else material  # none on a plane: its heat is carried away

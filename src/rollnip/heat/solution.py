@@ -17,6 +17,7 @@ from rollnip.heat.grid import RadialGrid
 from rollnip.heat.state import SIDES, Side, ThermalState
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.reservation import Reservation, texts
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
@@ -102,7 +103,7 @@ class HeatSolution:
     nip, heat, model : the problem.
     converged : whether the temperatures settled, and the warm nip was verified.
     status : a sentence that says so, or what is wrong.
-    warnings : reservations, in plain words.
+    reservations : on the warm nip, and on materials that do not follow the temperature.
     error : "temperature" [K]: what the iteration and the sub-layers leave.
     cold : the nip with everything at the ambient temperature.
     stable : whether a small disturbance dies out; None where no steady state was found.
@@ -115,7 +116,7 @@ class HeatSolution:
     model: Model
     converged: bool
     status: str
-    warnings: tuple[str, ...]
+    reservations: tuple[Reservation, ...]
     error: dict[str, float]
     cold: Solution = field(repr=False)
     stable: bool | None
@@ -127,11 +128,16 @@ class HeatSolution:
     def __repr__(self) -> str:
         upper, lower = (TEMPERATURE.text(one.hot_spot) for one in (self.upper, self.lower))
         heat = COURSES["power"]
-        texts = (
+        shown = (
             f"{TEMPERATURE.label} {upper} (upper) and {lower} (lower)",
             f"{heat.label} {heat.text(self.power)}",
         )
-        return one_line(self, self.nip.title, f", geometry {self.model.geometry}", *texts)
+        return one_line(self, self.nip.title, f", geometry {self.model.geometry}", *shown)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """The sentences of the reservations."""
+        return texts(self.reservations)
 
     @property
     def warm(self) -> Solution:

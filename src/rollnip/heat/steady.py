@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -22,6 +23,7 @@ from rollnip.influence import KernelCache
 from rollnip.materials import LossFactor
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.reservation import Reservation
 
 Array = NDArray[np.float64]
 
@@ -240,8 +242,8 @@ def _wrapped(
     thermal: HeatProblem, cold: ThermalState, course: _Course, stable: bool | None
 ) -> HeatSolution:
     model, warm = thermal.model, course.state.solution
-    reservations = of_whole_layers(warm.warnings, cold.solution.warnings, course.cut)
-    state = replace(course.state, solution=replace(warm, warnings=reservations))
+    said = of_whole_layers(warm.reservations, cold.solution.reservations, course.cut)
+    state = replace(course.state, solution=replace(warm, reservations=said))
     error = max(course.left, course.fine)
     converged, status = False, course.why
     if course.settled:
@@ -263,7 +265,7 @@ def _wrapped(
         model=model,
         converged=converged,
         status=status,
-        warnings=_warnings(thermal) + reservations,
+        reservations=(*_reservations(thermal), *said),
         error={"temperature": float(error)},
         cold=cold.solution,
         stable=stable,
@@ -274,20 +276,28 @@ def _wrapped(
     )
 
 
-def _warnings(thermal: HeatProblem) -> tuple[str, ...]:
-    said = []
+def _reservations(thermal: HeatProblem) -> Iterator[Reservation]:
     for side in SIDES:
         roller = getattr(thermal.nip, side)
-        for index, material in enumerate(roller.materials):
-            layered = index < len(roller.layers)
-            where = f"Material {index + 1} (from the surface) of the {side} roller"
+        for number, material in enumerate(roller.materials, start=1):
             if not material.is_elastic and not follows(material):
-                said.append(f"{where} has no shift: its moduli do not follow the temperature.")
-            elif isinstance(material, LossFactor):
-                said.append(f"{where} has a loss factor, which does not follow the temperature.")
-            elif follows(material) and not layered:
-                said.append(
-                    f"The core of the {side} roller has the moduli of its mean temperature; put a "
-                    "layer of the same material on it to see the temperature vary."
+                yield Reservation(
+                    "no_shift",
+                    "{where} has no shift: its moduli do not follow the temperature.",
+                    side=side,
+                    material=number,
                 )
-    return tuple(said)
+            elif isinstance(material, LossFactor):
+                yield Reservation(
+                    "loss_factor_stays",
+                    "{where} has a loss factor, which does not follow the temperature.",
+                    side=side,
+                    material=number,
+                )
+            elif follows(material) and number > len(roller.layers):
+                yield Reservation(
+                    "core_mean",
+                    "The core of the {side} roller has the moduli of its mean temperature; put a "
+                    "layer of the same material on it to see the temperature vary.",
+                    side=side,
+                )

@@ -13,13 +13,14 @@ from rollnip._errors import InvalidInputError
 from rollnip._results.summary import one_line
 from rollnip._sealed import sealed
 from rollnip.patch.coefficients import Array, Grid
-from rollnip.patch.depth import PatchStress, Side, stress_at_depth
+from rollnip.patch.depth import PatchStress, stress_at_depth
 from rollnip.patch.figures import PATCH_FIGURES
 from rollnip.patch.level import Level
 from rollnip.patch.measures import figures_of, slope_of
 from rollnip.patch.tables import PairTables
-from rollnip.patches import Patch
-from rollnip.rollers import Roller
+from rollnip.patches import Across, Patch
+from rollnip.reservation import Reservation, texts
+from rollnip.rollers import Roller, Side
 from rollnip.validity import energies_left_out
 
 IntArray = NDArray[np.int8]
@@ -57,9 +58,9 @@ class PatchSolution:
     levels: tuple[tuple[int, int], ...]
 
     def __repr__(self) -> str:
-        shown = (PATCH_FIGURES[key] for key in ("load", "length", "width", "peak_pressure"))
-        texts = [f"{one.label} {one.text(self.figures[one.key])}" for one in shown]
-        return one_line(self, self.patch.title, "", *texts)
+        figures = (PATCH_FIGURES[key] for key in ("load", "length", "width", "peak_pressure"))
+        shown = [f"{one.label} {one.text(self.figures[one.key])}" for one in figures]
+        return one_line(self, self.patch.title, "", *shown)
 
     @property
     def grid(self) -> Grid:
@@ -252,7 +253,12 @@ class PatchSolution:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Effects that the model leaves out and that may count here, one sentence each."""
+        """The sentences of the reservations."""
+        return texts(self.reservations)
+
+    @property
+    def reservations(self) -> tuple[Reservation, ...]:
+        """Effects that the model leaves out and that may count here."""
         return tuple(_reservations(self))
 
     @property
@@ -330,29 +336,39 @@ class PatchSolution:
         return getattr(drive, "creepage", None)
 
 
-def _reservations(solution: PatchSolution) -> Iterator[str]:
+def _reservations(solution: PatchSolution) -> Iterator[Reservation]:
     patch = solution.patch
     half = 0.5 * solution.width
-    for name, roller, across in (
+    rollers: tuple[tuple[Side, Roller, Across], ...] = (
         ("upper", patch.upper, patch.across_upper),
         ("lower", patch.lower, patch.across_lower),
-    ):
-        yield from energies_left_out(name, roller)
+    )
+    for side, roller, across in rollers:
+        yield from energies_left_out(side, roller)
         reach = across.half_face - across.end_radius
         if roller.layers and half > reach - roller.coating_thickness:
-            yield (
-                f"The patch comes within a thickness of the end of the covered {name} face; the "
-                "covering counts as going on there, so the pressure at the end is too high."
+            yield Reservation(
+                "near_end",
+                "The patch comes within a thickness of the end of the covered {side} face; the "
+                "covering counts as going on there, so the pressure at the end is too high.",
+                side=side,
             )
         if solution.length > _LARGE * roller.radius:
-            yield (
-                f"The patch is longer than {_LARGE:g} of the {name} radius; layers count as flat, "
-                "which is then off by some percent."
+            yield Reservation(
+                "long_patch",
+                "The patch is longer than {limit:g} of the {side} radius; layers count as flat, "
+                "which is then off by some percent.",
+                {"limit": _LARGE},
+                side,
+                excess=solution.length / (_LARGE * roller.radius),
             )
     covering = patch.upper.coating_thickness + patch.lower.coating_thickness
     cores = patch.upper.core is None and patch.lower.core is None
     if cores and solution.approach > _DEEP * covering:
-        yield (
-            f"The approach is more than {100 * _DEEP:g} % of the coverings' thickness; strains "
-            "count as small, and approach and load are then off by more than 5 %."
+        yield Reservation(
+            "deep_patch",
+            "The approach is more than {limit:g} % of the coverings' thickness; strains count as "
+            "small, and approach and load are then off by more than 5 %.",
+            {"limit": 100.0 * _DEEP},
+            excess=solution.approach / (_DEEP * covering),
         )

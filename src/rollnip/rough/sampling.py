@@ -1,7 +1,8 @@
-"""The uniform grid for the profiles of both rollers, and notes on their samples."""
+"""The uniform grid for the profiles of both rollers, and reservations on their samples."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from math import ceil, sqrt
 
@@ -10,7 +11,8 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
 from rollnip.nip import Nip
-from rollnip.rollers import Profile, Roller
+from rollnip.reservation import Reservation
+from rollnip.rollers import Profile, Roller, Side
 
 Array = NDArray[np.float64]
 
@@ -31,13 +33,13 @@ class SampledProfiles:
     ----------
     x : (n,) [mm], at equal distances.
     upper, lower : (n,) heights over the smooth rollers, positive out of each [mm].
-    notes : what the user should know of the samples.
+    reservations : on the samples.
     """
 
     x: Array
     upper: Array
     lower: Array
-    notes: tuple[str, ...]
+    reservations: tuple[Reservation, ...]
 
     @property
     def spacing(self) -> float:
@@ -84,13 +86,14 @@ def sampled(nip: Nip, half_width: float) -> SampledProfiles:
         )
     x = origin + spacing * np.arange(float(start), stop + 1.0)
     heights = [np.zeros(x.size) if r.profile is None else r.profile.at(x) for r in _rollers(nip)]
-    notes = [
-        note
-        for name, roller in (("upper", nip.upper), ("lower", nip.lower))
+    sides: tuple[tuple[Side, Roller], ...] = (("upper", nip.upper), ("lower", nip.lower))
+    found = [
+        one
+        for side, roller in sides
         if roller.profile is not None
-        for note in _notes(name, roller, roller.profile, half_width)
+        for one in _reservations(side, roller, roller.profile, half_width)
     ]
-    return SampledProfiles(x, heights[0], heights[1], tuple(notes))
+    return SampledProfiles(x, heights[0], heights[1], tuple(found))
 
 
 def _rollers(nip: Nip) -> tuple[Roller, Roller]:
@@ -107,34 +110,46 @@ def _ends(nip: Nip, profiles: list[Profile], half_width: float) -> tuple[float, 
     return first, last
 
 
-def _notes(name: str, roller: Roller, profile: Profile, half_width: float) -> list[str]:
+def _reservations(
+    side: Side, roller: Roller, profile: Profile, half_width: float
+) -> Iterator[Reservation]:
     steps = np.diff(profile.x)
     middle = float(np.median(steps))
-    notes = []
     widest = int(np.argmax(steps))
     if steps[widest] > _GAP * middle:
-        notes.append(
-            f"The profile of the {name} roller has a gap of {steps[widest]:.3g} mm at "
-            f"x = {profile.x[widest]:.5g} mm; it is bridged by a straight line."
+        yield Reservation(
+            "profile_gap",
+            "The profile of the {side} roller has a gap of {gap:.3g} mm at x = {place:.5g} mm; it "
+            "is bridged by a straight line.",
+            {"gap": float(steps[widest]), "place": float(profile.x[widest])},
+            side,
         )
     slope = float(np.sqrt(np.mean((np.diff(profile.height) / steps) ** 2)))
     if slope > _STEEP:
-        notes.append(
-            f"The profile of the {name} roller has an rms slope of {slope:.2g}, and slopes are "
-            "taken as small: are its heights in the right unit?"
+        yield Reservation(
+            "profile_slope",
+            "The profile of the {side} roller has an rms slope of {slope:.2g}, and slopes are "
+            "taken as small: are its heights in the right unit?",
+            {"slope": slope},
+            side,
+            excess=slope / _STEEP,
         )
     inside = int(np.count_nonzero(np.abs(profile.x) <= half_width))
     if inside < _FEW_SAMPLES and np.any(profile.height != 0.0):
-        notes.append(
-            f"The profile of the {name} roller has {inside} samples in the nip; what lies between "
-            "them is taken as straight."
+        yield Reservation(
+            "few_samples",
+            "The profile of the {side} roller has {inside} samples in the nip; what lies between "
+            "them is taken as straight.",
+            {"inside": inside},
+            side,
         )
     if _holds_curvature(roller, profile):
-        notes.append(
-            f"The profile of the {name} roller looks as if it still held the curvature of the "
-            "roller; heights are counted over the smooth cylinder, so take off -x^2/(2 radius)."
+        yield Reservation(
+            "profile_curvature",
+            "The profile of the {side} roller looks as if it still held the curvature of the "
+            "roller; heights are counted over the smooth cylinder, so take off -x^2/(2 radius).",
+            side=side,
         )
-    return notes
 
 
 def _holds_curvature(roller: Roller, profile: Profile) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from time import perf_counter
 from typing import Literal
@@ -11,6 +12,8 @@ import numpy as np
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.model import COARSEST, FINITE, Model
 from rollnip.nip import Approach, LineLoad, Nip
+from rollnip.reservation import Reservation
+from rollnip.rollers import Roller, Side
 from rollnip.rolling import (
     ACCEPT_IT,
     MOST_PRESSED_IN,
@@ -26,7 +29,7 @@ from rollnip.rolling import (
 from rollnip.rough.contact import RoughContact, max_or_nan, rough_contact
 from rollnip.rough.sampling import sampled
 from rollnip.rough.solution import RoughSolution
-from rollnip.validity import CONTACT_ANGLE, NIP_STRAIN, THICKNESS_RATIO
+from rollnip.validity import CONTACT_ANGLE, THICKNESS_RATIO, pressed_in
 
 _TOO_FAR_APART = "the samples are too far apart; measure more closely"
 _NOTED = 0.01  # relative error of a figure that is worth a note
@@ -53,7 +56,7 @@ def solve_rough(
         where ``on_failure`` is "raise" and the solution could not be verified.
     """
     start = perf_counter()
-    notes: tuple[str, ...] = ()
+    notes: tuple[Reservation, ...] = ()
     if model.geometry == "corrected":
         raise InvalidInputError(
             '`geometry` must be "linear" or "curved" with a measured profile, got "corrected".'
@@ -61,8 +64,12 @@ def solve_rough(
     if model.geometry in FINITE:
         asked, model = model.geometry, replace(model, geometry="curved")
         notes = (
-            "A measured profile is solved with linear elasticity: geometry is "
-            f'"curved", not "{asked}".',
+            Reservation(
+                "profile_linear",
+                "A measured profile is solved with linear elasticity: geometry is "
+                '"curved", not "{asked}".',
+                {"asked": asked},
+            ),
         )
     kernels = pair_kernels(nip, model.geometry)
     sampling = sampled(nip, half_width_guess(_levelled(nip), kernels))
@@ -73,7 +80,7 @@ def solve_rough(
         model=model,
         converged=converged,
         status=status,
-        warnings=(),
+        reservations=(),
         solver=SolverInfo(
             elements=rough.x.size - 1,
             iterations=rough.state.steps,
@@ -84,7 +91,9 @@ def solve_rough(
         ),
         rough=rough,
     )
-    solution = replace(solution, warnings=notes + sampling.notes + _warnings(solution))
+    solution = replace(
+        solution, reservations=notes + sampling.reservations + tuple(_reservations(solution))
+    )
     if on_failure == "raise" and not converged:
         raise ConvergenceError(status, solution)
     return solution
@@ -164,37 +173,49 @@ def _unresolved(name: str, error: float, model: Model, *, is_met_by_tolerance: b
     )
 
 
-def _warnings(solution: RoughSolution) -> tuple[str, ...]:
+def _reservations(solution: RoughSolution) -> Iterator[Reservation]:
     nip, tolerance = solution.nip, solution.model.tolerance
-    found = []
     for name, value, error in (
         ("peak pressure", solution.peak_pressure, solution.error["peak_pressure"]),
         ("nip width", solution.nip_width, solution.error["nip_width"]),
     ):
         if not error <= max(tolerance, _NOTED) * value:
-            found.append(
-                f"The samples do not resolve the {name}: with every second one left out it changes "
-                f"by {100.0 * error / value:.2g} %."
+            yield Reservation(
+                "samples_open",
+                "The samples do not resolve the {figure}: with every second one left out it "
+                "changes by {change:.2g} %.",
+                {"figure": name, "change": 100.0 * error / value},
             )
     if solution.inside_from > 0.0:
-        found.append(
+        yield Reservation(
+            "inside_from",
             "Stresses inside are those of an averaged pressure: do not read them at depths below "
-            f"{solution.inside_from:.2g} mm."
+            "{depth:.2g} mm.",
+            {"depth": solution.inside_from},
         )
-    covering = nip.upper.coating_thickness + nip.lower.coating_thickness
-    pressed = solution.rough.pressed_in
-    if not nip.has_half_space and pressed > NIP_STRAIN * covering:
-        found.append(
-            f"The coverings are pressed in by {100.0 * pressed / covering:.0f} % of "
-            f"their thickness; beyond {100.0 * NIP_STRAIN:.0f} % the model was not compared with "
-            "finite elements."
-        )
-    for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
+    pressed = pressed_in(nip, solution.rough.pressed_in)
+    if pressed is not None:
+        yield pressed
+    yield from _beyond_compared(solution)
+
+
+def _beyond_compared(solution: RoughSolution) -> Iterator[Reservation]:
+    nip = solution.nip
+    rollers: tuple[tuple[Side, Roller], ...] = (("upper", nip.upper), ("lower", nip.lower))
+    for side, roller in rollers:
         if roller.coating_thickness > THICKNESS_RATIO * roller.radius:
-            found.append(
-                f"The covering of the {side} roller is more than {THICKNESS_RATIO:g} of its "
-                "radius; the model was compared with finite elements up to that."
+            yield Reservation(
+                "thick_covering_compared",
+                "The covering of the {side} roller is more than {limit:g} of its radius; the model "
+                "was compared with finite elements up to that.",
+                {"limit": THICKNESS_RATIO},
+                side,
+                excess=roller.coating_thickness / (THICKNESS_RATIO * roller.radius),
             )
-    if solution.nip_width > 2.0 * CONTACT_ANGLE * min(nip.upper.radius, nip.lower.radius):
-        found.append("The nip is wider than half the smaller radius; the model is out of range.")
-    return tuple(found)
+    limit = 2.0 * CONTACT_ANGLE * min(nip.upper.radius, nip.lower.radius)
+    if solution.nip_width > limit:
+        yield Reservation(
+            "wide_nip",
+            "The nip is wider than half the smaller radius; the model is out of range.",
+            excess=solution.nip_width / limit,
+        )

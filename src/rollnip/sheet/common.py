@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from math import isfinite
 from typing import Protocol
 
 import numpy as np
 
 from rollnip._errors import InvalidInputError
-from rollnip.model import Geometry, Model
+from rollnip.model import BEYOND, Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.reservation import Reservation
 from rollnip.rolling import Round, impossible, missed, verdict, violated
 from rollnip.sheet.refine import SheetFigures, scales
 from rollnip.sheet.system import frictions_of
+from rollnip.validity import instead_of
 
 _CLEARLY = 1.2  # times what friction carries; a torque also turns against the pressure
 SLACK = 1e-6
@@ -156,22 +158,24 @@ def creepage_errors(nip: Nip, refined: Refined) -> tuple[float, float]:
     return upper, lower
 
 
-SIMPLER: Mapping[Geometry, Geometry] = {"finite": "second", "second": "curved"}
-"""The geometry that is solved where there is no solution of another one."""
-_BEYOND: Mapping[Geometry, str] = {
-    "finite": "terms beyond the linear ones",
-    "second": "second-order terms",
-}
+def solved_instead(left: Sequence[Geometry], geometry: Geometry) -> tuple[Reservation, ...]:
+    """Return reservations that say which geometries had no solution, and which is solved."""
+    causes = [(one, f"its zones or its {BEYOND[one]} did not come to rest") for one in left]
+    return instead_of(causes, geometry)
 
 
-def instead_of(left: Sequence[Geometry], geometry: Geometry) -> tuple[str, ...]:
-    """Return sentences that say which geometries had no solution, and which is solved."""
-    out = [
-        f'No solution of geometry "{one}" was found with this sheet: its zones or its '
-        f"{_BEYOND[one]} did not come to rest."
-        for one in left
-    ]
-    return (*out[:-1], f'{out[-1]} All figures are those of geometry "{geometry}".') if out else ()
+def pushed(figures: SheetFigures) -> tuple[Reservation, ...]:
+    """Return a reservation where the sheet is pushed."""
+    if not figures.tension_min < -SLACK * figures.load:
+        return ()
+    return (
+        Reservation(
+            "pushed",
+            "In the nip the tension of the sheet falls to {tension:.3g} N/mm: it is pushed there. "
+            "A thin sheet may buckle or wrinkle instead, which the model leaves out.",
+            {"tension": figures.tension_min},
+        ),
+    )
 
 
 def not_prescribed(nip: Nip) -> tuple[str, ...]:

@@ -10,8 +10,9 @@ import numpy as np
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
-from rollnip.model import Geometry, Model
+from rollnip.model import SIMPLER, Geometry, Model
 from rollnip.nip import Nip
+from rollnip.reservation import Reservation
 from rollnip.rolling import (
     PairKernels,
     Round,
@@ -24,24 +25,25 @@ from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.all_orders import solve_in_turns
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.common import (
-    SIMPLER,
-    SLACK,
     half_width_with_sheet,
-    instead_of,
+    pushed,
     require_grip,
     require_torque,
     sheet_verdict,
+    solved_instead,
 )
 from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.solved import longest_freely, solve_plate
 from rollnip.sheet.refine import SheetRefined, refine_sheet
 from rollnip.sheet.said import with_errors_said
 from rollnip.sheet.solution import SheetSolution
-from rollnip.validity import StrainSizes, validity_warnings
+from rollnip.validity import StrainSizes, validity_reservations
 
 # Largest change of a width, in the share of the bending length, of the nips of decision 16, and the
 # largest share of these.
 _WIDTHS_BY_STIFFNESS, _WIDTHS_MEASURED = 2.0, 0.2
+Record = tuple[str, tuple[Reservation, ...]]
+"""Version of rollnip, and what there is to say of a sheet before it is solved."""
 
 
 def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> SheetSolution:
@@ -70,19 +72,23 @@ def solve_sheet(nip: Nip, model: Model, cache: KernelCache, version: str) -> She
     require_torque(nip)
     assert nip.sheet is not None
     asked, freely = nip.sheet.bending, longest_freely(nip, model, cache)
-    record: tuple[str, tuple[str, ...]] = (version, ())
+    record: Record = (version, ())
     if asked or (asked is None and spreading_length(nip) > freely):
         counted = solve_plate(nip, model, cache, record)
         if counted is not None:
             return counted
         if bending_length(nip) > freely:  # else its errors include what its tension changes
             said = "No solution with the sheet's bending stiffness could be verified."
-            record = (version, (said,))
+            record = (version, (Reservation("no_plate", said),))
     return _bending_freely(nip, model, cache, record, start)
 
 
 def _bending_freely(
-    nip: Nip, model: Model, cache: KernelCache, record: tuple[str, tuple[str, ...]], start: float
+    nip: Nip,
+    model: Model,
+    cache: KernelCache,
+    record: Record,
+    start: float,
 ) -> SheetSolution:
     """Return the solution of a sheet without stiffness.
 
@@ -94,7 +100,7 @@ def _bending_freely(
     require_grip(nip, refined)
     final = as_round(nip, refined)
     converged, status = (
-        (False, simpler[0]) if simpler else sheet_verdict(nip, model, refined, final)
+        (False, simpler[0].text) if simpler else sheet_verdict(nip, model, refined, final)
     )
     strains = StrainSizes.of(nip, model, final)
     solution = SheetSolution(
@@ -102,7 +108,9 @@ def _bending_freely(
         model=model,
         converged=converged,
         status=status,
-        warnings=left + _warnings(nip, refined) + validity_warnings(nip, model, final, strains),
+        reservations=left
+        + _reservations(nip, refined)
+        + validity_reservations(nip, model, final, strains),
         solver=SolverInfo(
             elements=int(refined.stand.problem.mesh.nodes.size - 1),
             iterations=refined.stand.steps,
@@ -121,14 +129,14 @@ def _bending_freely(
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, SheetRefined, tuple[str, ...]]:
+) -> tuple[Model, PairKernels, SheetRefined, tuple[Reservation, ...]]:
     """Return the model solved, influence functions, the solution, and why it is another model."""
     left: list[Geometry] = []
     while True:
         found = _attempt(nip, model, cache)
         simpler = SIMPLER.get(model.geometry)
         if found is not None and (simpler is None or found[1].stand.stands_still):
-            return model, *found, instead_of(left, model.geometry)
+            return model, *found, solved_instead(left, model.geometry)
         if simpler is None:
             require_torque(nip, 1.0)
             assert nip.sheet is not None
@@ -191,34 +199,35 @@ def as_round(nip: Nip, refined: SheetRefined) -> Round:
     )
 
 
-def _warnings(nip: Nip, refined: SheetRefined) -> tuple[str, ...]:
+def _reservations(nip: Nip, refined: SheetRefined) -> tuple[Reservation, ...]:
     """Return reservations on the sheet."""
-    figures, out = refined.figures, []
-    if figures.tension_min < -SLACK * figures.load:
-        out.append(
-            f"In the nip the tension of the sheet falls to {figures.tension_min:.3g} N/mm: it is "
-            "pushed there. A thin sheet may buckle or wrinkle instead, which the model leaves out."
-        )
     length = spreading_length(nip)
-    share = length / figures.nip_width
-    if share > STIFF:
-        assert nip.sheet is not None
-        out.append(
-            "The bending stiffness of the sheet and its tension count over "
-            f"{length:.2g} mm, {100.0 * share:.0f} % of the nip width; they are left out, so "
-            "pressure and nip width are those of a sheet that bends freely."
-            f"{_how_far_off(share)}{_how_to_count(nip.sheet.bending, share)}"
-        )
-    return tuple(out)
+    share = length / refined.figures.nip_width
+    if not share > STIFF:
+        return pushed(refined.figures)
+    assert nip.sheet is not None
+    freely = Reservation(
+        "bends_freely",
+        "The bending stiffness of the sheet and its tension count over {length:.2g} mm, "
+        "{share:.0f} % of the nip width; they are left out, so pressure and nip width are those "
+        f"of a sheet that bends freely.{_how_far_off(share)}"
+        f"{_how_to_count(nip.sheet.bending, share)}",
+        {
+            "length": length,
+            "share": 100.0 * share,
+            "widths": 100.0 * _WIDTHS_BY_STIFFNESS * share,
+        },
+        excess=share / STIFF,
+    )
+    return (*pushed(refined.figures), freely)
 
 
 def _how_far_off(share: float) -> str:
     """Return how far widths may be off where the bending length is such a share of the width."""
     if share > _WIDTHS_MEASURED:
         return " Both may be far off."
-    widths = 100.0 * _WIDTHS_BY_STIFFNESS * share
     return (
-        f" The widths on its two sides may be up to {widths:.0f} % off, one too small, the other "
+        " The widths on its two sides may be up to {widths:.0f} % off, one too small, the other "
         "too large; a sheet that is pulled may lie on one roller further still."
     )
 

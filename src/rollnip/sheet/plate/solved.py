@@ -10,8 +10,9 @@ import numpy as np
 
 from rollnip._errors import ConvergenceError
 from rollnip.influence import KernelCache
-from rollnip.model import Model
+from rollnip.model import SIMPLER, Model
 from rollnip.nip import Nip
+from rollnip.reservation import Reservation
 from rollnip.rolling import (
     PairKernels,
     Round,
@@ -23,24 +24,23 @@ from rollnip.rolling import (
 from rollnip.sheet.all_orders import solve_in_turns
 from rollnip.sheet.bending import COUNTED
 from rollnip.sheet.common import (
-    SIMPLER,
-    SLACK,
     half_width_with_sheet,
-    instead_of,
+    pushed,
     require_grip,
     sheet_verdict,
+    solved_instead,
 )
 from rollnip.sheet.plate.all_orders import Bending
 from rollnip.sheet.plate.refine import PlateRefined, peak_allowed, refine_plate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.sheet.said import with_errors_said
-from rollnip.validity import StrainSizes, validity_warnings
+from rollnip.validity import StrainSizes, validity_reservations
 
 _HARDLY = 0.01  # violation of the conditions that moves of the ends make
 
 
 def solve_plate(
-    nip: Nip, model: Model, cache: KernelCache, record: tuple[str, tuple[str, ...]]
+    nip: Nip, model: Model, cache: KernelCache, record: tuple[str, tuple[Reservation, ...]]
 ) -> PlateSolution | None:
     """Solve the steady rolling of two rollers with a sheet that resists bending.
 
@@ -94,7 +94,7 @@ def _rests(refined: PlateRefined | None) -> bool:
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, PlateRefined | None, tuple[str, ...]]:
+) -> tuple[Model, PairKernels, PlateRefined | None, tuple[Reservation, ...]]:
     """Return the model solved, influence functions, the solution, and why it is another model.
 
     Where none rests, the first one that there is; None where there is none at all.
@@ -110,7 +110,7 @@ def _refined(
     resting = [one for one in tried if _rests(one[2])]
     model, kernels, refined = (resting or [one for one in tried if one[2]] or tried)[0]
     left = [one.geometry for one, _, _ in tried[: [one for one, _, _ in tried].index(model)]]
-    return model, kernels, refined, instead_of(left, model.geometry)
+    return model, kernels, refined, solved_instead(left, model.geometry)
 
 
 def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, PlateRefined | None]:
@@ -132,21 +132,21 @@ def _solution(
     model: Model,
     kernels: PairKernels,
     refined: PlateRefined,
-    record: tuple[tuple[str, ...], float, str],
+    record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     said, seconds, version = record
     final, stand = plate_round(refined), refined.stand
     both = final, lower_round(refined, final)
     converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
-    warned = said + _pushed(refined) + validity_warnings(nip, model, final, strains)
+    said += pushed(refined.figures) + validity_reservations(nip, model, final, strains)
     plain: Any = refined
     solution = PlateSolution(
         nip=nip,
         model=model,
         converged=converged,
         status=status,
-        warnings=warned,
+        reservations=said,
         solver=SolverInfo(
             elements=int(max(mesh.nodes.size for mesh in stand.problem.meshes) - 1),
             iterations=stand.steps,
@@ -201,15 +201,4 @@ def _strains(nip: Nip, model: Model, rounds: tuple[Round, Round]) -> StrainSizes
     one, two = (StrainSizes.of(nip, model, final) for final in rounds)
     return StrainSizes(
         max(one.surface, two.surface), max(one.second, two.second), max(one.skin, two.skin)
-    )
-
-
-def _pushed(refined: PlateRefined) -> tuple[str, ...]:
-    """Return a sentence where the sheet is pushed."""
-    figures = refined.figures
-    if not figures.tension_min < -SLACK * figures.load:
-        return ()
-    return (
-        f"In the nip the tension of the sheet falls to {figures.tension_min:.3g} N/mm: it is "
-        "pushed there. A thin sheet may buckle or wrinkle instead, which the model leaves out.",
     )

@@ -1,4 +1,4 @@
-"""Reservations on a face, in words."""
+"""Reservations on a face."""
 
 from __future__ import annotations
 
@@ -10,29 +10,43 @@ from rollnip.face.problem import FaceProblem
 from rollnip.face.solve import Balance
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.reservation import Reservation
 from rollnip.solver import geometry_for
 from rollnip.validity import energies_left_out
 
 Array = NDArray[np.float64]
 
 
-def warnings_of(problem: FaceProblem, found: Balance, model: Model) -> tuple[str, ...]:
+OPEN = "open_face"
+"""Kind of the reservation on a face whose nip is open somewhere."""
+
+
+def reservations_of(problem: FaceProblem, found: Balance, model: Model) -> tuple[Reservation, ...]:
     """Return reservations on a face: where it is open, where it slides, what is left out."""
-    notes = []
+    out = []
     y, carries = problem.grid.y, found.approach > 0.0
     if not carries.all():
-        notes.append(f"The nip is open over a part of the face: {places(y, ~carries)}.")
+        out.append(
+            Reservation(
+                OPEN,
+                "The nip is open over a part of the face: {places}.",
+                {"places": places(y, ~carries)},
+            )
+        )
     if np.any(np.abs(found.section.s[carries]) >= 1.0):
-        notes.append(
-            "Over a part of the face the surfaces slide all over the nip: one creepage for the "
-            "whole face is too far from that of free rolling there."
+        out.append(
+            Reservation(
+                "sliding_face",
+                "Over a part of the face the surfaces slide all over the nip: one creepage for the "
+                "whole face is too far from that of free rolling there.",
+            )
         )
     has_energies = geometry_for(problem.nip, model) == "finite"
-    return (*notes, *([] if has_energies else energies_of(problem.nip)))
+    return (*out, *([] if has_energies else energies_of(problem.nip)))
 
 
-def energies_of(nip: Nip) -> list[str]:
-    """Return a sentence for each strain energy of a nip that its plane nips do not see."""
+def energies_of(nip: Nip) -> list[Reservation]:
+    """Return a reservation for each strain energy of a nip that its plane nips do not see."""
     return [*energies_left_out("upper", nip.upper), *energies_left_out("lower", nip.lower)]
 
 

@@ -9,7 +9,7 @@ from sheet_nips import RIGID, SOFT, nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.finite import NoEquilibriumError, columns
+from rollnip.finite import NoEquilibriumError, columns, strip
 from rollnip.rolling import surface_depths
 from rollnip.rolling.elements import AllOrders
 from rollnip.sheet import all_orders
@@ -142,31 +142,55 @@ def test_power_by_moments_and_by_losses(name):
         assert torque / roller.radius == pytest.approx(_moment(solution, side), abs=allowed)
 
 
-@pytest.mark.slow
-def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch):
-    # On a bare roller driven with 0.4 of the load at a friction of 1.5 the covering is stretched to
-    # three times its length. With smooth stretches the loss was 4.6 % larger, 0.6 % of the power.
-    # With half of the short waves: whether all of them come to rest is a matter of rounding (loads
-    # of 1.779 and 1.781 N/mm differ), and with all the torque is 1.1 % of the traction off (open).
-    monkeypatch.setattr(all_orders, "SHARES_KEPT", (0.5,))
+def _driven_hard(load, shares, monkeypatch):
+    """A bare roller driven with 0.4 of the load at a friction of 1.5, and its solution.
+
+    The covering is stretched to four times its length at the edge that slips.
+    """
+    monkeypatch.setattr(all_orders, "SHARES_KEPT", shares)
     nip = nip_with(
         paper(bending=False),
         lower=RIGID,
         friction=1.5,
         speed=100.0,
+        normal=rn.LineLoad(load),
         tangential=rn.Traction(0.7),
     )
-    solution = rn.solve(nip, ALL)
-    found = solution.sheet
+    return nip, rn.solve(nip, ALL)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [1.0, 0.5, 0.25])
+def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch, share):
+    # With smooth stretches the loss was 4.6 % larger, 0.6 % of the power; with those of all waves
+    # where a side slips and smooth ones where it sticks a torque was up to 0.3 % of the traction
+    # off. Whether all waves come to rest is a matter of rounding, so there are several loads.
+    solved = [_driven_hard(load, (share,), monkeypatch) for load in (1.6, 1.775, 1.782, 1.79)]
+    solved = [(nip, one) for nip, one in solved if one.model.geometry == "finite"]
+    assert solved
+    for nip, solution in solved:
+        found = solution.sheet
+        passed = nip.speed * solution.traction
+        heat = found.friction_upper + found.friction_lower
+        assert solution.power_in == pytest.approx(heat + found.power, abs=1e-3 * passed)
+        torques, claims = ("torque_upper", "torque_lower"), solution.error
+        for side, name in enumerate(torques):
+            radius = (nip.upper, nip.lower)[side].radius
+            off = abs(getattr(solution, name) - radius * _moment(solution, side))
+            # the elements over the depth are few for such stretches: they leave 1 %, and say so
+            assert off < 1.1 * claims[name], name
+        assert solution.refined.cut_losses[0] > 2e-3 * solution.traction
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("share", [0.5, 0.25])
+def test_with_more_elements_torques_beside_a_slipping_edge_are_the_moments(monkeypatch, share):
+    monkeypatch.setattr(strip, "_PER_FOLD", 2.0 * strip._PER_FOLD)
+    nip, solution = _driven_hard(1.775, (share,), monkeypatch)
     assert solution.model.geometry == "finite"
-    passed = nip.speed * solution.traction
-    heat = found.friction_upper + found.friction_lower
-    assert solution.power_in == pytest.approx(heat + found.power, abs=1e-3 * passed)
-    for side, torque in enumerate((solution.torque_upper, solution.torque_lower)):
-        radius = (nip.upper, nip.lower)[side].radius
-        by_moment = _moment(solution, side)
-        assert torque / radius == pytest.approx(by_moment, abs=1e-3 * solution.traction)
-    assert solution.refined.cut_losses[0] > 4e-3 * solution.traction
+    by_moment = _moment(solution, 0)
+    apart = abs(solution.torque_upper / nip.upper.radius - by_moment)
+    assert apart < 3e-4 * solution.traction
 
 
 def _moment(solution, side):

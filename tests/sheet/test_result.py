@@ -11,7 +11,7 @@ import rollnip as rn
 from rollnip._results.tree import result_dict
 from rollnip.io import base_tree, case_python, case_toml, parse_case
 from rollnip.sheet.common import sheet_verdict
-from rollnip.sheet.refine import SheetFigures, scales
+from rollnip.sheet.refine import SheetFigures, scales, with_errors_of_powers
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps.row import SCALARS, evaluate
 
@@ -112,6 +112,40 @@ def test_summary_and_dataset_have_it(pulled):
     assert float(data["sheet_tension_max"]) == pulled.sheet.tension_max
     assert data["sheet_tension"].dims == ("x",)
     assert data.sizes["lower_zone"] == len(pulled.sheet.zones_lower)
+
+
+def test_grip_is_read_back_from_netcdf(pulled, tmp_path):
+    xarray = pytest.importorskip("xarray")
+    pytest.importorskip("h5netcdf")
+    rn.write_result(pulled, tmp_path / "pulled.nc")
+    grip = pulled.sheet.grip
+    with xarray.open_dataset(tmp_path / "pulled.nc", engine="h5netcdf") as data:
+        assert float(data["sheet_pull"]) == grip.pull
+        for key in ("largest", "smallest"):
+            assert float(data[f"sheet_pull_{key}"]) == getattr(grip, key)
+            assert data[f"sheet_pull_{key}"].attrs["units"] == "N/mm"
+        for side in ("upper", "lower"):
+            assert float(data[f"sheet_grip_use_{side}"]) == getattr(grip, f"use_{side}")
+        assert str(data["sheet_slides_first"].values) == grip.first
+
+
+def test_slip_along_its_own_shear_is_an_error_of_the_loss():
+    # as if the upper roller ran ahead by more than the sheet slips back
+    solution = rn.solve(nip_with(paper(bending=False), friction=0.1), rn.Model(geometry="linear"))
+    refined = solution.refined
+    claimed = refined.errors.friction_upper
+    assert refined.figures.friction_upper > 10.0 * claimed
+    stand = refined.stand
+    ahead = replace(stand.state, creepage=-stand.state.creepage - 0.1)
+    turned = with_errors_of_powers(
+        replace(refined, stand=replace(stand, state=ahead)), "linear"
+    ).errors
+    other = replace(stand.state, creepage=-stand.state.creepage + 0.1)
+    back = with_errors_of_powers(
+        replace(refined, stand=replace(stand, state=other)), "linear"
+    ).errors
+    assert max(turned.friction_upper, back.friction_upper) > 10.0 * claimed
+    assert turned.friction_lower == refined.errors.friction_lower
 
 
 def test_a_case_file_holds_it_in_any_unit():

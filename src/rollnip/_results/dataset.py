@@ -7,7 +7,7 @@ from typing import Any
 
 from rollnip.figure import Figure
 from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PLACES, PROFILES
-from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
+from rollnip.sheet_figures import PULL_FIGURES, SHEET_FIGURES, SHEET_PROFILES
 
 _NAN = float("nan")
 _Variables = dict[str, tuple[Any, ...]]
@@ -122,10 +122,24 @@ def _sheet(sheet: dict[str, Any], size: int) -> _Variables:
         if name != "x":
             values = _floats(sheet["profiles"][name], size)
             found[f"sheet_{name}"] = ("x", values, curve.described)
+    found |= _grip(sheet["grip"])
     lower = _zones(sheet["zones_lower"])
     return found | {
         f"lower_{name}": (f"lower_{dims[0]}", *rest) for name, (dims, *rest) in _tupled(lower)
     }
+
+
+def _grip(grip: dict[str, Any]) -> _Variables:
+    """Return the pulls that hold the sheet, the present one, which side slides first, and use."""
+    pull = {"units": PULL_FIGURES["largest"].unit, "long_name": "pull on the sheet"}
+    found: _Variables = {"sheet_pull": _scalar(grip["pull"], pull)}
+    for key, figure in PULL_FIGURES.items():
+        found[f"sheet_pull_{key}"] = _scalar(grip[key], figure.described)
+    for side in ("upper", "lower"):
+        about = {"units": "1", "long_name": f"traction over what friction carries, {side} side"}
+        found[f"sheet_grip_use_{side}"] = _scalar(grip[f"use_{side}"], about)
+    first = {"long_name": "side that slides first where the sheet is pulled"}
+    return found | {"sheet_slides_first": ((), grip["first"], first)}
 
 
 def _tupled(variables: _Variables) -> list[tuple[str, tuple[Any, ...]]]:

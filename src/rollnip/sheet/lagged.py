@@ -174,18 +174,38 @@ def pulls_of(
 ) -> tuple[float, float]:
     """Return int q lambda ds of the upper and the lower surface [N/mm]; ``u`` at nodes[1:].
 
-    Where a side slips, lambda is that of the tractions with all waves, as without a sheet.
+    With the loss inside it is a torque over the radius only in an equilibrium under these very
+    tractions: with the short waves that the contact does not follow, where it sticks, too.
+    """
+    mesh = problem.mesh
+    x, fine = mesh.fine.nodes[1:], mesh.finer(u)
+    excess = stretch_excess(x, problem.nip, geometry, fine)
+    lengths = (x[1:] - x[:-1] + excess) * arc_ratio(x, problem.nip, geometry, fine)
+    upper, lower = (mean_shear(mesh, side_state(state, side)) for side in (0, 1))
+    return float(lengths[0] @ upper), float(lengths[1] @ lower)
+
+
+def moments_of(
+    problem: SheetProblem, geometry: Geometry, state: SheetState, u: Displacements
+) -> Array:
+    """Return the moments of the tractions about both axles, over the radii, (2,) [N/mm].
+
+    At the height eta over the tangent, with the slope eta', the upper surface is pushed by
+    (q_u - p eta', p + q_u eta') per dx, the lower one by (-q_l - p eta', p - q_l eta').
     """
     nip, mesh = problem.nip, problem.mesh
     x, fine = mesh.fine.nodes[1:], mesh.finer(u)
-    excess = stretch_excess(x, nip, geometry, fine)
-    slips = np.stack([slip_in(mesh, states) for states in state.both_states])
-    if geometry == "finite" and slips.any():
-        uncut = stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))
-        excess = np.where(slips, uncut, excess)
-    lengths = (x[1:] - x[:-1] + excess) * arc_ratio(x, nip, geometry, fine)
-    upper, lower = (mean_shear(mesh, side_state(state, side)) for side in (0, 1))
-    return float(lengths[0] @ upper), float(lengths[1] @ lower)
+    dx, middle = np.diff(x), 0.5 * (x[1:] + x[:-1])
+    p = mesh.acting(state.pressure)
+    p, out = 0.5 * (p + np.append(p[1:], 0.0)), []
+    for side, (roller, sign) in enumerate(((nip.upper, 1.0), (nip.lower, -1.0))):
+        depth = surface_depths(x, nip, geometry, fine)[side]
+        q = sign * mean_shear(mesh, side_state(state, side))
+        slope, height = np.diff(depth) / dx, 0.5 * (depth[1:] + depth[:-1])
+        arm = 1.0 - roller.curvature * height
+        along, down = q - p * slope, p + q * slope
+        out.append(float((arm * along + roller.curvature * middle * down) @ dx))
+    return np.array(out)
 
 
 def slip_in(mesh: Mesh, states: States) -> NDArray[np.bool_]:
@@ -193,14 +213,6 @@ def slip_in(mesh: Mesh, states: States) -> NDArray[np.bool_]:
     slips = states > State.STICK
     parts = (mesh.fine.nodes.size - 3) // (states.size - 1)
     return np.append(np.repeat(slips[:-1] & slips[1:], parts), False)
-
-
-def uncut_terms(problem: SheetProblem, geometry: Geometry, state: SheetState) -> Lagged:
-    """Return the terms of a solution with all waves of a held correction."""
-    mesh = problem.mesh
-    assert mesh.kernels.held is not None
-    kernels = replace(mesh.kernels, held=mesh.kernels.held.uncut)
-    return lagged_terms(replace(problem, mesh=mesh.holding(kernels)), geometry, state)
 
 
 def side_state(state: SheetState, side: int) -> SheetState:
@@ -214,7 +226,7 @@ def _traction_for_torque(
     """Return T_l for which the lower torque R_l (w_l - int q_l lambda_l ds) is as prescribed."""
     nip, mesh = problem.nip, problem.mesh
     assert isinstance(nip.tangential, Torque)
-    _, pull = pulls_of(problem, geometry, state, u)
+    _, pull = pulls_of(problem, geometry, state, mesh.uncut(u))
     lost = loss_inside("lower", nip, geometry, mesh, side_state(state, 1))
     wanted = nip.tangential.torque_lower * nip.lower.curvature
     return lost - wanted - (pull - float(mesh.weights @ state.shear_lower))

@@ -13,8 +13,15 @@ from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.elements import Acting
 from rollnip.sheet.all_orders import COARSE
 from rollnip.sheet.lagged import change_of, lagged_terms, missed
-from rollnip.sheet.powers import friction_losses
-from rollnip.sheet.refine import LAST_CLOSELY, SheetFigures, SheetRefined, refine_sheet, residual_of
+from rollnip.sheet.powers import smooth_works
+from rollnip.sheet.refine import (
+    LAST_CLOSELY,
+    SheetFigures,
+    SheetRefined,
+    refine_sheet,
+    residual_of,
+    with_errors_of_powers,
+)
 from rollnip.sheet.search import SheetAttempt, SheetSearch
 
 Array = NDArray[np.float64]
@@ -89,11 +96,12 @@ class Membrane:
         """
         left = max(left, residual_of(stand, kernels, "finite"))
         figures = SheetFigures.of(stand, "finite")
-        return replace(refined, stand=stand, figures=figures, residual=left), left
+        found = replace(refined, stand=stand, figures=figures, residual=left)
+        return with_errors_of_powers(found, "finite"), left
 
     def with_cut(self, refined: SheetRefined, cut: float) -> SheetRefined:
         """Return a refined solution with what the correction leaves out."""
         stand, figures = refined.stand, refined.figures
-        upper, lower = friction_losses(stand.problem, stand.state, stand.lagged)
+        (upper, _), (lower, _) = smooth_works(stand.problem, stand.state, stand.lagged)
         losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
         return replace(refined, cut=cut, cut_losses=losses)

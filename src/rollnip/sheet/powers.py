@@ -18,7 +18,7 @@ from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.rolling.assemble import loss_inside
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
-from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state, uncut_terms
+from rollnip.sheet.lagged import moments_of, path_turn, pulls_of, sheet_rate, side_state
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
@@ -65,14 +65,12 @@ def sheet_powers(
 ) -> SheetPowers:
     """Return torques over radii and losses of a solution."""
     nip, mesh = problem.nip, problem.mesh
-    pulls = pulls_of(problem, geometry, state, mesh.displacements(state))
+    pulls = pulls_of(problem, geometry, state, mesh.uncut(mesh.displacements(state)))
     lost = [
         loss_inside("upper", nip, geometry, mesh, state),
         loss_inside("lower", nip, geometry, mesh, side_state(state, 1)),
     ]
-    if geometry == "finite" and mesh.kernels.held is not None:
-        lagged = uncut_terms(problem, geometry, state)
-    friction = friction_losses(problem, state, lagged)
+    friction = [lost for lost, _ in slip_works(problem, geometry, state, lagged)]
     return SheetPowers(
         friction_upper=friction[0],
         friction_lower=friction[1],
@@ -84,14 +82,49 @@ def sheet_powers(
     )
 
 
-def friction_losses(problem: SheetProblem, state: SheetState, lagged: Lagged) -> list[float]:
-    """Return what slip on either interface loses per rolled distance [N/mm]."""
+def slip_works(
+    problem: SheetProblem, geometry: Geometry, state: SheetState, lagged: Lagged
+) -> list[tuple[float, float]]:
+    """Return what slip on either interface loses, and its work along its own shear [N/mm].
+
+    Short waves that the contact does not follow change the stretch, and by it what the shear of a
+    surface hands over, see `pulls_of`; the loss changes by as much.
+    """
+    mesh, out = problem.mesh, []
+    u = mesh.displacements(state)
+    all_waves = pulls_of(problem, geometry, state, mesh.uncut(u))
+    smooth = pulls_of(problem, geometry, state, u)
+    works = smooth_works(problem, state, lagged)
+    for side, (sign, rate) in enumerate(zip((1.0, -1.0), rates(geometry, state), strict=True)):
+        lost = works[side][0] + sign * rate * (all_waves[side] - smooth[side])
+        out.append((max(lost, 0.0), works[side][1] + max(-lost, 0.0)))
+    return out
+
+
+def smooth_works(
+    problem: SheetProblem, state: SheetState, lagged: Lagged
+) -> list[tuple[float, float]]:
+    """Return the same of the creep that the contact follows [N/mm]."""
     creeps, out = problem.gap_and_creeps(state, lagged)[1:], []
     for side in (0, 1):
         sheared = -np.diff(problem.tension @ state.shears[side])  # int q ds over each interval
         rate = creeps[side, :-1] / problem.mesh.dx[:-1]
-        out.append(slip_losses(sheared * rate, slip_zones(state.both_states[side]))[0])
+        out.append(slip_losses(sheared * rate, slip_zones(state.both_states[side])))
     return out
+
+
+def off_the_moments(
+    problem: SheetProblem, geometry: Geometry, state: SheetState, spent: SheetPowers
+) -> Array:
+    """Return how far the torques are off the moments of the tractions, over the radii, (2,) [N/mm].
+
+    In equilibrium they are the same. Both come from the displacements of finite elements, and a
+    stretch of several times beside a slipping edge is less well known than the height there.
+    """
+    mesh, bare = problem.mesh, spent.as_bare
+    u = mesh.uncut(mesh.displacements(state))
+    driving = np.array([bare.driving_upper, bare.driving_lower])
+    return np.abs(driving - moments_of(problem, geometry, state, u))
 
 
 def slip_zones(states: States) -> list[NDArray[np.bool_]]:

@@ -16,7 +16,7 @@ from rollnip.model import Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import Figures, PairKernels
 from rollnip.rolling.round import peak_at, peak_pressure, scale_of_creepage
-from rollnip.sheet.powers import SheetPowers, sheet_powers
+from rollnip.sheet.powers import SheetPowers, off_the_moments, sheet_powers, slip_works
 from rollnip.sheet.search import SheetAttempt, SheetSearch, overlap, violation
 from rollnip.sheet.system import frictions_of
 from rollnip.sheet.zones import Zones
@@ -232,7 +232,26 @@ def _closely(count: float) -> float:
 
 def _with_overlap(refined: SheetRefined, kernels: PairKernels, geometry: Geometry) -> SheetRefined:
     """Return a solution with what it overlaps outside the contact, too."""
-    return replace(refined, residual=residual_of(refined.stand, kernels, geometry))
+    checked = replace(refined, residual=residual_of(refined.stand, kernels, geometry))
+    return with_errors_of_powers(checked, geometry)
+
+
+def with_errors_of_powers(refined: SheetRefined, geometry: Geometry) -> SheetRefined:
+    """Return a solution that claims slip along its own shear, and what torques are off its moments.
+
+    The former has no place in its losses. Only at finite strain are moments as exact as torques.
+    """
+    stand, errors = refined.stand, refined.errors.values.copy()
+    problem, state = stand.problem, stand.state
+    works = slip_works(problem, geometry, state, stand.lagged)
+    off = np.zeros(2)
+    if geometry == "finite":
+        off = off_the_moments(problem, geometry, state, refined.figures.powers)
+    for side, (_, reversed_slip), left in zip(("upper", "lower"), works, off, strict=True):
+        for name, least in (("friction", max(reversed_slip, left)), ("pull", left)):
+            at = NAMES.index(f"{name}_{side}")
+            errors[at] = max(errors[at], least)
+    return replace(refined, errors=SheetFigures(errors))
 
 
 def residual_of(stand: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:

@@ -97,6 +97,59 @@ def test_tractions_are_of_fourth_order(elements, allowed):
     assert error < allowed
 
 
+def two_pieces(layout, elements, inner, outer):
+    """A rigid profile with a trough, h = x^4/4 - c^2 x^2/2, on a half-plane that yields -ln|x|.
+
+    It touches on inner < |x| < outer with p = |x| sqrt((outer^2 - x^2)(x^2 - inner^2))/pi. For
+    F(z) = z sqrt((z^2 - inner^2)(z^2 - outer^2)) is z^3 - c^2 z - (outer^2 - inner^2)^2/(8 z) - ...
+    with c^2 = (inner^2 + outer^2)/2 far away, so that the principal value of int p(s)/(x - s) ds is
+    x^3 - c^2 x = h', and the load is (outer^2 - inner^2)^2/8.
+    """
+    load = (outer**2 - inner**2) ** 2 / 8.0
+    problem = half_planes(layout.breaks, elements, load=load, traction=None, friction=0.0)
+    squares = problem.x**2
+    height = 0.25 * squares**2 - 0.25 * (inner**2 + outer**2) * squares
+    problem = replace(problem, clearance=height)
+    return problem, GivenStates().solve(problem, layout.states_on(problem.x))
+
+
+def test_contact_in_pieces_has_the_edges_of_its_closed_form():
+    inner, outer = 0.6, 1.0
+    states = np.array([STICK, State.FREE, STICK], dtype=np.int8)
+    layout = Layout(np.array([-1.05, -0.63, 0.57, 1.03]), states)
+    for _ in range(8):
+        problem, state = two_pieces(layout, [12, 8, 12], inner, outer)
+        layout = layout.moved(problem.x, state, 0.0)
+    np.testing.assert_allclose(layout.breaks, [-outer, -inner, inner, outer], atol=1e-4)
+    product = (outer**2 - problem.x**2) * (problem.x**2 - inner**2)
+    exact = np.abs(problem.x) * np.sqrt(np.maximum(product, 0.0)) / np.pi
+    presses = state.pressure > 0.0
+    assert presses.sum() == 22  # all nodes of both pieces but their edges
+    np.testing.assert_allclose(state.pressure[presses], exact[presses], atol=1e-3 * exact.max())
+    free = np.abs(problem.x) < inner - 1e-3
+    assert free.sum() >= 5
+    assert not state.pressure[free].any()
+    assert gap(problem, state)[free].min() > 0.0
+
+
+def test_zones_beside_free_ones_go_as_those_at_the_outer_edges_do():
+    free = State.FREE
+    whole = Layout(np.arange(5.0), np.array([PLUS, STICK, free, MINUS], dtype=np.int8))
+    fewer = [whole.without(number, keeps_stick=False) for number in range(4)]
+    assert [one.states.tolist() for one in fewer] == [
+        [STICK, free, MINUS],
+        [PLUS, free, MINUS],
+        [PLUS, STICK, MINUS],
+        [PLUS, STICK],
+    ]
+    places = [[0.0, 2.0, 3.0, 4.0], [0.0, 2.0, 3.0, 4.0], [0.0, 1.0, 2.5, 4.0], [0.0, 1.0, 2.0]]
+    assert [one.breaks.tolist() for one in fewer] == places
+    again = whole.parted(1.2, 1.4)
+    assert again.states.tolist() == [PLUS, STICK, free, STICK, free, MINUS]
+    assert again.without(2, keeps_stick=True).breaks.tolist() == whole.breaks.tolist()
+    assert whole.parted(0.5, 1.5) is None
+
+
 @pytest.mark.parametrize("off", [(-0.2, 0.2), (0.2, 0.1), (0.0, -0.3), (1e-3, 0.0)])
 def test_edges_are_found_again(off):
     """Newton's method: the distance is squared from mesh to mesh, down to that of the elements."""
@@ -168,14 +221,18 @@ def test_ends_of_a_short_zone_of_stick_between_slip_both_ways():
     np.testing.assert_allclose(moved.breaks[1:-1], breaks[1:-1], atol=1e-9)
 
 
-def test_layouts_are_of_zones_that_touch_with_stick_between_slip():
+def test_layouts_have_stick_between_slip_and_free_zones_between_pieces():
     zones = (ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, STICK))
     layout = Layout.of(zones)
     assert layout is not None
     assert layout.zones == zones
     assert layout.width == 2.0
     assert Layout.of(()) is None
-    assert Layout.of((ContactZone(-1.0, 0.0, STICK), ContactZone(0.1, 1.0, STICK))) is None
+    pieces = ContactZone(-1.0, 0.0, STICK), ContactZone(0.1, 1.0, STICK)
+    assert Layout.of(pieces).states.tolist() == [STICK, State.FREE, STICK]
+    assert Layout.of(pieces).zones == pieces
+    assert Layout.of(pieces).is_edge.all()
+    assert Layout.of((ContactZone(-1.0, 0.0, STICK), ContactZone(0.0, 1.0, STICK))) is None
     between = Layout.of((ContactZone(-1.0, 0.0, PLUS), ContactZone(0.0, 1.0, MINUS)))
     assert between.states.tolist() == [PLUS, STICK, MINUS]
     np.testing.assert_allclose(between.breaks, [-1.0, -0.1, 0.1, 1.0])

@@ -3,7 +3,7 @@
 from rollnip.contact.complementarity import Complementary, Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones, states_on
-from rollnip.contact.free_ends import GivenStates, HeldContact, Layout
+from rollnip.contact.free_ends import Layout
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
 from rollnip.contact.mesh import (
@@ -17,7 +17,7 @@ from rollnip.contact.mesh import (
     more_elements,
     subdivided,
 )
-from rollnip.contact.methods import Safeguarded
+from rollnip.contact.methods import GivenStates, HeldContact, Safeguarded
 from rollnip.contact.problem import (
     ContactProblem,
     ContactState,

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from rollnip.contact.problem import FREE, STICK, Array, ContactState, State, States
+from rollnip.contact.problem import FREE, STICK, Array, ContactState, Mask, State, States
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,7 +64,7 @@ def states_on(x: Array, zones: tuple[ContactZone, ...]) -> States:
     return out
 
 
-def runs(mask: Array) -> list[tuple[int, int]]:
+def runs(mask: Mask) -> list[tuple[int, int]]:
     """Return the first and last index of each run of True."""
     padded = np.concatenate([[False], mask, [False]])
     changes = np.flatnonzero(padded[1:] != padded[:-1])

@@ -1,5 +1,8 @@
 """Zones with given states and free ends: where the ends should be.
 
+Contact may be in pieces. Between two of them is a free zone: no traction acts there, and both of
+its ends are edges like the outer ones, where the pressure goes to zero as a square root.
+
 A zone that is too wide by delta leaves, to first order, delta/2 times an inverse square root in
 the tractions beside its end; one that is too narrow leaves the opposite. On nodes at cosine places
 that pattern is the same for every zone, in units of the first element: at short distance every
@@ -17,13 +20,11 @@ from math import copysign, inf, isfinite, sqrt
 
 import numpy as np
 
-from rollnip.contact.coupled import LinearSystem, next_slip, solve_states
 from rollnip.contact.features import ContactZone, transition
 from rollnip.contact.problem import (
     FREE,
     STICK,
     Array,
-    ContactProblem,
     ContactState,
     Indices,
     Mask,
@@ -47,7 +48,7 @@ _LONGEST_MOVE = 0.4  # of an end into a zone, over its length, where ends are as
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """The zones of one contact interval.
+    """The zones from the trailing to the leading edge; free ones lie between pieces of contact.
 
     Attributes
     ----------
@@ -60,37 +61,49 @@ class Layout:
 
     @classmethod
     def of(cls, zones: tuple[ContactZone, ...]) -> Layout | None:
-        """Return the layout of zones; None where they do not touch.
+        """Return the layout of zones, with free ones between those that do not touch.
 
-        Between slip one way and the other the surfaces stick: a short zone is put there.
+        Between slip one way and the other the surfaces stick: a short zone is put there. Return
+        None where neighbours are alike, or a zone has no length.
         """
         zones = _with_stick_between(zones)
         if not zones:
             return None
-        states = np.array([zone.state for zone in zones], dtype=np.int8)
-        layout = cls(np.array([zones[0].start, *(zone.stop for zone in zones)]), states)
-        touching = all(a.stop == b.start for a, b in pairwise(zones))
-        alike = any(a.state == b.state for a, b in pairwise(zones))
-        return layout if touching and not alike and layout.is_proper else None
+        breaks, states = [zones[0].start], []
+        for zone in zones:
+            if zone.start > breaks[-1]:
+                breaks.append(zone.start)
+                states.append(State.FREE)
+            breaks.append(zone.stop)
+            states.append(zone.state)
+        layout = cls(np.array(breaks), np.array(states, dtype=np.int8))
+        alike = any(a == b for a, b in pairwise(states))
+        return layout if not alike and layout.is_proper else None
 
     @classmethod
     def found(
-        cls, x: Array, state: ContactState, friction: float, edges: tuple[float, float]
+        cls,
+        x: Array,
+        state: ContactState,
+        friction: float,
+        *pieces: tuple[float, float],
     ) -> Layout | None:
-        """Return the layout of the states of nodes in one contact with known edges; None as above.
+        """Return the layout of the states of nodes, the edges of each piece known; None as above.
 
         Beyond the edges the pressure may be negative, and sticking nodes there do not count.
         """
         slack = friction * state.pressure - np.abs(state.shear)
-        touching = np.flatnonzero((state.states != FREE) & (x > edges[0]) & (x < edges[1]))
-        if touching.size == 0:
-            return None
-        first, last = touching[0], touching[-1]
-        changes = [i for i in range(first, last) if state.states[i] != state.states[i + 1]]
-        ends = [transition(x, slack, state.states, i) for i in changes]
-        breaks = [edges[0], *ends, edges[1]]
-        states = [State(int(state.states[i])) for i in (*changes, last)]
-        return cls.of(tuple(map(ContactZone, breaks[:-1], breaks[1:], states)))
+        zones: list[ContactZone] = []
+        for start, stop in pieces:
+            touching = np.flatnonzero((state.states != FREE) & (x > start) & (x < stop))
+            if touching.size == 0:
+                return None
+            first, last = touching[0], touching[-1]
+            changes = [i for i in range(first, last) if state.states[i] != state.states[i + 1]]
+            ends = [transition(x, slack, state.states, i) for i in changes]
+            states = [State(int(state.states[i])) for i in (*changes, last)]
+            zones += map(ContactZone, [start, *ends], [*ends, stop], states)
+        return cls.of(tuple(zones))
 
     @classmethod
     def around(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:
@@ -127,6 +140,12 @@ class Layout:
         return float(self.breaks[0]), float(self.breaks[-1])
 
     @property
+    def is_edge(self) -> Mask:
+        """Return which breaks are edges of a piece of the contact, not transitions, (m + 1,)."""
+        free = np.concatenate([[True], self.states == FREE, [True]])
+        return np.asarray(free[:-1] | free[1:])
+
+    @property
     def width(self) -> float:
         """Width of the contact [mm]."""
         return float(self.breaks[-1] - self.breaks[0])
@@ -153,7 +172,7 @@ class Layout:
         second order.
         """
         moves = np.abs(self.breaks - other.breaks)
-        moves[1:-1] *= 0.1
+        moves[~self.is_edge] *= 0.1
         return float(np.max(moves)) / other.width
 
     def towards(self, asked: Layout) -> Layout:
@@ -180,22 +199,35 @@ class Layout:
     def without(self, number: int, *, keeps_stick: bool) -> Layout | None:
         """Return the layout without one zone; None where slip both ways would be side by side.
 
+        What is beside an edge goes with its other end, and alike neighbours become one.
         ``keeps_stick``: whether one zone of stick must be left.
         """
-        breaks, states = self.breaks.tolist(), self.states.tolist()
-        if len(states) == 1:
+        breaks = [-inf, *self.breaks.tolist(), inf]
+        states = [int(FREE), *self.states.tolist(), int(FREE)]
+        before, state, after = states[number : number + 3]
+        del states[number + 1]
+        if self.states.size == 1:
             return None
-        if number in (0, len(states) - 1):
-            del states[number]
-            del breaks[1 if number == 0 else -2]
-        elif states[number - 1] == states[number + 1]:
-            del states[number : number + 2]
-            del breaks[number : number + 2]
+        if before == after:
+            del states[number + 1], breaks[number + 1 : number + 3]
+        elif FREE in (before, after):
+            del breaks[number + (2 if before == FREE else 1)]
+        elif state == FREE and STICK in (before, after):
+            breaks[number + 1 : number + 3] = [0.5 * sum(breaks[number + 1 : number + 3])]
         else:
             return None
         if keeps_stick and STICK not in states:
             return None
-        return Layout(np.array(breaks), np.array(states, dtype=np.int8))
+        return Layout(np.array(breaks[1:-1]), np.array(states[1:-1], dtype=np.int8))
+
+    def parted(self, start: float, stop: float) -> Layout | None:
+        """Return the layout with a free zone between two places [mm]; None unless in one zone."""
+        number = int(np.searchsorted(self.breaks, start)) - 1
+        if not (self.breaks[number] < start < stop < self.breaks[number + 1]):
+            return None
+        state = self.states[number]
+        breaks = np.insert(self.breaks, number + 1, [start, stop])
+        return Layout(breaks, np.insert(self.states, number + 1, [FREE, state]))
 
     def slipping_up_to(self, place: float, slip: State) -> Layout | None:
         """Return the layout with a zone of slip from a place [mm] to the nearer edge.
@@ -211,9 +243,10 @@ class Layout:
 
     @property
     def zones(self) -> tuple[ContactZone, ...]:
-        """Return the zones, from trailing to leading edge."""
+        """Return the zones in contact, from trailing to leading edge."""
         ends = zip(self.breaks[:-1], self.breaks[1:], self.states, strict=True)
-        return tuple(ContactZone(float(a), float(b), State(int(s))) for a, b, s in ends)
+        zones = (ContactZone(float(a), float(b), State(int(s))) for a, b, s in ends)
+        return tuple(zone for zone in zones if zone.state != FREE)
 
     def ends(self, x: Array) -> Indices:
         """Return the indices of the nodes at the breaks."""
@@ -226,7 +259,7 @@ class Layout:
         for start, stop, state in zip(ends[:-1], ends[1:], self.states, strict=True):
             slips = state != STICK
             out[start + (not slips) : stop + slips] = state
-        out[ends[0]] = out[ends[-1]] = FREE
+        out[ends[self.is_edge]] = FREE
         return out
 
     def moved(self, x: Array, state: ContactState, friction: float) -> Layout:
@@ -245,12 +278,13 @@ class Layout:
         # Plain numbers: there are three of each at a handful of breaks.
         nodes, pressure, shear = x.tolist(), state.pressure.tolist(), state.shear.tolist()
         signs, ends = shear_signs(self.states).tolist(), self.ends(x).tolist()
-        last = self.states.size
+        last, edges = self.states.size, self.is_edge.tolist()
         breaks = []
         for number, (place, end) in enumerate(zip(self.breaks.tolist(), ends, strict=True)):
-            is_edge = number in (0, last)
+            is_edge = edges[number]
             smooth = not is_edge and self.states[number - 1] == STICK
-            inwards = -1 if smooth or number == last else 1
+            leads = number == last or self.states[number] == FREE
+            inwards = -1 if smooth or leads else 1
             # In a short zone of stick the shear may change its sign.
             sign = 0 if is_edge else signs[number if smooth else number - 1]
             bound = 1.0 if is_edge else friction
@@ -273,7 +307,8 @@ def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ..
     out = list(zones[:1])
     for zone in zones[1:]:
         before = out[-1]
-        if STICK not in (before.state, zone.state) and before.state != zone.state:
+        slips = STICK not in (before.state, zone.state) and before.state != zone.state
+        if slips and before.stop == zone.start:
             reach = _STICK_BETWEEN * min(before.stop - before.start, zone.stop - zone.start)
             start, stop = before.stop - reach, zone.start + reach
             out[-1] = replace(before, stop=start)
@@ -314,53 +349,3 @@ def _determinant(a: _Three, b: _Three, c: _Three) -> float:
         + a[1] * (b[2] * c[0] - b[0] * c[2])
         + a[2] * (b[0] * c[1] - b[1] * c[0])
     )
-
-
-@dataclass(slots=True)
-class GivenStates:
-    """Solver of a contact problem whose states are given and kept.
-
-    It keeps its last linear system, for problems on the same mesh with other second-order terms.
-    """
-
-    _last: LinearSystem | None = None
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution for these states; whether they are right is checked later."""
-        last = self._last
-        if (
-            last is None
-            or last.problem.influence is not problem.influence
-            or not np.array_equal(last.states, states)
-        ):
-            last = self._last = LinearSystem.of(problem, states)
-        return last.solved(problem, settled=True)
-
-
-@dataclass(frozen=True, slots=True)
-class HeldContact:
-    """Solver of a contact problem whose contact set is given; stick and slip are found.
-
-    Parameters
-    ----------
-    max_steps : linear systems to solve at most.
-    rounding : as that of `CoupledActiveSet`.
-    """
-
-    max_steps: int = 12
-    rounding: float = 1e-11
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution on the contact set of ``states``, with stick and slip iterated.
-
-        Pressure may be negative and surfaces may overlap; this is checked later.
-        """
-        for step in range(1, self.max_steps + 1):
-            solution = solve_states(problem, states, steps=step, settled=True)
-            if step == self.max_steps:
-                break
-            wanted = next_slip(problem, solution, self.rounding)
-            if np.array_equal(wanted, states):
-                break
-            states = wanted
-        return solution

@@ -49,6 +49,8 @@ class Subdivision:
         where the zones are not those of a solution (states are sought node by node then).
     crowding : of each zone, see `cosine_nodes`.
     values : (M+1, N+1) values at them per value at the N+1 mesh nodes; None: the same nodes.
+    edges : numbers of nodes[1:-1] of the mesh at the trailing and leading edge of each piece of
+        the contact, in turn.
     acting : (M+1, N+1) likewise for tractions that act.
     means : (M-1, N) mean values between nodes[1:] per value at the nodes of the mesh but the first.
     """
@@ -59,6 +61,7 @@ class Subdivision:
     values: Array | None = None
     acting: Array | None = None
     means: Array | None = None
+    edges: tuple[int, ...] = ()
 
 
 def subdivided(
@@ -88,7 +91,8 @@ def subdivided(
     finer = _cosine_values(tuple(parts * n for n in counts), crowding)
     finer = finer @ nodes[[1, *_ends(counts)]]
     finer[0], finer[-1] = nodes[0], nodes[-1]
-    return Subdivision(finer, counts, crowding, values, acting, means)
+    edges = 0, nodes.size - 3
+    return Subdivision(finer, counts, crowding, values, acting, means, edges)
 
 
 def _ends(elements: tuple[int, ...]) -> list[int]:

@@ -1,4 +1,4 @@
-"""The solver of a whole contact problem: a coupled active set, and an interior point behind it."""
+"""Solvers of a contact problem: with states or the contact set given, or neither."""
 
 from __future__ import annotations
 
@@ -7,8 +7,64 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from rollnip.contact.complementarity import Inequalities, interior_point
-from rollnip.contact.coupled import CoupledActiveSet, next_states, solve_states
+from rollnip.contact.coupled import (
+    CoupledActiveSet,
+    LinearSystem,
+    next_slip,
+    next_states,
+    solve_states,
+)
 from rollnip.contact.problem import FREE, Array, ContactProblem, ContactState, States, unsolved
+
+
+@dataclass(slots=True)
+class GivenStates:
+    """Solver of a contact problem whose states are given and kept.
+
+    It keeps its last linear system, for problems on the same mesh with other second-order terms.
+    """
+
+    _last: LinearSystem | None = None
+
+    def solve(self, problem: ContactProblem, states: States) -> ContactState:
+        """Return the solution for these states; whether they are right is checked later."""
+        last = self._last
+        if (
+            last is None
+            or last.problem.influence is not problem.influence
+            or not np.array_equal(last.states, states)
+        ):
+            last = self._last = LinearSystem.of(problem, states)
+        return last.solved(problem, settled=True)
+
+
+@dataclass(frozen=True, slots=True)
+class HeldContact:
+    """Solver of a contact problem whose contact set is given; stick and slip are found.
+
+    Parameters
+    ----------
+    max_steps : linear systems to solve at most.
+    rounding : as that of `CoupledActiveSet`.
+    """
+
+    max_steps: int = 12
+    rounding: float = 1e-11
+
+    def solve(self, problem: ContactProblem, states: States) -> ContactState:
+        """Return the solution on the contact set of ``states``, with stick and slip iterated.
+
+        Pressure may be negative and surfaces may overlap; this is checked later.
+        """
+        for step in range(1, self.max_steps + 1):
+            solution = solve_states(problem, states, steps=step, settled=True)
+            if step == self.max_steps:
+                break
+            wanted = next_slip(problem, solution, self.rounding)
+            if np.array_equal(wanted, states):
+                break
+            states = wanted
+        return solution
 
 
 @dataclass(frozen=True, slots=True)

@@ -161,9 +161,13 @@ class Placing:
                 stand, shape, ends = self._renewed(other), None, Secants()
                 meshes = meshes if known else 0
             elif is_placed and not moves_on:
-                if self.search.pulls(latest):
+                if not self.search.pulls(latest):
+                    return _standing_at(asked, latest, stand, off)
+                parted = self.search.parted(latest, layout)
+                if parted is None or parted.key in tried:
                     return None
-                return _standing_at(asked, latest, stand, off)
+                tried.add(parted.key)
+                stand, shape, ends = self._renewed(SearchState(parted, latest)), None, Secants()
             else:
                 there = ends.next(layout, asked, is_still=latest.stands_still and is_quiet)
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
@@ -330,7 +334,9 @@ def _first_interface(roller: Roller) -> float:
 def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -> Mesh:
     """Make a mesh whose nodes lie at the ends of zones; ``shortest``: see `subdivided`."""
     nodes = cosine_nodes(layout.breaks, *shape)
-    return mesh_on(nodes, kernels, subdivided(nodes, *shape, shortest))
+    edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
+    fine = replace(subdivided(nodes, *shape, shortest), edges=tuple(edges))
+    return mesh_on(nodes, kernels, fine)
 
 
 def _standing_at(asked: Layout, latest: Round, stand: SearchState, off: float) -> SearchState:

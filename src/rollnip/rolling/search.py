@@ -12,10 +12,12 @@ from rollnip.contact import (
     Layout,
     State,
     States,
+    contact_intervals,
     creep,
     next_slip,
     next_states,
 )
+from rollnip.contact.features import runs
 from rollnip.contact.secants import Secants
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
@@ -124,13 +126,14 @@ class ZoneSearch:
         return next_slip(latest.problem, latest.state, slack) if whole else wanted
 
     def pulls(self, latest: Round) -> bool:
-        """Return whether surfaces in contact pull at each other, but in the elements at the edges.
+        """Return whether surfaces in contact pull at each other, but in the elements at edges."""
+        return bool(np.any(latest.pressure[~latest.mesh.is_beside_edge] < 0.0))
 
-        No other zones would mend it.
-        """
-        inner = latest.mesh.inner
-        between = (latest.x >= inner[1]) & (latest.x <= inner[-2])
-        return bool(np.any(latest.pressure[between] < 0.0))
+    def parted(self, latest: Round, layout: Layout) -> Layout | None:
+        """Return the zones with a free one where the surfaces pull hardest; None if not in one."""
+        lowest, pulls = int(np.argmin(latest.pressure)), latest.pressure < 0.0
+        first, last = next(run for run in runs(pulls) if run[0] <= lowest <= run[1])
+        return layout.parted(float(latest.x[first]), float(latest.x[last]))
 
     def between_edges(
         self, latest: Round, wanted: States | None, edges: Layout, geometry: Geometry
@@ -143,7 +146,8 @@ class ZoneSearch:
         found = _STICK_AND_SLIP.solve(latest.problem, given if wanted is None else wanted)
         if np.array_equal(found.states, given):
             return None
-        layout = Layout.found(latest.problem.x, found, self.nip.friction, edges.edges)
+        pieces = contact_intervals(edges.zones)
+        layout = Layout.found(latest.problem.x, found, self.nip.friction, *pieces)
         if layout is None:
             return None
         second = second_order(self.nip, geometry, latest.mesh, found)

@@ -192,9 +192,17 @@ class Mesh:
 
         ``pressure``: at nodes[1:-1] of the elements [MPa].
         """
-        x, inner = self.fine.nodes[1:-1], self.inner
-        edges = (x < inner[1]) | (x > inner[-2])
-        return bool(np.any(self.acting(pressure)[edges] < 0.0))
+        return bool(np.any(self.acting(pressure)[self.is_beside_edge] < 0.0))
+
+    @property
+    def is_beside_edge(self) -> NDArray[np.bool_]:
+        """Return which of the finer nodes lie in the element beside an edge, or beyond it."""
+        x, inner, edges = self.fine.nodes[1:-1], self.inner, self.fine.edges
+        out = np.zeros(x.size, dtype=bool)
+        for trailing, leading in zip(edges[::2], edges[1::2], strict=True):
+            out |= (x >= inner[trailing]) & (x < inner[trailing + 1])
+            out |= (x > inner[leading - 1]) & (x <= inner[leading])
+        return out
 
     def work(self, traction: Array, displacement: Array) -> float:
         """Return int t du of a traction at nodes[1:-1] and a displacement at nodes[1:]."""
@@ -318,8 +326,8 @@ def _influence(
         np.subtract(hoops[0] * zz_u, hoops[1] * zz_l, out=shorter[:, :n])
         np.subtract(-hoops[0] * xz_u, hoops[1] * xz_l, out=shorter[:, n:])
         out[n:] -= _integrated(nodes, fine, shorter)
-    if fine.acting is not None:  # the surfaces stick up to a leading edge at the last node
-        out[2 * n - 2, 2 * n - 2] *= 1.0 - CREEP_TO_EDGE
+    for leading in fine.edges[1::2]:  # the surfaces may stick up to it
+        out[n + leading - 1, n + leading - 1] *= 1.0 - CREEP_TO_EDGE
     return out
 
 

@@ -77,6 +77,13 @@ def test_whatever_was_asked_for_stands_among_the_results(case):
         assert name in {line.partition("  ")[2].split(" ")[0] for line in result_lines(row, name)}
 
 
+def test_find_refuses_a_second_result_rather_than_forget_the_first(case):
+    result = run(*ask(case), "--for", "peak_pressure=1 MPa")
+    assert result.exit_code == 2
+    assert result.stdout == ""
+    assert "--for: must be given once" in result.stderr
+
+
 def test_find_answers_in_the_unit_of_the_question_too(case):
     result = run(*ask(case, between=("100 pli", "10000 pli")))
     assert " pli." in result.stdout.splitlines()[0]

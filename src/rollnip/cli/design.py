@@ -35,7 +35,8 @@ def find(
     case: Annotated[str, _CASE],
     path: Annotated[str, typer.Argument(help="Path of the parameter, such as nip.load.")],
     wanted: Annotated[
-        str, typer.Option("--for", help='The wanted result: nip_width="8 mm".', metavar="RESULT")
+        list[str],
+        typer.Option("--for", help='The wanted result: nip_width="8 mm".', metavar="RESULT"),
     ],
     between: Annotated[
         tuple[str, str], typer.Option(help='Limits of the parameter: "1 N/mm" "20 N/mm".')
@@ -63,7 +64,7 @@ def find(
         from rollnip.design import find as search
         from rollnip.io.document import read_document
 
-        quantity, value = _parted(wanted)
+        quantity, value = _parted(_only(wanted))
         with named("--tolerance"):
             share = parse_quantity(tolerance, "ratio")
         tree = _with_geometry(read_document(case), geometry)
@@ -285,6 +286,16 @@ def _plain(cell: str | float | None) -> str | float | None:
     except ValueError:
         return cell
     return number if isfinite(number) else None
+
+
+def _only(wanted: list[str]) -> str:
+    """Return the one result that is wanted; one parameter cannot meet two."""
+    if len(wanted) > 1:
+        raise InvalidInputError(
+            f"--for: must be given once, got {' and '.join(wanted)}: one parameter meets one "
+            "result; `rollnip optimise` varies several within limits of others."
+        )
+    return wanted[0]
 
 
 def _parted(wanted: str) -> tuple[str, str]:

@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 from math import isfinite, nan
-from typing import Any, Literal
+from typing import Any
 
 from rollnip._errors import (
     ConvergenceError,
@@ -18,7 +18,7 @@ from rollnip.influence import KernelCache
 from rollnip.materials import Elastic, Material, Prony, StandardLinearSolid
 from rollnip.model import Model
 from rollnip.nip import Approach, LineLoad, Nip
-from rollnip.rollers import Roller
+from rollnip.rollers import SIDES, Roller, Side
 from rollnip.sheet import SheetSolution
 from rollnip.solver import geometry_for, solve
 
@@ -31,8 +31,6 @@ _OF_SHEET = {
     "tension_in": "tension at the inlet",
     "tension_out": "tension at the outlet",
 }
-_Side = Literal["upper", "lower"]
-_SIDES: tuple[_Side, ...] = ("upper", "lower")
 
 
 @dataclass(frozen=True, slots=True)
@@ -179,11 +177,11 @@ def _quantities(nip: Nip) -> Iterator[_Quantity]:
         value = getattr(sheet, name)
         if value > 0.0:
             yield words, f"sheet.{name}", value, partial(_with_sheet, nip, name)
-    for side in _SIDES:
+    for side in SIDES:
         yield from _of_roller(nip, side)
 
 
-def _of_roller(nip: Nip, side: _Side) -> Iterator[_Quantity]:
+def _of_roller(nip: Nip, side: Side) -> Iterator[_Quantity]:
     """Yield radius, thickness and modulus of one roller's covering."""
     roller = getattr(nip, side)
     if isfinite(roller.radius):
@@ -221,7 +219,7 @@ def _of_roller(nip: Nip, side: _Side) -> Iterator[_Quantity]:
     )
 
 
-def _with(nip: Nip, side: _Side, **given: Any) -> Nip:
+def _with(nip: Nip, side: Side, **given: Any) -> Nip:
     roller: Roller = replace(getattr(nip, side), **given)
     return replace(nip, upper=roller) if side == "upper" else replace(nip, lower=roller)
 

@@ -26,6 +26,7 @@ from rollnip.interior import (
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, texts
+from rollnip.rollers import Side
 from rollnip.rolling import (
     DeformedSurfaces,
     Powers,
@@ -240,7 +241,7 @@ class Solution(Presented, ABC):
 
     def interior(
         self,
-        roller: Literal["upper", "lower"],
+        roller: Side,
         z: ArrayLike,
         x: ArrayLike | None = None,
         *,
@@ -282,7 +283,7 @@ class Solution(Presented, ABC):
             beyond=self._beyond(roller),
         )
 
-    def heat_below(self, roller: Literal["upper", "lower"], z: ArrayLike) -> Array | None:
+    def heat_below(self, roller: Side, z: ArrayLike) -> Array | None:
         """Return the power lost inside a roller below some depths; None without speed.
 
         Parameters
@@ -318,7 +319,7 @@ class Solution(Presented, ABC):
             found += interface_stresses(name, roller, *given)
         return found
 
-    def is_finite_inside(self, roller: Literal["upper", "lower"]) -> bool:
+    def is_finite_inside(self, roller: Side) -> bool:
         """Return whether `interior` gives fields of finite strain there, or of linear theory."""
         return self._beyond(roller) is not None
 

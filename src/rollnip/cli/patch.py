@@ -16,7 +16,7 @@ from rollnip.cli.options import Force
 if TYPE_CHECKING:
     from rollnip.io.patch_case import PatchCase
     from rollnip.patch import PatchSolution
-    from rollnip.patch.depth import Side
+    from rollnip.rollers import Side
 
 patch = typer.Typer(
     name="patch",

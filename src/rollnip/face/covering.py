@@ -19,14 +19,13 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError
 from rollnip.materials import with_stiffness
 from rollnip.nip import Nip
-from rollnip.rollers import Layer, Roller
+from rollnip.rollers import Layer, Roller, Side
 
 Array = NDArray[np.float64]
-Name = Literal["upper", "lower"]
 What = Literal["thickness", "stiffness"]
-Key = tuple[Name, What]
+Key = tuple[Side, What]
 
-_ROLLERS: tuple[Name, Name] = ("upper", "lower")
+_ROLLERS: tuple[Side, Side] = ("upper", "lower")
 _NODES = 3  # of an axis to begin with
 _MOST_NODES = 9
 
@@ -118,7 +117,7 @@ class CoveringAxis:
 
     @property
     def name(self) -> str:
-        """Name of its interpolation error: "upper_thickness"."""
+        """Side of its interpolation error: "upper_thickness"."""
         return "_".join(self.key)
 
     @property

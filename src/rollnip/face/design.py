@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import inf, sqrt
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +19,10 @@ from rollnip.face.solution import FaceSolution
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip, Traction
+from rollnip.rollers import Side
 from rollnip.shafts import LARGEST_SKEW, Crown, CrownTable, Face, skew_of_crown
 
 Array = NDArray[np.float64]
-Name = Literal["upper", "lower"]
 AnyLaw = NipLaw | SheetLaw
 
 _PLACES = 65
@@ -49,7 +48,7 @@ class EvenCrown(Sealed):
     skewed : the face with that skew and a straight roller; None where there is none.
     """
 
-    roller: Name
+    roller: Side
     y: Array
     diameter: Array
     height: float
@@ -68,7 +67,7 @@ def even_crown(
     face: Face,
     model: Model | None = None,
     *,
-    roller: Name = "upper",
+    roller: Side = "upper",
     cache: KernelCache | None = None,
     rows: NipRows | None = None,
 ) -> EvenCrown:
@@ -167,7 +166,7 @@ def _skewed(
     return skew, solve_face(straight, replace(face, skew=both), model, law=law)
 
 
-def with_crown(nip: Nip, roller: Name, crown: Crown | CrownTable) -> Nip:
+def with_crown(nip: Nip, roller: Side, crown: Crown | CrownTable) -> Nip:
     """Return the nip with another crown on one roller."""
     one = nip.upper if roller == "upper" else nip.lower
     assert one.shaft is not None
@@ -263,7 +262,7 @@ class PlainWall:
     solid : largest departure with a solid core.
     """
 
-    roller: Name
+    roller: Side
     within: float
     bore: float | None
     wall: float | None
@@ -276,7 +275,7 @@ def plain_wall(
     model: Model | None = None,
     *,
     within: float = 0.1,
-    roller: Name = "upper",
+    roller: Side = "upper",
     law: AnyLaw | None = None,
 ) -> PlainWall:
     """Return the thinnest wall of one roller's core with which it needs no crown.

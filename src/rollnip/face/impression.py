@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.special import chdtrc, ndtri
 
 from rollnip._errors import InvalidInputError, require_positive
-from rollnip.face.design import AnyLaw, Name, with_crown
+from rollnip.face.design import AnyLaw, with_crown
 from rollnip.face.figures import IMPRESSION_FIGURES
 from rollnip.face.find import solve_face
 from rollnip.face.law import NipLaw
@@ -24,6 +24,7 @@ from rollnip.face.rows import NipRows
 from rollnip.face.solution import FaceSolution
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
+from rollnip.rollers import Side
 from rollnip.shafts import Crown, Face
 
 Array = NDArray[np.float64]
@@ -134,7 +135,7 @@ def read_impressions(
     unknowns: Sequence[Unknown] = ("crown", "tilt"),
     model: Model | None = None,
     *,
-    roller: Name = "upper",
+    roller: Side = "upper",
     rows: NipRows | None = None,
 ) -> ImpressionReading:
     """Fit loads, crown, tilt or modulus to measured nip widths.
@@ -243,7 +244,7 @@ def _faces(
     loads: list[float],
     named: dict[str, float],
     load_is_unknown: bool,
-    roller: Name,
+    roller: Side,
     model: Model | None,
     law: NipLaw,
 ) -> list[FaceSolution]:

@@ -10,7 +10,7 @@ from rollnip.heat.conduction import Sources
 from rollnip.heat.growth import radial_growth
 from rollnip.heat.nip_exchange import Exchange
 from rollnip.heat.solution import HeatSolution
-from rollnip.heat.state import SIDES, Side
+from rollnip.rollers import SIDES, Side
 from rollnip.shafts import CrownTable
 
 Array = NDArray[np.float64]

@@ -21,8 +21,8 @@ from rollnip.heat.figures import (
 )
 from rollnip.heat.follow import Branch, BranchPoint
 from rollnip.heat.solution import HeatSolution, RollerHeat
-from rollnip.heat.state import SIDES
 from rollnip.heat.warmup import WarmUp
+from rollnip.rollers import SIDES
 from rollnip.solution import Solution
 
 _SWEPT = ("hot_spot", "bond_temperature", "surface_temperature", "power", "growth")

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from dataclasses import replace
 
-from rollnip.heat.state import SIDES
 from rollnip.heat.warm import Divided
 from rollnip.reservation import Reservation
+from rollnip.rollers import SIDES
 from rollnip.validity import THIN_TOP_LAYER
 
 

@@ -14,10 +14,11 @@ from rollnip.cooling import HeatBalance
 from rollnip.heat.conduction import Conduction, Outflow
 from rollnip.heat.figures import COURSES, TEMPERATURE
 from rollnip.heat.grid import RadialGrid
-from rollnip.heat.state import SIDES, Side, ThermalState
+from rollnip.heat.state import ThermalState
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, texts
+from rollnip.rollers import SIDES, Side
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]

@@ -18,13 +18,12 @@ from rollnip.heat.warm import Divided, Growth, divided, follows, growths, undivi
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import LineLoad, Nip
+from rollnip.rollers import SIDES, Side
 from rollnip.solution import Solution
 from rollnip.solver import solve
 
 Array = NDArray[np.float64]
-Side = Literal["upper", "lower"]
 Parameter = Literal["speed", "load"]
-SIDES: tuple[Side, Side] = ("upper", "lower")
 
 
 @dataclass(frozen=True)

@@ -17,13 +17,14 @@ from rollnip.heat.figures import PARAMETERS, RISE, TEMPERATURE
 from rollnip.heat.follow import Branch, follow
 from rollnip.heat.reservations import of_whole_layers
 from rollnip.heat.solution import HeatSolution
-from rollnip.heat.state import SIDES, HeatProblem, Parameter, ThermalState
+from rollnip.heat.state import HeatProblem, Parameter, ThermalState
 from rollnip.heat.warm import Divided, follows
 from rollnip.influence import KernelCache
 from rollnip.materials import LossFactor
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation
+from rollnip.rollers import SIDES
 
 Array = NDArray[np.float64]
 

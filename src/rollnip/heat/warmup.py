@@ -22,11 +22,12 @@ from rollnip.heat.conduction import Conduction
 from rollnip.heat.figures import RISE
 from rollnip.heat.nip_exchange import Exchange
 from rollnip.heat.solution import HeatSolution, bond_temperature, profile
-from rollnip.heat.state import SIDES, HeatProblem, Side, ThermalState
+from rollnip.heat.state import HeatProblem, ThermalState
 from rollnip.heat.steady import solve_heat
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Nip
+from rollnip.rollers import SIDES, Side
 
 Array = NDArray[np.float64]
 

@@ -5,17 +5,17 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any, ClassVar, Literal, Self
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.figures import FIGURES
+from rollnip.rollers import Side
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
-Roller = Literal["upper", "lower"]
 
 
 class Cost(ABC):
@@ -243,7 +243,7 @@ class RollingResistances(Scalars):
 class _OfOneRoller(Scalars):
     """A figure that either roller has."""
 
-    roller: Roller = "upper"
+    roller: Side = "upper"
 
     def __post_init__(self) -> None:
         check_roller(self.roller)

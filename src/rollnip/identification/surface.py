@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from rollnip._errors import InvalidInputError
-from rollnip.identification.costs import Array, Measurements, Roller, check_roller
+from rollnip.identification.costs import Array, Measurements, check_roller
 from rollnip.lda import SpeedProfile, VelocityProfile, compare
+from rollnip.rollers import Side
 from rollnip.solution import Solution
 
 
@@ -31,7 +32,7 @@ class SurfaceMeasurements(Measurements):
         see `Measurements`.
     """
 
-    roller: Roller = "upper"
+    roller: Side = "upper"
     width: float = 0.0
 
     def __post_init__(self) -> None:

@@ -27,7 +27,7 @@ def case_parts(along: FaceSolution | None, warm: HeatSolution | None) -> dict[st
         return {}
     from rollnip.face.report import face_parts
     from rollnip.heat.report import heat_parts
-    from rollnip.heat.state import SIDES
+    from rollnip.rollers import SIDES
 
     if warm is None:
         return {} if along is None else face_parts(along)

@@ -15,10 +15,11 @@ from rollnip._files import check_target, write_whole
 from rollnip.figures import FIELDS, INTERFACE_FIGURES
 from rollnip.io.netcdf import require_netcdf, write_netcdf
 from rollnip.io.paraview import rectilinear
-from rollnip.patch.depth import STRESSES, PatchStress, Side
+from rollnip.patch.depth import STRESSES, PatchStress
 from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES, PATCH_PLACES
 from rollnip.patch.report import fields_of, patch_dict
 from rollnip.patch.solution import PatchSolution
+from rollnip.rollers import Side
 
 SUFFIXES = (".json", ".nc", ".vtr")
 STRESS_SUFFIXES = (".nc", ".vtr")

@@ -11,9 +11,10 @@ from rollnip.lda.frequency import (
     window_penalty,
 )
 from rollnip.lda.instrument import Instrument, fringe_spacing
-from rollnip.lda.scan import Scan, Seeding, Side, simulate_scan, surface_speed
+from rollnip.lda.scan import Scan, Seeding, simulate_scan, surface_speed
 from rollnip.lda.statistics import VelocityProfile, estimate_profile, profile_from_means
 from rollnip.lda.volume import SpeedProfile
+from rollnip.rollers import Side
 
 __all__ = [
     "Burst",

@@ -11,9 +11,9 @@ from scipy.optimize import minimize_scalar
 from scipy.stats import chi2, t
 
 from rollnip._errors import InvalidInputError, require_not_negative, require_positive
-from rollnip.lda.scan import Side
 from rollnip.lda.statistics import VelocityProfile
 from rollnip.lda.volume import SpeedProfile
+from rollnip.rollers import Side
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,10 +12,10 @@ from rollnip.lda.bursts import Record, synthesise
 from rollnip.lda.detection import detect_bursts
 from rollnip.lda.instrument import Instrument
 from rollnip.lda.volume import SpeedProfile
+from rollnip.rollers import Side
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
-Side = Literal["upper", "lower"]
 
 _MOST = 2000  # positions
 _LONGEST = 20_000_000  # samples in a record

@@ -15,7 +15,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from math import inf
-from typing import Literal, Protocol
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,10 +27,9 @@ from rollnip.compliance import flat_fields, shear_fields
 from rollnip.patch.coefficients import Array, Grid
 from rollnip.patch.memory import roller_stack
 from rollnip.patches import Patch
-from rollnip.rollers import Roller
+from rollnip.rollers import Roller, Side
 
 ComplexArray = NDArray[np.complex128]
-Side = Literal["upper", "lower"]
 
 
 class PatchResult(Protocol):

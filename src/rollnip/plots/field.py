@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.figures import INTERFACE_FIGURES, PROFILES
-from rollnip.plots.section import QUANTITIES, Name, Piece, Scale, roller_of, section_pieces
+from rollnip.plots.section import QUANTITIES, Piece, Scale, roller_of, section_pieces
 from rollnip.plots.style import (
     Look,
     PageLayout,
@@ -29,6 +29,7 @@ from rollnip.plots.style import (
     require_choice,
     title,
 )
+from rollnip.rollers import Side
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
@@ -111,7 +112,7 @@ def plot_field(
     return ax
 
 
-def _theory(solution: Solution, names: tuple[Name, ...], component: str) -> str:
+def _theory(solution: Solution, names: tuple[Side, ...], component: str) -> str:
     """Return whether what is drawn in geometry "finite" is of finite strain."""
     if solution.model.geometry != "finite":
         return ""
@@ -126,14 +127,14 @@ def _theory(solution: Solution, names: tuple[Name, ...], component: str) -> str:
 
 def _checked(
     solution: Solution, component: str, rollers: str, scale: str, limit: float | None
-) -> tuple[Name, ...]:
+) -> tuple[Side, ...]:
     """The rollers to draw; InvalidInputError for what cannot be drawn."""
     require_choice("component", component, tuple(QUANTITIES))
     require_choice("rollers", rollers, ("both", "upper", "lower"))
     require_choice("scale", scale, ("stretched", "equal"))
     if limit is not None:
         require_positive("limit", limit)
-    both: tuple[Name, ...] = ("upper", "lower")
+    both: tuple[Side, ...] = ("upper", "lower")
     names = tuple(name for name in both if rollers in ("both", name))
     if all(roller_of(solution, name).is_rigid for name in names):
         raise InvalidInputError(

@@ -13,9 +13,9 @@ from rollnip.figures import INTERFACE_FIGURES
 from rollnip.heat import Branch, BranchPoint, HeatSolution, WarmUp
 from rollnip.heat.figures import COURSES, PARAMETERS, ROLLER_FIGURES
 from rollnip.plots.style import Palette, Style, palette_of
+from rollnip.rollers import SIDES
 
 _WIDTH, _HEIGHT = 9.0, 3.4  # inches, of one picture
-_SIDES = ("upper", "lower")
 _HOT = ROLLER_FIGURES["hot_spot"]
 
 
@@ -76,7 +76,7 @@ def _color(palette: Palette, side: str) -> str:
 def _depth(ax: Axes, solution: HeatSolution, palette: Palette) -> None:
     """Draw temperatures over the depth below each surface; bonds and hot spots are marked."""
     ax.set_title("temperature below the surface", loc="left", size=10, color=palette.ink)
-    for side, roller in zip(_SIDES, (solution.upper, solution.lower), strict=True):
+    for side, roller in zip(SIDES, (solution.upper, solution.lower), strict=True):
         color = _color(palette, side)
         if roller.r.size == 1:
             ax.axhline(

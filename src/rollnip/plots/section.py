@@ -13,11 +13,10 @@ from numpy.typing import NDArray
 from rollnip.figure import Figure
 from rollnip.figures import FIELDS, PROFILES
 from rollnip.materials import Material
-from rollnip.rollers import Roller
+from rollnip.rollers import Roller, Side
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
-Name = Literal["upper", "lower"]
 Scale = Literal["stretched", "equal"]
 
 _ROWS, _FEWEST = 44, 7  # depths in all layers of a roller, and in each at least
@@ -48,7 +47,7 @@ class FieldComponent:
 
     @property
     def label(self) -> str:
-        """Name of the component, with its key where that is its symbol, and the unit."""
+        """Side of the component, with its key where that is its symbol, and the unit."""
         name = self.upwards or self.figure.label
         return self.figure.axis_for(f"{name}, {self.figure.key}" if self.figure.symbol else name)
 
@@ -78,7 +77,7 @@ class Piece:
     ``values`` is None for what does not deform. ``text`` says what it is.
     """
 
-    name: Name
+    name: Side
     x: Array
     y: Array
     values: Array | None
@@ -86,7 +85,7 @@ class Piece:
 
 
 def section_pieces(
-    solution: Solution, names: tuple[Name, ...], component: str, scale: Scale, window: float
+    solution: Solution, names: tuple[Side, ...], component: str, scale: Scale, window: float
 ) -> list[Piece]:
     """Pieces of the rollers, from the surface down for each, the upper one first.
 
@@ -113,12 +112,12 @@ def section_pieces(
     return pieces
 
 
-def roller_of(solution: Solution, name: Name) -> Roller:
+def roller_of(solution: Solution, name: Side) -> Roller:
     """The roller of that name."""
     return solution.nip.upper if name == "upper" else solution.nip.lower
 
 
-def _faces(solution: Solution, name: Name) -> list[float]:
+def _faces(solution: Solution, name: Side) -> list[float]:
     """Depths between which something deforms and is shown [mm]."""
     roller = roller_of(solution, name)
     faces = [0.0, *roller.interfaces]
@@ -193,14 +192,14 @@ class _RollerPlace:
     of the top of its undeformed surface.
     """
 
-    name: Name
+    name: Side
     sign: float
     curvature: float
     round: bool
     lift: float = 0.0
 
     @classmethod
-    def of(cls, solution: Solution, name: Name, scale: Scale) -> _RollerPlace:
+    def of(cls, solution: Solution, name: Side, scale: Scale) -> _RollerPlace:
         """Frame of a roller; rounded, its surface lies where the solution's does at the peak."""
         sign = 1.0 if name == "upper" else -1.0
         frame = cls(name, sign, roller_of(solution, name).curvature, scale == "equal")

@@ -96,7 +96,7 @@ def said(tree):
 
 def test_messages_of_heat_and_warnings_of_a_face_read_the_registry():
     errors = {"heat/grid.py", "heat/state.py"}  # they quote inputs, which have base units
-    names = ("notes", "sheet_solution", "solution", "report")
+    names = ("reservations", "sheet_solution", "solution", "report")
     warnings = [
         (name, line, text)
         for name in names

@@ -310,6 +310,6 @@ def test_where_there_is_no_equilibrium_the_second_order_is_solved_and_said(monke
     assert found.model.geometry == "second"
     assert found.approach == second.approach
     assert found.warnings[0] == (
-        'No solution of geometry "finite" was found with this sheet: its zones or its terms beyond '
-        'the linear ones did not come to rest. All figures are those of geometry "second".'
+        'No solution of geometry "finite" was found: its zones or its terms beyond the linear ones '
+        'did not come to rest. All figures are those of geometry "second".'
     )

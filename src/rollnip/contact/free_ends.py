@@ -38,7 +38,7 @@ from rollnip.contact.problem import (
 # Measured on a parabola pressed on a half-plane (tests).
 _RESPONSE = (-0.6831, -0.1132, -0.0597)
 
-_ROUNDING = 1e-9  # length of a zone over the width of the contact, at least
+_ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 _SHORTEST = 1e-4  # likewise, of a zone found node by node
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
 _STICK_BETWEEN = 0.1

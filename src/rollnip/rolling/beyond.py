@@ -22,6 +22,7 @@ from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.assemble import second_order
+from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, WeightedSum
@@ -39,7 +40,6 @@ _COMPARED = 65  # places at which they are compared
 MOST_CORRECTIONS = 30  # of the correction and the contact
 _ENOUGH = 0.3  # violation of the contact conditions, or last change, over the tolerance
 SMALL = 0.1  # change of a turn from which it may be the last one
-_LARGEST_RATIO = 0.9  # of changes
 _MOST_AFRESH = 10  # turns that are solved from the beginning
 # Of the wave numbers: with all of them turns may not come to rest beside an edge that slips at
 # strains of two and more. Which cut they need is not known before; what it costs is claimed.
@@ -250,14 +250,6 @@ def _with_cut(
     uncut = replace(kernels, held=kernels.held.uncut)
     cut = with_residual(nip, model, uncut, _with(checked, uncut)).residual
     return kernels, replace(checked, cut=cut)
-
-
-def to_come_after(change: float, before: float) -> float:
-    """Return the sum of all changes to come, as a geometric series; inf after the first."""
-    if before == inf:
-        return inf
-    ratio = min(change / before, _LARGEST_RATIO) if before > 0.0 else 0.0
-    return change * ratio / (1.0 - ratio)
 
 
 def _with(latest: Round, kernels: PairKernels) -> Round:

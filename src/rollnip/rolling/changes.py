@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from math import inf
 
 import numpy as np
 
 from rollnip.rolling.surfaces import Array
 
 _SAFETY_FACTOR = 1.5  # on an error of second order from two meshes; first order is cautious enough
+_LARGEST_RATIO = 0.9  # of changes in succession: a series of them must have a sum
 ROUNDING = float(np.sqrt(np.finfo(float).eps))
 """Relative difference up to which two numbers that have been computed count as equal."""
 
@@ -53,3 +55,11 @@ def share_left(counts: Array, order: Array) -> Array:
     """Return the error of the finer of two meshes over the difference of the two."""
     safety = np.where(order > 1.0, _SAFETY_FACTOR, 1.0)
     return np.asarray(safety / ((counts[1] / counts[0]) ** order - 1.0))
+
+
+def to_come_after(change: float, before: float) -> float:
+    """Return the sum of all changes to come, as a geometric series; inf after the first."""
+    if before == inf:
+        return inf
+    ratio = min(change / before, _LARGEST_RATIO) if before > 0.0 else _LARGEST_RATIO
+    return change * ratio / (1.0 - ratio)

@@ -22,6 +22,7 @@ from rollnip.contact import (
     elements_of_zones,
     subdivided,
 )
+from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE
 from rollnip.contact.problem import Indices
 from rollnip.contact.secants import Secants
 from rollnip.influence import has_stiff_skin
@@ -34,6 +35,8 @@ from rollnip.rolling.assemble import (
     has_no_second_order,
     second_order,
 )
+from rollnip.rolling.changes import to_come_after
+from rollnip.rolling.estimates import as_cosines, least_error
 from rollnip.rolling.round import Round
 from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
 from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
@@ -52,17 +55,11 @@ _MOST_MESHES = 8
 # Meshes more for the edges of a single zone with boundary layers: outside of these a solution says
 # only which way an edge should go, and the way between the last two is halved.
 _MOST_HALVINGS = 6
-MOST_ZONES = 12  # whose ends are sought; solutions that are verified have up to nine
 _NEARLY_PLACED = 0.008  # over the width of the contact
 _HARDLY_MOVED = 0.001  # likewise
 _WEAKEST_CONTRACTION = 0.7  # of how far ends are off, from mesh to mesh of a turn
-# Of the tolerance: what an end of a zone may be off, over the width of the contact.
-_PLACEMENT_TOLERANCE = 0.1
-COARSE_PLACEMENT_FACTOR = 3.0  # times `_PLACEMENT_TOLERANCE` on the first size of mesh
-_LARGEST_SERIES_RATIO = 0.9
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
-_TINY = float(np.finfo(float).tiny)
 
 
 # Elements in each zone and how they crowd there.
@@ -125,8 +122,6 @@ class Placing:
         # The second order held so far is that of a coarser mesh: each size evaluates it anew.
         stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
         loosely = self.kernels.is_fixed and not known
-        placed = _PLACEMENT_TOLERANCE * self.model.tolerance
-        placed *= COARSE_PLACEMENT_FACTOR if loosely else 1.0
         shape: Shape | None = None
         ends, meshes = Secants(), 0
         tried: set[bytes] = set()
@@ -143,6 +138,7 @@ class Placing:
             # Transitions that come from a guess will move again, whatever the second order.
             hasty = loosely and off > _NEARLY_PLACED and layout.states.size > 1
             most = 1 if hasty else MOST_TURNS
+            placed = self.most_off(shape)
             latest, asked = self._solved_on(stand, shape, placed, most)
             off = asked.distance(layout)
             known_to = min(known_to, off)
@@ -188,7 +184,7 @@ class Placing:
             layout, before = stand.layout, off
             latest, asked = self._solved_on(stand, shape, 0.0, MOST_TURNS)
             off = asked.distance(layout)
-            is_placed = off <= _PLACEMENT_TOLERANCE * self.model.tolerance
+            is_placed = off <= self.most_off(shape)
             if (
                 not asked.is_proper
                 or self.search.wanted(latest, layout, whole=is_placed) is not None
@@ -234,6 +230,15 @@ class Placing:
         rollers = self.nip.upper, self.nip.lower
         return min(_incompressible(roller) for roller in rollers if not roller.is_rigid)
 
+    def most_off(self, shape: Shape) -> float:
+        """Return how far ends of zones may be off, over the width, on a mesh with so many elements.
+
+        By the least error that is claimed with them, so that two sizes differ by what these know;
+        where each mesh evaluates the second order anew, not by less than that is at rest to.
+        """
+        least = least_error(as_cosines(*shape))
+        return least if self.kernels.is_fixed else max(least, STILL * self.model.tolerance)
+
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
@@ -250,9 +255,7 @@ class Placing:
         second = second_order(self.nip, self.model.geometry, mesh, before.state)
         change = change_of(second, before.second, mesh, self.nip, before.state)
         change /= self.model.tolerance
-        # Changes shrink by a ratio; those to come add up as a geometric series.
-        ratio = min(change / max(stand.change, _TINY), _LARGEST_SERIES_RATIO)
-        expected = inf if stand.change == inf else change * ratio / (1.0 - ratio)
+        expected = to_come_after(change, stand.change)
         return SearchState(
             stand.layout, replace(before, mesh=mesh, second=second), change, expected
         )
@@ -295,7 +298,12 @@ class Placing:
 
 def _can_be_placed(layout: Layout) -> bool:
     """Return whether zones have a length, and are not so many that they only tell of errors."""
-    return layout.is_proper and layout.states.size <= MOST_ZONES
+    return layout.is_proper and not are_too_many(layout.states.size)
+
+
+def are_too_many(zones: int) -> bool:
+    """Return whether the least shares of so many zones exceed a mesh; errors make so many."""
+    return zones * LEAST_SHARE_OF_A_ZONE > 1.0
 
 
 def boundary_layer(nip: Nip) -> float:

@@ -13,7 +13,7 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess, second_order
 from rollnip.rolling.estimates import Size, sized, with_errors, with_further_errors
 from rollnip.rolling.free_ends import is_verified, with_free_ends
-from rollnip.rolling.placing import MOST_ZONES, Placing
+from rollnip.rolling.placing import Placing, are_too_many
 from rollnip.rolling.round import Round, has_grip
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import (
@@ -145,7 +145,7 @@ def _on_one(placing: Placing, half_width: float, count: int, before: Round | Non
         around = Layout.around(Layout.sticking(half_width).zones, 3.0 * _ROOM * half_width)
     else:
         zones = before.zones
-        if len(zones) > MOST_ZONES:  # errors make them: the mesh is dense at both edges only
+        if are_too_many(len(zones)):  # the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
         around = Layout.around(zones, _ROOM * before.figures.nip_width)
     mesh = placing.mesh_around(around, count, holding(kernels, before))

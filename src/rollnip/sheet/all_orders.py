@@ -27,8 +27,8 @@ from rollnip.rolling.beyond import (
     Past,
     even_places,
     places_by_the_edges,
-    to_come_after,
 )
+from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders

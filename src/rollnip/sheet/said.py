@@ -33,15 +33,14 @@ def relative_errors(solution: SheetSolution) -> dict[str, float]:
     against the sheet, is the largest. On the lower roller a sheet that bends has a width and a
     highest pressure of its own.
     """
-    figures, sheet = solution.refined.figures, solution.sheet
+    figures, errors = solution.refined.figures, solution.sheet_errors()
     sizes = dict(zip(NAMES, scales(solution.nip, figures).tolist(), strict=True))
     own = [name for name in not_prescribed(solution.nip) if name != "creepage"]
     out = {WORDS[name]: solution.error[name] / sizes[name] for name in own}
-    sides = [sheet.error[name] / sizes[name] for name in ("creepage_upper", "creepage_lower")]
+    sides = [errors[name] / sizes[name] for name in ("creepage_upper", "creepage_lower")]
     out["creepages"] = max(solution.error["creepage"] / sizes["creepage"], *sides)
-    if sheet.bends:
-        for name in ("nip_width", "peak_pressure"):
-            below = f"{name}_lower"
-            error = sheet.error[below] / getattr(sheet, below)
-            out[f"{WORDS[name]} on the lower roller"] = error
+    if solution.bends:
+        names = ("nip_width", "peak_pressure")
+        for name, size in zip(names, solution.on_lower_side, strict=True):
+            out[f"{WORDS[name]} on the lower roller"] = errors[f"{name}_lower"] / size
     return {name: float(error) for name, error in out.items() if isfinite(error)}

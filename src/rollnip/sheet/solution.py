@@ -190,12 +190,12 @@ class SheetSolution(SmoothSolution):
             slip_share_lower=slip_share_of(self._zones(1)),
             zones_lower=self._zones(1),
             bending_length=bending_length(self.nip),
-            bends=self._bends,
-            nip_width_lower=self._lower[0],
-            peak_pressure_lower=self._lower[1],
+            bends=self.bends,
+            nip_width_lower=self.on_lower_side[0],
+            peak_pressure_lower=self.on_lower_side[1],
             grip=grip_of(self.nip, pressed, pulls, self._sliding()),
             profiles=self._sheet_profiles(),
-            error=self._sheet_errors(),
+            error=self.sheet_errors(),
         )
 
     def _sheet_profiles(self) -> SheetProfiles:
@@ -208,21 +208,21 @@ class SheetSolution(SmoothSolution):
         return SheetProfiles(x, lower, tension, strain, self._slip(1), pressure, height)
 
     @property
-    def _bends(self) -> bool:
+    def bends(self) -> bool:
         """Whether the sheet's stiffness against bending is counted."""
         return False
 
     @property
-    def _lower(self) -> tuple[float, float]:
+    def on_lower_side(self) -> tuple[float, float]:
         """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
         return self.nip_width, self.peak_pressure
 
     @property
     def _lower_errors(self) -> tuple[float, float]:
-        """Estimated errors of ``_lower``."""
+        """Estimated errors of ``on_lower_side``."""
         return self._errors["nip_width"], self._errors["peak_pressure"]
 
-    def _sheet_errors(self) -> dict[str, float]:
+    def sheet_errors(self) -> dict[str, float]:
         """Return the errors of the figures of the sheet, by their names."""
         mine, state, half = self._errors, self._state, 0.5 * self.creepage
         speed = nan if self.nip.speed is None else self.nip.speed
@@ -264,12 +264,12 @@ class SheetSolution(SmoothSolution):
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, none less than what the model's own order leaves open."""
-        shares = shares_of_model(self.model.geometry, self._bends)
+        shares = shares_of_model(self.model.geometry, self.bends)
         for name in ("creepage_upper", "creepage_lower"):
             shares[NAMES.index(name)] = max(shares[NAMES.index(name)], self.final.cut)
         least = shares * scales(self.nip, figures)
         sheet = self.nip.sheet
-        if sheet is not None and sheet.bending is None and not self._bends:
+        if sheet is not None and sheet.bending is None and not self.bends:
             edges = self.refined.stand.zones.edges
             wrapped = wrapped_length(self.nip, self.deformed_surfaces, edges)
             least += left_by_bending_freely(self.nip, figures, wrapped)

@@ -157,6 +157,9 @@ class Spread:
         """Return ``tails`` from some places on, (4, m, n); exact."""
         nodes = self.nodes
         at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
+        own = at + (x == nodes[-1])
+        if np.array_equal(nodes[own], x):
+            return np.asarray(self.tails[:, own])
         step = (nodes[at] - np.minimum(x, nodes[-1]))[:, None]  # negative but before the first node
         t = self.lines[at]
         rise = (self.lines[at + 1] - t) / (nodes[at + 1] - nodes[at])[:, None]

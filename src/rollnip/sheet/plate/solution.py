@@ -50,18 +50,19 @@ class PlateSolution(SheetSolution):
         return np.asarray(above + self._thinned_faces[0])
 
     @property
-    def _bends(self) -> bool:
+    def bends(self) -> bool:
+        """Whether the sheet's stiffness against bending is counted: it is."""
         return True
 
     @property
-    def _lower(self) -> tuple[float, float]:
+    def on_lower_side(self) -> tuple[float, float]:
         """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
         figures = self._plate_refined.lower
         return figures.nip_width, figures.peak_pressure
 
     @property
     def _lower_errors(self) -> tuple[float, float]:
-        """Estimated errors of ``_lower``."""
+        """Estimated errors of ``on_lower_side``."""
         refined = self._plate_refined
         mine = self._claimed(refined.lower, refined.lower_errors)
         return mine["nip_width"], mine["peak_pressure"]

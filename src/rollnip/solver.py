@@ -279,6 +279,11 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
         return False, f"{what}; try {simpler}a smaller load or another tolerance."
     if reason := impossible(nip, model.geometry, final):
         return False, reason
+    if not final.is_placed:
+        return False, (
+            "Which nodes touch, stick and slip was found, but not where their zones end; try "
+            "another load or tolerance."
+        )
     left = final.residual
     moves = model.geometry in FINITE and final.geometry_change > 0.5 * left
     if not left <= model.tolerance and moves:

@@ -5,13 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import replace
 
-import numpy as np
-
 from rollnip.contact import Layout, Safeguarded
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess, second_order
-from rollnip.rolling.estimates import Size, sized, with_errors, with_further_errors
 from rollnip.rolling.free_ends import is_verified, with_free_ends
 from rollnip.rolling.placing import Placing, are_too_many
 from rollnip.rolling.round import Round, has_grip
@@ -48,8 +45,7 @@ def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> R
     Returns
     -------
     A verified solution; else the best one with free ends or, where there is none, the last one
-    node by node, of those that stand still if any does: its error or its residual exceeds the
-    tolerance.
+    node by node, of those that stand still if any does: a start whose ends were not found.
     """
     guessed = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
     if is_verified(guessed, model):
@@ -64,25 +60,20 @@ def refine_by_nodes(
 
     ``best``: what free ends have found from a guess, if anything; else as `refine`.
     """
-    history: list[Size] = []
     settled: Round | None = None
     for count, located in _by_nodes(nip, model, kernels, half_width):
         latest = located
         if not located.stands_still:
             continue
         settled = located
-        ends = np.unique([end for zone in located.zones for end in (zone.start, zone.stop)])
-        history.append(sized(nip, model, located, count, ends))
         found = placed(nip, model, kernels, located) if count > _SIZES[0] else None
         if is_verified(found, model):
             return found
         best = found or best
-    if best is None:
-        best = latest if settled is None else with_errors(nip, settled, history)
+    best = best or settled or latest
     if not best.figures.peak_pressure > 0.0:
         return best
-    final = with_residual(nip, model, kernels, converge(nip, model, best, BY_NODES))
-    return with_further_errors(nip, final, history) if history else final
+    return with_residual(nip, model, kernels, converge(nip, model, best, BY_NODES))
 
 
 def placed(nip: Nip, model: Model, kernels: PairKernels, located: Round) -> Round | None:

@@ -6,26 +6,18 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 TABLE = ROOT / "docs" / "decisions" / "0021-constants-one-by-one.md"
-MODULES = (
-    *sorted((ROOT / "src" / "rollnip" / "influence").glob("*.py")),
-    *(
-        ROOT / "src" / "rollnip" / "contact" / f"{name}.py"
-        for name in ("complementarity", "features", "grid", "grid_solver")
-    ),
-    *(
-        ROOT / "src" / "rollnip" / "rolling" / f"{name}.py"
-        for name in (
-            "changes",
-            "check",
-            "claimed_errors",
-            "estimates",
-            "further",
-            "no_nip",
-            "round",
-        )
-    ),
-)
-DEFINITIONS = {"rolling.no_nip.MOST_CREEPAGE"}  # the creepage at which one roller stands still
+FLOORS = "contact", "influence", "rolling"
+MODULES = [
+    module
+    for floor in FLOORS
+    for module in sorted((ROOT / "src" / "rollnip" / floor).rglob("*.py"))
+]
+DEFINITIONS = {
+    "rolling.no_nip.MOST_CREEPAGE",  # the creepage at which one roller stands still
+    "rolling.displacements.NO_SECOND_ORDER",
+    "rolling.elements.EVERYWHERE",
+    "contact.problem._SHEAR_SIGNS",
+}
 
 
 def numbers_of(module):

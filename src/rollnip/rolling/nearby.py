@@ -20,7 +20,6 @@ from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import PairKernels
 
 _NEAR = 0.1  # change of the half-width that is guessed, relative
-_OFF = 0.05  # of the width of the contact: how far the ends of zones may be off
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,7 +57,7 @@ class Nearby:
             return None
         kernels = replace(kernels, held=held)
         before = replace(self.final, mesh=self.final.mesh.holding(kernels), steps=0)
-        found = with_free_ends(nip, model, kernels, layout, before, _OFF)
+        found = with_free_ends(nip, model, kernels, layout, before)
         return (kernels, found) if is_verified(found, model) else None
 
     def _is_like(self, nip: Nip, half_width: float) -> bool:

@@ -21,7 +21,6 @@ MOST_TURNS = 40
 # error at least tenfold; a coarse mesh that only looks for zones needs them less accurately.
 STILL = 0.1
 STILL_UNDER_SKIN = 1e-3
-ROUGHLY_STILL = 30.0
 
 
 class Method(Protocol):

@@ -13,13 +13,13 @@ THREE = np.array([PLUS, STICK, MINUS], dtype=np.int8)
 ONE = np.array([STICK], dtype=np.int8)
 
 
-def found(layout, asked_at, meshes):
+def found(layout, asked_at, meshes, singular_at=lambda breaks: None):
     """Layouts on so many meshes, each with the moves that ``asked_at`` its ends."""
     ends, places = Secants(), [layout]
     for _ in range(meshes):
         here = places[-1]
         asked = Layout(here.breaks + asked_at(here.breaks), here.states)
-        places.append(ends.next(here, asked, is_still=True))
+        places.append(ends.next(here, asked, singular_at(here.breaks), is_still=True))
     return places
 
 
@@ -49,6 +49,24 @@ def test_a_single_zone_does_not_leave_where_its_edges_lie(off):
     between = [p.breaks[1] for p in places]
     bad = [b for a, b in pairwise(between) if (b - a) * (1.0 - a) < 0.0]
     assert not bad  # no step goes away from the edge
+
+
+@pytest.mark.parametrize("off", [-0.15, 0.3])
+def test_edges_under_a_stiff_skin_are_found_from_many_boundary_layers_off(off):
+    """The moves asked for do not grow with what an edge is off; inverse square roots do."""
+    right, layer = np.array([-1.0, 1.0]), 0.01
+
+    def singular(breaks):
+        return -3.0 * (breaks - right) * (1.0 + 0.5 * np.abs(breaks - right))
+
+    def asked(breaks):
+        """Return none where the pressure has no square root: beyond a layer inside the edges."""
+        outwards = (breaks - right) * right
+        move = -layer * outwards / (layer + outwards)
+        return right * np.where(outwards > -layer, move, np.inf)
+
+    places = found(Layout((1.0 + off) * right, ONE), asked, 8, singular)
+    np.testing.assert_allclose(places[-1].breaks, right, atol=1e-4)
 
 
 def test_a_zone_goes_after_two_solutions_that_leave_nothing_of_it():

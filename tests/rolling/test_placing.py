@@ -120,3 +120,20 @@ def test_no_tension_beside_a_short_zone(geometry, load):
     first = solution.zones[0]
     assert first.stop - first.start < 3e-4 * solution.nip_width
     assert np.min(solution.pressure) >= 0.0
+
+
+@pytest.mark.parametrize("stiffness", [30.0, 1000.0])
+@pytest.mark.parametrize("share", [0.01, 0.03, 0.1])
+def test_edges_under_a_stiff_skin_take_few_meshes(share, stiffness):
+    """As many as without a skin and one or two more, however thin the boundary layers at them."""
+    rubber = rn.Elastic(modulus=1.0, poisson=0.45)
+    skin = rn.Layer(3.0 * share, rn.Elastic(modulus=stiffness, poisson=0.3))
+    nip = rn.Nip(
+        upper=rn.Roller(radius=40.0, layers=(skin, rn.Layer(3.0, rubber))),
+        lower=rn.Roller(radius=60.0),
+        normal=rn.LineLoad(1.0),
+        friction=0.0,
+    )
+    solution = rn.solve(nip, rn.Model(geometry="curved"))
+    assert solution.converged
+    assert solution.solver.iterations <= 10

@@ -301,6 +301,22 @@ class Layout:
             breaks.append(place - inwards * off)
         return Layout(np.array(breaks), self.states)
 
+    def singular(self, x: Array, state: ContactState) -> Array:
+        """Return the inverse square roots that misplaced edges leave in the pressure, (2,).
+
+        In units of the square root that each edge should have, times how far it should move:
+        positive towards the leading edge [MPa sqrt(mm)].
+        """
+        ends = self.ends(x)
+        out = []
+        for end, inwards in ((ends[0], 1), (ends[-1], -1)):
+            beside = end + inwards * np.array([1, 2, 3])
+            distance = np.abs(x[beside] - x[end])
+            right = state.pressure[beside] / np.sqrt(distance)
+            patterns = np.stack([np.ones(3), distance, np.array(_RESPONSE)], axis=1)
+            out.append(inwards * float(np.linalg.solve(patterns, right)[2] * distance[0]))
+        return np.array(out)
+
 
 def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ...]:
     """Put stick between zones that slip both ways."""

@@ -22,6 +22,13 @@ class Secants:
     diagonal, and each mesh adds what it shows of the rest. Where a solution says only which way an
     end should go, it goes half-way to the last place that asked for the other.
 
+    A move asked for is the ratio of an inverse square root and a square root in the pressure. Under
+    a skin that is misplaced by more than its thickness both grow alike: the ratio tells no more
+    than the thickness. The inverse square root alone goes on as the edge does, for the solution is
+    linear in the gap that the contact closes too much or too little. So the edges of a single zone
+    are placed by it where nothing else enters the pressure there, in units in which it is the first
+    move asked for.
+
     Attributes
     ----------
     slope : (m, m) of the moves asked for by the places of the ends; None: not known yet.
@@ -31,6 +38,7 @@ class Secants:
     slope: Array | None = None
     last: tuple[Array, Array] | None = None
     _longest: float = 0.0
+    _unit: Array | None = None
     _within: tuple[Array, Array] | None = None
     _vanishing: Mask | None = None
 
@@ -38,7 +46,9 @@ class Secants:
         """Forget the last mesh, whose nodes lay otherwise."""
         self.last = self._within = None
 
-    def next(self, layout: Layout, asked: Layout, *, is_still: bool) -> Layout:
+    def next(
+        self, layout: Layout, asked: Layout, singular: Array | None, *, is_still: bool
+    ) -> Layout:
         """Return the zones with their ends at the next places to try.
 
         Ends that are asked to go nowhere in particular go part of the way.
@@ -47,13 +57,14 @@ class Secants:
         ----------
         layout : the zones of the last mesh.
         asked : the same zones with the ends where its solution puts them.
+        singular : (2,) inverse square roots at the edges of a single zone, see `Layout.singular`;
+            None: it is the ratio that counts.
         is_still : whether nothing but the ends will change from this mesh to the next.
         """
-        moves = asked.breaks - layout.breaks
+        moves = self._moves(layout, asked, singular)
         given = ~np.isfinite(moves)
         steps = np.where(given, layout.towards(asked).breaks - layout.breaks, 0.0)
         slope = self._learnt(layout.breaks, moves)
-        self.last = (layout.breaks, moves) if is_still else None
         free = ~given
         if free.any():
             wanted = moves[free] + slope[np.ix_(free, given)] @ steps[given]
@@ -62,12 +73,24 @@ class Secants:
             except np.linalg.LinAlgError:
                 steps[free] = moves[free]
             longest = _LONGEST_STEP * max(float(np.max(np.abs(moves[free]))), self._longest)
+            if self._unit is not None and self.last is not None:
+                longest = np.inf  # the slope along the edges' way is known, and hardly changes
             largest = max(float(np.max(np.abs(steps[free]))), _TINY)
             steps[free] *= min(1.0, longest / largest)
+        self.last = (layout.breaks, moves) if is_still else None
         there = layout.towards(Layout(layout.breaks + steps, layout.states))
-        places = self._half_way(layout.breaks, asked.breaks, there.breaks)
+        places = self._half_way(layout.breaks, layout.breaks + moves, there.breaks)
         self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
         return Layout(places, layout.states)
+
+    def _moves(self, layout: Layout, asked: Layout, singular: Array | None) -> Array:
+        """Return the moves asked for, by the inverse square roots where these are given."""
+        moves = asked.breaks - layout.breaks
+        if singular is None:
+            return moves
+        if self._unit is None and np.isfinite(moves).all() and np.all(moves * singular > 0.0):
+            self._unit = moves / singular
+        return moves if self._unit is None else self._unit * singular
 
     def _learnt(self, breaks: Array, moves: Array) -> Array:
         """Return the slope of the moves asked for, with what the last two meshes show of it."""
@@ -92,7 +115,8 @@ class Secants:
         low = np.where(asked > breaks, breaks, np.where(low < breaks, low, -np.inf))
         high = np.where(asked < breaks, breaks, np.where(high > breaks, high, np.inf))
         self._within = low, high
-        is_alone = breaks.size == 2  # no transition moves these ends
+        # No transition moves such ends.
+        is_alone = breaks.size == 2 and self._unit is None
         lost = np.isinf(asked) | ((there <= low) | (there >= high) if is_alone else False)
         out = there.copy()
         between = lost & np.isfinite(low) & np.isfinite(high)

@@ -234,11 +234,12 @@ class Placing:
     def most_off(self, shape: Shape) -> float:
         """Return how far ends of zones may be off, over the width, on a mesh with so many elements.
 
-        By the least error that is claimed with them, so that two sizes differ by what these know;
-        where each mesh evaluates the second order anew, not by less than that is at rest to.
+        No further than second-order terms are at rest to, nor than the least error that is claimed
+        with these elements, unless finite strain changes the influence functions from turn to turn.
         """
-        least = least_error(as_cosines(*shape))
-        return least if self.kernels.is_fixed else max(least, STILL * self.model.tolerance)
+        at_rest = STILL * self.model.tolerance
+        is_linear = self.kernels.is_linear
+        return min(at_rest, least_error(as_cosines(*shape))) if is_linear else at_rest
 
     def _singular(self, latest: Round, layout: Layout) -> Array | None:
         """Return `Layout.singular`; None with friction, or with several zones.

@@ -39,7 +39,7 @@ from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.estimates import as_cosines, least_error
 from rollnip.rolling.round import Round
 from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
-from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
+from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import (
     MOST_TURNS,
     STILL,
@@ -52,8 +52,8 @@ from rollnip.rolling.turns import (
 # Meshes of one size with the same zones at a tolerance of 1e-3, and one more for each digit. Of 708
 # sizes of 200 random nips one needed more, and those that failed would have taken 10 to 19.
 _MOST_MESHES = 8
-# Meshes more for the edges of a single sticking zone with boundary layers: outside of these a
-# solution says only which way an edge should go, and the way between the last two is halved.
+# Meshes more for the edges of a single zone with boundary layers: outside of these a solution says
+# only which way an edge should go, and the way between the last two is halved.
 _MOST_HALVINGS = 6
 _NEARLY_PLACED = 0.008  # over the width of the contact
 _HARDLY_MOVED = 0.001  # likewise
@@ -166,7 +166,9 @@ class Placing:
                 stand, shape, ends = self._renewed(SearchState(parted, latest)), None, Secants()
             else:
                 is_still = latest.stands_still and is_quiet
-                there = ends.next(layout, asked, self._singular(latest, layout), is_still=is_still)
+                is_alone = layout.states.size == 1
+                singular = layout.singular(latest.mesh.inner, latest.state) if is_alone else None
+                there = ends.next(layout, asked, singular, is_still=is_still)
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
         return None
 
@@ -240,16 +242,6 @@ class Placing:
         at_rest = STILL * self.model.tolerance
         is_linear = self.kernels.is_linear
         return min(at_rest, least_error(as_cosines(*shape))) if is_linear else at_rest
-
-    def _singular(self, latest: Round, layout: Layout) -> Array | None:
-        """Return `Layout.singular`; None with friction, or with several zones.
-
-        Where unlike surfaces stick up to an edge, the shear has an inverse square root that
-        oscillates, and the pressure follows it.
-        """
-        if self.nip.friction > 0.0 or layout.states.size > 1:
-            return None
-        return layout.singular(latest.mesh.inner, latest.state)
 
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))

@@ -287,6 +287,31 @@ def pulls(
     return float(upper), float(lower)
 
 
+def moment(
+    side: Literal["upper", "lower"],
+    nip: Nip,
+    geometry: Geometry,
+    mesh: Mesh,
+    state: ContactState,
+    u: Displacements,
+) -> float:
+    """Return the moment of the tractions about one axle, over the radius [N/mm].
+
+    ``u``: at nodes[1:]. At the height eta over the tangent, with the slope eta', the upper surface
+    is pushed by (q - p eta', p + q eta') per dx, the lower one by (-q - p eta', p - q eta').
+    """
+    number, roller, sign = (0, nip.upper, 1.0) if side == "upper" else (1, nip.lower, -1.0)
+    x = mesh.fine.nodes[1:]
+    dx, middle = np.diff(x), 0.5 * (x[1:] + x[:-1])
+    p, q = mesh.acting(state.pressure), sign * mean_shear(mesh, state)
+    p = 0.5 * (p + np.append(p[1:], 0.0))
+    depth = surface_depths(x, nip, geometry, mesh.finer(u))[number]
+    slope, height = np.diff(depth) / dx, 0.5 * (depth[1:] + depth[:-1])
+    arm = 1.0 - roller.curvature * height
+    along, down = q - p * slope, p + q * slope
+    return float((arm * along + roller.curvature * middle * down) @ dx)
+
+
 def loss_inside(
     side: Literal["upper", "lower"], nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState
 ) -> float:

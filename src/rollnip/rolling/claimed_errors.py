@@ -107,11 +107,17 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
     first, cut = claims(nip, geometry, final), SHARE_OF_CUT * spent.cut
     if geometry in FINITE and isfinite(first["creepage"]):
         cut = largest(cut, _power_left(first["creepage"], final))
+    # In equilibrium a torque is the moment of the tractions; it is at finite strain alone.
+    off_upper = off_lower = 0.0
+    if geometry == "finite":
+        off_upper = abs(spent.driving_upper - spent.moment_upper)
+        off_lower = abs(spent.driving_lower - spent.moment_lower)
+    slip = largest(further.friction, cut, spent.reversed_slip, off_upper, off_lower)
     out = {
         "traction": further.traction,
-        "torque_upper": nip.upper.radius * largest(further.driving_upper, cut),
-        "torque_lower": nip.lower.radius * largest(further.driving_lower, cut),
-        "dissipation_friction": speed * largest(further.friction, cut, spent.reversed_slip),
+        "torque_upper": nip.upper.radius * largest(further.driving_upper, cut, off_upper),
+        "torque_lower": nip.lower.radius * largest(further.driving_lower, cut, off_lower),
+        "dissipation_friction": speed * slip,
         "dissipation_viscous": speed * lost,
         "rolling_resistance": lost / load,
         "peak_pressure_x": further.peak_pressure_x,

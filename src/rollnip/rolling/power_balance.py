@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from math import isnan
+from math import isnan, nan
 
 from rollnip.contact import ContactState, ContactZone
 from rollnip.model import Geometry
@@ -34,6 +34,7 @@ from rollnip.rolling.assemble import (
     creep,
     loss_inside,
     mean_shear,
+    moment,
     pulls,
     slip_intervals,
 )
@@ -52,6 +53,8 @@ class Powers:
         roller per distance of that surface [N/mm].
     cut : change of ``friction`` by the short waves that the solution leaves out [N/mm].
     reversed_slip : the work of slip along its own shear, of which ``friction`` knows none [N/mm].
+    moment_upper, moment_lower : of the tractions about both axles, over the radii [N/mm]; in
+        equilibrium, and so at finite strain, they are what drives the axles.
     """
 
     friction: float
@@ -61,6 +64,8 @@ class Powers:
     pull_lower: float
     cut: float = 0.0
     reversed_slip: float = 0.0
+    moment_upper: float = nan
+    moment_lower: float = nan
 
     @property
     def driving_upper(self) -> float:
@@ -84,12 +89,13 @@ def powers(
 ) -> Powers:
     """Return torques over radii and losses of a solution on a mesh."""
     x, u = mesh.fine.nodes[1:], mesh.displacements(state)
+    uncut = mesh.uncut(u)
     pull_upper, pull_lower = pulls(nip, geometry, mesh, state, u, zones)
     friction = cut = reversed_slip = 0.0
     if nip.friction > 0.0 and not isnan(state.creepage):
         sheared = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, mesh.finer(u))
         inside = [slip_intervals(x, (zone,)) for zone in zones]  # none where surfaces stick
-        both = (mesh.finer(v) for v in (mesh.uncut(u), u))
+        both = (mesh.finer(v) for v in (uncut, u))
         works = [sheared * creep(x, nip, geometry, v, state.creepage) for v in both]
         (friction, reversed_slip), (smooth, _) = (slip_losses(work, inside) for work in works)
         cut = abs(friction - smooth)
@@ -101,6 +107,8 @@ def powers(
         pull_lower=pull_lower,
         cut=cut,
         reversed_slip=reversed_slip,
+        moment_upper=moment("upper", nip, geometry, mesh, state, uncut),
+        moment_lower=moment("lower", nip, geometry, mesh, state, uncut),
     )
 
 

@@ -185,29 +185,6 @@ def pulls_of(
     return float(lengths[0] @ upper), float(lengths[1] @ lower)
 
 
-def moments_of(
-    problem: SheetProblem, geometry: Geometry, state: SheetState, u: Displacements
-) -> Array:
-    """Return the moments of the tractions about both axles, over the radii, (2,) [N/mm].
-
-    At the height eta over the tangent, with the slope eta', the upper surface is pushed by
-    (q_u - p eta', p + q_u eta') per dx, the lower one by (-q_l - p eta', p - q_l eta').
-    """
-    nip, mesh = problem.nip, problem.mesh
-    x, fine = mesh.fine.nodes[1:], mesh.finer(u)
-    dx, middle = np.diff(x), 0.5 * (x[1:] + x[:-1])
-    p = mesh.acting(state.pressure)
-    p, out = 0.5 * (p + np.append(p[1:], 0.0)), []
-    for side, (roller, sign) in enumerate(((nip.upper, 1.0), (nip.lower, -1.0))):
-        depth = surface_depths(x, nip, geometry, fine)[side]
-        q = sign * mean_shear(mesh, side_state(state, side))
-        slope, height = np.diff(depth) / dx, 0.5 * (depth[1:] + depth[:-1])
-        arm = 1.0 - roller.curvature * height
-        along, down = q - p * slope, p + q * slope
-        out.append(float((arm * along + roller.curvature * middle * down) @ dx))
-    return np.array(out)
-
-
 def slip_in(mesh: Mesh, states: States) -> NDArray[np.bool_]:
     """Return which intervals of the finer nodes but the first lie between nodes that slip."""
     slips = states > State.STICK

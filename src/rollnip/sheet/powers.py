@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from rollnip.contact import State, States
 from rollnip.model import Geometry
-from rollnip.rolling.assemble import loss_inside
+from rollnip.rolling.assemble import loss_inside, moment
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
-from rollnip.sheet.lagged import moments_of, path_turn, pulls_of, sheet_rate, side_state
+from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
@@ -124,7 +124,9 @@ def off_the_moments(
     mesh, bare = problem.mesh, spent.as_bare
     u = mesh.uncut(mesh.displacements(state))
     driving = np.array([bare.driving_upper, bare.driving_lower])
-    return np.abs(driving - moments_of(problem, geometry, state, u))
+    upper = moment("upper", problem.nip, geometry, mesh, state, u)
+    lower = moment("lower", problem.nip, geometry, mesh, side_state(state, 1), u)
+    return np.asarray(np.abs(driving - [upper, lower]))
 
 
 def slip_zones(states: States) -> list[NDArray[np.bool_]]:

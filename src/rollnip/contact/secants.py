@@ -26,7 +26,8 @@ class Secants:
     a skin that is misplaced by more than its thickness both grow alike: the ratio tells no more
     than the thickness. The inverse square root alone goes on as the edge does, for the solution is
     linear in the gap that the contact closes too much or too little. So the edges of a single zone
-    are placed by it, in units in which it is the first move asked for.
+    are placed by it where nothing else enters the pressure there, in units in which it is the first
+    move asked for.
 
     Attributes
     ----------

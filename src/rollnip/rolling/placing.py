@@ -36,10 +36,9 @@ from rollnip.rolling.assemble import (
     second_order,
 )
 from rollnip.rolling.changes import to_come_after
-from rollnip.rolling.estimates import as_cosines, least_error
 from rollnip.rolling.round import Round
 from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
-from rollnip.rolling.surfaces import Mesh, PairKernels, mesh_on
+from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import (
     MOST_TURNS,
     STILL,
@@ -52,8 +51,8 @@ from rollnip.rolling.turns import (
 # Meshes of one size with the same zones at a tolerance of 1e-3, and one more for each digit. Of 708
 # sizes of 200 random nips one needed more, and those that failed would have taken 10 to 19.
 _MOST_MESHES = 8
-# Meshes more for the edges of a single zone with boundary layers: outside of these a solution says
-# only which way an edge should go, and the way between the last two is halved.
+# Meshes more for the edges of a single sticking zone with boundary layers: outside of these a
+# solution says only which way an edge should go, and the way between the last two is halved.
 _MOST_HALVINGS = 6
 _NEARLY_PLACED = 0.008  # over the width of the contact
 _HARDLY_MOVED = 0.001  # likewise
@@ -138,13 +137,13 @@ class Placing:
             # Transitions that come from a guess will move again, whatever the second order.
             hasty = loosely and off > _NEARLY_PLACED and layout.states.size > 1
             most = 1 if hasty else MOST_TURNS
-            placed = self.most_off(shape)
-            latest, asked = self._solved_on(stand, shape, placed, most)
+            latest, asked = self._solved_on(stand, shape, most)
             off = asked.distance(layout)
             known_to = min(known_to, off)
             is_quiet = self.kernels.is_fixed or stand.is_quiet
             is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
-            is_placed = off <= placed and latest.stands_still and asked.is_proper and is_quiet
+            is_placed = off <= self.most_off and asked.is_proper and latest.stands_still
+            is_placed = is_placed and is_quiet
             is_placed = is_placed and not latest.mesh.pulls_at_edge(latest.state.pressure)
             wanted = crowding_of(layout.breaks, self.boundary)
             is_placed = is_placed and not _crowds_more(wanted, shape[1])
@@ -166,9 +165,7 @@ class Placing:
                 stand, shape, ends = self._renewed(SearchState(parted, latest)), None, Secants()
             else:
                 is_still = latest.stands_still and is_quiet
-                is_alone = layout.states.size == 1
-                singular = layout.singular(latest.mesh.inner, latest.state) if is_alone else None
-                there = ends.next(layout, asked, singular, is_still=is_still)
+                there = ends.next(layout, asked, self._singular(latest, layout), is_still=is_still)
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
         return None
 
@@ -185,9 +182,9 @@ class Placing:
         shape, off = (np.array(fine.elements), fine.crowding), inf
         for _ in range(2):
             layout, before = stand.layout, off
-            latest, asked = self._solved_on(stand, shape, 0.0, MOST_TURNS)
+            latest, asked = self._solved_on(stand, shape, MOST_TURNS)
             off = asked.distance(layout)
-            is_placed = off <= self.most_off(shape)
+            is_placed = off <= self.most_off
             if (
                 not asked.is_proper
                 or self.search.wanted(latest, layout, whole=is_placed) is not None
@@ -233,15 +230,20 @@ class Placing:
         rollers = self.nip.upper, self.nip.lower
         return min(_incompressible(roller) for roller in rollers if not roller.is_rigid)
 
-    def most_off(self, shape: Shape) -> float:
-        """Return how far ends of zones may be off, over the width, on a mesh with so many elements.
+    @property
+    def most_off(self) -> float:
+        """How far ends of zones may be off, over the width: as second-order terms are at rest."""
+        return STILL * self.model.tolerance
 
-        No further than second-order terms are at rest to, nor than the least error that is claimed
-        with these elements, unless finite strain changes the influence functions from turn to turn.
+    def _singular(self, latest: Round, layout: Layout) -> Array | None:
+        """Return `Layout.singular`; None with friction, or with several zones.
+
+        Where unlike surfaces stick up to an edge, the shear has an inverse square root that
+        oscillates, and the pressure follows it.
         """
-        at_rest = STILL * self.model.tolerance
-        is_linear = self.kernels.is_linear
-        return min(at_rest, least_error(as_cosines(*shape))) if is_linear else at_rest
+        if self.nip.friction > 0.0 or layout.states.size > 1:
+            return None
+        return layout.singular(latest.mesh.inner, latest.state)
 
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
         most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
@@ -268,13 +270,12 @@ class Placing:
         self,
         stand: SearchState,
         shape: Shape,
-        placed: float,
         most: int,
     ) -> tuple[Round, Layout]:
         """Solve on one mesh; return the solution, and where it puts the ends of zones.
 
-        At ``most`` so many turns of the second-order terms while ends still move by more than
-        ``placed``, over the width; then as many as these need.
+        At ``most`` so many turns of the second-order terms while ends are not placed; then as many
+        as these need.
         """
         layout, before = stand.layout, stand.before
         mesh = _mesh(layout, shape, self.thinnest, before.mesh.kernels)
@@ -282,7 +283,8 @@ class Placing:
         start = states, before.second.carried(before.mesh, mesh), before.steps
         latest = self._solve_on_mesh(self.model, mesh, start, zones, most)
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        if not latest.stands_still and asked.distance(layout) <= placed:
+        is_hasty = most < MOST_TURNS and not latest.stands_still
+        if is_hasty and asked.distance(layout) <= self.most_off:
             start = states, latest.second, latest.steps
             latest = self._solve_on_mesh(self.model, mesh, start, zones)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)

@@ -133,7 +133,7 @@ def solve_in_turns(
     for share in SHARES_KEPT:
         orders = AllOrders.of(nip, kernels, half_width, sheeted.strain(stand), share)
         try:
-            found = _turned(kernels, _Contact(sheeted, model, stand), orders)
+            found = _turn_to_rest(kernels, _Contact(sheeted, model, stand), orders)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -185,7 +185,7 @@ class _Contact(Generic[S, R]):
         self.refined, self.stand, self.count = self.sheeted.refined(self.model, kernels, before)
 
 
-def _turned(
+def _turn_to_rest(
     kernels: PairKernels, contact: _Contact[S, R], orders: AllOrders
 ) -> tuple[PairKernels, R] | None:
     """Solve in turns, see `solve_in_turns`."""

@@ -22,7 +22,7 @@ SLACK = 1e-6
 """Of the load: tension below zero that is more than rounding."""
 
 
-class Standing(Protocol):
+class FoundSolution(Protocol):
     """A solution, as far as its verdict asks."""
 
     @property
@@ -40,7 +40,7 @@ class Refined(Protocol):
     """A last solution, as far as its verdict asks."""
 
     @property
-    def stand(self) -> Standing:
+    def stand(self) -> FoundSolution:
         """The solution on the finest mesh."""
         ...
 

@@ -17,12 +17,12 @@ Solved = TypeVar("Solved", bound=SheetSolution)
 def with_errors_said(solution: Solved) -> Solved:
     """Return a solution whose status names each error beyond the tolerance, if it is valid.
 
-    What the meshes leave is within the tolerance, so the rest is the model's.
+    Figures of which the model leaves more than the tolerance open may have as much from the mesh.
     """
     if not solution.converged:
         return solution
     tolerance = solution.model.tolerance
-    left = left_open(relative_errors(solution), tolerance, "the model leaves")
+    left = left_open(relative_errors(solution), tolerance, "the model and the mesh leave")
     return replace(solution, status=f"{solution.status} {tolerance:g}{left}.")
 
 

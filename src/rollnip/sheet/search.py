@@ -34,7 +34,7 @@ from rollnip.sheet.attempt import Attempt
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
 from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves
-from rollnip.sheet.settled import next_slip, settled, slipping
+from rollnip.sheet.node_by_node import next_slip, slipping, solve_node_by_node
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import (
     SIGNS,
@@ -93,10 +93,10 @@ class SheetSearch:
         for _ in range(_MOST_REACHES):
             problem = self._problem(Zones.sticking(reach), shape, None)
             lagged = first_lagged(problem)
-            state, steps = settled(problem, lagged, half_width), 0
+            state, steps = solve_node_by_node(problem, lagged, half_width), 0
             if not has_none(problem, "linear"):
                 lagged, steps = lagged_terms(problem, "linear", state), state.steps
-                state = settled(problem, lagged, half_width)
+                state = solve_node_by_node(problem, lagged, half_width)
             if state.states[0] == state.states[-1] == State.FREE:
                 break
             reach *= _WIDER
@@ -248,7 +248,7 @@ class SheetSearch:
         if near:
             state = slipping(problem, stand.state, stand.lagged, self._slack)
         if state is None:
-            state = settled(problem, stand.lagged, 0.5 * stand.zones.width)
+            state = solve_node_by_node(problem, stand.lagged, 0.5 * stand.zones.width)
         zones = Zones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
         if zones is None:
             return None

@@ -18,7 +18,7 @@ from rollnip.nip import Nip, Torque
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.sheet.plate.lagged import first_lagged, lagged_terms
-from rollnip.sheet.plate.settled import Edges, settled
+from rollnip.sheet.plate.node_by_node import Edges, solve_node_by_node
 from rollnip.sheet.plate.sides import side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
@@ -52,7 +52,7 @@ class FirstZones:
         for _ in range(_MOST_REACHES):
             problem = self._problem(PlateZones.sticking(reach), 0.0, _ELEMENTS)
             around = (-half_width, half_width)
-            state = self._settled(problem, first_lagged(problem), (around, around))
+            state = self._solved_node_by_node(problem, first_lagged(problem), (around, around))
             if all(one[0] == one[-1] == State.FREE for one in state.states):
                 break
             reach *= _WIDER
@@ -100,14 +100,16 @@ class FirstZones:
         first = first_lagged(problem)
         if lagged is not None:
             first = replace(first, traction=lagged.traction, lean=lagged.lean)
-        return PlateZones.around(problem, self._settled(problem, first, zones.edges))
+        return PlateZones.around(problem, self._solved_node_by_node(problem, first, zones.edges))
 
-    def _settled(self, problem: PlateProblem, lagged: LaggedPlate, edges: Edges) -> PlateState:
+    def _solved_node_by_node(
+        self, problem: PlateProblem, lagged: LaggedPlate, edges: Edges
+    ) -> PlateState:
         """Return a solution with contact, stick and slip; with a wanted torque on the way too."""
-        state, _ = settled(problem, lagged, edges)
+        state, _ = solve_node_by_node(problem, lagged, edges)
         if isinstance(self.nip.tangential, Torque):
             wanted = lagged_terms(problem, "linear", state).traction
-            state, _ = settled(problem, replace(lagged, traction=wanted), edges)
+            state, _ = solve_node_by_node(problem, replace(lagged, traction=wanted), edges)
         return state
 
     def _problem(self, zones: PlateZones, margin: float, count: int) -> PlateProblem:

@@ -40,7 +40,7 @@ from rollnip.sheet.plate.lagged import (
     has_none,
     lagged_terms,
 )
-from rollnip.sheet.plate.settled import settled
+from rollnip.sheet.plate.node_by_node import solve_node_by_node
 from rollnip.sheet.plate.sides import path_ratio, side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem
 from rollnip.sheet.plate.zones import PlateZones
@@ -295,7 +295,7 @@ class PlateSearch:
         if max(mesh.inner.size for mesh in stand.problem.meshes) > _MOST_NODES:
             return None
         try:
-            state, _ = settled(stand.problem, stand.lagged, stand.zones.edges)
+            state, _ = solve_node_by_node(stand.problem, stand.lagged, stand.zones.edges)
         except np.linalg.LinAlgError:
             return None
         found = edges.found(stand.problem, state)

@@ -17,7 +17,7 @@ _MOST_STEPS = 4  # linear systems, while a few nodes change their states
 _LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
 
 
-def settled(problem: SheetProblem, lagged: Lagged, half_width: float) -> SheetState:
+def solve_node_by_node(problem: SheetProblem, lagged: Lagged, half_width: float) -> SheetState:
     """Return the solution on a mesh whose contact, stick and slip meet all conditions.
 
     ``half_width``: about that of the contact [mm].

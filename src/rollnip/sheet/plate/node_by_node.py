@@ -19,7 +19,9 @@ _ENOUGH = 1e-4  # left of the conditions, where states are taken although they g
 _LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
 
 
-def settled(problem: PlateProblem, lagged: LaggedPlate, edges: Edges) -> tuple[PlateState, int]:
+def solve_node_by_node(
+    problem: PlateProblem, lagged: LaggedPlate, edges: Edges
+) -> tuple[PlateState, int]:
     """Return the solution on two meshes whose contact, stick and slip meet all conditions.
 
     Parameters

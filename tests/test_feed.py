@@ -23,7 +23,11 @@ FORCES = ("nip.load", "sheet.tension_in", "sheet.tension_out")
 
 @pytest.fixture(scope="module")
 def changes():
-    found = rn.feed_sensitivity(NIP, LINEAR, share=0.02)
+    told = []
+    found = rn.feed_sensitivity(
+        NIP, LINEAR, share=0.02, progress=lambda *counts: told.append(counts)
+    )
+    assert told == [(number, len(found)) for number in range(1, len(found) + 1)]
     assert all(one.converged for one in found)
     return {one.path: one for one in found}
 

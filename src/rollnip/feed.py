@@ -64,7 +64,12 @@ class FeedChange:
 
 
 def feed_sensitivity(
-    nip: Nip, model: Model | None = None, *, share: float = 0.05, cache: KernelCache | None = None
+    nip: Nip,
+    model: Model | None = None,
+    *,
+    share: float = 0.05,
+    cache: KernelCache | None = None,
+    progress: Callable[[int, int], None] | None = None,
 ) -> tuple[FeedChange, ...]:
     """Return how the feed changes with each quantity of a nip with a sheet.
 
@@ -79,6 +84,7 @@ def feed_sensitivity(
     model : as for `rollnip.solve`.
     share : relative change of each quantity, positive and at most 0.2.
     cache : influence functions of solves before.
+    progress : called after each quantity with how many are done, and of how many.
 
     Returns
     -------
@@ -102,15 +108,12 @@ def feed_sensitivity(
     middle = _solved(nip, model, cache)
     # All nips alike: whether bending counts is a matter of thresholds, and would make a jump.
     nip = replace(nip, sheet=replace(nip.sheet, bending=middle.sheet.bends))
-    changes = [
-        _change(
-            (quantity, path, value),
-            tuple(_solved(changed(factor), model, cache) for factor in (1.0 - share, 1.0 + share)),
-            middle,
-            share,
-        )
-        for quantity, path, value, changed in _quantities(nip)
-    ]
+    quantities, changes = list(_quantities(nip)), []
+    for quantity, path, value, changed in quantities:
+        low, high = (_solved(changed(1.0 + step), model, cache) for step in (-share, share))
+        changes.append(_change((quantity, path, value), (low, high), middle, share))
+        if progress is not None:
+            progress(len(changes), len(quantities))
     return tuple(sorted(changes, key=lambda one: -abs(one.upper)))
 
 

@@ -45,12 +45,13 @@ def feed(
                 'modulus, or kind = "office paper".'
             )
         model = overridden(problem.model, geometry, tolerance)
+        from rollnip.cli.progress import counting
         from rollnip.feed import feed_sensitivity
         from rollnip.rollers import SIDES
         from rollnip.validity import energies_left_out
 
-        with named(problem.source):
-            changes = feed_sensitivity(problem.nip, model)
+        with named(problem.source), counting("quantities") as progress:
+            changes = feed_sensitivity(problem.nip, model, progress=progress)
         for side in SIDES:
             for one in energies_left_out(side, getattr(problem.nip, side)):
                 sys.stderr.write(f"rollnip: warning: {one.text}\n")

@@ -95,10 +95,10 @@ def progress(total: int, what: str) -> Iterator[Callable[[], None]]:
 
 
 @contextmanager
-def counting() -> Iterator[Callable[[int, int], None] | None]:
-    """Show a bar of the cross-sections of a face on a terminal; yield what is told their numbers.
+def counting(what: str = "cross-sections") -> Iterator[Callable[[int, int], None] | None]:
+    """Show a bar of what is counted on a terminal; yield what is told how many of how many.
 
-    Elsewhere None is yielded: a face takes seconds.
+    Elsewhere None is yielded: a log wants no bar.
     """
     console = Console(stderr=True)
     if not console.is_terminal:
@@ -106,5 +106,5 @@ def counting() -> Iterator[Callable[[int, int], None] | None]:
         return
     columns = (TextColumn("{task.description}"), BarColumn(), MofNCompleteColumn())
     with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task("cross-sections", total=None)
+        task = bar.add_task(what, total=None)
         yield lambda done, total: bar.update(task, completed=done, total=total)

@@ -80,9 +80,10 @@ def test_figures_are_those_of_the_solution(case, solved):
     assert figures.load == pytest.approx(load, rel=1e-12)
     cubic = solution.final.mesh.between(solution.final.state.pressure)
     peak, top = figures.peak_pressure, int(np.argmax(cubic))
-    assert cubic[top] == pytest.approx(peak, rel=3e-4)
-    # what acts between nodes has the right means, so at a node it exceeds the cubic by h^2 |f''|/12
     bend = cubic[top - 1] - 2.0 * cubic[top] + cubic[top + 1]
+    # a peak between nodes lies above the highest node by an eighth of the bend, at most
+    assert cubic[top] == pytest.approx(peak, abs=3e-4 * peak - bend / 8.0)
+    # what acts between nodes has the right means, so at a node it exceeds the cubic by h^2 |f''|/12
     above = solution.pressure[top] - cubic[top]
     assert above == pytest.approx(-bend / 12.0, rel=0.05, abs=3e-5 * peak)
     # a third of the tolerance, about; a stiff top has its peak within its own thickness

@@ -49,10 +49,10 @@ class Subdivision:
         where the zones are not those of a solution (states are sought node by node then).
     crowding : of each zone, see `cosine_nodes`.
     values : (M+1, N+1) values at them per value at the N+1 mesh nodes; None: the same nodes.
-    edges : numbers of nodes[1:-1] of the mesh at the trailing and leading edge of each piece of
-        the contact, in turn.
     acting : (M+1, N+1) likewise for tractions that act.
     means : (M-1, N) mean values between nodes[1:] per value at the nodes of the mesh but the first.
+    edges : numbers of nodes[1:-1] of the mesh at the trailing and leading edge of each piece of
+        the contact, in turn.
     """
 
     nodes: Array

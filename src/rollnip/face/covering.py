@@ -19,13 +19,12 @@ from numpy.typing import NDArray
 from rollnip._errors import InvalidInputError
 from rollnip.materials import with_stiffness
 from rollnip.nip import Nip
-from rollnip.rollers import Layer, Roller, Side
+from rollnip.rollers import SIDES, Layer, Roller, Side
 
 Array = NDArray[np.float64]
 What = Literal["thickness", "stiffness"]
 Key = tuple[Side, What]
 
-_ROLLERS: tuple[Side, Side] = ("upper", "lower")
 _NODES = 3  # of an axis to begin with
 _MOST_NODES = 9
 
@@ -61,7 +60,7 @@ def coverings_of(nip: Nip, y: Array, length: float, stiffness: float = 1.0) -> C
     """
     values: dict[Key, Array] = {}
     scale = np.full(y.size, stiffness)
-    for name in _ROLLERS:
+    for name in SIDES:
         roller: Roller = getattr(nip, name)
         table = None if roller.shaft is None else roller.shaft.covering
         if table is None:
@@ -117,7 +116,7 @@ class CoveringAxis:
 
     @property
     def name(self) -> str:
-        """Side of its interpolation error: "upper_thickness"."""
+        """Name of its interpolation error: "upper_thickness"."""
         return "_".join(self.key)
 
     @property

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import isfinite, isnan, nan, sqrt
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +26,7 @@ from rollnip.geometry import (
 from rollnip.interior import SurfaceTractions, loss_per_distance
 from rollnip.model import FINITE, RINGS, Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
+from rollnip.rollers import Side
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Mesh, hoop_curvature
@@ -288,7 +288,7 @@ def pulls(
 
 
 def moment(
-    side: Literal["upper", "lower"],
+    side: Side,
     nip: Nip,
     geometry: Geometry,
     mesh: Mesh,
@@ -312,9 +312,7 @@ def moment(
     return float((arm * along + roller.curvature * middle * down) @ dx)
 
 
-def loss_inside(
-    side: Literal["upper", "lower"], nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState
-) -> float:
+def loss_inside(side: Side, nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> float:
     """Return the heat inside one of the rollers per distance of its surface [N/mm].
 
     It is that of the linear fields under the tractions of the solution; in geometry "finite" with

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from math import inf
 
 import numpy as np
 
-from rollnip.contact import more_elements
-from rollnip.contact.problem import Indices
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
@@ -59,17 +57,6 @@ def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> S
     return Size(
         count, latest.figures, breaks, partial(further_figures, nip, model.geometry, *found)
     )
-
-
-def as_cosines(elements: Sequence[int] | Indices, crowding: Sequence[float]) -> int:
-    """Count the elements of all zones, each zone's as if its nodes lay at cosine places."""
-    shares = map(more_elements, crowding)
-    return round(sum(float(n) / more for n, more in zip(elements, shares, strict=True)))
-
-
-def least_error(count: int) -> float:
-    """Return the largest of the least relative errors that are claimed with ``count`` elements."""
-    return float(np.max(LEAST_ERROR)) / count**2
 
 
 def with_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:

@@ -12,13 +12,12 @@ from typing import TypeGuard
 
 import numpy as np
 
-from rollnip.contact import Layout, cubic_error
+from rollnip.contact import Layout, cubic_error, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.estimates import (
+    LEAST_ERROR,
     Size,
-    as_cosines,
-    least_error,
     sized,
     with_errors,
     with_further_errors,
@@ -105,7 +104,7 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
         if placed is None:
             break
         stand, latest = placed, placed.before
-        count = as_cosines(latest.mesh.fine.elements, latest.mesh.fine.crowding)
+        count = as_cosines(latest)
         if history and history[-1].breaks.size != stand.layout.breaks.size:
             history.clear()  # figures of other zones tell nothing of the errors with these
         history.append(sized(nip, model, latest, count, stand.layout.breaks))
@@ -133,10 +132,17 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
     The number grows in limited steps, up to that for which such an error can be claimed.
     """
     growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), _LEAST_GROWTH)
-    claimed = 1.02 * sqrt(least_error(count) / tolerance)
+    claimed = 1.02 * sqrt(float(np.max(LEAST_ERROR)) / tolerance) / count
     if claimed > growth:
         growth = claimed ** (1.0 / ceil(log(claimed) / log(_MOST_GROWTH)))
     return int(count * growth) + 1
+
+
+def as_cosines(latest: Round) -> int:
+    """Count the elements of a solution, each zone's as if its nodes lay at cosine places."""
+    fine = latest.mesh.fine
+    shares = map(more_elements, fine.crowding)
+    return round(sum(n / more for n, more in zip(fine.elements, shares, strict=True)))
 
 
 def _roughness(nip: Nip, model: Model, latest: Round) -> float:

@@ -19,8 +19,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.claimed_errors import skin_thickness
-from rollnip.rolling.estimates import as_cosines
-from rollnip.rolling.free_ends import is_verified, with_free_ends
+from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
     BY_NODES,
@@ -208,7 +207,5 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
         is_crowded = min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.turned(search)
-            fine = latest.mesh.fine
-            count = as_cosines(fine.elements, fine.crowding)
-            found = found or placing.placed(search, count, known=True)
+            found = found or placing.placed(search, as_cosines(latest), known=True)
     return replace(latest if found is None else found.before, stands_still=found is not None)

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import os
 import signal
-from concurrent.futures import Future, ThreadPoolExecutor
+from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
+from multiprocessing.popen_spawn_posix import Popen
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from threadpoolctl import threadpool_info
 
 import rollnip as rn
 from rollnip._errors import InvalidInputError, RollnipError
@@ -150,13 +152,66 @@ def test_an_executor_that_breaks_is_said(tree: dict[str, Any]) -> None:
         solved_by(Given(Dead(1), 1), tree)
 
 
+def test_workers_leave_the_process_that_calls_as_it_is(monkeypatch: pytest.MonkeyPatch) -> None:
+    names = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
+    for name in names:
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("OMP_NUM_THREADS", "3")
+
+    def own() -> tuple[Any, ...]:
+        blocked = signal.pthread_sigmask(signal.SIG_BLOCK, ())
+        return dict(os.environ), [signal.getsignal(one) for one in signal.Signals], blocked
+
+    before = own()
+    while_started: list[tuple[Any, ...]] = []
+    submit = ProcessPoolExecutor.submit
+
+    def watched(*given: Any) -> Any:
+        while_started.append(own()[:2])
+        return submit(*given)
+
+    monkeypatch.setattr(ProcessPoolExecutor, "submit", watched)
+    with processes(2) as crew:
+        assert own() == before
+        for name in names:
+            assert crew.call(os.getenv, name).result() == "1"
+        assert {one["num_threads"] for one in crew.call(_libraries, None).result()} == {1}
+        assert crew.call(signal.getsignal, signal.SIGINT).result() == signal.SIG_IGN
+        assert not crew.call(_blocked, None).result()
+        assert own() == before
+    assert own() == before
+    assert all(one == before[:2] for one in while_started)
+
+
+def _libraries(_: None) -> list[dict[str, Any]]:
+    found: list[dict[str, Any]] = threadpool_info()
+    assert found
+    return found
+
+
+def _blocked(_: None) -> set[signal.Signals]:
+    return {signal.Signals(one) for one in signal.pthread_sigmask(signal.SIG_BLOCK, ())}
+
+
+def test_a_new_worker_does_not_hear_ctrl_c(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Even before it can ignore it: it is struck as soon as it is there."""
+    started = Popen._launch
+
+    def struck(self: Any, process: Any) -> None:
+        started(self, process)
+        os.kill(self.pid, signal.SIGINT)
+
+    monkeypatch.setattr(Popen, "_launch", struck)
+    with processes(1) as crew:
+        assert crew.call(os.getenv, "OMP_NUM_THREADS").result() == "1"
+
+
 @pytest.mark.slow
 def test_a_worker_that_is_killed_costs_no_case(tree: dict[str, Any]) -> None:
     tree["parameters"].append({"path": "lower.radius", "values": [20.0, 25.0, 30.0, 35.0]})
     study = read_study(tree)
     killed: list[int] = []
     with Store(None, About.of(study, "1")) as store, processes(2) as crew:
-        assert crew._pool.submit(os.getenv, "OPENBLAS_NUM_THREADS").result() == "1"
 
         def kill(_: Outcome) -> None:
             if not killed:

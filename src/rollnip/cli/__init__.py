@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 
-from rollnip._memory import keep_freed_memory
+from rollnip._own_process import ONE_THREAD, keep_freed_memory
 
 __all__ = ["main"]
 
@@ -17,8 +17,8 @@ def main() -> None:
     has gone.
     """
     # Threaded BLAS makes small dense systems many times slower; set before numpy loads.
-    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"):
-        os.environ.setdefault(name, "1")
+    for name, threads in ONE_THREAD.items():
+        os.environ.setdefault(name, threads)
     from rollnip.cli.console import CLOSED_PIPE, open_closed_streams, silence, write_plain_letters
 
     keep_freed_memory()

@@ -11,8 +11,9 @@ from typing import Any
 
 from rollnip._errors import RollnipError
 from rollnip._extras import require_extra
+from rollnip._own_process import ONE_THREAD
 from rollnip.sweeps import version
-from rollnip.sweeps.crew import Given, one_thread_each
+from rollnip.sweeps.crew import Given
 from rollnip.sweeps.task import Outcome, Task
 from rollnip.sweeps.version import own_version
 
@@ -56,8 +57,9 @@ def dask_crew(address: str, workers: int) -> Iterator[Given]:
         return
     start: Any = LocalCluster
     with (
-        one_thread_each(),
-        start(n_workers=workers, threads_per_worker=1, dashboard_address=None) as cluster,
+        start(
+            n_workers=workers, threads_per_worker=1, dashboard_address=None, env=ONE_THREAD
+        ) as cluster,
         _connected(Client, cluster) as client,
     ):
         yield _checked(client, "the local cluster")

@@ -4,21 +4,26 @@ from __future__ import annotations
 
 import os
 import signal
-import threading
 from collections.abc import Callable, Iterator
-from concurrent.futures import BrokenExecutor, Executor, Future, ProcessPoolExecutor
+from concurrent.futures import (
+    BrokenExecutor,
+    Executor,
+    Future,
+    ProcessPoolExecutor,
+    ThreadPoolExecutor,
+)
 from contextlib import contextmanager
 from multiprocessing import get_context
 from typing import Protocol, TypeVar
 
 from rollnip._errors import RollnipError
+from rollnip._own_process import prepare_worker
 from rollnip.sweeps import version
-from rollnip.sweeps.task import Outcome, Task, perform, stand_alone
+from rollnip.sweeps.task import Outcome, Task, perform
 from rollnip.sweeps.version import own_version
 
 _A = TypeVar("_A")
 _B = TypeVar("_B")
-_THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
 class Crew(Protocol):
@@ -92,11 +97,11 @@ class Processes:
 
     def _started(self) -> ProcessPoolExecutor:
         pool = ProcessPoolExecutor(
-            self._count, mp_context=get_context("spawn"), initializer=stand_alone
+            self._count, mp_context=get_context("spawn"), initializer=prepare_worker
         )
         try:
-            with _deaf_to_interrupts():
-                answers = [pool.submit(version.own_version) for _ in range(self._count)]
+            with ThreadPoolExecutor(1, initializer=_block_interrupts) as thread:
+                answers = list(thread.map(pool.submit, [version.own_version] * self._count))
             theirs = answers[0].result()
         except BrokenExecutor:
             raise RollnipError(
@@ -171,37 +176,17 @@ def processes(count: int) -> Iterator[Processes]:
     They are started afresh (not forked), leave Ctrl-C to this process, and end with it whatever
     ends it. Raises RollnipError where they cannot be started.
     """
-    with one_thread_each():
-        crew = Processes(count)
-        try:
-            yield crew
-        finally:
-            crew.close()
-
-
-@contextmanager
-def one_thread_each() -> Iterator[None]:
-    """Processes started meanwhile use one thread for linear algebra: small systems need no more."""
-    before = {name: os.environ.get(name) for name in _THREADS}
-    os.environ.update(dict.fromkeys(_THREADS, "1"))
+    crew = Processes(count)
     try:
-        yield
+        yield crew
     finally:
-        for name, value in before.items():
-            if value is None:
-                os.environ.pop(name, None)
-            else:
-                os.environ[name] = value
+        crew.close()
 
 
-@contextmanager
-def _deaf_to_interrupts() -> Iterator[None]:
-    """Processes started meanwhile ignore Ctrl-C from their first moment."""
-    if threading.current_thread() is not threading.main_thread():
-        yield  # only the main thread may set handlers; the initializer does it later
-        return
-    handler = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, handler)
+def _block_interrupts() -> None:
+    """Block Ctrl-C in this thread; processes that it starts do not hear it until they ignore it.
+
+    The handlers and masks of the process that calls are left alone.
+    """
+    if hasattr(signal, "pthread_sigmask"):
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})

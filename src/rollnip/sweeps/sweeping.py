@@ -65,6 +65,10 @@ def sweep(
     RollnipError
         where a file cannot be written or is of another study, or the workers are lost; what was
         finished is in the database.
+    KeyboardInterrupt
+        after Ctrl-C, once the cases that workers are solving have ended and are in the database;
+        at once at the second, or without workers. Ctrl-C in the main thread has a handler of this
+        function until it returns; signals and the environment are else left alone.
     """
     count = _workers(workers)
     target = None if out is None else Path(out)

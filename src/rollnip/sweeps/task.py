@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import os
-import signal
-import threading
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
-from multiprocessing import parent_process
-from multiprocessing.connection import wait
 from time import perf_counter
 from typing import Any
 
 import numpy as np
 
-from rollnip._memory import keep_freed_memory
 from rollnip.figures import PROFILES
 from rollnip.solution import Solution
 from rollnip.sweeps.row import Row, own_kernels, ready, solved, without_solution
@@ -94,20 +88,6 @@ def given_up(task: Task, why: str) -> list[Outcome]:
     """Return the outcomes of a task whose worker died."""
     row = without_solution("lost", why)
     return [Outcome(position, values, None, row, 0.0) for position, values in task.cases]
-
-
-def stand_alone() -> None:
-    """Let a new worker process leave Ctrl-C to its parent, and end when the parent is gone."""
-    keep_freed_memory()
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
-    parent = parent_process()
-    if parent is not None:
-        threading.Thread(target=_end_with, args=(parent.sentinel,), daemon=True).start()
-
-
-def _end_with(sentinel: int) -> None:
-    wait([sentinel])
-    os._exit(1)
 
 
 def _profiles(solution: Solution) -> bytes:

@@ -18,6 +18,7 @@ from collections.abc import Coroutine, Mapping
 from dataclasses import asdict, dataclass
 from typing import Any, TypeVar
 
+from rollnip._own_process import ONE_THREAD
 from rollnip.web.answers import Reply
 from rollnip.web.limits import Limits
 from rollnip.web.worker import HEAD
@@ -71,15 +72,12 @@ class _Worker:
     @classmethod
     async def start(cls, limits: Limits) -> _Worker:
         """Start a process and wait until it is ready."""
-        environment = os.environ | dict.fromkeys(
-            ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS"), "1"
-        )
         worker = cls(
             await asyncio.create_subprocess_exec(
                 *(sys.executable, "-P", "-m", "rollnip.web.worker", json.dumps(asdict(limits))),
                 stdin=PIPE,
                 stdout=PIPE,
-                env=environment,
+                env=os.environ | ONE_THREAD,
                 start_new_session=True,  # Ctrl-C is for the server, which then ends its workers
             )
         )

@@ -19,7 +19,7 @@ import warnings
 from contextlib import suppress
 from typing import BinaryIO
 
-from rollnip._memory import keep_freed_memory
+from rollnip._own_process import keep_freed_memory
 from rollnip.web.limits import Limits
 from rollnip.web.quiet import keep_quiet
 

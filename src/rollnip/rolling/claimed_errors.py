@@ -54,7 +54,6 @@ configuration II, driven with frictions of 2 to 4, by 0.2 of what they change of
 # Error of the approach over the violation of the contact conditions, which "finite" leaves where
 # its correction has changed last: 0.56 to 0.6 under the skin of figure 4 with 0.26 mm.
 _SHARE_OF_RESIDUAL = 0.7
-_VERB: Mapping[Geometry, str] = {"second": "leaves", "finite": "leave"}
 ACCEPT_IT = "accept it with a larger tolerance"
 """What helps where no finer mesh or grid is to be had."""
 WORDS: Mapping[str, str] = {
@@ -248,7 +247,7 @@ def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Return whether the claimed errors meet the tolerance, and a sentence on them.
 
     At finite strain the error of the model meets a tolerance of 1e-3 or more, and does not meet a
-    finer one.
+    finer one. The mesh may then leave as much of the same figures.
     """
     relative = _relative(nip, model.geometry, final)
     if not relative:
@@ -261,8 +260,7 @@ def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     }
     worst, ratio = worst_error(relative, allowed)
     if ratio <= 1.0 + ROUNDING:
-        by = f"{_LEFT_BY[model.geometry]} {_VERB[model.geometry]}" if any(shares.values()) else ""
-        more = left_open(shares, model.tolerance, by)
+        more = left_open(relative, model.tolerance, "the model and the mesh leave")
         return True, f"errors within the tolerance {model.tolerance:g}{more}."
     if relative[worst] <= shares[worst] * (1.0 + ROUNDING):
         return False, (
@@ -303,14 +301,14 @@ def worst_error(relative: Mapping[str, float], allowed: Mapping[str, float]) -> 
     return worst, ratios[worst]
 
 
-def left_open(shares: Mapping[str, float], tolerance: float, by: str) -> str:
+def left_open(relative: Mapping[str, float], tolerance: float, by: str) -> str:
     """Return words on the errors that exceed the tolerance and that something leaves.
 
-    ``shares``: relative, by the names of `WORDS` or by words. ``by`` names what leaves them with
+    ``relative``: errors by the names of `WORDS` or by words. ``by`` names what leaves them with
     its verb, as in "the samples leave".
     """
     beyond = tolerance * (1.0 + ROUNDING)
-    larger = {name: share for name, share in shares.items() if share > beyond}
+    larger = {name: share for name, share in relative.items() if share > beyond}
     if not larger:
         return ""
     words = {WORDS.get(name, name): 100.0 * share for name, share in larger.items()}

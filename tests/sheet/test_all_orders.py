@@ -142,14 +142,14 @@ def test_power_by_moments_and_by_losses(name):
         assert torque / roller.radius == pytest.approx(_moment(solution, side), abs=allowed)
 
 
-def _driven_hard(load, shares, monkeypatch):
+def _driven_hard(load, shares, monkeypatch, *, bending=False):
     """A bare roller driven with 0.4 of the load at a friction of 1.5, and its solution.
 
     The covering is stretched to four times its length at the edge that slips.
     """
     monkeypatch.setattr(all_orders, "SHARES_KEPT", shares)
     nip = nip_with(
-        paper(bending=False),
+        paper(bending=bending),
         lower=RIGID,
         friction=1.5,
         speed=100.0,
@@ -160,12 +160,14 @@ def _driven_hard(load, shares, monkeypatch):
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize("bending", [False, True])
 @pytest.mark.parametrize("share", [1.0, 0.5, 0.25])
-def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch, share):
+def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch, share, bending):
     # With smooth stretches the loss was 4.6 % larger, 0.6 % of the power; with those of all waves
     # where a side slips and smooth ones where it sticks a torque was up to 0.3 % of the traction
     # off. Whether all waves come to rest is a matter of rounding, so there are several loads.
-    solved = [_driven_hard(load, (share,), monkeypatch) for load in (1.6, 1.775, 1.782, 1.79)]
+    loads = (1.6, 1.775) if bending else (1.6, 1.775, 1.782, 1.79)
+    solved = [_driven_hard(load, (share,), monkeypatch, bending=bending) for load in loads]
     solved = [(nip, one) for nip, one in solved if one.model.geometry == "finite"]
     assert solved
     for nip, solution in solved:
@@ -179,7 +181,9 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
             off = abs(getattr(solution, name) - radius * _moment(solution, side))
             # the elements over the depth are few for such stretches: they leave 1 %, and say so
             assert off < 1.1 * claims[name], name
-        assert solution.refined.cut_losses[0] > 2e-3 * solution.traction
+        # a stiff sheet keeps half of the stretch away
+        shows = 1e-3 if bending else 2e-3
+        assert solution.refined.cut_losses[0] > shows * solution.traction
 
 
 @pytest.mark.slow

@@ -16,7 +16,6 @@ from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
@@ -183,13 +182,6 @@ def pulls_of(
     lengths = (x[1:] - x[:-1] + excess) * arc_ratio(x, problem.nip, geometry, fine)
     upper, lower = (mean_shear(mesh, side_state(state, side)) for side in (0, 1))
     return float(lengths[0] @ upper), float(lengths[1] @ lower)
-
-
-def slip_in(mesh: Mesh, states: States) -> NDArray[np.bool_]:
-    """Return which intervals of the finer nodes but the first lie between nodes that slip."""
-    slips = states > State.STICK
-    parts = (mesh.fine.nodes.size - 3) // (states.size - 1)
-    return np.append(np.repeat(slips[:-1] & slips[1:], parts), False)
 
 
 def side_state(state: SheetState, side: int) -> SheetState:

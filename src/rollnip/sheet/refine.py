@@ -241,17 +241,28 @@ def with_errors_of_powers(refined: SheetRefined, geometry: Geometry) -> SheetRef
 
     The former has no place in its losses. Only at finite strain are moments as exact as torques.
     """
-    stand, errors = refined.stand, refined.errors.values.copy()
+    stand = refined.stand
     problem, state = stand.problem, stand.state
     works = slip_works(problem, geometry, state, stand.lagged)
     off = np.zeros(2)
     if geometry == "finite":
         off = off_the_moments(problem, geometry, state, refined.figures.powers)
+    return replace(refined, errors=claimed_of_powers(refined.errors, works, off))
+
+
+def claimed_of_powers(
+    errors: SheetFigures, works: Sequence[tuple[float, float]], off: Array
+) -> SheetFigures:
+    """Return errors that are no less than slip along its own shear, and torques off their moments.
+
+    ``works``, ``off``: of both sides, see `slip_works` and `off_the_moments`.
+    """
+    values = errors.values.copy()
     for side, (_, reversed_slip), left in zip(("upper", "lower"), works, off, strict=True):
         for name, least in (("friction", max(reversed_slip, left)), ("pull", left)):
             at = NAMES.index(f"{name}_{side}")
-            errors[at] = max(errors[at], least)
-    return replace(refined, errors=SheetFigures(errors))
+            values[at] = max(values[at], least)
+    return SheetFigures(values)
 
 
 def residual_of(stand: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:

@@ -16,10 +16,11 @@ from rollnip.sheet.plate.lagged import change_of, displacements_of, lagged_terms
 from rollnip.sheet.plate.refine import (
     PlateRefined,
     first_count,
-    friction_losses,
     of_lower,
     plate_figures,
     refine_plate,
+    smooth_works,
+    with_errors_of_powers,
 )
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.sides import SIGNS
@@ -111,10 +112,11 @@ class Bending:
         left = max(left, violation(stand), overlap(stand, kernels, "finite"))
         figures = plate_figures(stand, "finite")
         lower = of_lower(figures, stand)
-        return replace(refined, stand=stand, figures=figures, lower=lower, residual=left), left
+        found = replace(refined, stand=stand, figures=figures, lower=lower, residual=left)
+        return with_errors_of_powers(found, "finite"), left
 
     def with_cut(self, refined: PlateRefined, cut: float) -> PlateRefined:
         """Return a refined solution with what the correction leaves out."""
-        figures, (upper, lower) = refined.figures, friction_losses(refined.stand)
+        figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.stand)
         losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
         return replace(refined, cut=cut, cut_losses=losses)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import sqrt
 
 import numpy as np
@@ -15,7 +14,7 @@ from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import loss_inside, mean_shear
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
-from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate, slip_in
+from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate
 from rollnip.sheet.plate.curved import curved_load, is_stiff, places_along
 from rollnip.sheet.plate.sides import NAMES, SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
@@ -135,29 +134,16 @@ def missed(new: LaggedPlate, old: LaggedPlate, problem: PlateProblem, state: Pla
     return largest(*parts, _curved_change(new, old, problem, state))
 
 
-def uncut_terms(
-    problem: PlateProblem, geometry: Geometry, state: PlateState, before: LaggedPlate
-) -> LaggedPlate:
-    """Return the terms of a solution, solved with others, with all waves of held corrections."""
-    upper, lower = (
-        mesh
-        if mesh.kernels.held is None
-        else mesh.holding(replace(mesh.kernels, held=mesh.kernels.held.uncut))
-        for mesh in problem.meshes
-    )
-    return lagged_terms(replace(problem, meshes=(upper, lower)), geometry, state, before)
+def pull_of(
+    problem: PlateProblem, geometry: Geometry, state: PlateState, side: int, u: Displacements
+) -> float:
+    """Return int q lambda ds of one roller [N/mm], see `rollnip.sheet.lagged.pulls_of`.
 
-
-def pull_of(problem: PlateProblem, geometry: Geometry, state: PlateState, side: int) -> float:
-    """Return int q lambda ds of one roller [N/mm], see `rollnip.sheet.lagged.pulls_of`."""
+    ``u``: at nodes[1:].
+    """
     nip, mesh = problem.nip, problem.meshes[side]
-    x, u = mesh.fine.nodes[1:], displacements_of(problem, state, side)
-    fine, slips = mesh.finer(u), slip_in(mesh, state.states[side])
-    excess = stretch_excess(x, nip, geometry, fine)[side]
-    if geometry == "finite" and slips.any():
-        uncut = stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))[side]
-        excess = np.where(slips, uncut, excess)
-    lengths = x[1:] - x[:-1] + excess
+    x, fine = mesh.fine.nodes[1:], mesh.finer(u)
+    lengths = x[1:] - x[:-1] + stretch_excess(x, nip, geometry, fine)[side]
     if geometry in FINITE:
         lengths = lengths * path_ratio(x, nip, side, fine)
     return float(lengths @ mean_shear(mesh, state.side(side)))
@@ -219,7 +205,8 @@ def _traction_for_torque(problem: PlateProblem, geometry: Geometry, state: Plate
     """Return T_l for which the lower torque R_l (w_l - int q_l lambda_l ds) is as prescribed."""
     nip = problem.nip
     assert isinstance(nip.tangential, Torque)
-    pull = pull_of(problem, geometry, state, 1)
+    uncut = problem.meshes[1].uncut(displacements_of(problem, state, 1))
+    pull = pull_of(problem, geometry, state, 1, uncut)
     lost = lost_inside(problem, geometry, state, 1)
     wanted = nip.tangential.torque_lower * nip.lower.curvature
     sheared = float(problem.meshes[1].weights @ state.shear[1])

@@ -10,14 +10,16 @@ from numpy.typing import NDArray
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
+from rollnip.rolling.assemble import moment
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
-from rollnip.rolling.power_balance import slip_losses
+from rollnip.rolling.power_balance import rates_of, slip_losses
 from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
-from rollnip.sheet.plate.lagged import lost_inside, pull_of, uncut_terms
+from rollnip.sheet.plate.lagged import displacements_of, lost_inside, pull_of
 from rollnip.sheet.plate.search import PlateSearch
+from rollnip.sheet.plate.sides import NAMES as SIDES
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.powers import SheetPowers, slip_zones
@@ -28,6 +30,7 @@ from rollnip.sheet.refine import (
     GROWTH,
     NAMES,
     SheetFigures,
+    claimed_of_powers,
     errors_between,
     ratio,
 )
@@ -156,7 +159,16 @@ def refine_plate(
 def _with_overlap(refined: PlateRefined, kernels: PairKernels, geometry: Geometry) -> PlateRefined:
     """Return a solution with what it overlaps outside the contacts, too."""
     left = max(refined.residual, overlap(refined.stand, kernels, geometry))
-    return replace(refined, residual=left)
+    return with_errors_of_powers(replace(refined, residual=left), geometry)
+
+
+def with_errors_of_powers(refined: PlateRefined, geometry: Geometry) -> PlateRefined:
+    """Return a solution that claims slip along its own shear, and what torques are off moments."""
+    stand = refined.stand
+    works = _slip_works(stand, geometry, _pulls_of(stand, geometry))
+    off = _off_the_moments(stand, refined.figures.powers) if geometry == "finite" else np.zeros(2)
+    errors = claimed_of_powers(refined.errors, works, off)
+    return replace(refined, errors=errors)
 
 
 def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
@@ -198,19 +210,43 @@ def of_lower(figures: SheetFigures, stand: PlateAttempt) -> SheetFigures:
 
 def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
     """Return torques over radii and losses of a solution."""
-    problem, state, lagged = stand.problem, stand.state, stand.lagged
-    if geometry == "finite":
-        lagged = uncut_terms(problem, geometry, state, lagged)
-    friction = friction_losses(replace(stand, lagged=lagged))
+    problem, state, pulls = stand.problem, stand.state, _pulls_of(stand, geometry)
+    friction = [lost for lost, _ in _slip_works(stand, geometry, pulls)]
     return SheetPowers(
         friction_upper=friction[0],
         friction_lower=friction[1],
         lost_upper=lost_inside(problem, geometry, state, 0),
         lost_lower=lost_inside(problem, geometry, state, 1),
-        pull_upper=pull_of(problem, geometry, state, 0),
-        pull_lower=pull_of(problem, geometry, state, 1),
+        pull_upper=pulls[0][0],
+        pull_lower=pulls[1][0],
         into_sheet=_into_sheet(stand),
     )
+
+
+def _pulls_of(stand: PlateAttempt, geometry: Geometry) -> list[tuple[float, float]]:
+    """Return int q lambda ds of each roller, with all short waves and without those cut [N/mm]."""
+    problem, state, out = stand.problem, stand.state, []
+    for side, mesh in enumerate(problem.meshes):
+        u = displacements_of(problem, state, side)
+        smooth = pull_of(problem, geometry, state, side, u)
+        held = mesh.kernels.held is not None
+        whole = pull_of(problem, geometry, state, side, mesh.uncut(u)) if held else smooth
+        out.append((whole, smooth))
+    return out
+
+
+def _off_the_moments(stand: PlateAttempt, spent: SheetPowers) -> Array:
+    """Return how far the torques are off the moments of the tractions, over the radii, (2,) [N/mm].
+
+    See `rollnip.sheet.powers.off_the_moments`.
+    """
+    nip, off = stand.problem.nip, np.zeros(2)
+    driving = spent.as_bare.driving_upper, spent.as_bare.driving_lower
+    for side, mesh in enumerate(stand.problem.meshes):
+        u = mesh.uncut(displacements_of(stand.problem, stand.state, side))
+        state = stand.state.side(side)
+        off[side] = abs(driving[side] - moment(SIDES[side], nip, "finite", mesh, state, u))
+    return off
 
 
 def _pushed(stand: PlateAttempt, side: int) -> Array:
@@ -219,16 +255,28 @@ def _pushed(stand: PlateAttempt, side: int) -> Array:
     return -np.diff(one.of(stand.state.shear[side]).beyond(mesh.inner)[0, :, 0])
 
 
-def friction_losses(stand: PlateAttempt) -> tuple[float, float]:
-    """Return what slip on either interface loses per rolled distance [N/mm]."""
-    return _slipped(stand, 0), _slipped(stand, 1)
+def _slip_works(
+    stand: PlateAttempt, geometry: Geometry, pulls: list[tuple[float, float]]
+) -> list[tuple[float, float]]:
+    """Return what slip on either interface loses, and its work along its own shear [N/mm].
+
+    See `rollnip.sheet.powers.slip_works`. ``pulls``: see `_pulls_of`.
+    """
+    rates, out = rates_of(geometry, stand.state.creepage), []
+    for side, (lost, reversed_slip) in enumerate(smooth_works(stand)):
+        whole, smooth = pulls[side]
+        lost += SIGNS[side] * rates[side] * (whole - smooth)
+        out.append((max(lost, 0.0), reversed_slip + max(-lost, 0.0)))
+    return out
 
 
-def _slipped(stand: PlateAttempt, side: int) -> float:
-    problem, states = stand.problem, stand.state.states[side]
-    creep = problem.gaps_and_creeps(stand.state, stand.lagged)[side][1]
-    rate = creep[:-1] / problem.meshes[side].dx[:-1]
-    return slip_losses(_pushed(stand, side) * rate, slip_zones(states))[0]
+def smooth_works(stand: PlateAttempt) -> list[tuple[float, float]]:
+    """Return the same of the creep that the contacts follow [N/mm]."""
+    creeps, out = stand.problem.gaps_and_creeps(stand.state, stand.lagged), []
+    for side, mesh in enumerate(stand.problem.meshes):
+        rate = creeps[side][1][:-1] / mesh.dx[:-1]
+        out.append(slip_losses(_pushed(stand, side) * rate, slip_zones(stand.state.states[side])))
+    return out
 
 
 def _into_sheet(stand: PlateAttempt) -> float:

@@ -9,8 +9,8 @@ from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.rolling import peak_pressure
+from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, SheetFigures, scales
 from rollnip.sheet.plate.search import PlateSearch
-from rollnip.sheet.refine import NAMES, SHARES_OF_MODEL, SheetFigures, scales
 from rollnip.sheet.said import relative_errors
 from rollnip.sheet.search import SheetSearch
 

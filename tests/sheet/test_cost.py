@@ -77,3 +77,10 @@ def test_the_path_of_a_sheet_asks_for_no_finer_meshes_than_the_contact(counted):
     for number in (96027, 96034, 96035, 96036):
         assert rn.solve(random_case(number).nip, rn.Model(geometry="curved")).converged
     assert max(counted["sheet"]) <= 75
+
+
+def test_a_zone_found_late_asks_for_no_finer_meshes_than_its_errors_do(counted):
+    # What other zones changed was taken for the error of those found: 3113 nodes.
+    for number in (106021, 106046, 106067, 106068):
+        assert rn.solve(random_case(number).nip, rn.Model(geometry="curved")).converged
+    assert sum(counted["sheet"]) <= 1750

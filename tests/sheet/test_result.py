@@ -11,7 +11,8 @@ import rollnip as rn
 from rollnip._results.tree import result_dict
 from rollnip.io import base_tree, case_python, case_toml, parse_case
 from rollnip.sheet.common import sheet_verdict
-from rollnip.sheet.refine import SheetFigures, scales, with_errors_of_powers
+from rollnip.sheet.figures import SheetFigures, scales
+from rollnip.sheet.refine import with_errors_of_powers
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps.row import SCALARS, evaluate
 

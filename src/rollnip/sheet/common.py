@@ -13,7 +13,7 @@ from rollnip.model import BEYOND, Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.reservation import Reservation
 from rollnip.rolling import Round, impossible, missed, verdict, violated
-from rollnip.sheet.refine import SheetFigures, scales
+from rollnip.sheet.figures import SheetFigures, scales
 from rollnip.sheet.system import frictions_of
 from rollnip.validity import instead_of
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from rollnip.nip import Creepage, Nip
 from rollnip.rolling import DeformedSurfaces
 from rollnip.sheet.bending import mean_tension, spreading_length
-from rollnip.sheet.refine import NAMES, SheetFigures, scales
+from rollnip.sheet.figures import NAMES, SheetFigures, scales
 
 Array = NDArray[np.float64]
 

@@ -12,11 +12,11 @@ from rollnip.nip import Nip
 from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.elements import Acting
 from rollnip.sheet.all_orders import COARSE
+from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.lagged import change_of, lagged_terms, missed
 from rollnip.sheet.powers import smooth_works
 from rollnip.sheet.refine import (
     LAST_CLOSELY,
-    SheetFigures,
     SheetRefined,
     refine_sheet,
     residual_of,

@@ -70,7 +70,7 @@ def sheet_powers(
         loss_inside("upper", nip, geometry, mesh, state),
         loss_inside("lower", nip, geometry, mesh, side_state(state, 1)),
     ]
-    friction = [lost for lost, _ in slip_works(problem, geometry, state, lagged)]
+    friction = [lost for lost, _ in slip_works(problem, geometry, state, lagged, pulls)]
     return SheetPowers(
         friction_upper=friction[0],
         friction_lower=friction[1],
@@ -83,20 +83,24 @@ def sheet_powers(
 
 
 def slip_works(
-    problem: SheetProblem, geometry: Geometry, state: SheetState, lagged: Lagged
+    problem: SheetProblem,
+    geometry: Geometry,
+    state: SheetState,
+    lagged: Lagged,
+    pulls: tuple[float, float],
 ) -> list[tuple[float, float]]:
     """Return what slip on either interface loses, and its work along its own shear [N/mm].
 
     Short waves that the contact does not follow change the stretch, and by it what the shear of a
-    surface hands over, see `pulls_of`; the loss changes by as much.
+    surface hands over; the loss changes by as much. ``pulls``: see `pulls_of`, with these waves.
     """
-    mesh, out = problem.mesh, []
-    u = mesh.displacements(state)
-    all_waves = pulls_of(problem, geometry, state, mesh.uncut(u))
-    smooth = pulls_of(problem, geometry, state, u)
     works = smooth_works(problem, state, lagged)
+    if problem.mesh.held is None:
+        return works
+    out = []
+    smooth = pulls_of(problem, geometry, state, problem.mesh.displacements(state))
     for side, (sign, rate) in enumerate(zip((1.0, -1.0), rates(geometry, state), strict=True)):
-        lost = works[side][0] + sign * rate * (all_waves[side] - smooth[side])
+        lost = works[side][0] + sign * rate * (pulls[side] - smooth[side])
         out.append((max(lost, 0.0), works[side][1] + max(-lost, 0.0)))
     return out
 

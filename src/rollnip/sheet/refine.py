@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf, sqrt
@@ -14,11 +14,10 @@ from numpy.typing import NDArray
 from rollnip.contact import elements_of_zones
 from rollnip.model import Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip
-from rollnip.rolling import Figures, PairKernels
-from rollnip.rolling.round import peak_at, peak_pressure, scale_of_creepage
-from rollnip.sheet.powers import SheetPowers, off_the_moments, sheet_powers, slip_works
+from rollnip.rolling import PairKernels
+from rollnip.sheet.figures import NAMES, SheetFigures, ratio, scales
+from rollnip.sheet.powers import off_the_moments, slip_works
 from rollnip.sheet.search import SheetAttempt, SheetSearch, overlap, violation
-from rollnip.sheet.system import frictions_of
 from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
@@ -39,7 +38,6 @@ _MOST_FAILURES = 3  # sizes of mesh whose zones do not come to rest
 _ROUGHLY, LAST_CLOSELY = 1.0, 0.03  # of the tolerance: what ends may be off on first, last sizes
 _LAST_COUNT = 60  # elements beyond which ends are placed better
 _ROUNDING = 1e-12
-_WATCHED = 7  # of the figures: those that the tolerance is for
 # Least error of each figure over its scale, times the square of the number of elements; measured
 # on random nips against much finer meshes (tests judge others).
 _LEAST = np.array(
@@ -49,86 +47,6 @@ _LEAST = np.array(
         *(6.0, 6.0, 0.5, 0.5, 1.0, 1.0, 1.0, 8.0, 4.0),
     ]
 )
-
-
-@dataclass(frozen=True, slots=True)
-class SheetFigures:
-    """Figures of a solution, or their errors.
-
-    Attributes
-    ----------
-    values : (20,) in the order of `NAMES`. The tolerance is for the first seven: approach, load
-        (the pressure's, less what the shears take of it), creepage, nip width, peak pressure, and
-        the creepages of both interfaces. Then the tractions of both interfaces, the largest and the
-        smallest tension, `SheetPowers`, the place of the highest pressure, and the largest strain
-        of the sheet in size.
-    """
-
-    values: Array
-
-    @classmethod
-    def of(cls, stand: SheetAttempt, geometry: str) -> SheetFigures:
-        """Return the figures of a solution."""
-        problem, state = stand.problem, stand.state
-        mesh = problem.mesh
-        peak, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
-        tension = problem.tension_at(state)
-        strain = strain_at(stand)
-        spent = sheet_powers(problem, geometry, state, stand.lagged)  # type: ignore[arg-type]
-        weights = mesh.weights
-        first = [
-            state.approach,
-            float(weights @ state.pressure) - stand.lagged.lean,
-            state.creepage + state.creepage_lower,
-            stand.zones.width,
-            peak,
-            state.creepage,
-            state.creepage_lower,
-            float(weights @ state.shear),
-            float(weights @ state.shear_lower),
-            largest_of(mesh.inner, tension),
-            -largest_of(mesh.inner, -tension),
-        ]
-        widest = 1.0 if strain.max() > -strain.min() else -1.0
-        last = [place, widest * largest_of(mesh.inner, widest * strain)]
-        return cls(np.array([*first, *spent.array().tolist(), *last]))
-
-    def __getattr__(self, name: str) -> float:
-        if name in NAMES:
-            return float(self.values[NAMES.index(name)])
-        raise AttributeError(name)
-
-    @property
-    def watched(self) -> Figures:
-        """Return the figures of any nip."""
-        return Figures(*self.values[:5].tolist())
-
-    @property
-    def powers(self) -> SheetPowers:
-        """Return torques over radii and losses."""
-        return SheetPowers(*self.values[11:18].tolist())
-
-
-NAMES = (
-    "approach", "load", "creepage", "nip_width", "peak_pressure",
-    "creepage_upper", "creepage_lower",
-    "traction_upper", "traction_lower", "tension_max", "tension_min",
-    "friction_upper", "friction_lower", "lost_upper", "lost_lower", "pull_upper", "pull_lower",
-    "into_sheet", "peak_pressure_x", "strain_max",
-)  # fmt: skip
-
-
-def largest_of(x: Array, values: Array) -> float:
-    """Return the largest value, between nodes too."""
-    return peak_at(x, values, int(np.argmax(values)))[0]
-
-
-def strain_at(stand: SheetAttempt) -> Array:
-    """Return the strain of the sheet at the nodes, (n,)."""
-    problem, state = stand.problem, stand.state
-    sheet = problem.sheet
-    tension = sheet.stretch_by_tension * problem.tension_at(state)
-    return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
 
 
 @dataclass(frozen=True, slots=True)
@@ -154,6 +72,9 @@ class SheetRefined:
     cut_losses: tuple[float, float] = (0.0, 0.0)
 
 
+_Size = tuple[float, SheetFigures, Zones]  # elements, figures and zones of a size of mesh
+
+
 def refine_sheet(
     nip: Nip,
     model: Model,
@@ -176,9 +97,9 @@ def refine_sheet(
     """
     search, count = SheetSearch(nip, model, kernels), float(_FIRST)
     stand = search.begun(half_width, FIRST_COUNT) if before is None else before
-    history: list[tuple[float, SheetFigures, Zones]] = []
+    history: list[_Size] = []
     best: SheetRefined | None = None
-    failures, fewest = 0, FEWEST + nip.is_viscoelastic
+    failures, fewest, last_count = 0, FEWEST + nip.is_viscoelastic, 0
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
         may_be_last = len(history) + 1 >= fewest
         closely = _closely(count) if may_be_last else _ROUGHLY
@@ -187,14 +108,15 @@ def refine_sheet(
         except np.linalg.LinAlgError:
             failures, count = failures + 1, _next_count(count, inf)
             continue
-        figures = SheetFigures.of(stand, model.geometry)
-        elements = stand.problem.mesh.inner.size - 1
-        here = (float(elements), figures, stand.zones)
+        if stand.stands_still:
+            history = _with_zones_of(stand, history, search, last_count)
+        here = _size_of(stand, model.geometry)
+        figures = here[1]
         errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
         latest = SheetRefined(stand, figures, errors, violation(stand), round(count))
         if stand.stands_still:
             history.append(here)
-            best = latest
+            best, last_count = latest, round(count)
             if may_be_last and ratio(nip, figures, errors) <= model.tolerance:
                 best = _with_overlap(latest, kernels, model.geometry)
                 if best.residual <= model.tolerance:
@@ -209,6 +131,32 @@ def refine_sheet(
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return _with_overlap(best, kernels, model.geometry)
+
+
+def _size_of(stand: SheetAttempt, geometry: Geometry) -> _Size:
+    """Return what the estimates of errors ask of a size of mesh."""
+    elements = stand.problem.mesh.inner.size - 1
+    return float(elements), SheetFigures.of(stand, geometry), stand.zones
+
+
+def _with_zones_of(
+    stand: SheetAttempt, history: list[_Size], search: SheetSearch, count: int
+) -> list[_Size]:
+    """Return the sizes of mesh before a solution, the last of them with its zones.
+
+    Where a solution has other zones than the sizes before, which missed them, what it changes says
+    nothing of its own errors. The last size before, of ``count`` elements, is solved once more,
+    with nodes at the ends of these zones.
+    """
+    if not history or history[-1][2].is_like(stand.zones):
+        return history
+    try:
+        again = search.placed(stand.zones, count, stand, _ROUGHLY)
+    except np.linalg.LinAlgError:
+        return history
+    if not (again.stands_still and again.zones.is_like(stand.zones)):
+        return history
+    return [_size_of(again, search.model.geometry)]
 
 
 def _next_count(count: float, ratio: float) -> float:
@@ -243,10 +191,12 @@ def with_errors_of_powers(refined: SheetRefined, geometry: Geometry) -> SheetRef
     """
     stand = refined.stand
     problem, state = stand.problem, stand.state
-    works = slip_works(problem, geometry, state, stand.lagged)
+    spent = refined.figures.powers
+    pulls = spent.pull_upper, spent.pull_lower
+    works = slip_works(problem, geometry, state, stand.lagged, pulls)
     off = np.zeros(2)
     if geometry == "finite":
-        off = off_the_moments(problem, geometry, state, refined.figures.powers)
+        off = off_the_moments(problem, geometry, state, spent)
     return replace(refined, errors=claimed_of_powers(refined.errors, works, off))
 
 
@@ -268,40 +218,6 @@ def claimed_of_powers(
 def residual_of(stand: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how badly a solution violates its conditions, relative."""
     return max(violation(stand), overlap(stand, kernels, geometry))
-
-
-def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:
-    """Return the largest relative error of the figures that the tolerance is for."""
-    relative = errors.values[:_WATCHED] / scales(nip, figures)[:_WATCHED]
-    if nip.has_half_space:
-        relative[0] = 0.0
-    worst = float(np.max(relative))
-    return worst if np.isfinite(worst) else inf
-
-
-def scales(nip: Nip, figures: SheetFigures) -> Array:
-    """Return the sizes that errors are relative to, (20,).
-
-    A creepage, traction, tension or loss that is zero by symmetry has no relative accuracy: each
-    size is at least a part of the largest value that the figure may have.
-    """
-    values = np.abs(figures.values)
-    load, slope = values[1], 0.5 * values[3] * nip.curvature
-    carried = 0.05 * np.minimum(frictions_of(nip), 1.0)  # of either side, over the load
-    work = load * slope
-    viscous = [roller.is_viscoelastic for roller in (nip.upper, nip.lower)]
-    out = values.copy()
-    out[2] = scale_of_creepage(values[2], slope)
-    out[5:7] = scale_of_creepage(max(values[5], values[6]), slope)
-    out[7:9] = np.maximum(values[7:9], load * carried)
-    out[9:11] = max(values[9], values[10], load * float(carried.max()))
-    out[11:13] = np.maximum(values[11:13], work * carried)
-    out[13:15] = np.where(viscous, np.maximum(values[13:15], 0.0025 * work), 0.0)
-    out[15:18] = np.maximum(values[15:18], work)
-    out[18] = values[3]
-    assert nip.sheet is not None
-    out[19] = max(values[19], nip.sheet.stretch_by_tension * out[9])
-    return np.asarray(out)
 
 
 class _Alike(Protocol):
@@ -350,39 +266,6 @@ def errors_between(
     prescribed = 1 if isinstance(nip.normal, LineLoad) else 0
     floor[prescribed] = _ROUNDING * abs(figures.values[prescribed])
     return np.asarray(np.maximum(error, floor))
-
-
-SHARES_OF_MODEL: Mapping[Geometry, Array] = {
-    "second": np.array(
-        [
-            *(1e-3, 1e-3, 1e-2, 2e-3, 1.5e-3, 1e-2, 1e-2),
-            *(5e-3, 5e-3, 1e-2, 1e-2),
-            *(3e-3, 3e-3, 3e-3, 3e-3, 2e-3, 2e-3, 5e-3, 7e-3, 1e-2),
-        ]
-    ),
-    "finite": np.array(
-        [
-            *(3e-4, 3e-4, 5e-3, 1e-3, 3e-3, 5e-3, 5e-3),
-            *(5e-3, 5e-3, 5e-3, 5e-3),
-            *(2e-3, 2e-3, 3e-3, 3e-3, 2e-3, 2e-3, 5e-3, 7e-3, 5e-3),
-        ]
-    ),
-}
-"""Relative error that a geometry leaves in each figure, as for a bare nip. In "finite" figures of
-30 random nips change by less than that between meshes of 24 and 64 elements."""
-
-# With twice the finite elements under the tractions the creepage of a plate changed by 0.9 %
-# (number 523 of the random sheets, with eight times its load), those of membranes by 0.14 %.
-_PLATE_CREEPAGES = 2.0
-
-
-def shares_of_model(geometry: Geometry, bends: bool) -> Array:
-    """Return what the model's own order leaves open of each figure, over its scale, (n,)."""
-    shares = SHARES_OF_MODEL.get(geometry, np.zeros(len(NAMES))).copy()
-    if bends:
-        at = [n for n, name in enumerate(NAMES) if name.startswith("creepage")]
-        shares[at] *= _PLATE_CREEPAGES
-    return shares
 
 
 def traction_slope(stand: SheetAttempt) -> float:

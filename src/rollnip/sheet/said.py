@@ -8,7 +8,7 @@ from typing import TypeVar
 
 from rollnip.rolling import WORDS, left_open
 from rollnip.sheet.common import not_prescribed
-from rollnip.sheet.refine import NAMES, scales
+from rollnip.sheet.figures import NAMES, scales
 from rollnip.sheet.solution import SheetSolution
 
 Solved = TypeVar("Solved", bound=SheetSolution)

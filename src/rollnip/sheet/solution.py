@@ -31,18 +31,12 @@ from rollnip.rolling.claimed_errors import SHARE_OF_CUT
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.common import not_prescribed
+from rollnip.sheet.figures import NAMES, SheetFigures, scales, shares_of_model
 from rollnip.sheet.freely import left_by_bending_freely, wrapped_length
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
-from rollnip.sheet.refine import (
-    NAMES,
-    SheetFigures,
-    SheetRefined,
-    scales,
-    shares_of_model,
-    traction_slope,
-)
+from rollnip.sheet.refine import SheetRefined, traction_slope
 from rollnip.sheet.result import SheetProfiles, SheetResult, inside_zone, slip_share_of, zones_of
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements

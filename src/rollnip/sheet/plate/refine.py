@@ -15,6 +15,7 @@ from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.power_balance import rates_of, slip_losses
 from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.bending import bending_length
+from rollnip.sheet.figures import NAMES, SheetFigures, ratio
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import displacements_of, lost_inside, pull_of
@@ -28,11 +29,8 @@ from rollnip.sheet.refine import (
     FEWEST_WITH_SLIP,
     FIRST_COUNT,
     GROWTH,
-    NAMES,
-    SheetFigures,
     claimed_of_powers,
     errors_between,
-    ratio,
 )
 
 Array = NDArray[np.float64]

@@ -23,11 +23,11 @@ from rollnip.rolling import (
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
+from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.plate.attempt import PlateAttempt
 from rollnip.sheet.plate.factorised import FactorisedPlate
 from rollnip.sheet.plate.refine import PlateRefined
 from rollnip.sheet.plate.sides import NAMES, SIGNS, values_at
-from rollnip.sheet.refine import SheetFigures
 from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
 from rollnip.sheet.system import SheetState

@@ -95,7 +95,7 @@ def test_where_there_is_no_solution_the_reason_is_given():
     solution = rn.solve(nip, SECOND)
     assert solution.model.geometry == "curved"
     assert solution.warnings[0].startswith(
-        'No solution of geometry "second" was found: its second-order terms did not come to rest'
+        'No solution of geometry "second" was found: its second-order terms did not settle'
     )
     assert "strain" not in solution.warnings[0]
 
@@ -116,8 +116,8 @@ def test_tractions_without_equilibrium_are_said_to_be_the_cause():
     solution = rn.solve(stretched(3e-4))
     assert solution.model.geometry == "second"
     assert solution.warnings[0] == (
-        'No solution of geometry "finite" was found: its tractions have no equilibrium, or none '
-        "that was found, nor has a sixteenth of them. All figures are those of geometry "
+        'No solution of geometry "finite" was found: no equilibrium was found under its '
+        "tractions, nor under a sixteenth of them. All figures are those of geometry "
         '"second".'
     )
 
@@ -137,7 +137,7 @@ def test_how_far_turns_got_is_said():
     assert solution.model.geometry == "second"
     said = re.fullmatch(
         r'No solution of geometry "finite" was found: its terms beyond the linear ones did not '
-        r"come to rest in (\d+) turns of contact and correction \(they last changed by (\S+) of "
+        r"settle in (\d+) iterations of contact and correction \(they last changed by (\S+) of "
         r'the first-order ones\)\. All figures are those of geometry "second"\.',
         solution.warnings[0],
     )

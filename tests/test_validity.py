@@ -48,7 +48,7 @@ def test_a_second_order_that_is_large_or_fails():
     beyond = solve(nip(load=60.0), Model(geometry="second", tolerance=1e-2))
     assert beyond.model.geometry == "curved"
     assert beyond.warnings[0].startswith(
-        'No solution of geometry "second" was found: its second-order terms did not come to rest'
+        'No solution of geometry "second" was found: its second-order terms did not settle'
     )
     assert beyond.warnings[0].endswith('All figures are those of geometry "curved".')
 

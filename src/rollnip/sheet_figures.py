@@ -144,14 +144,14 @@ _SHEET = (
         r"D_{\mu u}",
         "friction loss, upper side",
         "power per length",
-        "Heat made where the upper roller slips on the sheet, per width of the face.",
+        "Heat generated where the upper roller slips on the sheet, per width of the face.",
     ),
     _sheet(
         "friction_lower",
         r"D_{\mu l}",
         "friction loss, lower side",
         "power per length",
-        "Heat made where the sheet slips on the lower roller, per width of the face.",
+        "Heat generated where the sheet slips on the lower roller, per width of the face.",
     ),
     _sheet(
         "power",

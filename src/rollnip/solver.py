@@ -185,32 +185,31 @@ def _without_solution(model: Model, final: Round) -> str:
         return _how_far(final.ended)
     if not final.geometry_change < _DIVERGED:
         return (
-            f"its {BEYOND[model.geometry]} did not come to rest (they last changed by "
+            f"its {BEYOND[model.geometry]} did not settle (they last changed by "
             f"{final.geometry_change:.2g} of the first-order ones)"
         )
     return "" if final.stands_still else "contact, stick and slip did not settle"
 
 
 def _how_far(ended: Ended) -> str:
-    """Return why turns of contact and correction found no solution, and how far they got."""
+    """Return why contact and correction found no solution, and how far their iteration got."""
     turns, change = ended.turns, f"{ended.change:.2g}"
     if ended.cause == "balance" and turns == 0:
-        return (
-            "its tractions have no equilibrium, or none that was found, nor has a sixteenth of them"
-        )
+        return "no equilibrium was found under its tractions, nor under a sixteenth of them"
     if ended.cause == "balance":
         return (
-            f"its tractions have no equilibrium, or none that was found, in turn {turns + 1} of "
-            f"contact and correction (in the turn before, its terms beyond the linear ones changed "
-            f"by {change} of the first-order ones)"
+            f"no equilibrium was found under its tractions in iteration {turns + 1} of contact and "
+            f"correction (in the iteration before, its terms beyond the linear ones changed by "
+            f"{change} of the first-order ones)"
         )
     if ended.cause == "contact":
         return (
-            f"contact, stick and slip did not settle in turn {turns} of contact and correction (in "
-            f"it, its terms beyond the linear ones changed by {change} of the first-order ones)"
+            f"contact, stick and slip did not settle in iteration {turns} of contact and "
+            f"correction (in it, its terms beyond the linear ones changed by {change} of the "
+            "first-order ones)"
         )
     return (
-        f"its terms beyond the linear ones did not come to rest in {turns} turns of contact and "
+        f"its terms beyond the linear ones did not settle in {turns} iterations of contact and "
         f"correction (they last changed by {change} of the first-order ones)"
     )
 

@@ -154,7 +154,7 @@ def _thickness_ratio(side: Side, roller: Roller, model: Model) -> Reservation | 
         kind = "thick_covering"
         beyond = (
             "beyond {limit:g} the error of the creepage grows to some 20 % (at 0.4). "
-            'Geometry "finite" has it within 1.5 %.'
+            'In geometry "finite" it is at most 1.5 %.'
         )
     sentence = f"The covering of the {{side}} roller is {{ratio:.2f}} of its radius; {beyond}"
     return Reservation(kind, sentence, figures, side, excess=ratio / limit)
@@ -180,7 +180,7 @@ def _surface_strain(largest: float) -> Reservation | None:
     return Reservation(
         "surface_strain",
         "Somewhere in the nip a surface is strained by {strain:.0f} %, beside a slipping edge as a "
-        "rule: this geometry does not hold for such a strain; do not read the strain there. "
+        "rule: this geometry does not hold for such a strain; do not rely on the strain there. "
         'Geometry "finite" has all orders, on rigid cores.',
         {"strain": 100.0 * largest},
         excess=largest / SURFACE_STRAIN,
@@ -278,7 +278,7 @@ def _stiff_skin(stretch: float, creepage: float) -> Reservation | None:
         "stiff_skin",
         "A stiff top layer bends and resists stretch like a sheet: terms of third order, which "
         'geometry "second" leaves out, may change the creepage by about {change:.1g} (it is '
-        '{creepage:.2g}). Geometry "finite", for layers on rigid cores, takes them in.',
+        '{creepage:.2g}). Geometry "finite", for layers on rigid cores, includes them.',
         {"change": stretch, "creepage": creepage},
         excess=stretch / limit,
     )

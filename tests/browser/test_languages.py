@@ -70,7 +70,7 @@ def test_what_is_known_is_said_in_german(german):
 
 
 SAID = {
-    'No solution of geometry "finite" was found: its second-order terms did not come to rest (they '
+    'No solution of geometry "finite" was found: its second-order terms did not settle (they '
     'last changed by 0.2 of the first-order ones). All figures are those of geometry "second".': (
         "Endliche Dehnung, zweite Ordnung"
     ),

@@ -208,7 +208,7 @@ def test_an_answer_that_a_fresh_solve_does_not_confirm_is_none():
     answer = find(COATED, "nip.load", "nip_width", 4.5, 3.0, 6.0, points=4, evaluate=evaluate)
     assert calls[-2:] == [4.5, 4.5]
     assert answer.value is None
-    assert "Not confirmed: solved afresh at 4.5000 N/mm" in answer.message
+    assert "Not confirmed: solved again at 4.5000 N/mm" in answer.message
 
 
 def test_plain_values_for_json():

@@ -93,7 +93,7 @@ def test_a_missing_plateau_is_said():
 def test_two_temperatures_do_not_tell_the_constants_of_wlf():
     data = isotherms(ZENER, LAW, temperatures=np.array([0.0, 20.0]))
     fit = fit_dma(data)
-    assert any("do not tell c1 and c2" in said for said in fit.warnings)
+    assert any("do not determine c1 and c2" in said for said in fit.warnings)
 
 
 def test_few_measurements_are_enough_for_few_terms():

@@ -95,7 +95,7 @@ def test_a_melt_has_no_relaxed_modulus(melt, seed):
 def test_a_fractional_solid_without_plateau_is_said_too():
     cold = isotherms(ZENER, LAW, temperatures=TEMPERATURES[:4])
     fit = fit_dma(cold, DmaMethod(model="fractional-zener", reference=0.0))
-    assert said(fit, "do not tell the relaxed modulus")
+    assert said(fit, "do not determine the relaxed modulus")
 
 
 def test_scatter_needs_no_model():

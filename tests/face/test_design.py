@@ -187,7 +187,7 @@ def test_load_and_modulus_cannot_both_be_told():
         ("load", "modulus", "crown"),
         rows=true.law.rows,
     )
-    assert any("do not tell" in line for line in reading.warnings)
+    assert any("do not determine" in line for line in reading.warnings)
 
 
 def test_the_shop_formula_is_shown_beside(straight):

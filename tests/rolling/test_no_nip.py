@@ -82,9 +82,9 @@ def test_no_roller_turns_backwards():
     solution = rn.solve(nip, rn.Model(geometry="linear"))
     assert abs(solution.creepage) > 2.0
     assert not solution.converged
-    assert "one roller would turn backwards" in solution.status
+    assert "one roller would rotate backwards" in solution.status
     assert "geometry" not in solution.status
-    with pytest.raises(rn.ConvergenceError, match="turn backwards"):
+    with pytest.raises(rn.ConvergenceError, match="rotate backwards"):
         rn.solve(nip, rn.Model(geometry="linear"), on_failure="raise")
 
 

@@ -315,5 +315,5 @@ def test_where_there_is_no_equilibrium_the_second_order_is_solved_and_said(monke
     assert found.approach == second.approach
     assert found.warnings[0] == (
         'No solution of geometry "finite" was found: its zones or its terms beyond the linear ones '
-        'did not come to rest. All figures are those of geometry "second".'
+        'did not settle. All figures are those of geometry "second".'
     )

@@ -369,7 +369,7 @@ def test_a_plate_that_is_not_verified_says_why():
     refined = SimpleNamespace(stand=stand, residual=1e-3)
     is_met, said = _verdict(nip_with(BOARD), LINEAR, refined, (None, None))
     assert not is_met
-    assert "did not come to rest (they still moved by 0.2 % of the width)" in said
+    assert "did not settle (they still moved by 0.2 % of the width)" in said
 
 
 def test_nodes_crowd_opposite_edges_and_the_begin_of_stick():

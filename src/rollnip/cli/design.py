@@ -101,8 +101,8 @@ def optimise(
 ) -> None:
     """Find the values of a few parameters that make one result small or large, within limits.
 
-    The exit code is 0 where a fresh solve confirmed a case that keeps all limits and the search
-    came to rest, 1 where it did not, 2 for wrong input.
+    The exit code is 0 where another solve confirmed a case that keeps all limits and the search
+    is finished, 1 otherwise, 2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip.cli.progress import progress

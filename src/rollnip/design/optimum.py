@@ -245,8 +245,7 @@ def _agreement(
     said = []
     if not is_finished:
         said.append(
-            "The search is not finished: the solves ran out before it came to rest; give more "
-            "`solves`."
+            "The search is not finished: the solves ran out before it settled; give more `solves`."
         )
     if not is_feasible or len(ends) < 2:
         return said

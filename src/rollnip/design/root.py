@@ -272,7 +272,7 @@ def _is_reached(question: _FindQuestion, final: Point, near: float) -> bool:
 
 def _unconfirmed(question: _FindQuestion, final: Point) -> str:
     got = final.message if final.y is None else f"{question.quantity} is {question.shown(final.y)}"
-    return f"Not confirmed: solved afresh at {question.said(final.x)}, {got}."
+    return f"Not confirmed: solved again at {question.said(final.x)}, {got}."
 
 
 def _jump(question: _FindQuestion, jump: Jump) -> str:

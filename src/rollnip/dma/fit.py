@@ -314,8 +314,8 @@ def _shift_warnings(
     ]
     if vague:
         said.append(
-            f"The data do not tell {' and '.join(vague)} of the shift law: their standard errors "
-            "are half their size or more. Measure at more temperatures, or give the law."
+            f"The data do not determine {' and '.join(vague)} of the shift law: their standard "
+            "errors are half their size or more. Measure at more temperatures, or give the law."
         )
     if free is not None and shift.law is not None:
         away = free.horizontal - master.horizontal

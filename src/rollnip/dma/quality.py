@@ -1,4 +1,4 @@
-"""Deviations of a material from its data, and warnings about what the data do not tell."""
+"""Deviations of a material from its data, and warnings about what the data do not determine."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def quality_warnings(
     quality :
         quality of the material.
     noise :
-        relative scatter of neighbouring values of storage and loss; None where it is not told.
+        relative scatter of neighbouring values of storage and loss; None where it is not known.
     best :
         whether no other spectrum would follow the data closer.
     other :
@@ -137,8 +137,8 @@ def plateau_warnings(material: Prony | FractionalZener, master: Master) -> list[
     return [
         "The data do not reach the rubbery plateau: at the lowest frequencies the phase is "
         f"{phase:.0f} degrees ({kind}) and the storage modulus {1.0 / share:.2g} times the relaxed "
-        f"modulus fitted, {material.relaxed_modulus:.3g} MPa. The data do not tell the relaxed "
-        "modulus; below the valid frequencies the material is a guess."
+        f"modulus fitted, {material.relaxed_modulus:.3g} MPa. The data do not determine the "
+        "relaxed modulus; below the valid frequencies the material is a guess."
     ]
 
 

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 Measured = Literal["dynamic", "relaxation", "creep"]
 
 _FOLDS = 5
-_TOLD = 1e-6  # size of a column over the largest, below which the data do not tell its term
+_TOLD = 1e-6  # size of a column over the largest, below which the data do not determine its term
 # Terms at most, and at least: evenly spaced equal terms ripple in the loss modulus by the part
 # 2/cosh(pi^2/ln spacing), 5 % with one a decade, .6 % with one and a half.
 _PER_DECADE, _LEAST_PER_DECADE = 3.0, 1.5

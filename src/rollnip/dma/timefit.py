@@ -197,7 +197,7 @@ def _warnings(fit: TimeFit, away: Array) -> list[str]:
         name = "compliance" if data.kind == "creep" else "modulus"
         said.append(
             f"The data do not reach the rubbery plateau: over their last decade the {name} still "
-            f"changes by a factor of {1.0 / ends:.2g}. They do not tell the relaxed modulus, "
+            f"changes by a factor of {1.0 / ends:.2g}. They do not determine the relaxed modulus, "
             f"{fit.material.modulus:.3g} MPa; beyond {fit.time_range[1]:.3g} s the material is a "
             "guess."
         )

@@ -1,4 +1,4 @@
-"""How well a law is known: nips solved between those of its table."""
+"""Errors of a law, from nips solved between those of its table."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Coverings that are thicker or harder at one place of the face than at another.
+"""Coverings whose thickness or hardness varies along the face.
 
 Where one single layer on a rigid core is all that deforms, a factor on its moduli is a factor on
 load and traction, exactly. Every other change asks for cross-sections of its own: they are solved
@@ -155,7 +155,7 @@ def axes_of(coverings: Coverings) -> tuple[CoveringAxis, ...]:
 
 
 def covers(axes: tuple[CoveringAxis, ...], coverings: Coverings) -> bool:
-    """Return whether axes reach over the values of a face."""
+    """Return whether axes cover the values of a face."""
     ranges = coverings.ranges
     return {axis.key for axis in axes} == set(ranges) and all(
         axis.nodes[0] <= ranges[axis.key][0] * (1.0 + 1e-9)

@@ -43,7 +43,7 @@ _PLACES = 65  # along the face
 _FIRST_SLIP = 0.14  # to either side of that of the mean traction
 _FINEST = 3  # halvings of the lattice
 _MOST_TABLES = 20
-_MOST_ENDS, _ENDS_SETTLED = 12, 1e-4  # turns, and what an approach may still change by
+_MOST_ENDS, _ENDS_SETTLED = 12, 1e-4  # iterations, and what an approach may still change by
 _SMALLEST_LOAD = 1e-3  # of the largest: below, the law is a power of the approach
 _HEAVY = 0.02  # of the largest load: lighter cross-sections need no slip of their own
 _CLAIM = 5.0
@@ -329,7 +329,7 @@ def _misses(law: NipLaw, found: Balance) -> bool:
 
 
 def _require_solved(law: NipLaw, found: Balance) -> None:
-    """Raise ConvergenceError where the face hangs on a nip that has no verified solution."""
+    """Raise ConvergenceError where the face depends on a nip without a verified solution."""
     section = found.section
     heavy = section.load > _HEAVY * section.load.max()
     if law.is_guess(section.log_load[heavy], section.s[heavy]).any():

@@ -1,7 +1,7 @@
 """Reading a nip impression: from widths at several places to loads, crown, tilt and modulus.
 
 A nip impression is what carbon paper or foil keeps of a standing nip: its width at places along the
-face. Widths are fitted by least squares; what the data do not tell shows in wide intervals.
+face. Widths are fitted by least squares; what the data do not determine shows in wide intervals.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 Unknown = Literal["load", "tilt", "crown", "modulus"]
 
 _NO_CROWN = 1e-3  # mm on the diameter, which no grinder holds
-_UNTOLD = 0.5  # relative half-width of an interval beyond which the data do not tell
+_UNTOLD = 0.5  # relative half-width of an interval beyond which the data do not determine a value
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -98,7 +98,7 @@ class ImpressionReading:
     estimates : of each unknown.
     solutions : the fitted faces, one for each impression.
     chi_squared, freedom : sum of squared residuals over their scatter, degrees of freedom.
-    warnings : what the widths do not tell, or contradict.
+    warnings : what the widths do not determine, or contradict.
     shop_crown : what the shop formula (N_e^2 - N_c^2)(D_u + D_l)/(2 D_u D_l) asks to be added to
         the crown on the diameter [mm]; N_e, N_c outermost and middlemost widths of the first
         impression.
@@ -295,7 +295,8 @@ def _reading(
         estimates.append(ImpressionEstimate(name, figure.unit, *found))
         if name in ("load", "modulus") and half > _UNTOLD * abs(value):
             notes.append(
-                f"These widths do not tell the {figure.label}: its interval is wider than itself."
+                f"These widths do not determine the {figure.label}: "
+                "its interval is wider than its value."
             )
     return ImpressionReading(
         estimates=tuple(estimates),

@@ -1,4 +1,4 @@
-"""The lattice of a face's table: loads and slips, and between which of them the table holds."""
+"""The lattice of a face's table: loads and slips, and the cells between them that are covered."""
 
 from __future__ import annotations
 
@@ -31,7 +31,8 @@ class Lattice:
     def asked(self) -> Mask:
         """Which nips are solved, (m, k): corners of the cells, and the next ones on every side.
 
-        A spline over a cell hangs on few others; the table goes on over these as lines.
+        A spline over a cell depends on few other nips; beyond these the table is continued by
+        lines.
         """
         if self.s.size == 1:
             return np.ones((self.loads.size, 1), dtype=bool)

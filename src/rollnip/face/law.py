@@ -160,7 +160,7 @@ class NipLaw:
         return value * places.scale if name in FORCES else value
 
     def is_guess(self, log_load: Array, s: Array) -> NDArray[np.bool_]:
-        """Return where figures hang on a nip without a verified solution, (n,)."""
+        """Return where figures depend on a nip without a verified solution, (n,)."""
         if self.unsolved is None or not self.unsolved.any():
             return np.zeros(log_load.size, dtype=bool)
         i = np.clip(np.searchsorted(np.log(self.loads), log_load) - 1, 0, self.loads.size - 2)
@@ -315,7 +315,7 @@ class NipLaw:
             if is_beyond:
                 mixed = mixed + share * self._by_slip(spline, name, near, inside, dx=1)
         value = value + by_load * farther + by_s * slipped
-        # The plane that continues the table turns with its place on the rim.
+        # The slopes of the plane that continues the table vary along its rim.
         by_load = by_load + np.where(farther == 0.0, mixed * slipped, 0.0)
         return value, by_load, by_s + np.where(slipped == 0.0, mixed * farther, 0.0)
 

@@ -88,7 +88,7 @@ def _floats(values: list[float | None]) -> list[float]:
 
 
 def reading_dict(reading: ImpressionReading) -> dict[str, Any]:
-    """Return what impressions tell: estimates with intervals, and how well the face fits."""
+    """Return the reading of impressions: estimates with intervals, and how well the face fits."""
     return {
         "estimates": {
             one.name: {"value": one.value, "low": one.low, "high": one.high, "unit": one.unit}

@@ -55,7 +55,7 @@ class NipRows:
 
 
 def _key(nip: Nip, model: Model, place: Place) -> tuple[object, ...]:
-    """Return what tells two plane nips of laws apart, whatever the last digit of their load."""
+    """Return a key of a plane nip of a law, whatever the last digit of its load."""
     load, s = place
     rollers = tuple((one.radius, one.layers, one.core) for one in (nip.upper, nip.lower))
     return (*rollers, nip.friction, nip.speed, model, f"{load:.9e}", round(float(s), 9))

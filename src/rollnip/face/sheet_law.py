@@ -1,7 +1,7 @@
 """The nip with a sheet as a law: approach, feed and torques by load and the pulls of both sides.
 
-A cross-section is told by three numbers: its line load F and the tractions T_u, T_l of the two
-interfaces. Their difference is the pull, tension_in - tension_out; the tension at the outlet is
+A cross-section is determined by three numbers: its line load F and the tractions T_u, T_l of the
+two interfaces. Their difference is the pull, tension_in - tension_out; the tension at the outlet is
 that of the sheet's table. Each traction is measured by Carter's law of partial slip, as in `law`,
 
     T/(mu F) = sign(s) (1 - (1 - |s|)^2).

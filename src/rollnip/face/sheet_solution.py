@@ -1,4 +1,4 @@
-"""A solved face with a sheet: what `FaceSolution` says, with feed and tension over y."""
+"""A solved face with a sheet: a `FaceSolution` with feed and tension over y."""
 
 from __future__ import annotations
 

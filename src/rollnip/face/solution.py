@@ -1,4 +1,4 @@
-"""A solved face: figures over y, uniformity, totals, and how well they are known."""
+"""A solved face: figures over y, evenness, totals, and their errors."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from rollnip.shafts import Face
 Array = NDArray[np.float64]
 
 _EVEN = 0.1  # of the mean load: the share of the face that is even is counted within this
-_ROUNDING = 1e-7  # of the largest load: what balances and turns of "finite" leave of a traction
+_ROUNDING = 1e-7  # of the largest load: error of a traction that balances and iterations leave
 _FINE = 2001  # places of an even grid, by which shares of the face are counted
 
 
@@ -191,12 +191,12 @@ class FaceSolution:
 
     @property
     def total_friction_loss(self) -> float | None:
-        """Heat made where surfaces slip, whole face [N mm/s = mW]; None without speed."""
+        """Heat generated where surfaces slip, whole face [N mm/s = mW]; None without speed."""
         return self._total(self.friction_loss)
 
     @property
     def total_viscous_loss(self) -> float | None:
-        """Heat made inside the layers, whole face [N mm/s = mW]; None without speed."""
+        """Heat generated inside the layers, whole face [N mm/s = mW]; None without speed."""
         return self._total(self.viscous_loss)
 
     @property

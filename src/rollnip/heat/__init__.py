@@ -1,4 +1,4 @@
-"""Heat: how warm rollers get, how their nip is then, and when they run away."""
+"""Heat: temperatures of rollers, the nip at these temperatures, and thermal runaway."""
 
 from rollnip.cooling import (
     Coolant,

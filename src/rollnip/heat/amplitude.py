@@ -2,7 +2,7 @@
 
 Moduli may change by powers of ten with the temperature, so the heat of a cold nip says little
 about the steady state. The rise theta of the hottest place is stepped up from cold until the heat
-at that temperature no longer keeps it up, A(theta) < theta, and the crossing is closed in on.
+at that temperature no longer sustains it, A(theta) < theta; then the crossing is found between.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ _COARSE = 0.5  # change of ln E* inside a sub-layer
 
 
 class RunawayError(ConvergenceError):
-    """The heat keeps up any rise that was looked at."""
+    """The heat sustains every rise that was tried: no steady state was found."""
 
 
 def from_cold(
@@ -73,7 +73,7 @@ def from_cold(
 
 
 def _between(low: tuple[float, float], high: tuple[float, float]) -> float:
-    """Return the rise where the excess of heat changes its sign: secant, kept off the ends."""
+    """Return the rise where the excess of heat changes its sign, by the secant method."""
     (a, fa), (b, fb) = low, high
     share = min(max(fa / (fa - fb), 0.1), 0.9)
     return exp(a + share * (b - a))

@@ -28,7 +28,7 @@ class Sources:
     ----------
     cells : (n,) powers in the cells of the upper, then of the lower roller [mW/mm].
     lost : (2,) viscous losses of both rollers [mW/mm]; those of a plane are in no cell.
-    over : what passes over the nip.
+    over : heat exchange over the nip.
     """
 
     cells: Array

@@ -45,7 +45,7 @@ ROLLER_FIGURES: Mapping[str, Figure] = by_key(
         "viscous",
         "viscous loss",
         "heat per length",
-        "Heat made inside viscoelastic layers.",
+        "Heat generated inside viscoelastic layers.",
         digits=3,
     ),
     _F(

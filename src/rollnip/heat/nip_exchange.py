@@ -53,7 +53,7 @@ def exchange(
     friction: float | tuple[float, float],
     sheet: PassingSheet | None = None,
 ) -> Exchange:
-    """Return what passes over the nip.
+    """Return the heat exchange over the nip.
 
     Parameters
     ----------

@@ -16,8 +16,8 @@ def of_whole_layers(
 ) -> tuple[Reservation, ...]:
     """Return the reservations of a warm nip with the numbers of the layers that the user gave.
 
-    A sub-layer is no material of the user's. What several of one layer say is said once, by the
-    one that goes farthest. That a top layer is thin is said of the whole one, as for the cold nip.
+    A sub-layer is no material of the user's. Of several in one layer only the one with the largest
+    excess is kept. That a top layer is thin is said of the whole one, as for the cold nip.
 
     Parameters
     ----------

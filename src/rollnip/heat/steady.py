@@ -1,4 +1,4 @@
-"""The steady state of a nip and its heat: temperatures that the heat of the warm nip keeps up."""
+"""The steady state of a nip and its heat: temperatures that the heat of the warm nip sustains."""
 
 from __future__ import annotations
 

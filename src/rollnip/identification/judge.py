@@ -46,7 +46,7 @@ def bound_warnings(misfit: Misfit, best: Local) -> list[str]:
             which = "lower" if side == "low" else "upper"
             said.append(
                 f"`{one.path}` ended at its {which} bound {value:g}: the data ask for a value "
-                "beyond it, or do not tell it; its covariance interval means nothing."
+                "beyond it, or do not determine it; its covariance interval means nothing."
             )
     return said
 
@@ -54,11 +54,11 @@ def bound_warnings(misfit: Misfit, best: Local) -> list[str]:
 def identifiability_warnings(
     misfit: Misfit, best: Local, spread: Array, quantile: float, tolerance: float
 ) -> list[str]:
-    """Return warnings on unknowns that the data do not tell, or tell only in combination."""
+    """Return warnings on unknowns that the data do not determine, or only in combination."""
     silent = _without_effect(misfit, best, tolerance)
     said = [
         f"No prediction changes with `{misfit.unknowns[i].path}` by more than the solver's own "
-        "errors: these data cannot tell it; leave it out, or measure where it matters."
+        "errors: these data cannot determine it; leave it out, or measure where it matters."
         for i in silent
     ]
     heard = [i for i in range(best.ended.size) if i not in silent]

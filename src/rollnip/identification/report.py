@@ -178,7 +178,7 @@ def _decimals(one: Estimate) -> int:
 def _with_error(one: Estimate) -> str:
     digits = _decimals(one)
     if not one.is_told:
-        return f"{one.value:.{digits}f} (not told by the data)"
+        return f"{one.value:.{digits}f} (not determined by the data)"
     return f"{one.value:.{digits}f} +- {one.standard_error:.{digits}f}"
 
 

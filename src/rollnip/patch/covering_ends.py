@@ -1,4 +1,4 @@
-"""The free end of a covering: what the nip is near the place where the covering itself ends.
+"""The free end of a covering: the nip near the place where the covering itself ends.
 
 The covering ends with a face free of stress, and both rollers, or their cores, go on or end there
 as well. A nearly incompressible covering bulges there and carries less than in the plane nip: a

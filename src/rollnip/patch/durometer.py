@@ -1,4 +1,4 @@
-"""What a durometer reads on a covering: the Shore A indenter on layers of any thickness.
+"""Readings of a durometer on a covering: the Shore A indenter on layers of any thickness.
 
 The indenter of Shore A (ISO 48-4, ASTM D2240) is a cone of 35 degrees cut to a flat tip of 0.79 mm,
 on a shaft of 1.25 mm. A spring presses it with 0.55 N + 0.075 N S, S the hardness, where it stands

@@ -1,4 +1,4 @@
-"""The end of a face: what the nip is near the place where one roller ends on the other's covering.
+"""The end of a face: the nip near the place where one roller ends on the other's covering.
 
 Far from the end the nip is the plane one. At a sharp end the covering that runs on beyond it helps
 to carry, so that the line load rises there. A nearly incompressible covering also gives way

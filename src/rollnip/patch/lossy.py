@@ -1,4 +1,4 @@
-"""Normal contact of viscoelastic bodies: the compliance is not symmetric, and nothing is minimal.
+"""Normal contact of viscoelastic bodies: the compliance is not symmetric, and no energy is minimal.
 
     gap = clearance - delta + sum zz p >= 0,   p >= 0,   p gap = 0,
 

@@ -1,4 +1,4 @@
-"""What is measured on a solved grid: sizes, forces, and what delayed displacements cost."""
+"""Figures of a solved grid: sizes, forces, and the power lost by delayed displacements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A solved patch: forces, sizes, fields over the grid, and how well they are known."""
+"""A solved patch: forces, sizes, fields over the grid, and their errors."""
 
 from __future__ import annotations
 

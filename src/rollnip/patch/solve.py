@@ -1,4 +1,4 @@
-"""From a patch to its solution: where to put the grid, and how fine it must be."""
+"""Solve a patch: find the place of the grid, and refine it to the tolerance."""
 
 from __future__ import annotations
 
@@ -223,13 +223,13 @@ def _status(level: Level, name: str, worst: float, tolerance: float) -> str:
     if not level.settled:
         return "The iterations did not settle; the figures are those of the last state."
     if worst == inf:
-        return "One grid alone tells no error; give a finer one."
+        return "With a single grid no error can be estimated; give a finer one."
     plain = name.replace("_", " ")
     if worst <= tolerance:
         return f"Solved; the largest error claimed is {100.0 * worst:.2g} %, of the {plain}."
     return (
-        f"The {plain} is known to {100.0 * worst:.2g} % only, where "
-        f"{100.0 * tolerance:.2g} % were wanted."
+        f"The error of the {plain} is {100.0 * worst:.2g} %, more than the "
+        f"{100.0 * tolerance:.2g} % allowed."
     )
 
 

@@ -21,7 +21,7 @@ apart, and at 1 the surface has reached the core. Finite strain counts it right,
 to a sixth only. Coverings in use stay below a fifth.
 """
 MOST_CREEPAGE = 2.0
-"""Creepage at which one roller stands still; beyond, it would turn backwards."""
+"""Creepage at which one roller stands still; beyond, it would rotate backwards."""
 
 
 def impossible(nip: Nip, geometry: Geometry, final: Round) -> str:
@@ -29,8 +29,9 @@ def impossible(nip: Nip, geometry: Geometry, final: Round) -> str:
     creepage = final.state.creepage
     if not isnan(creepage) and abs(creepage) >= MOST_CREEPAGE:
         return (
-            f"The creepage comes out as {creepage:.2g}: beyond -2 and 2 one roller would turn "
-            "backwards. Strains are far too large for this nip; lower the traction or the load."
+            f"The creepage comes out as {creepage:.2g}: beyond -2 and 2 one roller would "
+            "rotate backwards. Strains are far too large for this nip; lower the traction or the "
+            "load."
         )
     for side, roller in (("upper", nip.upper), ("lower", nip.lower)):
         pressed = _pressed_in(side, roller, nip, geometry, final)

@@ -160,7 +160,7 @@ def creepage_errors(nip: Nip, refined: Refined) -> tuple[float, float]:
 
 def solved_instead(left: Sequence[Geometry], geometry: Geometry) -> tuple[Reservation, ...]:
     """Return reservations that say which geometries had no solution, and which is solved."""
-    causes = [(one, f"its zones or its {BEYOND[one]} did not come to rest") for one in left]
+    causes = [(one, f"its zones or its {BEYOND[one]} did not settle") for one in left]
     return instead_of(causes, geometry)
 
 

@@ -39,7 +39,7 @@ class ProcessSolution:
     x : (n,) nodes [mm].
     pressure, shear : (n,) [MPa]; shear on the upper roller along +x.
     systems : linear systems solved on the last mesh.
-    converged : whether the turns of NORM and TANG, and of the second-order terms, came to rest.
+    converged : whether the alternation of NORM and TANG, and the second-order terms, settled.
     """
 
     approach: float

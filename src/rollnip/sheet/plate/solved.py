@@ -170,13 +170,13 @@ def _verdict(
     stand = refined.stand
     if not stand.stands_still and refined.residual <= _HARDLY:
         return False, (
-            "Edges, or ends of stick and slip, on the sides of the sheet did not come to rest "
+            "Edges, or ends of stick and slip, on the sides of the sheet did not settle "
             f"(they still moved by {100.0 * stand.off:.1g} % of the width); try another tolerance, "
             "another load or other tensions, or `bending = false`."
         )
     if stand.stands_still and not np.isfinite(refined.errors.values).all():
         return False, (
-            "Contact, stick and slip came to rest on one size of mesh only, so no error can be "
+            "Contact, stick and slip settled on one size of mesh only, so no error can be "
             "estimated; try another tolerance, another load or other tensions, or "
             "`bending = false`."
         )

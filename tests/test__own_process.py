@@ -1,4 +1,4 @@
-"""Only the command and its workers change how their process keeps memory."""
+"""Only the command and its workers change their process: its memory, environment, signals."""
 
 import platform
 import subprocess
@@ -14,7 +14,7 @@ TABLE = """
 import resource
 import numpy as np
 from rollnip import Elastic, Roller
-from rollnip._memory import keep_freed_memory
+from rollnip._own_process import keep_freed_memory
 from rollnip.influence import covering_window, surface_kernels
 {before}
 roller = Roller(radius=10.0, core=Elastic(modulus=2.0, poisson=0.3))
@@ -51,10 +51,28 @@ def test_rollnip_leaves_the_memory_of_a_program_as_it_is():
     assert pages("") > 1000  # three arrays of 0.8 MB, 4 kB at a time
 
 
-def test_only_own_processes_ask_for_it():
-    callers = {
+def users(*texts):
+    """Sources that hold one of the texts."""
+    return {
         path.relative_to(SOURCE).as_posix()
         for path in SOURCE.rglob("*.py")
-        if "keep_freed_memory()" in path.read_text("utf-8") and path.name != "_memory.py"
+        if any(text in path.read_text("utf-8") for text in texts)
     }
-    assert callers == {"cli/__init__.py", "sweeps/task.py", "web/worker.py"}
+
+
+def test_only_own_processes_ask_for_it():
+    assert users("keep_freed_memory()") == {
+        "_own_process.py",
+        "cli/__init__.py",
+        "web/worker.py",
+    }
+    assert users("prepare_worker") == {"_own_process.py", "sweeps/crew.py"}
+
+
+def test_only_own_processes_change_their_environment():
+    changed = users("os.environ[", "os.environ.set", "os.environ.update", "os.putenv")
+    assert changed == {"_own_process.py", "cli/__init__.py"}
+
+
+def test_handlers_of_signals_are_set_where_they_are_put_back_or_the_process_is_own():
+    assert users("signal.signal(") == {"_own_process.py", "sweeps/interrupt.py", "web/worker.py"}

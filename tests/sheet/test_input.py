@@ -195,3 +195,40 @@ def test_stiffness_that_is_forbidden_where_it_shows_is_said_to_be(thickness, sai
     (warning,) = [one for one in solution.warnings if "bending stiffness" in one]
     assert re.search(said, warning)
     assert not_said not in warning
+
+
+@pytest.mark.parametrize(
+    ("friction_lower", "tension_out", "said"),
+    [
+        (0.05, 0.1, "at any speed"),  # both pull with 0.05 N/mm, one forwards, one backwards
+        (0.07, 0.12, "at any speed"),
+        (0.07, 0.08, None),  # the lower side holds more and sticks
+        (0.06, 0.1, None),
+    ],
+)
+def test_a_sheet_that_slides_on_both_sides_all_over_has_no_speed(friction_lower, tension_out, said):
+    """Whose speed is open is said to be so; with a little more on one side it is that of stick."""
+    roller = rn.Roller(radius=50, layers=[rn.Layer(8.0, rn.Elastic(modulus=3.6, poisson=0.5))])
+    sheet = rn.Sheet(
+        thickness=0.05,
+        modulus=4000.0,
+        tension_in=0.1,
+        tension_out=tension_out,
+        friction_lower=friction_lower,
+        bending=False,
+    )
+    geared = rn.Nip(
+        upper=roller,
+        lower=roller,
+        normal=rn.LineLoad(1.0),
+        friction=0.05,
+        tangential=rn.Creepage(0.03),
+        sheet=sheet,
+    )
+    if said is not None:
+        with pytest.raises(rn.ConvergenceError, match=said):
+            rn.solve(geared, rn.Model(geometry="linear"))
+        return
+    found = rn.solve(geared, rn.Model(geometry="linear")).sheet
+    assert found.slip_share_upper == 1.0
+    assert found.slip_share_lower < 1.0

@@ -112,6 +112,24 @@ def require_grip(nip: Nip, refined: Refined) -> None:
             raise InvalidInputError(_slips_through(name, side, pull, friction * load))
 
 
+def may_slide_at_any_speed(nip: Nip) -> bool:
+    """Return whether geared rollers can slide on both sides all over, whatever the sheet's speed.
+
+    Between a roller that is faster and one that is slower friction pulls both faces of the sheet by
+    mu_u F one way and mu_l F the other. Where the tensions make up for just the difference, no
+    condition is left that its speed follows from.
+    """
+    if not (isinstance(nip.tangential, Creepage) and nip.sheet is not None):
+        return False
+    upper, lower = frictions_of(nip)
+    pull, load = nip.sheet.tension_in - nip.sheet.tension_out, 1.0
+    if isinstance(nip.normal, LineLoad):
+        load = nip.normal.load
+    elif pull != 0.0:
+        return False
+    return abs(abs(upper - lower) * load - abs(pull)) <= SLACK * load
+
+
 def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
     return (
         f"`{name}` and the tensions ask the {side} roller for {pull:.6g} N/mm, but its "

@@ -26,6 +26,7 @@ from rollnip.sheet.all_orders import solve_in_turns
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.common import (
     half_width_with_sheet,
+    may_slide_at_any_speed,
     pushed,
     require_grip,
     require_torque,
@@ -139,17 +140,26 @@ def _refined(
             return model, *found, solved_instead(left, model.geometry)
         if simpler is None:
             require_torque(nip, 1.0)
-            assert nip.sheet is not None
-            if nip.sheet.bending is False:
-                raise ConvergenceError(
-                    "No solution with this sheet bending freely was found; leave `bending` out, or "
-                    "try a larger load or other tensions."
-                )
-            raise ConvergenceError(
-                "No solution with this sheet was found; try a larger load or other tensions."
-            )
+            raise ConvergenceError(_none_found(nip))
         left.append(model.geometry)
         model = replace(model, geometry=simpler)
+
+
+def _none_found(nip: Nip) -> str:
+    """Return the words for a sheet without a solution."""
+    assert nip.sheet is not None
+    if may_slide_at_any_speed(nip):
+        return (
+            "No solution with this sheet was found. Rollers geared so far apart may slide on both "
+            "of its sides all over, and these frictions and tensions hold it then at any speed "
+            "between theirs; lower the size of `creepage`, or make friction or tensions differ."
+        )
+    if nip.sheet.bending is False:
+        return (
+            "No solution with this sheet bending freely was found; leave `bending` out, or "
+            "try a larger load or other tensions."
+        )
+    return "No solution with this sheet was found; try a larger load or other tensions."
 
 
 def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, SheetRefined] | None:

@@ -72,6 +72,7 @@ export const SOLVER_EN = {
   "solver.skin": `A stiff top layer bends and resists stretch like a sheet: terms of third order, which geometry "second" leaves out, may change the creepage by about {change} (it is {creepage}). Geometry "finite", for layers on rigid cores, includes them.`,
   "solver.no-sheet": "No solution with this sheet was found; try a larger load or other tensions.",
   "solver.no-sheet-freely": "No solution with this sheet bending freely was found; leave `bending` out, or try a larger load or other tensions.",
+  "solver.sheet-any-speed": "No solution with this sheet was found. Rollers geared so far apart may slide on both of its sides all over, and these frictions and tensions hold it then at any speed between theirs; lower the size of `creepage`, or make friction or tensions differ.",
   "solver.sheet-settle": "Stick and slip on both sides of the sheet did not settle (conditions violated by {left}); try another tolerance, a smaller load, or tensions further from what friction carries.",
   "solver.sheet-no-pressure": "Stick and slip on both sides of the sheet did not settle (no pressure was found on one of them); try another tolerance, a smaller load, or tensions further from what friction carries.",
   "solver.plate-edges": "Edges, or ends of stick and slip, on the sides of the sheet did not settle (they still moved by {share} % of the width); try another tolerance, another load or other tensions, or `bending = false`.",

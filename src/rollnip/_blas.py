@@ -16,7 +16,7 @@ from typing import Any
 from threadpoolctl import ThreadpoolController
 
 _lock = Lock()
-_inside: list[Any] = []  # one entry for each caller that is inside, the first what there was
+_inside: list[Any] = []  # one entry for each caller inside; the first holds the limits before
 
 
 @contextmanager

@@ -1,4 +1,4 @@
-"""Files of one command: what it reads is never written over, what it writes comes all or nothing.
+"""Files of one command: what it reads is never written over, what it writes is whole or not there.
 
 A command opens a run (`one_run`). Readers tell the run what they read (`reading`); the command
 reserves what it will write (`Run.reserve`) before it computes. A file that is there already may

@@ -213,7 +213,7 @@ def _require_whole(name: str, places: Array, length: float) -> None:
 
 
 def _digest(name: str, y: Array, *columns: Array) -> str:
-    """Return a text that tells tables apart: whole problems are told apart by their texts."""
+    """Return a digest of a table: problems are compared by their texts, which hold it."""
     sign = sha256(b"".join(part.tobytes() for part in (y, *columns))).hexdigest()[:16]
     return f"{name}({y.size} places, {y[0]:.6g} to {y[-1]:.6g} mm, {sign})"
 

@@ -1,4 +1,4 @@
-"""How far the feed of a sheet depends on load, hardness, diameters, thicknesses and tensions."""
+"""How much the feed of a sheet depends on load, hardness, diameters, thicknesses and tensions."""
 
 from __future__ import annotations
 

@@ -183,8 +183,8 @@ class Solution(Presented, ABC):
     def power_in(self) -> float | None:
         """Power of both axles, M_u V_u/R_u + M_l V_l/R_l [N/s]; None without speed.
 
-        "linear" and "corrected" leave out products of creepage and strain: there torques but for
-        their T R turn with V.
+        "linear" and "corrected" leave out products of creepage and strain: there only the part
+        T R of a torque counts with the speed of its own roller, the rest with V.
         """
         if self.nip.speed is None:
             return None

@@ -95,7 +95,7 @@ def solve(
 
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
     cache = KernelCache() if cache is None else cache
-    # Second-order terms that run away overflow; what is no number is never verified.
+    # Second-order terms that diverge may overflow; a solution that is not finite is not verified.
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore"):
         solution: Solution
         if nip.sheet is None:

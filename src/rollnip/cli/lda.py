@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any, Literal, cast
+from typing import TYPE_CHECKING, Annotated, Any, cast
 
 import typer
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from rollnip._units import Dimension
     from rollnip.io.velocities import Settings
     from rollnip.lda import Comparison, Instrument, Scan, VelocityProfile
+    from rollnip.rollers import Side
     from rollnip.solution import Solution
 
 lda = typer.Typer(
@@ -228,8 +229,8 @@ def _instrument(known: Settings, make: type[Instrument]) -> Instrument:
     return make(**{name: getattr(known, name) for name in names})
 
 
-def _side(known: Settings) -> Literal["upper", "lower"]:
-    return cast('Literal["upper", "lower"]', known.roller or "upper")
+def _side(known: Settings) -> Side:
+    return cast("Side", known.roller or "upper")
 
 
 def _confidence(text: str) -> float:

@@ -218,7 +218,7 @@ def _times(matrix: Array | ComplexArray, vectors: ComplexArray) -> ComplexArray:
 
 def _fit(x: Array, k: Array, curvature: float, half_width: float) -> tuple[Array, Array, Array]:
     """`SecondResponse.impulse`, ``angle`` and ``excess`` for a contact."""
-    # What is too short is left out, softly, whatever the grid: it is not small of second order.
+    # Short waves are left out, smoothly, whatever the grid: they are not small of second order.
     kept = np.finfo(float).eps ** ((k * (half_width / (pi * _LARGEST_WAVE_NUMBER))) ** 6)
     squares = -k * k
     squares[0] = 1.0
@@ -299,7 +299,7 @@ def _grid(roller: Roller, size: float) -> Array:
 
 
 def _spread(roller: Roller, size: float) -> float:
-    """Length that counts for the length of the grid [mm]."""
+    """Length over which layers spread a load, for the length of the grid [mm]."""
     largest = size * 2.0 ** (1.0 / _SIZES_PER_OCTAVE)
     return float(min(max(_shear_lag(roller), 0.5 * largest), _LARGEST_SPREAD * largest))
 

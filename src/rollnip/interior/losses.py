@@ -29,7 +29,7 @@ _FADED = 16.0
 def loss_per_distance(
     roller: Roller, tractions: SurfaceTractions, geometry: str, speed: float | None
 ) -> float:
-    """Return the heat that steady rolling makes inside a roller, per distance and axial length.
+    """Return the heat that steady rolling generates in a roller, per distance and axial length.
 
     The work of the tractions on the moving surface is -int t . du = (1/pi) int_0^inf k t^H L t dk
     with L = (C - C^H)/(2 i), the loss part of the compliance C(k): elastic parts take no share.
@@ -74,7 +74,7 @@ _Parts = tuple[tuple[Block, Array, Array, Array], ...]
 
 @lru_cache(maxsize=8)
 def _loss_parts(roller: Roller, speed: float | None, geometry: str, half_width: float) -> _Parts:
-    """Return, block by block, what |t_x|^2, |t_z|^2 and Im(conj(t_x) t_z) count at each wave."""
+    """Return, block by block, the weights of |t_x|^2, |t_z|^2, Im(conj(t_x) t_z) at each wave."""
     waves = Waves.resolving(2.0 * half_width, Medium(roller, speed, geometry, side="above").slowest)
     compliance = surface_compliance(roller, speed, geometry)
     parts = []
@@ -92,7 +92,7 @@ def loss_below(
     geometry: str,
     speed: float | None,
 ) -> Array:
-    """Return the heat that steady rolling makes below some depths, per distance and axial length.
+    """Return the heat that rolling generates below some depths, per distance and axial length.
 
     What lies below the depth z receives the work of the stresses on its upper face; as on the
     surface, w(z) = (1 - z/R) (1/pi) int_0^inf k Im(conj(t) . u) dk with t = (-s_xz, -s_zz) and u

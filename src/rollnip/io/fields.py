@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from rollnip.figures import FIELDS, INTERFACE_FIGURES, PROFILES
 from rollnip.io.netcdf import require_netcdf, result_groups, write_netcdf
 from rollnip.io.paraview import rectilinear
 from rollnip.io.result import result_dict
-from rollnip.rollers import Roller
+from rollnip.rollers import Roller, Side
 
 if TYPE_CHECKING:
     from rollnip.solution import Solution
@@ -34,7 +34,6 @@ _POINT_DATA = (
     "s_xx", "s_yy", "s_zz", "s_xz", "max_shear", "von_mises", "pressure", "energy_density",
     "loss_density",
 )  # fmt: skip
-Name = Literal["upper", "lower"]
 
 
 def write_fields(solution: Solution, path: str | Path) -> None:
@@ -97,7 +96,7 @@ class RollerSection:
     loss_per_depth : (nz,) [N/(mm s)].
     """
 
-    name: Name
+    name: Side
     x: Array
     z: Array
     layer: NDArray[np.intp]
@@ -107,12 +106,12 @@ class RollerSection:
 
 def _sections(solution: Solution) -> list[RollerSection]:
     """Sections of the rollers that deform, the upper first."""
-    names: tuple[Name, Name] = ("upper", "lower")
+    names: tuple[Side, Side] = ("upper", "lower")
     rollers = {"upper": solution.nip.upper, "lower": solution.nip.lower}
     return [_section(solution, name) for name in names if not rollers[name].is_rigid]
 
 
-def _section(solution: Solution, name: Name) -> RollerSection:
+def _section(solution: Solution, name: Side) -> RollerSection:
     roller = solution.nip.upper if name == "upper" else solution.nip.lower
     z, is_top = _depths(roller, solution.nip_width)
     above = solution.interior(name, z[~is_top])

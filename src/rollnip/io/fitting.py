@@ -10,6 +10,7 @@ from pydantic import ConfigDict, Field
 from rollnip.io.forms import FileTable, Length, Ratio
 from rollnip.io.kinds import require_kind
 from rollnip.io.messages import checked_form
+from rollnip.rollers import Side
 
 Kind = Literal[
     "nip-width",
@@ -58,7 +59,7 @@ class DataTable(FileTable):
     weight: float = 1.0
     at: dict[str, Any] = Field({}, description="Values by path that held for the whole set.")
     ignore: list[str] = Field([], description="Columns of the table to pass over.")
-    roller: Literal["upper", "lower"] = "upper"
+    roller: Side = "upper"
     width: Length = Field(0.0, description="Standard deviation of the averaging along x.")
 
 

@@ -1,4 +1,4 @@
-"""The computed figures of Braat & Kalker (1993), what they rest on, and how firmly."""
+"""The figures of Braat & Kalker (1993), computed; their assumptions, and the effect of each."""
 
 from rollnip.paper.assumptions import Effect, effects, effects_table
 from rollnip.paper.cases import (

@@ -86,7 +86,7 @@ def _line(
 def _sheet(
     feed: Axes, tension: Axes, scrub: Axes, solution: SheetFaceSolution, palette: Palette
 ) -> None:
-    """Draw what the sheet does: its feed, its tension at the inlet, and both tractions."""
+    """Draw the feed of the sheet, its tension at the inlet, and both tractions."""
     scrub.lines[0].set_label(SHEET_FIGURES["sheet.traction_lower"].label)
     scrub.plot(
         solution.y, solution.traction_upper, color=palette.upper, linewidth=1.8,

@@ -94,7 +94,7 @@ def plot_field(
     pieces = section_pieces(solution, names, component, scale, _WINDOW[scale])
     shades = _shades(pieces, component, limit, look)
     drawn = [
-        _fill(ax, piece, _settled(piece.values, shades.high), shades, look)
+        _fill(ax, piece, _without_noise(piece.values, shades.high), shades, look)
         for piece in pieces
         if piece.values is not None
     ]
@@ -219,8 +219,8 @@ def _bound(pieces: list[Piece]) -> float:
     return most if largest > _FAR * most > 0.0 else largest
 
 
-def _settled(values: Array, size: float) -> Array:
-    """Rounding errors on a free surface take the sign of what is below: no contours of noise."""
+def _without_noise(values: Array, size: float) -> Array:
+    """Give rounding errors on a free surface the sign of the values below: no contours of noise."""
     noise = np.abs(values[0]) < _NOISE * size
     out = values.copy()
     out[0, noise] = _NOISE * size * np.sign(values[1, noise])

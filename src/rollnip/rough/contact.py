@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 _SHARE = 0.01  # of the wanted accuracy that the iteration may leave
 _DIRECT = 16  # places at which transforms are checked against sums
-_BETWEEN = 256  # places between nodes at which the contact is checked afresh
+_BETWEEN = 256  # places between nodes at which the contact is checked
 
 
 @dataclass(frozen=True)

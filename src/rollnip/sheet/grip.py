@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.nip import Creepage, Nip
+from rollnip.rollers import Side
 from rollnip.sheet.result import Grip
 from rollnip.sheet.system import frictions_of
 
@@ -31,7 +31,7 @@ def grip_of(
     """
     (mu_u, mu_l), (upper, lower), sheet = frictions_of(nip), pulls, nip.sheet
     assert sheet is not None
-    first: Literal["upper", "lower"] = "upper"
+    first: Side = "upper"
     reach, kept = mu_u * pressed, lower
     if isinstance(nip.tangential, Creepage):
         reach, kept = (mu_u + mu_l) * pressed, 0.0
@@ -57,7 +57,7 @@ def grip_error(nip: Nip, errors: Mapping[str, float]) -> float:
     return mu_u * errors["load"] + errors["traction_lower"]
 
 
-def first_to_slide(sliding: tuple[Array, Array], creepage: float) -> Literal["upper", "lower"]:
+def first_to_slide(sliding: tuple[Array, Array], creepage: float) -> Side:
     """Return the side of geared rollers that slides all over first where the pull is raised.
 
     As the pull grows, the upper roller runs ahead of the sheet and, the sum of both creepages being

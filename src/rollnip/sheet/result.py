@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._sealed import Sealed
 from rollnip.contact import ContactZone, Layout, State
+from rollnip.rollers import Side
 from rollnip.rolling import Zone
 
 Array = NDArray[np.float64]
@@ -71,7 +72,7 @@ class Grip:
     pull: float
     largest: float
     smallest: float
-    first: Literal["upper", "lower"]
+    first: Side
     use_upper: float
     use_lower: float
 

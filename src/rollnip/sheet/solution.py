@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import isinf, nan
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,7 +42,6 @@ from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
 from rollnip.smooth import SmoothSolution
 
 Array = NDArray[np.float64]
-_Side = Literal["upper", "lower"]
 
 
 @dataclass(frozen=True, eq=False, repr=False)

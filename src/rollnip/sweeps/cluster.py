@@ -106,7 +106,7 @@ class DaskCrew(Given):
 
 @contextmanager
 def _scheduler_told(name: str) -> Iterator[None]:
-    """Say of a lost connection that it is one."""
+    """Turn a lost connection into a RollnipError that says so."""
     try:
         yield
     except (OSError, TimeoutError, CancelledError) as error:

@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, WithJsonSchema, field_validator
 
 from rollnip._units import Dimension
+from rollnip.rollers import Side
 
 CASE = "x-case-file"
 """Marks where the schema of the API is to refer to that of the case file."""
@@ -32,7 +33,7 @@ class InteriorBody(RequestBody):
     """A request for one field inside one roller."""
 
     case: Case
-    roller: Literal["upper", "lower"]
+    roller: Side
     nx: int = Field(120, ge=2, description="Places along the nip.")
     nz: int = Field(40, ge=2, description="Depths, three at least in each layer.")
 
@@ -78,7 +79,7 @@ class CrownBody(RequestBody):
     """A request for the crown that evens out the load along a face."""
 
     case: Case
-    roller: Literal["upper", "lower"] = "upper"
+    roller: Side = "upper"
     within: float = Field(
         0.1, gt=0.0, lt=1.0, description="Largest departure of the line load from its mean."
     )
@@ -105,7 +106,7 @@ class ImpressionBody(RequestBody):
     """A request for what measured nip widths along a face tell."""
 
     case: Case
-    roller: Literal["upper", "lower"] = "upper"
+    roller: Side = "upper"
     unknowns: list[Literal["load", "tilt", "crown", "modulus"]] = Field(
         ["crown", "tilt"], min_length=1, max_length=4
     )

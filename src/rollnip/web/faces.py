@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ from rollnip.face.report import face_dict
 from rollnip.influence import KernelCache
 from rollnip.io import Case
 from rollnip.nip import LineLoad, Nip, Traction
-from rollnip.rollers import Roller
+from rollnip.rollers import SIDES, Roller, Side
 from rollnip.shafts import STEEL, Crown, Face
 from rollnip.web.answers import SOURCE, at_its_key
 from rollnip.web.kept import Kept
@@ -32,7 +32,6 @@ Array = NDArray[np.float64]
 
 _KEPT = 4  # tables, some ten kB each
 _FEW = 5  # places along the face where only its shafts are checked
-_SIDES: tuple[Literal["upper", "lower"], ...] = ("upper", "lower")
 _PLACES = {
     "end_loads": "face.end_loads",
     "length": "face.length",
@@ -68,7 +67,7 @@ class Faces:
         crowns = {name: _crown(one, solution).tolist() for name, one in rollers.items()}
         return face_dict(solution) | {"crown": crowns}
 
-    def crown(self, case: Case, roller: Literal["upper", "lower"], within: float) -> dict[str, Any]:
+    def crown(self, case: Case, roller: Side, within: float) -> dict[str, Any]:
         """Return the crown of one roller that evens out the load, and the loads that it serves.
 
         ``height`` is that of the parabola on the diameter [mm]; ``skew`` the angle between the axes
@@ -157,7 +156,7 @@ def _unbent(roller: Roller) -> Roller:
 
 def _check(nip: Nip, face: Face) -> None:
     """Raise where a shaft does not fit its roller or the face, one roller after the other."""
-    for side in _SIDES:
+    for side in SIDES:
         other = "lower" if side == "upper" else "upper"
         one = replace(nip, **{other: replace(getattr(nip, other), shaft=None)})
         try:

@@ -143,7 +143,7 @@ class Alternation:
     max_turns: int = 200
 
     def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Alternate from zero shear; ``settled`` is False where the turns do not converge."""
+        """Alternate from zero shear; ``settled`` is False where it does not converge."""
         shear = np.zeros(states.size)
         tangential = states
         steps = 0

@@ -99,7 +99,7 @@ def solve_by_process(
 def _solved_on(
     nip: Nip, geometry: Geometry, mesh: Mesh, zones: tuple[ContactZone, ...]
 ) -> tuple[ContactState, bool]:
-    """Alternate on one mesh until the second-order terms stand still, if they do."""
+    """Alternate on one mesh until the second-order terms settle, if they do."""
     second, states = first_guess(nip, mesh), states_on(mesh.inner, zones)
     if not states.any():
         states[np.argmin(np.abs(mesh.inner))] = State.STICK

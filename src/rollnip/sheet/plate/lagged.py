@@ -10,13 +10,14 @@ from numpy.typing import NDArray
 from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque, Traction
+from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import loss_inside, mean_shear
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
 from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate
 from rollnip.sheet.plate.curved import curved_load, is_stiff, places_along
-from rollnip.sheet.plate.sides import NAMES, SIGNS, curvatures, own_displacements, path_ratio
+from rollnip.sheet.plate.sides import SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 
 Array = NDArray[np.float64]
@@ -151,7 +152,7 @@ def pull_of(
 
 def lost_inside(problem: PlateProblem, geometry: Geometry, state: PlateState, side: int) -> float:
     """Return the heat inside one roller per distance of its surface [N/mm]."""
-    return loss_inside(NAMES[side], problem.nip, geometry, problem.meshes[side], state.side(side))
+    return loss_inside(SIDES[side], problem.nip, geometry, problem.meshes[side], state.side(side))
 
 
 def _clearance(

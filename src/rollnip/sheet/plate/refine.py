@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
+from rollnip.rollers import SIDES
 from rollnip.rolling import PairKernels
 from rollnip.rolling.assemble import moment
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
@@ -20,7 +21,6 @@ from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import displacements_of, lost_inside, pull_of
 from rollnip.sheet.plate.search import PlateSearch
-from rollnip.sheet.plate.sides import NAMES as SIDES
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.powers import SheetPowers, slip_zones

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import factorial, sqrt
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,8 +19,6 @@ from rollnip.sheet.squeeze import squeezed
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
-Name = Literal["upper", "lower"]
-NAMES: tuple[Name, Name] = ("upper", "lower")
 SIGNS = (1.0, -1.0)
 """Of the shear on each roller, and of the creep of its surface."""
 _PIECES = tuple(

@@ -13,6 +13,7 @@ from rollnip.contact import ContactProblem, Control, State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage
+from rollnip.rollers import SIDES
 from rollnip.rolling import (
     Displacements,
     Round,
@@ -27,7 +28,7 @@ from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.plate.attempt import PlateAttempt
 from rollnip.sheet.plate.factorised import FactorisedPlate
 from rollnip.sheet.plate.refine import PlateRefined
-from rollnip.sheet.plate.sides import NAMES, SIGNS, values_at
+from rollnip.sheet.plate.sides import SIGNS, values_at
 from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
 from rollnip.sheet.system import SheetState
@@ -143,7 +144,7 @@ class PlateSolution(SheetSolution):
         return lower_round(self._plate_refined, self.final)
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
-        one = self._of_side(NAMES.index("upper" if roller == "upper" else "lower"))
+        one = self._of_side(SIDES.index("upper" if roller == "upper" else "lower"))
         sign = 1.0 if roller == "upper" else -1.0
         return SurfaceTractions.on_inner(one.nodes, sign * one.shear, one.pressure)
 
@@ -156,7 +157,7 @@ class PlateSolution(SheetSolution):
     def _strain(self, x: Array, side: int) -> Array:
         geometry = self.model.geometry
         one = self._of_side(side)
-        return surface_strain(x, self.nip, geometry, self.kernels, one, side=NAMES[side])
+        return surface_strain(x, self.nip, geometry, self.kernels, one, side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
         stand = self._standing

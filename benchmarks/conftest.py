@@ -5,7 +5,7 @@ import time
 import numpy as np
 import pytest
 
-from rollnip._memory import keep_freed_memory
+from rollnip._own_process import keep_freed_memory
 
 keep_freed_memory()  # as in the command's own processes
 

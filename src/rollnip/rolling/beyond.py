@@ -38,7 +38,9 @@ Array = NDArray[np.float64]
 _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
 MOST_CORRECTIONS = 30  # of the correction and the contact
-_ENOUGH = 0.3  # violation of the contact conditions, or last change, over the tolerance
+# Violation of the contact conditions, or last change, from which turns need not go on: over the
+# tolerance, or over the violation by what is cut, which the solution says that it leaves open.
+_ENOUGH = 0.3
 SMALL = 0.1  # change of a turn from which it may be the last one
 _MOST_AFRESH = 10  # turns that are solved from the beginning
 # Of the wave numbers: with all of them turns may not come to rest beside an edge that slips at
@@ -148,23 +150,22 @@ class Least(Generic[Found]):
     ----------
     found : that solution; None as long as all violate them by more than the tolerance.
     left : violation by the last solution, over the tolerance.
-    enough : violation from which turns need not go on, likewise.
     """
 
     found: Found | None = None
     left: float = inf
-    enough: float = 0.3
 
-    def is_enough(self, found: Found, left: float, to_come: float) -> bool:
+    def is_enough(self, found: Found, left: float, to_come: float, cut: float = 0.0) -> bool:
         """Take in a further solution; return whether there is one from which turns need not go on.
 
         ``left``: violation by it, over the tolerance; ``to_come``: sum of the changes to come, over
-        the tolerance.
+        the tolerance; ``cut``: violation by what is cut from its correction, likewise.
         """
         before, self.left = self.left, left
         if left <= min(1.0, before):
             self.found = found
-        return self.found is not None and (min(left, to_come) <= self.enough or left > before)
+        enough = _ENOUGH * max(1.0, cut)
+        return self.found is not None and (min(left, to_come) <= enough or left > before)
 
 
 def _turns(
@@ -182,7 +183,7 @@ def _turns(
     itself.
     """
     change, afresh, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
-    least = Least[tuple[PairKernels, Round]](enough=_ENOUGH)
+    least = Least[tuple[PairKernels, Round]]()
     turns = 0
     cause: Literal["balance", "contact", "turns"] = "turns"
     for turn in range(MOST_CORRECTIONS):
@@ -196,14 +197,12 @@ def _turns(
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
         if stage is Stage.REFINED and change < SMALL and is_whole:
-            checked = with_residual(nip, model, smooth, _with(latest, smooth))
-            checked = replace(checked, geometry_change=largest(change, latest.geometry_change))
-            checked = replace(checked, stands_still=True)
-            left = checked.residual / model.tolerance
-            if least.is_enough((smooth, checked), left, change / model.tolerance):
+            checked = _checked(nip, model, smooth, latest, change)
+            left, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
+            if least.is_enough((smooth, checked), left, change / model.tolerance, cut):
                 break
             if turn == 0:  # of another nip's correction, later ones may well violate them more
-                least = Least(enough=_ENOUGH)
+                least = Least()
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
         near = min(change, to_come_after(change, before)) / model.tolerance
@@ -220,7 +219,7 @@ def _turns(
         latest = found
     if least.found is None:
         return Ended(cause, turns, change)
-    return _with_cut(nip, model, *least.found)
+    return least.found
 
 
 def _edges(latest: Round) -> tuple[float, float]:
@@ -242,14 +241,19 @@ def places_by_the_edges(edges: tuple[float, float]) -> Array:
     return np.asarray(start + (stop - start) * shares)
 
 
-def _with_cut(
-    nip: Nip, model: Model, kernels: PairKernels, checked: Round
-) -> tuple[PairKernels, Round]:
-    """Add to a solution the violation of the contact conditions by what was cut."""
-    assert kernels.held is not None
+def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float) -> Round:
+    """Return a solution with its violation of the contact conditions under its own correction.
+
+    Where they are met also with the violation by what was cut from that.
+    """
+    checked = with_residual(nip, model, kernels, _with(latest, kernels))
+    change = largest(change, latest.geometry_change)
+    checked = replace(checked, geometry_change=change, stands_still=True)
+    if not checked.residual <= model.tolerance or kernels.held is None:
+        return checked
     uncut = replace(kernels, held=kernels.held.uncut)
     cut = with_residual(nip, model, uncut, _with(checked, uncut)).residual
-    return kernels, replace(checked, cut=cut)
+    return replace(checked, cut=cut)
 
 
 def _with(latest: Round, kernels: PairKernels) -> Round:

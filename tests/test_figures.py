@@ -213,7 +213,7 @@ def test_long_times_are_shown_in_minutes():
     time = COURSES["time"]
     assert time.text(90.0) == "90.0 s"
     assert time.text(600.0) == "10.0 min"
-    assert time.shown_for(3600.0) == ("min", pytest.approx(1.0 / 60.0))
+    assert time.shown_for(3600.0) == ("min", pytest.approx(1.0 / 60.0), 0.0)
     assert time.axis == "time [s]"
 
 

@@ -8,22 +8,29 @@ interfaces), `rollnip.sheet_figures`, and `figures` of `rollnip.face`, `rollnip.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import KW_ONLY, dataclass, field
+from dataclasses import KW_ONLY, dataclass, field, replace
 from math import inf, isfinite, pi
-from typing import Any, Literal, NamedTuple, TypeVar
+from typing import Any, Literal, NamedTuple, Self, TypeVar, cast, get_args
 
-from rollnip._units import format_quantity
+from rollnip._errors import InvalidInputError
+from rollnip._units import Dimension as InputDimension
+from rollnip._units import conversions, format_quantity
 
 __all__ = [
     "LARGE",
     "ROUNDING",
+    "US",
+    "US_NAMES",
+    "US_TOTALS",
     "Dimension",
     "FaceTotal",
     "Figure",
     "Section",
     "Shown",
+    "Units",
     "axis_label",
     "by_key",
+    "checked_units",
     "curve",
 ]
 
@@ -55,6 +62,7 @@ Dimension = Literal[
     "compliance",
 ]
 Section = Literal["nip", "drive", "losses", "sheet"]
+Units = Literal["metric", "us"]
 
 # Newton's method leaves the ends of zones some 1e-9 of the width from where they belong, and not
 # equally far on both sides; a loss of 1e-8 of load times speed is meant.
@@ -103,18 +111,74 @@ _UNITS: Mapping[Dimension, _Units] = {
 }
 
 
+def checked_units(name: str, units: object) -> Units:
+    """Return the units that a reader asked for, or raise InvalidInputError."""
+    if units not in get_args(Units):
+        raise InvalidInputError(f'`{name}` must be "metric" or "us", got {units!r}.')
+    return cast("Units", units)
+
+
 def axis_label(name: str, unit: str) -> str:
     """Return the label of an axis or a column: a name, and its unit where it has one."""
     return name if unit in ("", "1") else f"{name} [{unit}]"
 
 
 class Shown(NamedTuple):
-    """A unit that a reader sees, and the factor from the base unit to it."""
+    """A unit that a reader sees: a number in it is factor times that in the base unit, + offset."""
 
     unit: str
     factor: float
+    offset: float = 0.0
 
 
+US_NAMES: Mapping[InputDimension, str] = {
+    "length": "in",
+    "line load": "pli",
+    "force": "lbf in/in",
+    "pressure": "psi",
+    "speed": "fpm",
+    "temperature": "degF",
+    "turn per length": "1/in",
+}
+"""US customary units of what cases and results both hold, as a case file spells them."""
+
+
+def _us(dimension: InputDimension) -> Shown:
+    """Return the US unit of a dimension that case files have, too."""
+    name = US_NAMES[dimension]
+    scale, offset = conversions(dimension)[name]
+    return Shown(name.replace("deg", "°"), 1.0 / scale, -offset / scale)
+
+
+_INCH = conversions("length")["in"][0]  # mm
+_POUND_FORCE = conversions("force")["lbf"][0]  # N
+_HORSEPOWER = 550.0 * 12.0 * _INCH * _POUND_FORCE  # mW; 550 ft lbf/s, by which drives are sized
+_BY_LENGTH = Shown("hp/ft", 12.0 * _INCH / _HORSEPOWER)
+
+US: Mapping[Dimension, Shown] = {
+    "length": _us("length"),
+    "line load": _us("line load"),
+    "force": _us("force"),
+    "pressure": _us("pressure"),
+    "speed": _us("speed"),
+    "temperature": _us("temperature"),
+    "turn per length": _us("turn per length"),
+    "roller force": Shown("lbf", 1.0 / _POUND_FORCE),
+    "moment": Shown("lbf·in", 1.0 / (_POUND_FORCE * _INCH)),
+    "area": Shown("in²", 1.0 / _INCH**2),
+    "feed per metre": Shown("in/100 ft", 1.2),
+    "power": Shown("hp", 1.0 / _HORSEPOWER),
+    "power per length": _BY_LENGTH,
+    "heat per length": _BY_LENGTH,
+    "power per volume": Shown("hp/in³", _INCH**3 / _HORSEPOWER),
+}
+"""The units that a reader of US customary units sees; other dimensions have the metric ones."""
+US_TOTALS: Mapping[str, Shown] = {
+    "N": Shown("lbf", 1.0 / _POUND_FORCE),
+    "N m": Shown("lbf·in", 1e3 / (_POUND_FORCE * _INCH)),
+    "W": Shown("hp", 1e3 / _HORSEPOWER),
+}
+"""The US units of figures of the whole face, by the metric ones."""
 LARGE: Mapping[Dimension, tuple[float, Shown]] = {"duration": (180.0, Shown("min", 1.0 / 60.0))}
 """From which size on (in base units) a dimension is shown in a larger unit, and that unit."""
 
@@ -124,6 +188,13 @@ class FaceTotal(NamedTuple):
 
     unit: str
     factor: float
+
+    def in_units(self, units: Units) -> FaceTotal:
+        """Return the same in metric or US units."""
+        if units == "metric":
+            return self
+        shown = US_TOTALS[self.unit]
+        return FaceTotal(shown.unit, self.factor * shown.factor)
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,6 +216,7 @@ class Figure:
         is a rounding error below `ROUNDING` times it. Empty: 1.
     claimed : whether `Solution.error` has an estimate of its error.
     total : how the figure of the whole face follows; None where there is none.
+    units : which ones a reader is shown.
     """
 
     key: str
@@ -160,6 +232,18 @@ class Figure:
     size: Mapping[str, int] = field(default_factory=dict)
     claimed: bool = False
     total: FaceTotal | None = None
+    units: Units = "metric"
+
+    def in_units(self, units: Units) -> Self:
+        """Return the same figure, shown in metric or US units."""
+        return self if units == self.units else replace(self, units=units)
+
+    @property
+    def shown(self) -> Shown:
+        """The unit that a reader is shown."""
+        metric = _UNITS[self.dimension]
+        known = US if self.units == "us" else {}
+        return known.get(self.dimension, Shown(metric.shown, metric.factor))
 
     @property
     def name(self) -> str:
@@ -174,12 +258,16 @@ class Figure:
     @property
     def shown_unit(self) -> str:
         """The unit that a reader is shown; empty for a plain number."""
-        return _UNITS[self.dimension].shown
+        return self.shown.unit
 
     @property
     def factor(self) -> float:
-        """Factor from the base unit to the unit shown."""
-        return _UNITS[self.dimension].factor
+        """Factor from the base unit to the unit shown, for differences."""
+        return self.shown.factor
+
+    def converted(self, value: float) -> float:
+        """Return a value of the base unit in the unit shown."""
+        return value * self.shown.factor + self.shown.offset
 
     def value(self, solution: Any) -> float | None:
         """The figure of a solution, in its base unit; None where not finite or not defined."""
@@ -216,20 +304,21 @@ class Figure:
         """Return the unit for values up to ``largest`` [base unit]: minutes for a long time."""
         least, large = LARGE.get(self.dimension, (inf, None))
         if large is None or abs(largest) < least:
-            return Shown(self.shown_unit, self.factor)
+            return self.shown
         return large
 
     def number(self, value: float) -> str:
         """Write a value of the base unit in the unit shown, without the unit."""
-        return format_quantity(value * self.factor, digits=self.digits)
+        return format_quantity(self.converted(value), digits=self.digits)
 
     def text(self, value: float, digits: int | None = None) -> str:
         """Write a value of the base unit in the unit for its size, with the unit.
 
         ``digits``: significant digits; None: those of the figure.
         """
-        unit, factor = self.shown_for(value)
-        number = format_quantity(value * factor, digits=self.digits if digits is None else digits)
+        unit, factor, offset = self.shown_for(value)
+        digits = self.digits if digits is None else digits
+        number = format_quantity(value * factor + offset, digits=digits)
         return f"{number} {unit}".rstrip()
 
     @property

@@ -75,6 +75,9 @@ def test_whatever_was_asked_for_stands_among_the_results(case):
     assert len(defined) > 5
     for name in defined:
         assert name in {line.partition("  ")[2].split(" ")[0] for line in result_lines(row, name)}
+    long = "heat.upper.bond_temperature"
+    assert f"  {long} 70.000 degC" in result_lines(row | {long: 70.0}, long)
+    assert result_lines({}) == ["", "Results there, solved afresh"]
 
 
 def test_find_refuses_a_second_result_rather_than_forget_the_first(case):

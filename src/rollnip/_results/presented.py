@@ -9,6 +9,7 @@ from rollnip._results import summary
 from rollnip._results.case import case_tree, problem_hash
 from rollnip._results.dataset import result_dataset
 from rollnip._results.tree import result_dict
+from rollnip.figure import Units, checked_units
 from rollnip.model import Model
 from rollnip.nip import Nip
 
@@ -29,12 +30,21 @@ class Presented:
         """16 hexadecimal digits that tell problems and models apart; the title does not count."""
         return problem_hash(self.nip, self.model)
 
-    def summary(self) -> str:
+    def summary(self, units: Units = "metric") -> str:
         """Return the figures with units and errors, the zones and the warnings, as lines of text.
 
         Stresses on interfaces, which may take longer than the solution, are in ``interfaces``.
+
+        Parameters
+        ----------
+        units : "metric", or "us": in, pli, psi, fpm, hp.
+
+        Raises
+        ------
+        InvalidInputError
+            where the units are neither of these.
         """
-        return summary.text(self)
+        return summary.text(self, checked_units("units", units))
 
     def to_xarray(self, *, interfaces: bool = False) -> Any:
         """Return the result as an xarray Dataset: what the netCDF file holds.

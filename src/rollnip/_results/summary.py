@@ -7,7 +7,7 @@ from html import escape
 from typing import Any, NamedTuple
 
 from rollnip._units import format_quantity
-from rollnip.figure import ROUNDING, Figure
+from rollnip.figure import ROUNDING, Figure, Units
 from rollnip.figures import FIGURES, PLACES
 from rollnip.sheet_figures import PULL_FIGURES, SHEET_FIGURES
 
@@ -50,21 +50,21 @@ def line(figure: Figure, solution: Any) -> Line:
     return Line(figure.label, figure.number(value), figure.shown_unit, shown)
 
 
-def sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
+def sections(solution: Any, units: Units = "metric") -> Iterator[tuple[str, list[Line]]]:
     """Headings with their lines: nip, drive, losses, and the whole face where it has a width."""
     for section, heading in _HEADINGS.items():
         lines = []
         for figure in FIGURES.values():
             if figure.section == section:
-                lines.append(line(figure, solution))
-                lines += _contact(solution) if figure.key == "nip_width" else ()
-                lines += _alike(solution) if figure.key == "peak_pressure_x" else ()
+                lines.append(line(figure.in_units(units), solution))
+                lines += _contact(solution, units) if figure.key == "nip_width" else ()
+                lines += _alike(solution, units) if figure.key == "peak_pressure_x" else ()
         yield heading, lines
     if solution.sheet is not None:
-        figures = [line(figure, solution) for figure in SHEET_FIGURES.values()]
-        yield "Sheet", [*figures, *_grip(solution.sheet.grip)]
+        figures = [line(figure.in_units(units), solution) for figure in SHEET_FIGURES.values()]
+        yield "Sheet", [*figures, *_grip(solution.sheet.grip, units)]
     if solution.nip.face_width is not None:
-        yield "Whole face", list(_totals(solution, solution.nip.face_width))
+        yield "Whole face", list(_totals(solution, solution.nip.face_width, units))
 
 
 def finite_inside(solution: Any) -> list[str]:
@@ -111,12 +111,12 @@ def one_line(result: Any, title: str, model: str, *texts: str) -> str:
     return f"<{type(result).__name__} {name}{state}{model}: {', '.join(texts)}>"
 
 
-def text(solution: Any) -> str:
+def text(solution: Any, units: Units = "metric") -> str:
     """The summary as lines of plain text."""
     lines = [solution.nip.title or "Nip", "".join(verdict(solution))]
-    for heading, rows in sections(solution):
+    for heading, rows in sections(solution, units):
         lines += ["", heading, *map(_plain, rows)]
-    for heading, rows in zone_sections(solution):
+    for heading, rows in zone_sections(solution, units):
         lines += ["", heading, *map(_plain, rows)]
     lines += ["", *(f"Note: {warning}" for warning in solution.warnings), SIGNS]
     return "\n".join(lines)
@@ -134,74 +134,70 @@ def html(solution: Any) -> str:
     return "".join([*parts, *(f"<p>{escape(note)}</p>" for note in notes)])
 
 
-def zone_sections(solution: Any) -> Iterator[tuple[str, list[Line]]]:
+def zone_sections(solution: Any, units: Units = "metric") -> Iterator[tuple[str, list[Line]]]:
     """Headings with a line for each zone of stick and slip; both interfaces of a sheet."""
     if solution.sheet is None:
         if solution.zones:
-            yield "Stick and slip", list(zones(solution))
+            yield "Stick and slip", list(_zone_lines(solution.zones, FASTER, units))
         return
     above = {-1: "the upper roller is faster", 1: "the sheet is faster"}
     below = {-1: "the sheet is faster", 1: "the lower roller is faster"}
-    yield "Stick and slip, upper side of the sheet", list(_zone_lines(solution.zones, above))
+    yield "Stick and slip, upper side of the sheet", list(_zone_lines(solution.zones, above, units))
     lower = solution.sheet.zones_lower
-    yield "Stick and slip, lower side of the sheet", list(_zone_lines(lower, below))
+    yield "Stick and slip, lower side of the sheet", list(_zone_lines(lower, below, units))
 
 
-def zones(solution: Any) -> Iterator[Line]:
-    """A line for each zone of stick and slip."""
-    yield from _zone_lines(solution.zones, FASTER)
-
-
-def _zone_lines(zones: Iterable[Any], faster: Mapping[int, str]) -> Iterator[Line]:
+def _zone_lines(zones: Iterable[Any], faster: Mapping[int, str], units: Units) -> Iterator[Line]:
+    edge = _EDGE.in_units(units)
     for zone in zones:
-        ends = " to ".join(_EDGE.number(end) for end in (zone.start, zone.stop))
-        yield Line(zone.state, ends, _EDGE.shown_unit, note=faster.get(zone.direction or 0, ""))
+        ends = " to ".join(edge.number(end) for end in (zone.start, zone.stop))
+        yield Line(zone.state, ends, edge.shown_unit, note=faster.get(zone.direction or 0, ""))
 
 
-def _grip(grip: Any) -> Iterator[Line]:
+def _grip(grip: Any, units: Units) -> Iterator[Line]:
     """Yield the pulls between which the sheet holds, and the side that slides all over first."""
     for key, figure in PULL_FIGURES.items():
-        yield _sub_line(figure.label, figure, getattr(grip, key))
+        yield _sub_line(figure.label, figure.in_units(units), getattr(grip, key))
     yield Line("  slides first where pulled", f"{grip.first} side")
 
 
-def _contact(solution: Any) -> Iterator[Line]:
+def _contact(solution: Any, units: Units) -> Iterator[Line]:
     """Yield the edges of each contact interval, or the outermost edges and the length of many."""
     intervals = solution.contact
     if len(intervals) > _MOST_INTERVALS:
         length = sum(leading - trailing for trailing, leading in intervals)
-        yield from _edges(solution, intervals[0][0], intervals[-1][1])
-        yield _sub_line(f"touching in {len(intervals)} pieces", _EDGE, length)
+        yield from _edges(solution, intervals[0][0], intervals[-1][1], units)
+        yield _sub_line(f"touching in {len(intervals)} pieces", _EDGE.in_units(units), length)
         return
     for trailing, leading in intervals:
-        yield from _edges(solution, trailing, leading)
+        yield from _edges(solution, trailing, leading, units)
 
 
-def _alike(solution: Any) -> Iterator[Line]:
+def _alike(solution: Any, units: Units) -> Iterator[Line]:
     """Yield a line for the place of each further peak as high as the highest; one for many."""
     places = solution.peaks_alike_x
     if len(places) > _MOST_INTERVALS:
         yield Line("  as high in", f"{len(places)}", "other places")
         return
     for place in places:
-        yield _sub_line("as high at x", FIGURES["peak_pressure_x"], place)
+        yield _sub_line("as high at x", FIGURES["peak_pressure_x"].in_units(units), place)
 
 
-def _edges(solution: Any, trailing: float, leading: float) -> Iterator[Line]:
+def _edges(solution: Any, trailing: float, leading: float, units: Units) -> Iterator[Line]:
     for label, edge in (("from x", trailing), ("to x", leading)):
         is_noise = abs(edge) < ROUNDING * solution.nip_width
-        yield _sub_line(label, _EDGE, 0.0 if is_noise else edge)
+        yield _sub_line(label, _EDGE.in_units(units), 0.0 if is_noise else edge)
 
 
-def _totals(solution: Any, width: float) -> Iterator[Line]:
-    face = PLACES["face_width"]
+def _totals(solution: Any, width: float, units: Units) -> Iterator[Line]:
+    face = PLACES["face_width"].in_units(units)
     yield Line(face.label, face.number(width), face.shown_unit)
     for figure in FIGURES.values():
         value = figure.cleaned(solution)
         if figure.total is not None and value is not None:
-            total = value * width * figure.total.factor
-            number = format_quantity(total, digits=figure.digits)
-            yield Line(figure.label, number, figure.total.unit)
+            total = figure.total.in_units(units)
+            number = format_quantity(value * width * total.factor, digits=figure.digits)
+            yield Line(figure.label, number, total.unit)
 
 
 def _sub_line(label: str, figure: Figure, value: float) -> Line:

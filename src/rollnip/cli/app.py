@@ -16,16 +16,18 @@ from rollnip.cli.feed import feed
 from rollnip.cli.fit import fit
 from rollnip.cli.heat import heat
 from rollnip.cli.lda import lda
-from rollnip.cli.options import Force, Geometry, Json, Out, Quiet, Tolerance
+from rollnip.cli.options import Force, Geometry, Json, Out, Quiet, Tolerance, Units
 from rollnip.cli.paper import paper
 from rollnip.cli.patch import Wanted, answer, patch, require_linear
 from rollnip.cli.rubber import rubber
 from rollnip.cli.serve import serve
 from rollnip.cli.sweep import sweep
 from rollnip.cli.verify import verify
+from rollnip.figure import checked_units
 
 if TYPE_CHECKING:
     from rollnip.face import FaceSolution
+    from rollnip.figure import Units as System
     from rollnip.heat import HeatSolution
     from rollnip.io import Case
     from rollnip.model import Model
@@ -86,6 +88,7 @@ def solve(
     ] = None,
     geometry: Geometry = None,
     tolerance: Tolerance = None,
+    units: Units = "metric",
     quiet: Quiet = False,
     force: Force = False,
 ) -> None:
@@ -100,7 +103,13 @@ def solve(
         problem = read_any_case(case)
         run.reserve({"--out": out, "--fields": fields, "--plot": plot})
         wanted = Wanted(
-            json=json, quiet=quiet, plot=plot, out=out, stresses=fields, tolerance=tolerance
+            json=json,
+            quiet=quiet,
+            plot=plot,
+            out=out,
+            stresses=fields,
+            tolerance=tolerance,
+            units=checked_units("--units", units),
         )
         if isinstance(problem, PatchCase):
             require_linear(geometry)
@@ -143,8 +152,8 @@ def _answer(problem: Case, model: Model, wanted: Wanted) -> bool:
     elif not wanted.quiet:
         from rollnip.cli.summary import print_summary
 
-        print_summary(solution)
-        _print_more(solution, along, warm)
+        print_summary(solution, units=wanted.units)
+        _print_more(solution, along, warm, wanted.units)
     return all(one.converged for one in (solution, along, warm) if one is not None)
 
 
@@ -175,15 +184,17 @@ def _parts(along: FaceSolution | None, warm: HeatSolution | None) -> dict[str, A
     return case_parts(along, warm)
 
 
-def _print_more(solution: Solution, along: FaceSolution | None, warm: HeatSolution | None) -> None:
+def _print_more(
+    solution: Solution, along: FaceSolution | None, warm: HeatSolution | None, units: System
+) -> None:
     """Print what a face and a heat balance add to the summary of a nip."""
     from rollnip.face.report import face_lines
     from rollnip.heat.report import balance_lines
 
     said = solution.warnings
     for part in (
-        None if along is None else face_lines(along, said),
-        None if warm is None else balance_lines(warm, said),
+        None if along is None else face_lines(along, said, units),
+        None if warm is None else balance_lines(warm, said, units),
     ):
         if part is not None:
             write("\n" + "\n".join(part) + "\n")

@@ -15,7 +15,8 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures
-from rollnip.cli.options import Force
+from rollnip.cli.options import Force, Units
+from rollnip.figure import checked_units
 
 if TYPE_CHECKING:
     from rollnip.model import Model
@@ -48,6 +49,7 @@ def solve(
     json: Json = False,
     plot: Plot = None,
     workers: Workers = 1,
+    units: Units = "metric",
     force: Force = False,
 ) -> None:
     """Solve a nip along its face and print line load, width and scrub.
@@ -55,6 +57,7 @@ def solve(
     The exit code is 0 where the solution was verified, 1 where it was not, 2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
+        system = checked_units("--units", units)
         nip, along, model = _read(case)
         run.reserve({"--plot": plot})
         from rollnip.cli.progress import counting
@@ -64,7 +67,8 @@ def solve(
         with _processes(workers) as executor, counting() as progress:
             solution = solve_face(nip, along, model, executor=executor, progress=progress)
         _draw(solution, plot)
-        _print(face_dict(solution) if json else "\n".join(face_lines(solution)) + "\n")
+        lines = face_lines(solution, units=system)
+        _print(face_dict(solution) if json else "\n".join(lines) + "\n")
     if not solution.converged:
         raise typer.Exit(1)
 

@@ -10,10 +10,12 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures, named, overridden, read_option, write
-from rollnip.cli.options import Force, Geometry, Json, Out, Quiet, Tolerance
+from rollnip.cli.options import Force, Geometry, Json, Out, Quiet, Tolerance, Units
+from rollnip.figure import checked_units
 
 if TYPE_CHECKING:
     from rollnip._units import Dimension
+    from rollnip.figure import Units as System
     from rollnip.heat import Branch, HeatSolution, WarmUp
     from rollnip.io import Case
     from rollnip.model import Model
@@ -44,6 +46,7 @@ def heat(
     ] = None,
     geometry: Geometry = None,
     tolerance: Tolerance = None,
+    units: Units = "metric",
     quiet: Quiet = False,
     force: Force = False,
 ) -> None:
@@ -53,6 +56,7 @@ def heat(
     wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
+        system = checked_units("--units", units)
         problem = _read(case)
         run.reserve({"--out": out, "--plot": plot})
         model = overridden(problem.model, geometry, tolerance)
@@ -68,7 +72,7 @@ def heat(
             course = _course(problem, model, seconds, cache) if warm_up or duration else None
             solution = course.steady if course is not None else _steady(problem, model, cache)
             branch = None if wanted is None else _branch(problem, model, wanted, cache)
-        _give(solution, course, branch, (out, plot), json=json, quiet=quiet)
+        _give(solution, course, branch, (out, plot), system, json=json, quiet=quiet)
     if not solution.converged or (course is not None and not course.converged):
         raise typer.Exit(1)
 
@@ -169,6 +173,7 @@ def _give(
     course: WarmUp | None,
     branch: Branch | None,
     files: tuple[Path | None, Path | None],
+    units: System,
     *,
     json: bool,
     quiet: bool,
@@ -190,9 +195,11 @@ def _give(
     elif not quiet:
         from rollnip.heat.report import branch_lines, heat_lines, warm_up_lines
 
-        lines = [*heat_lines(solution)]
-        lines += [] if course is None else warm_up_lines(course)
+        lines = [*heat_lines(solution, units)]
+        lines += [] if course is None else warm_up_lines(course, units)
         if branch is not None:
             speed = branch.parameter == "speed"
-            lines += branch_lines(branch, solution.nip.speed if speed else solution.cold.load)
+            lines += branch_lines(
+                branch, solution.nip.speed if speed else solution.cold.load, units
+            )
         write("\n".join(lines) + "\n")

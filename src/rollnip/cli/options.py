@@ -23,6 +23,13 @@ Geometry = Annotated[
 Tolerance = Annotated[
     str | None, typer.Option(help="Wanted relative accuracy, such as 1e-3; overrides the file.")
 ]
+Units = Annotated[
+    str,
+    typer.Option(
+        help="Units of the summary: metric, or us (in, pli, psi, fpm, °F); JSON, files and "
+        "pictures are in base units."
+    ),
+]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="Print no summary.")]
 
 InstrumentFile = Annotated[Path, typer.Argument(help="Text file or workbook of an instrument.")]

@@ -11,9 +11,11 @@ import typer
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
 from rollnip.cli.console import clear_failures, named, read_option, write
-from rollnip.cli.options import Force
+from rollnip.cli.options import Force, Units
+from rollnip.figure import checked_units
 
 if TYPE_CHECKING:
+    from rollnip.figure import Units as System
     from rollnip.io.patch_case import PatchCase
     from rollnip.patch import PatchSolution
     from rollnip.rollers import Side
@@ -43,6 +45,7 @@ class Wanted:
     quiet : print no summary.
     plot, out, stresses : files of the picture, the result, the stresses inside; None: none.
     tolerance : as the option says it; None: that of the case.
+    units : of the summary.
     """
 
     json: bool = False
@@ -52,6 +55,7 @@ class Wanted:
     out: Path | None = None
     stresses: Path | None = None
     tolerance: str | None = None
+    units: System = "metric"
 
 
 @patch.command("solve")
@@ -69,6 +73,7 @@ def solve(
         typer.Option(help="Write the result with its fields: name.json, .nc, or .vtr (ParaView)."),
     ] = None,
     tolerance: Tolerance = None,
+    units: Units = "metric",
     force: Force = False,
 ) -> None:
     """Solve a contact patch and print its size, pressure, forces and creepages.
@@ -78,9 +83,17 @@ def solve(
     with clear_failures(), one_run(force=force) as run:
         from rollnip.io.patch_case import read_patch_case
 
+        system = checked_units("--units", units)
         problem = read_patch_case(case)
         run.reserve({"--plot": plot, "--out": out})
-        wanted = Wanted(json=json, fields=fields, plot=plot, out=out, tolerance=tolerance)
+        wanted = Wanted(
+            json=json,
+            fields=fields,
+            plot=plot,
+            out=out,
+            tolerance=tolerance,
+            units=system,
+        )
         is_verified = answer(problem, wanted)
     if not is_verified:
         raise typer.Exit(1)
@@ -110,7 +123,7 @@ def answer(problem: PatchCase, wanted: Wanted) -> bool:
     elif not wanted.quiet:
         from rollnip.patch.report import patch_lines
 
-        write("\n".join(patch_lines(solution)) + "\n")
+        write("\n".join(patch_lines(solution, wanted.units)) + "\n")
     return solution.converged
 
 

@@ -61,10 +61,11 @@ def result_lines(row: Mapping[str, Any], *asked: str) -> list[str]:
 
     Those ``asked`` for beside them come last.
     """
+    names = dict.fromkeys((*_SHOWN, *_SHOWN_OF_FACE, *_SHOWN_OF_SHEET, *asked))
+    shown = [name for name in names if name in QUANTITIES and row.get(name) is not None]
+    wide = max([20, *(len(name) + 1 for name in shown)])
     lines = ["", "Results there, solved afresh"]
-    for name in dict.fromkeys((*_SHOWN, *_SHOWN_OF_FACE, *_SHOWN_OF_SHEET, *asked)):
-        if name in QUANTITIES and row.get(name) is not None:
-            lines.append(f"  {name:{25 if '.' in name else 20}s}{_with_error(row, name)}")
+    lines += [f"  {name:{wide}s}{_with_error(row, name)}" for name in shown]
     warnings = str(row.get("warnings") or "")
     return [*lines, f"Note: {warnings}"] if warnings else lines
 

@@ -18,6 +18,7 @@ from rollnip.face.figures import (
     figures_of,
     profiles_of,
 )
+from rollnip.figure import Units
 
 if TYPE_CHECKING:
     from rollnip.face.impression import ImpressionReading
@@ -125,26 +126,36 @@ def face_parts(solution: FaceSolution) -> dict[str, Any]:
     return {"case": case, "case_hash": digits, "face": face_dict(solution)}
 
 
-def face_lines(solution: FaceSolution, said: Collection[str] = ()) -> Iterator[str]:
-    """Yield the summary of a face, line by line, without warnings that were ``said`` before."""
+def face_lines(
+    solution: FaceSolution, said: Collection[str] = (), units: Units = "metric"
+) -> Iterator[str]:
+    """Yield the summary of a face, line by line, without warnings that were ``said`` before.
+
+    Parameters
+    ----------
+    said : warnings that were shown before.
+    units : metric or US ones.
+    """
     word = "converged and verified" if solution.converged else "NOT CONVERGED"
     yield f"Face ({word}; {solution.law.solves} cross-sections)"
     yield f"  {'':28s} {'y < 0 end':>12s} {'middle':>12s} {'y > 0 end':>12s}"
     middle = solution.y.size // 2
     for key, figure in profiles_of(solution).items():
         if key in _SHOWN_OVER_Y:
-            values = figure.factor * getattr(solution, key)
+            one = figure.in_units(units)
+            values = one.factor * getattr(solution, key)
             shown = "".join(f" {_four(values[i], values):>12s}" for i in (0, middle, -1))
-            yield f"  {figure.label:28s}{shown} {figure.shown_unit}"
+            yield f"  {one.label:28s}{shown} {one.shown_unit}"
     for key, figure in figures_of(solution).items():
         value = figure.value(solution)
         hidden = not _has_friction(solution) and key in _OF_FRICTION
         if value is not None and key not in _SILENT and not hidden:
-            yield f"  {figure.label:28s} {figure.text(_quiet(key, value, solution))}"
+            text = figure.in_units(units).text(_quiet(key, value, solution))
+            yield f"  {figure.label:28s} {text}"
     for name in ("upper", "lower"):
         forces = solution.bearings(name)
         if forces is not None:
-            figure = BEARING_FORCES[name]
+            figure = BEARING_FORCES[name].in_units(units)
             ends = f"{figure.number(forces.first)} and {figure.text(forces.second)}"
             yield f"  {figure.label:28s} {ends}"
     for warning in solution.warnings:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from rollnip._results.case import case_tree, heat_tree, problem_hash
-from rollnip.figure import Figure
+from rollnip.figure import Figure, Units
 from rollnip.heat.figures import (
     BALANCE_FIGURES,
     COURSES,
@@ -128,22 +128,25 @@ def _point(point: BranchPoint) -> dict[str, Any]:
     return {name: getattr(point, name) for name in names}
 
 
-def heat_lines(solution: HeatSolution) -> Iterator[str]:
+def heat_lines(solution: HeatSolution, units: Units = "metric") -> Iterator[str]:
     """Yield the summary of a nip in thermal balance, line by line, its title first."""
     yield solution.nip.title or "Heat"
     yield _verdict(solution)
-    yield from _figures(solution)
+    yield from _figures(solution, units)
 
 
-def balance_lines(solution: HeatSolution, said: Collection[str] = ()) -> Iterator[str]:
+def balance_lines(
+    solution: HeatSolution, said: Collection[str] = (), units: Units = "metric"
+) -> Iterator[str]:
     """Yield what a heat balance adds to the summary of its nip, line by line.
 
     Parameters
     ----------
     said : warnings that were shown before, and are not shown again.
+    units : metric or US ones.
     """
     yield f"Heat ({_verdict(solution)})"
-    yield from _figures(solution, said)
+    yield from _figures(solution, units, said)
 
 
 def _verdict(solution: HeatSolution) -> str:
@@ -151,27 +154,28 @@ def _verdict(solution: HeatSolution) -> str:
     return f"{word}: {solution.status}"
 
 
-def _figures(solution: HeatSolution, said: Collection[str] = ()) -> Iterator[str]:
+def _figures(solution: HeatSolution, units: Units, said: Collection[str] = ()) -> Iterator[str]:
     yield f"\nTemperatures{'upper':>27s} {'lower':>12s}"
     for name in _TEMPERATURES:
-        yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES])
-    yield "\nHeat, per metre of roller"
+        yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES], units)
+    yield "\nHeat, per length of roller"
     for name in _POWERS:
-        yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES])
+        yield _row(ROLLER_FIGURES[name], [solution.of(side) for side in SIDES], units)
     if solution.heat.sheet is not None:
-        yield _row(BALANCE_FIGURES["to_sheet"], [solution])
+        yield _row(BALANCE_FIGURES["to_sheet"], [solution], units)
     yield f"\nNip{'cold':>36s} {'warm':>12s}"
     for figure in NIP_FIGURES.values():
-        yield _row(figure, [solution.cold, solution.warm])
+        yield _row(figure, [solution.cold, solution.warm], units)
     for warning in solution.warnings:
         if warning not in said:
             yield f"Note: {warning}"
 
 
-def _row(figure: Figure, results: list[Any]) -> str:
+def _row(figure: Figure, results: list[Any], units: Units) -> str:
     """Return the line of a figure of some results, in the unit shown."""
+    figure = figure.in_units(units)
     values = [figure.value(one) for one in results]
-    shown = [None if one is None else figure.factor * one for one in values]
+    shown = [None if one is None else figure.converted(one) for one in values]
     return _line(figure.label, shown, figure.shown_unit)
 
 
@@ -184,37 +188,45 @@ def _four(value: float) -> str:
     return "0" if abs(value) < 1e-9 else f"{value:.4g}"
 
 
-def warm_up_lines(course: WarmUp) -> Iterator[str]:
+def warm_up_lines(course: WarmUp, units: Units = "metric") -> Iterator[str]:
     """Yield the summary of a warm-up, line by line."""
+    temperature = TEMPERATURE.in_units(units)
     yield f"\nWarm-up over {_TIME.text(float(course.time[-1]))}: {course.status}"
     yield f"  {_TIME.label:24s} {'upper':>12s} {'lower':>12s}"
     hottest = {side: course.hot_spot(side) for side in SIDES}
     for share in (0.05, 0.1, 0.2, 0.5, 1.0):
         time = share * float(course.time[-1])
         row: list[float | None] = [
-            float(np.interp(time, course.time, hottest[side])) for side in SIDES
+            temperature.converted(float(np.interp(time, course.time, hottest[side])))
+            for side in SIDES
         ]
-        yield _line(_TIME.text(time), row, TEMPERATURE.shown_unit)
+        yield _line(_TIME.text(time), row, temperature.shown_unit)
     if course.half_time is not None:
         half = WARM_UP_FIGURES["half_time"]
         yield f"  {half.label} {half.text(course.half_time)}"
 
 
-def branch_lines(branch: Branch, value: float | None) -> Iterator[str]:
+def branch_lines(branch: Branch, value: float | None, units: Units = "metric") -> Iterator[str]:
     """Yield the summary of a branch, line by line; ``value``: that of the case."""
     yield f"\nSteady states by {branch.parameter}: {branch.status}"
-    over = PARAMETERS[branch.parameter]
-    yield f"  {over.axis:24s} {TEMPERATURE.label:>12s} {'heat':>12s}"
+    over, temperature, heat = (
+        one.in_units(units)
+        for one in (PARAMETERS[branch.parameter], TEMPERATURE, BALANCE_FIGURES["power"])
+    )
+    yield f"  {over.axis:24s} {temperature.label:>12s} {'heat':>12s}"
     for point in branch.points:
         mark = "" if point.stable else "  not stable"
-        yield f"  {point.value:<24.5g} {point.hot_spot:12.4g} {point.power:12.4g}{mark}"
+        yield (
+            f"  {over.converted(point.value):<24.5g} {temperature.converted(point.hot_spot):12.4g} "
+            f"{heat.converted(point.power):12.4g}{mark}"
+        )
     if branch.turning is None:
         yield "  no thermal runaway was met"
         return
     turning = branch.turning
     yield (
         f"  thermal runaway at {over.text(turning.value)}, "
-        f"where the {TEMPERATURE.label} has {TEMPERATURE.text(turning.hot_spot)}"
+        f"where the {temperature.label} has {temperature.text(turning.hot_spot)}"
     )
     margin = None if value is None else branch.margin(value)
     if margin is not None and value is not None:

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from rollnip.figure import Units
 from rollnip.patch.coefficients import Array
 from rollnip.patch.depth import PatchStress
 from rollnip.patch.ends import FaceEnd
@@ -52,15 +53,15 @@ def fields_of(solution: PatchSolution) -> dict[str, Array]:
     return {key: getattr(solution, key).astype(float) for key in PATCH_FIELDS}
 
 
-def patch_lines(solution: PatchSolution) -> Iterator[str]:
-    """Yield the summary of a patch, line by line."""
+def patch_lines(solution: PatchSolution, units: Units = "metric") -> Iterator[str]:
+    """Yield the summary of a patch, line by line, in metric or US units."""
     yield solution.patch.title or "Patch"
     yield f"  {solution.status}"
     grid = solution.grid
     yield f"  {'grid':22s} {grid.nx} x {grid.ny} rectangles"
     for one in PATCH_FIGURES.values():
         if is_shown(one, solution):
-            yield f"  {one.label:22s} {_shown(one, solution)}"
+            yield f"  {one.label:22s} {_shown(one.in_units(units), solution)}"
     for warning in solution.warnings:
         yield f"  note: {warning}"
 

@@ -106,7 +106,7 @@ def _depth(ax: Axes, solution: HeatSolution, palette: Palette) -> None:
 def _course(ax: Axes, course: WarmUp, palette: Palette) -> None:
     """Draw hot spot and surface of each roller over time."""
     ax.set_title("warm-up", loc="left", size=10, color=palette.ink)
-    unit, factor = COURSES["time"].shown_for(course.time[-1])
+    unit, factor, _ = COURSES["time"].shown_for(course.time[-1])
     time = factor * course.time
     for side in ("upper", "lower"):
         color = _color(palette, side)

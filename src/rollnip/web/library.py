@@ -18,7 +18,7 @@ from rollnip.face.figures import (
     SHEET_FACE_FIGURES,
     SHEET_FACE_PROFILES,
 )
-from rollnip.figure import LARGE, ROUNDING, Figure
+from rollnip.figure import LARGE, ROUNDING, US, US_NAMES, US_TOTALS, Figure, Shown
 from rollnip.figure import Dimension as FigureDimension
 from rollnip.figures import FIELDS, FIGURES, INTERFACE_FIGURES, PROFILES, PULL
 from rollnip.heat.figures import (
@@ -37,15 +37,15 @@ from rollnip.web.answers import as_json
 
 _DATA = Path(str(files("rollnip.web"))) / "data"
 _HARDNESSES = (30, 40, 50, 60, 70, 80, 90)
-# What the metric and the US page show.
+# What the metric and the US page show; US units of results are those of the registry.
 _SHOWN: dict[Dimension, tuple[str, str]] = {
-    "length": ("mm", "in"),
-    "line load": ("N/mm", "pli"),
-    "force": ("N m/m", "lbf in/in"),
-    "pressure": ("MPa", "psi"),
-    "speed": ("m/min", "fpm"),
+    "length": ("mm", US_NAMES["length"]),
+    "line load": ("N/mm", US_NAMES["line load"]),
+    "force": ("N m/m", US_NAMES["force"]),
+    "pressure": ("MPa", US_NAMES["pressure"]),
+    "speed": ("m/min", US_NAMES["speed"]),
     "time": ("ms", "ms"),
-    "temperature": ("degC", "degF"),
+    "temperature": ("degC", US_NAMES["temperature"]),
     "temperature difference": ("K", "K"),
     "ratio": ("", ""),
     "molar energy": ("kJ/mol", "kcal/mol"),
@@ -56,7 +56,7 @@ _SHOWN: dict[Dimension, tuple[str, str]] = {
     "heat capacity": ("J/(kg K)", "BTU/(lb degF)"),
     "film coefficient": ("W/(m2 K)", "BTU/(h ft2 degF)"),
     "thermal expansion": ("ppm/K", "1/degF"),
-    "turn per length": ("1/m", "1/in"),
+    "turn per length": ("1/m", US_NAMES["turn per length"]),
 }
 
 
@@ -66,37 +66,33 @@ def _metric(dimension: FigureDimension) -> list[Any]:
     return [figure.shown_unit, 1.0 / figure.factor]
 
 
+def _page(dimension: FigureDimension, metric: FigureDimension | None = None) -> dict[str, Any]:
+    """Return unit and size of a dimension of results on the metric and the US page."""
+    shown = _metric(dimension if metric is None else metric)
+    return {"metric": shown, "us": _size(US[dimension]) if dimension in US else shown}
+
+
+def _size(shown: Shown) -> list[Any]:
+    """Return a unit and its size in base units."""
+    return [shown.unit, 1.0 / shown.factor]
+
+
 # Dimensions and totals of results alone: [unit, scale] of the metric and the US page.
 _DEGREE = ["°", 1.0]
-_HORSEPOWER = 550.0 * 0.3048 * 4.4482216152605  # W; 550 ft lbf/s, what US drives are sized in
 _SHOWN_RESULTS = {
-    "power per length": {
-        "metric": _metric("heat per length"),
-        "us": ["hp/ft", _HORSEPOWER / 0.3048],
-    },
-    "heat per length": {
-        "metric": _metric("heat per length"),
-        "us": ["hp/ft", _HORSEPOWER / 0.3048],
-    },
-    "power per volume": {
-        "metric": _metric("power per volume"),
-        "us": ["hp/in³", 1e3 * _HORSEPOWER / 25.4**3],
-    },
-    "share": {"metric": _metric("share"), "us": _metric("share")},
-    "duration": {"metric": _metric("duration"), "us": _metric("duration")},
+    "power per length": _page("power per length", "heat per length"),
+    "heat per length": _page("heat per length"),
+    "power per volume": _page("power per volume"),
+    "share": _page("share"),
+    "duration": _page("duration"),
     "angle": {"metric": _DEGREE, "us": _DEGREE},
     "angle of axes": {"metric": ["deg", radians(1.0)], "us": ["deg", radians(1.0)]},
-    "roller force": {"metric": _metric("roller force"), "us": ["lbf", 4.4482216152605]},
-    "feed per metre": {"metric": _metric("feed per metre"), "us": ["in/100 ft", 1.0 / 1.2]},
-    "area": {"metric": _metric("area"), "us": ["in²", 25.4**2]},
-    "moment": {"metric": _metric("moment"), "us": ["lbf·in", 112.98482902762]},
-    "power": {"metric": _metric("power"), "us": ["hp", 1e3 * _HORSEPOWER]},
-    "air pressure": {"metric": ["bar", 0.1], "us": ["psi", 4.4482216152605 / 25.4**2]},
-}
-_SHOWN_TOTALS = {
-    "N": {"us": ["lbf", 4.4482216152605]},
-    "N m": {"us": ["lbf·in", 0.11298482902762]},
-    "W": {"us": ["hp", _HORSEPOWER]},
+    "roller force": _page("roller force"),
+    "feed per metre": _page("feed per metre"),
+    "area": _page("area"),
+    "moment": _page("moment"),
+    "power": _page("power"),
+    "air pressure": {"metric": ["bar", 0.1], "us": _size(US["pressure"])},
 }
 _INSIDE = ("von_mises", "max_shear", "s_zz", "s_xx", "s_xz", "u_x", "u_z", "loss_density")
 _BOND = ("depth", "shear_max", "shear_range")
@@ -188,14 +184,14 @@ def figures_module() -> str:
         "THERMALS": [{"name": name, "source": THERMAL_SOURCES[name]} for name in TYPICAL],
         "TOTALS": [
             {"key": one.name, "label": f"{_capital(one.label)}, whole face"}
-            | {"units": {"metric": [one.total.unit, 1.0]} | _SHOWN_TOTALS[one.total.unit]}
+            | {"units": {"metric": [one.total.unit, 1.0], "us": _size(US_TOTALS[one.total.unit])}}
             for one in FIGURES.values()
             if one.total is not None
         ],
         "RESULT_UNITS": _SHOWN_RESULTS,
         "LARGE": {
             dimension: {"from": least, "unit": unit, "scale": 1.0 / factor}
-            for dimension, (least, (unit, factor)) in LARGE.items()
+            for dimension, (least, (unit, factor, _)) in LARGE.items()
         },
     }
     lines = (f"export const {name} = {json.dumps(part)};\n" for name, part in parts.items())

@@ -11,9 +11,8 @@ from rollnip.contact import (
     State,
     contact_intervals,
     contact_zones,
-    states_on,
 )
-from rollnip.paper.process.nodes import graded_nodes
+from rollnip.paper.process.nodes import graded_nodes, states_on
 
 FREE, STICK, PLUS, MINUS = (np.int8(s) for s in State)
 

@@ -7,8 +7,8 @@ import pytest
 
 import rollnip as rn
 from rollnip.closed_forms import carter, contact_modulus
-from rollnip.contact import Safeguarded, State, contact_zones, states_on
-from rollnip.paper.process.nodes import graded_nodes
+from rollnip.contact import Safeguarded, State, contact_zones
+from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling import pair_kernels, peak_pressure
 from rollnip.rolling.assemble import contact_problem, first_guess
 from rollnip.rolling.surfaces import mesh_on

@@ -24,10 +24,9 @@ from rollnip.contact import (
     Safeguarded,
     State,
     contact_zones,
-    states_on,
 )
 from rollnip.influence import load_weights
-from rollnip.paper.process.nodes import graded_nodes
+from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling import creepage_scale, peak_pressure
 from rollnip.rolling.assemble import contact_problem, second_order
 from rollnip.rolling.round import Figures, scale_of_creepage

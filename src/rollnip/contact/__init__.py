@@ -2,7 +2,7 @@
 
 from rollnip.contact.complementarity import Complementary, Inequalities, interior_point
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
-from rollnip.contact.features import ContactZone, contact_intervals, contact_zones, states_on
+from rollnip.contact.features import ContactZone, contact_intervals, contact_zones
 from rollnip.contact.free_ends import Layout
 from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
 from rollnip.contact.grid_solver import GridActiveSet
@@ -64,6 +64,5 @@ __all__ = [
     "more_elements",
     "next_slip",
     "next_states",
-    "states_on",
     "subdivided",
 ]

@@ -53,17 +53,6 @@ def contact_intervals(zones: tuple[ContactZone, ...]) -> tuple[tuple[float, floa
     return tuple(intervals)
 
 
-def states_on(x: Array, zones: tuple[ContactZone, ...]) -> States:
-    """Return the state of each of the nodes ``x``: of its zone, ends included, or FREE.
-
-    A node between two zones belongs to the leading one.
-    """
-    out = np.zeros(x.size, dtype=np.int8)
-    for zone in zones:
-        out[(x >= zone.start) & (x <= zone.stop)] = zone.state
-    return out
-
-
 def runs(mask: Mask) -> list[tuple[int, int]]:
     """Return the first and last index of each run of True."""
     padded = np.concatenate([[False], mask, [False]])

@@ -5,11 +5,22 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import cosine_nodes, elements_of_zones
+from rollnip.contact import ContactZone, States, cosine_nodes, elements_of_zones
 
 Array = NDArray[np.float64]
 # Distances of the nodes outside the contact from the edge, in edge elements.
 _OUTER_NODE_DISTANCES = np.array([1.0, 2.0, 4.0, 8.0])
+
+
+def states_on(x: Array, zones: tuple[ContactZone, ...]) -> States:
+    """Return the state of each of the nodes ``x``: of its zone, ends included, or FREE.
+
+    A node between two zones belongs to the leading one.
+    """
+    out = np.zeros(x.size, dtype=np.int8)
+    for zone in zones:
+        out[(x >= zone.start) & (x <= zone.stop)] = zone.state
+    return out
 
 
 def graded_nodes(breaks: Array, count: int) -> Array:

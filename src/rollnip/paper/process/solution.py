@@ -8,11 +8,11 @@ from math import isnan
 import numpy as np
 
 from rollnip._errors import InvalidInputError
-from rollnip.contact import ContactState, ContactZone, State, contact_zones, states_on
+from rollnip.contact import ContactState, ContactZone, State, contact_zones
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.paper.process.algorithms import Alternation
-from rollnip.paper.process.nodes import graded_nodes
+from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling import half_width_guess, pair_kernels, peak_pressure
 from rollnip.rolling.assemble import contact_problem, first_guess, second_order
 from rollnip.rolling.surfaces import Array, Mesh, mesh_on

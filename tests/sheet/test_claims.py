@@ -74,6 +74,16 @@ def test_ends_are_placed_as_closely_as_errors_are_claimed():
     assert np.all(error <= 1.2 * np.maximum(claim, 1e-9))
 
 
+@pytest.mark.parametrize("number", [104014, 105132, 105172])
+def test_the_largest_strain_is_found_beside_an_edge_too(number):
+    """Where the pressure adds to the strain by tension: between the first nodes, as a root of x.
+
+    By a parabola in x it was up to four times its claim off.
+    """
+    error, claim = _errors(number, "curved")[:, NAMES.index("strain_max")]
+    assert error <= claim
+
+
 def _errors_below(number):
     """Errors and claims of width and highest pressure on the lower side of a plate, (2, 2)."""
     case = random_case(number, bending=True)

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling import Figures
-from rollnip.rolling.round import peak_at, peak_pressure, scale_of_creepage
+from rollnip.rolling.round import peak_pressure, scale_of_creepage
 from rollnip.sheet.powers import SheetPowers, sheet_powers
 from rollnip.sheet.search import SheetAttempt
-from rollnip.sheet.system import frictions_of
+from rollnip.sheet.system import SheetMesh, frictions_of
 
 Array = NDArray[np.float64]
 
@@ -57,11 +57,11 @@ class SheetFigures:
             state.creepage_lower,
             float(weights @ state.shear),
             float(weights @ state.shear_lower),
-            largest_of(mesh.inner, tension),
-            -largest_of(mesh.inner, -tension),
+            largest_of(mesh, tension),
+            -largest_of(mesh, -tension),
         ]
         widest = 1.0 if strain.max() > -strain.min() else -1.0
-        last = [place, widest * largest_of(mesh.inner, widest * strain)]
+        last = [place, widest * largest_of(mesh, widest * strain)]
         return cls(np.array([*first, *spent.array().tolist(), *last]))
 
     def __getattr__(self, name: str) -> float:
@@ -89,9 +89,13 @@ NAMES = (
 )  # fmt: skip
 
 
-def largest_of(x: Array, values: Array) -> float:
-    """Return the largest value, between nodes too."""
-    return peak_at(x, values, int(np.argmax(values)))[0]
+def largest_of(mesh: SheetMesh, values: Array) -> float:
+    """Return the largest of values at ``mesh.inner``, between nodes too.
+
+    At an edge strains turn as the root of the pressure does, which is smooth in the number of the
+    node, as tractions are, and not in x.
+    """
+    return peak_pressure(mesh.fine.nodes[1:-1], mesh.between(values))[0]
 
 
 def strain_at(stand: SheetAttempt) -> Array:

@@ -10,7 +10,7 @@ import pytest
 
 import rollnip as rn
 from rollnip.model import Model
-from rollnip.solver import _too_thin, solve
+from rollnip.solver import _too_slippery, _too_thin, solve
 
 RUBBER = rn.Elastic(modulus=0.91, poisson=0.5)
 NIP = rn.Nip(
@@ -152,12 +152,34 @@ def test_a_covering_too_thin_for_the_elements_says_so_and_what_helps(friction):
     assert f"is {times:.0f} times thinner than half the nip width" in found.status
     if friction:
         assert solve(nip, Model(geometry="linear", tolerance=0.1)).converged
+    assert "give its Poisson ratio, 0.5 - E/(6 K)," in found.status
+    real = replace(RUBBER, poisson=0.5 - RUBBER.modulus / (6.0 * 2000.0))
+    firm = rn.Roller(radius=50.0, layers=[rn.Layer(1e-4, real)])
+    assert solve(replace(nip, upper=firm), Model(geometry="linear")).converged
+    assert "0.5 - E" not in _too_thin(replace(nip, upper=firm), found.final)
     # foam as thin does not only flow sideways: it is no reason there
     foam = rn.Roller(radius=50.0, layers=[rn.Layer(1e-4, rn.Elastic(modulus=1.0, poisson=0.3))])
     assert _too_thin(nip, found.final)
     assert not _too_thin(replace(nip, upper=foam), found.final)
     thick = rn.Roller(radius=50.0, layers=[rn.Layer(1e-2, RUBBER)])
     assert not _too_thin(replace(nip, upper=thick), found.final)
+
+
+@pytest.mark.parametrize("poisson", [0.5, 0.4])
+def test_so_little_friction_that_none_helps_says_so_and_it_is_true(poisson):
+    """Zones of stick are as short as friction is small; nothing else depends on it."""
+    covered = rn.Roller(radius=50.0, layers=[rn.Layer(2.0, replace(RUBBER, poisson=poisson))])
+    nip, model = replace(NIP, upper=covered), Model(geometry="linear")
+    nothing = solve(replace(nip, friction=0.0), model)
+    assert nothing.converged
+    for friction in (1e-9, 1e-5):
+        found = solve(replace(nip, friction=friction), model)
+        assert found.converged or found.status.endswith("`friction = 0`, which has no creepage.")
+    little = solve(replace(nip, friction=1e-3), model)
+    assert little.converged
+    for name in ("approach", "nip_width", "peak_pressure"):
+        assert getattr(little, name) == pytest.approx(getattr(nothing, name), rel=1e-3)
+    assert not _too_slippery(replace(nip, friction=0.3), model)
 
 
 def test_second_order_terms_that_run_away_on_the_way_leave_no_warning_of_numpy():

@@ -43,6 +43,11 @@ from rollnip.validity import StrainSizes, instead_of, validity_reservations
 _CLEARLY = 1.5  # times a limit that is known roughly
 _THIN = 0.025  # covering over half the nip width, below which hardly compressible ones are hard
 _HARDLY_COMPRESSIBLE = 0.49  # Poisson ratio
+# K of natural rubber: Wood & Martin (1964), J. Res. Natl. Bur. Stand. 68A, 259-268.
+_VOLUME = (
+    " So thin a rubber yields by its change of volume, too: give its Poisson ratio, "
+    "0.5 - E/(6 K), with a bulk modulus K of some 2000 MPa."
+)
 _DIVERGED = 0.1  # last change of second-order terms that approach no solution, relative
 
 
@@ -151,6 +156,8 @@ def _solved(
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
     _require_grip(nip, final)
     converged, status = _verdict(nip, model, final)
+    if not converged:
+        status += _too_thin(nip, final) + _too_slippery(nip, model)
     strains = StrainSizes.of(nip, model, final)
     return SmoothSolution(
         nip=nip,
@@ -293,10 +300,10 @@ def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
             'larger tolerance or `geometry = "curved"`.'
         )
     if not left <= model.tolerance:
-        return False, (f"{violated(left, model.tolerance)}; {ACCEPT_IT}.{_too_thin(nip, final)}")
+        return False, (f"{violated(left, model.tolerance)}; {ACCEPT_IT}.")
     is_met, words = verdict(nip, model, final)
     if not is_met:
-        return False, f"{words}{_too_thin(nip, final)}"
+        return False, words
     return True, f"Solved and verified: residual {left:.1e}, {words}"
 
 
@@ -306,13 +313,25 @@ def _too_thin(nip: Nip, final: Round) -> str:
     for name, roller in (("upper", nip.upper), ("lower", nip.lower)):
         if not roller.layers or not 0.0 < roller.coating_thickness < _THIN * half:
             continue
-        if min(layer.material.poisson for layer in roller.layers) >= _HARDLY_COMPRESSIBLE:
-            return (
+        poisson = min(layer.material.poisson for layer in roller.layers)
+        if poisson >= _HARDLY_COMPRESSIBLE:
+            sentence = (
                 f" The covering of the {name} roller is {half / roller.coating_thickness:.0f} "
                 "times thinner than half the nip width and hardly compressible: no mesh of this "
                 "program follows the pressure on it more closely."
             )
+            return sentence + (_VOLUME if poisson == 0.5 else "")
     return ""
+
+
+def _too_slippery(nip: Nip, model: Model) -> str:
+    """Return a sentence on friction within the tolerance: zones of stick are as short as it is."""
+    if not 0.0 < nip.friction <= model.tolerance:
+        return ""
+    return (
+        " So little friction hardly changes approach, nip width and pressure: take `friction = 0`, "
+        "which has no creepage."
+    )
 
 
 @cache  # reading it from the installed files takes as long as solving on a mesh

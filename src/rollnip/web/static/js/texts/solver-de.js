@@ -64,6 +64,8 @@ export const SOLVER_DE = {
   "solver.no-contact": "Es wurde kein Kontakt gefunden; versuchen Sie eine größere Last oder andere Werkstoffe.",
   "solver.grip": "verlangt eine Umfangskraft von {wanted} N/mm, aber Reibung mal Last trägt weniger als {limit} N/mm; verringern Sie sie, oder erhöhen Sie Last oder Reibung.",
   "solver.moves": "Die {terms} der endlichen Dehnung ändern sich noch um {change} (relativ); dadurch sind die Kontaktbedingungen um {left} verletzt, mehr als die Toleranz {tolerance}. Versuchen Sie eine kleinere Last, eine größere Toleranz oder das Modell „Gekrümmte Schichten“.",
+  "solver.volume": "Ein so dünner Gummi gibt auch durch seine Volumenänderung nach: Geben Sie seine Querdehnzahl an, 0,5 - E/(6 K), mit einem Kompressionsmodul K von etwa 2000 MPa.",
+  "solver.slippery": "So wenig Reibung ändert Annäherung, Spaltbreite und Druck kaum: Nehmen Sie Reibung 0, dann gibt es keinen Schlupf.",
   "solver.too-thin": "Der Bezug der {side} Walze ist {times}-mal dünner als die halbe Spaltbreite und kaum kompressibel: Kein Netz dieses Programms folgt dem Druck darauf genauer.",
   "solver.no-better": "Der geschätzte Fehler ({figure}) ist {error} %, mehr als die Toleranz {tolerance}: Kein Netz macht {what} genauer. Verlangen Sie eine Toleranz von {finest} oder mehr, oder das Modell „Gekrümmte Schichten“ oder „Lineare Theorie“.",
   "solver.backwards": "Der Schlupf kommt als {creepage} heraus: Unter -2 und über 2 liefe eine Walze rückwärts. Die Dehnungen sind für diesen Spalt viel zu groß; verringern Sie Umfangskraft oder Last.",

@@ -64,6 +64,8 @@ export const SOLVER_EN = {
   "solver.no-contact": "No contact was found; try a larger load or other materials.",
   "solver.grip": "asks for a traction of {wanted} N/mm, but friction * load carries less than {limit} N/mm; lower it, or raise the load or the friction.",
   "solver.moves": "The {terms} of finite strain still change by {change} (relative), which leaves the contact conditions violated by {left}, more than the tolerance {tolerance}; try a smaller load, a larger tolerance or `geometry = \"curved\"`.",
+  "solver.volume": "So thin a rubber yields by its change of volume, too: give its Poisson ratio, 0.5 - E/(6 K), with a bulk modulus K of some 2000 MPa.",
+  "solver.slippery": "So little friction hardly changes approach, nip width and pressure: take `friction = 0`, which has no creepage.",
   "solver.too-thin": "The covering of the {side} roller is {times} times thinner than half the nip width and hardly compressible: no mesh of this program follows the pressure on it more closely.",
   "solver.no-better": `The estimated error of the {figure} is {error} %, more than the tolerance {tolerance}: no mesh makes {what} better. Ask for a tolerance of {finest} or more, or for geometry "curved" or "linear".`,
   "solver.backwards": "The creepage comes out as {creepage}: beyond -2 and 2 one roller would rotate backwards. Strains are far too large for this nip; lower the traction or the load.",

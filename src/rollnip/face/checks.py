@@ -25,7 +25,7 @@ LIGHT = 0.02
 """Lighter nips than this, over the heaviest of the table, are not asked how well they are known."""
 
 
-def checked(
+def with_errors(
     law: NipLaw,
     rows: NipRows,
     progress: Progress | None = None,

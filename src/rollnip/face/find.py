@@ -16,7 +16,7 @@ from rollnip._errors import (
     require_instance,
     require_positive,
 )
-from rollnip.face.checks import REPORTED, checked
+from rollnip.face.checks import REPORTED, with_errors
 from rollnip.face.covering import CoveringAxis, axes_of, covers
 from rollnip.face.lattice import Lattice, cells_at, cells_of
 from rollnip.face.law import NipLaw, slip_measure
@@ -247,7 +247,7 @@ class _Maker:
                 continue
             _require_solved(law, found)
             if not law.error:
-                law = checked(law, self.rows, self.progress, self.executor)
+                law = with_errors(law, self.rows, self.progress, self.executor)
             finer = _finer(law, span, wanted)
             axes = tuple(
                 axis.finer if law.error[axis.name] > wanted and axis.can_be_finer else axis

@@ -13,7 +13,7 @@ from rollnip.finite import (
     nodal,
     response,
 )
-from rollnip.influence import covering_window, displacement_under, second_response, surface_kernels
+from rollnip.influence import KernelCache, covering_window, displacement_under, surface_kernels
 
 RUBBER, FOAM = rn.Elastic(modulus=1.0, poisson=0.5), rn.Elastic(modulus=1.0, poisson=0.3)
 SKIN = rn.Elastic(modulus=20.0, poisson=0.4)
@@ -73,7 +73,7 @@ def test_begins_as_the_second_order(roller):
     nodes, p, q = tractions(0.004)
     x = np.linspace(-0.9, 0.9, 19) * HALF
     all_orders = np.stack([f(x) for f in response_of(roller).displacement(nodes, p, q)])
-    response = second_response(roller, None, HALF)
+    response = KernelCache().second(roller, None, HALF)
     surface = surface_kernels(roller, None, "second", covering_window((roller, BARE), None))
     inward = surface.inward_at(0.0, nodes, p, q) if response.is_short else None
     second = np.stack([f(x) for f in response.displacement(nodes, p, q, inward)])

@@ -24,14 +24,14 @@ PLACES = np.array([-7.0, -2.0, -1.9, -1.5, 0.0, 3e-5, 0.3, 0.7, 2.5, 9.0])
 def half_space():
     """-(ln|x| + gamma)/pi."""
     window = Window(points=(-24, 6), octaves=(-9, 26))
-    return tabulate(lambda w: (1.0 / w + 0j,), window, low_limit=(1.0,)).channels[0]
+    return tabulate(lambda w: (1.0 / w + 0j,), window, low_limit=(1.0,)).channel(0)
 
 
 @pytest.fixture(scope="module")
 def odd():
     """-(1/2) sign(x) e^{-|x|}."""
     window = Window(points=(-24, 6), octaves=(-9, 26))
-    return tabulate(lambda w: (1j * w / (w * w + 1.0),), window, low_limit=(0.0,)).channels[0]
+    return tabulate(lambda w: (1j * w / (w * w + 1.0),), window, low_limit=(0.0,)).channel(0)
 
 
 def under_ramp(x, start, stop, left, right):

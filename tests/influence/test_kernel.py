@@ -17,7 +17,7 @@ WINDOW = Window(points=(-20, 5), octaves=(-8, 22))
 def single(function, low=0.0, window=WINDOW, **settings):
     """Kernel of one compliance."""
     table = tabulate(lambda w: (function(w),), window, low_limit=(low,), **settings)
-    return table.channels[0]
+    return table.channel(0)
 
 
 @pytest.fixture(scope="module")
@@ -255,7 +255,8 @@ def test_several_compliances_share_a_table(bessel, odd):
     def both(w):
         return 2.0 / np.sqrt(w * w + 0.49) + 0j, 3e-6j * w / (w * w + 0.49)
 
-    first, second = tabulate(both, WINDOW, low_limit=(0.0, 0.0)).channels
+    table = tabulate(both, WINDOW, low_limit=(0.0, 0.0))
+    first, second = table.channel(0), table.channel(1)
     np.testing.assert_allclose(first.value(SIDES), bessel.value(SIDES), atol=1e-8)
     np.testing.assert_allclose(second.value(SIDES), 1e-6 * odd.value(SIDES), atol=1e-12)
 

@@ -8,7 +8,7 @@ from scipy.integrate import quad
 
 import rollnip as rn
 from rollnip.compliance import flat_transfer, ring_transfer
-from rollnip.influence import covering_window, second, second_response, surface_kernels
+from rollnip.influence import KernelCache, covering_window, second, surface_kernels
 from rollnip.influence.surface import moduli
 
 RUBBER = rn.Elastic(modulus=1.0, poisson=0.5)
@@ -94,10 +94,10 @@ def test_a_short_grid_is_told_how_far_the_contact_moves(monkeypatch):
     p = 0.002 * np.sqrt(1.0 - (nodes[1:-1] / half_width) ** 2)
     window = covering_window((roller,), None)
     inward = surface_kernels(roller, None, "second", window).inward_at(0.0, nodes, p, 0.0 * p)
-    short = second_response(roller, None, half_width)
+    short = KernelCache().second(roller, None, half_width)
     assert short.is_short
     monkeypatch.setattr(second, "_LARGEST_SPREAD", 80.0)
-    long = second_response(roller, None, half_width)
+    long = KernelCache().second(roller, None, half_width)
     assert not long.is_short
 
     def rest_and_stretch(response, inward):
@@ -113,7 +113,7 @@ def test_a_short_grid_is_told_how_far_the_contact_moves(monkeypatch):
 
 @pytest.mark.parametrize("material", [RUBBER, FOAM])
 def test_is_of_second_order(material):
-    response = second_response(covered(25.0, 3.0, material), None, 2.0)
+    response = KernelCache().second(covered(25.0, 3.0, material), None, 2.0)
     nodes = np.linspace(-2.0, 2.0, 41)
     p = 0.02 * np.sqrt(1.0 - (nodes[1:-1] / 2.0) ** 2)
     q = 0.3 * p * nodes[1:-1]
@@ -125,7 +125,9 @@ def test_is_of_second_order(material):
     ]
     # At rest nothing but the bend of the circle, x^3/(6 R^2); p times it is of first order in p.
     np.testing.assert_allclose(rest[0], -(x**3) / (6.0 * 25.0**2), atol=1e-12)
-    flat = second_response(rn.Roller(radius=np.inf, layers=(rn.Layer(3.0, material),)), None, 2.0)
+    flat = KernelCache().second(
+        rn.Roller(radius=np.inf, layers=(rn.Layer(3.0, material),)), None, 2.0
+    )
     for part in range(2):
         large, small = (flat.displacement(nodes, f * p, f * q)[part](x) for f in (1.0, 0.1))
         np.testing.assert_allclose(0.01 * large, small, atol=1e-9 * np.max(np.abs(large)))
@@ -136,7 +138,7 @@ def test_is_of_second_order(material):
 @pytest.mark.parametrize("layers", [MANY, MANY[1:2], MANY[2:], MANY[::2]])
 def test_work_of_the_quadratic_stress(radius, layers):
     roller = rn.Roller(radius=radius, layers=layers)
-    response = second_response(roller, SPEED, 2.0)
+    response = KernelCache().second(roller, SPEED, 2.0)
     nodes, pressure, shear = tractions()
     amplitudes = response._transform(nodes, shear, pressure) * (1j, 1.0)
     z, weight, _ = second._depths(roller, second.table_size(roller, 2.0))
@@ -149,7 +151,7 @@ def test_work_of_the_quadratic_stress(radius, layers):
 
 
 def test_transform_of_the_tractions_is_exact():
-    response = second_response(covered(25.0, 3.0), None, 2.0)
+    response = KernelCache().second(covered(25.0, 3.0), None, 2.0)
     nodes, pressure, shear = tractions()
     found = response._transform(nodes, shear, pressure)
     period = -2.0 * response.x[0]
@@ -186,7 +188,7 @@ def test_a_shared_table_is_as_good_as_one_of_its_own(layers, share):
     roller = rn.Roller(radius=25.0, layers=layers)
     half_width = roller.coating_thickness * 2.0 ** (0.25 * share)
     nodes, pressure, shear = tractions(half_width)
-    shared = second_response(roller, SPEED, half_width)
+    shared = KernelCache().second(roller, SPEED, half_width)
     own = second.second_table(roller, SPEED, half_width)
     assert shared.x.size != own.x.size or shared.x[0] != own.x[0]
     x = np.linspace(-1.5 * half_width, 1.5 * half_width, 301)
@@ -206,9 +208,9 @@ def test_scaling():
     nodes, pressure, shear = tractions()
     x = np.linspace(-3.0, 3.0, 61)
     small, large = (
-        second_response(covered(25.0 * f, 3.0 * f, FOAM), None, 2.0 * f).displacement(
-            f * nodes, pressure, shear
-        )
+        KernelCache()
+        .second(covered(25.0 * f, 3.0 * f, FOAM), None, 2.0 * f)
+        .displacement(f * nodes, pressure, shear)
         for f in (1.0, 3.7)
     )
     for one, other in zip(small, large, strict=True):
@@ -220,9 +222,9 @@ def test_plies_of_a_layer_are_the_layer():
     nodes = np.linspace(-2.0, 2.0, 41)
     p = 0.1 * np.sqrt(1.0 - (nodes[1:-1] / 2.0) ** 2)
     x = np.linspace(-3.0, 3.0, 61)
-    whole = second_response(covered(25.0, 3.0), None, 2.0)
+    whole = KernelCache().second(covered(25.0, 3.0), None, 2.0)
     layers = tuple(rn.Layer(d, RUBBER) for d in (0.5, 1.5, 1.0))
-    plies = second_response(rn.Roller(radius=25.0, layers=layers), None, 2.0)
+    plies = KernelCache().second(rn.Roller(radius=25.0, layers=layers), None, 2.0)
     for one, many in zip(
         whole.displacement(nodes, p, 0.0 * p), plies.displacement(nodes, p, 0.0 * p), strict=True
     ):

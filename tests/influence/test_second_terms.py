@@ -12,7 +12,7 @@ import pytest
 from scipy.optimize import brentq
 
 import rollnip as rn
-from rollnip.influence import second_response
+from rollnip.influence import KernelCache
 from rollnip.influence._spline import even_splines
 
 ROLLER = rn.Roller(radius=25.0, layers=(rn.Layer(3.0, rn.Elastic(modulus=1.0, poisson=0.5)),))
@@ -51,7 +51,7 @@ class MadeUp:
 
     def second_order(self):
         """Second-order parts at ``NEAR``: of the displacement (2, n), and of the loads (2, n)."""
-        response = second_response(ROLLER, None, 2.0)
+        response = KernelCache().second(ROLLER, None, 2.0)
         nk = response.k.size
         rows = self.size * SHARES * (-1j, 1.0)  # of i t_x and t_z
         both = np.concatenate([np.tile(rows, (nk, 1, 1)), 1j * response.k[:, None, None] * rows], 1)

@@ -26,11 +26,11 @@ def _half_spaces(
     Hertz: a^2 = 2 F/pi, p0 = a. Carter: creepage mu (a - c).
     """
     window = Window(points=(-30, 8), octaves=(-11, 33))
-    log, step = tabulate(
+    table = tabulate(
         lambda w: (1.0 / w + 0j, 0.5j * mismatch / w), window, low_limit=(1.0, 0.5j * mismatch)
-    ).channels
-    even = displacement_matrix(log, nodes[1:], nodes)
-    odd = 2.0 * displacement_matrix(step, nodes[1:], nodes)
+    )
+    even = displacement_matrix(table.channel(0), nodes[1:], nodes)
+    odd = 2.0 * displacement_matrix(table.channel(1), nodes[1:], nodes)
     return ContactProblem(
         x=nodes[1:-1],
         weights=load_weights(nodes),

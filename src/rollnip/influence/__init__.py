@@ -10,7 +10,7 @@ from rollnip.influence.hats import (
     strain_matrix,
 )
 from rollnip.influence.kernel import Kernel, Window, tabulate
-from rollnip.influence.second import SecondResponse, second_response
+from rollnip.influence.second import SecondResponse
 from rollnip.influence.surface import (
     SurfaceKernels,
     covering_window,
@@ -35,7 +35,6 @@ __all__ = [
     "has_stiff_skin",
     "is_ring",
     "load_weights",
-    "second_response",
     "strain_matrix",
     "surface_compliance",
     "surface_kernels",

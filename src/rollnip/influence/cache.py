@@ -68,7 +68,17 @@ class KernelCache:
         return _kept(self._tables, key, make, self.most)
 
     def second(self, roller: Roller, speed: float | None, half_width: float) -> SecondResponse:
-        """Second-order response of a roller with layers on a rigid core; see `second_response`."""
+        """Second-order response of a roller with layers on a rigid core.
+
+        Parameters
+        ----------
+        roller :
+            its radius may be infinite: a plane.
+        speed :
+            rolling speed V [mm/s]; may be None where all materials are elastic.
+        half_width :
+            of the contact, roughly [mm]: it sets the grid, and what is too short to count.
+        """
         size = table_size(roller, half_width)
         key: _Key = (roller.layers, roller.radius, _speed_that_counts(roller, speed), size)
         make = partial(second_table, roller, speed, size)

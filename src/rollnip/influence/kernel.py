@@ -130,11 +130,6 @@ class Kernel:
             start = stop
         return cls(first.points_per_octave, first.first, out, count)
 
-    @property
-    def channels(self) -> tuple[Kernel, ...]:
-        """Return each channel as a kernel of its own."""
-        return tuple(self.channel(i) for i in range(self.count))
-
     def channel(self, number: int) -> Kernel:
         """Return one channel as a kernel of its own."""
         if self.coefficients.ndim == 2:

@@ -227,21 +227,6 @@ def _fit(x: Array, k: Array, curvature: float, half_width: float) -> tuple[Array
     return impulse, angle, angle * angle * x / 6.0
 
 
-def second_response(roller: Roller, speed: float | None, half_width: float) -> SecondResponse:
-    """Tabulate what the second-order displacement of a roller on a rigid core needs.
-
-    Parameters
-    ----------
-    roller :
-        with layers on a rigid core; of infinite radius: a plane.
-    speed :
-        rolling speed V [mm/s]; may be None where all materials are elastic.
-    half_width :
-        of the contact, roughly [mm]: it sets the grid, and what is too short to count.
-    """
-    return second_table(roller, speed, table_size(roller, half_width)).fitted(half_width)
-
-
 def table_size(roller: Roller, half_width: float) -> float:
     """The next half-width at or below this one that has a table [mm]; loads nearby share it."""
     layers = roller.coating_thickness

@@ -4,7 +4,7 @@ From free rolling to the limit of friction
 
 How much creepage does a traction cost? Two coated rollers (configuration II of Braat & Kalker,
 1993) are driven harder and harder in both directions. Friction is set to 0.5 here, so that the
-limit is in sight: at the traction friction times load the whole nip slides.
+limit is within reach: at a traction of friction times load the whole nip slides.
 """
 
 from dataclasses import replace

@@ -3,7 +3,7 @@ A viscoelastic covering at all speeds
 =====================================
 
 A standard linear solid is soft when it has time to relax and stiff when it has none. In between
-it costs power: the pressure leans towards the inlet and resists the rolling.
+it costs power: the pressure is shifted towards the inlet and resists the rolling.
 """
 
 from dataclasses import replace
@@ -36,7 +36,7 @@ for ax, name, values in (
 figure.show()
 
 # %%
-# The resistance is largest where the dwell time is some times the relaxation time of 7 ms:
+# The resistance is largest where the dwell time is a few times the relaxation time of 7 ms:
 
 worst = max(solutions, key=lambda one: one.rolling_resistance)
 print(f"at {worst.nip.speed:.0f} mm/s: dwell time {1e3 * worst.dwell_time:.1f} ms,")

@@ -4,7 +4,7 @@ A thin, stiff skin on a soft covering
 
 A stiff skin over soft rubber, pressed on a bare roller. The skin has to bend where the nip
 begins and ends, and resists: the pressure rises at both edges and the nip gets narrower, while
-the middle hardly notices.
+the middle hardly changes.
 """
 
 import matplotlib.pyplot as plt
@@ -39,6 +39,6 @@ ax.legend()
 figure.show()
 
 # %%
-# Rolling makes the edges steep in time as well: each point of the surface meets the peak twice. A
-# thin skin hundreds of times stiffer than what it covers is where the geometry models are least
-# sure; the page on geometry says by how much.
+# In rolling each point of the surface passes both peaks. Under a thin skin hundreds of times
+# stiffer than the layer below it the geometry models have their largest errors; the page on
+# geometry says how large they are.

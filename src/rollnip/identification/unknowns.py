@@ -40,7 +40,7 @@ class Prior:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Unknown:
-    """A value of the case that the measurements are to tell.
+    """A value of the case that the measurements are to determine.
 
     Parameters
     ----------

@@ -347,7 +347,7 @@ class FiniteResponse:
         displacement = strip.moved_to(body.strip, state.displacement)
         if body.strip.layer.size != strip.layer.size:
             return flat, body, MeshState(displacement, body.at_rest().pressure)
-        return flat, body, MeshState(displacement, state.pressure, state.tangent)
+        return flat, body, MeshState(displacement, state.pressure)
 
     def _on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
         """Return a mesh whose loaded columns are at some arcs, of linear theory and as it is.

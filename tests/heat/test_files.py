@@ -208,7 +208,14 @@ def test_files_and_pictures(case_file, tmp_path):
     assert plot.stat().st_size > 10_000
     with xr.open_dataset(out, group="upper", engine="h5netcdf") as upper:
         assert upper["temperature"].attrs["units"] == "degC"
-        assert upper.attrs["hot_spot"] == pytest.approx(float(upper["temperature"].max()))
+        assert float(upper["hot_spot"]) == pytest.approx(float(upper["temperature"].max()))
+        assert upper["hot_spot"].attrs["units"] == "degC"
+        assert upper["to_air"].attrs["units"] == "mW/mm"
+    with xr.open_dataset(out, engine="h5netcdf") as nip:
+        assert nip.attrs["heat_converged"] == 1
+        assert nip.attrs["heat_status"].startswith("Steady")
+        parts = [xr.open_dataset(out, group=side, engine="h5netcdf") for side in ("upper", "lower")]
+        assert float(nip["heat_power"]) == pytest.approx(sum(float(one["power"]) for one in parts))
     with xr.open_dataset(out, group="warm_up", engine="h5netcdf") as course:
         assert float(course["hot_spot_upper"][-1]) > float(course["hot_spot_upper"][0])
 

@@ -14,6 +14,7 @@ from typing import Any
 from rollnip._extras import require_extra
 from rollnip._files import write_whole
 from rollnip._results.dataset import result_dataset
+from rollnip.figure import Figure
 
 _SIDES = ("upper", "lower")
 
@@ -41,8 +42,8 @@ def write_netcdf(groups: Mapping[str, Any], path: Path) -> None:
 def result_groups(tree: dict[str, Any]) -> dict[str, Any]:
     """Return a result tree as datasets; None becomes NaN, lists become variables, texts attributes.
 
-    The root "/" holds the nip and its face; temperatures of both rollers, a warm-up and a branch of
-    steady states are groups.
+    The root "/" holds the nip, its face and the balance of heat; temperatures of both rollers, a
+    warm-up and a branch of steady states are groups.
     """
     root = result_dataset(tree)
     if "face" in tree:
@@ -52,6 +53,7 @@ def result_groups(tree: dict[str, Any]) -> dict[str, Any]:
         root = root.assign(variables).set_coords("y").assign_attrs(attributes)
     groups = {"/": root}
     if "heat" in tree:
+        groups["/"] = _with_balance(root, tree["heat"])
         groups |= {side: _temperatures(tree["heat"][side]) for side in _SIDES}
     if "warm_up" in tree:
         groups["warm_up"] = _warm_up(tree["warm_up"])
@@ -60,9 +62,33 @@ def result_groups(tree: dict[str, Any]) -> dict[str, Any]:
     return groups
 
 
+def _with_balance(root: Any, heat: dict[str, Any]) -> Any:
+    """Return the dataset of a nip with what both rollers have together; names begin with heat."""
+    from rollnip.heat.figures import BALANCE_FIGURES
+
+    variables = _scalars({f"heat_{key}": (one, heat[key]) for key, one in BALANCE_FIGURES.items()})
+    said = {
+        "heat_converged": int(heat["converged"]),
+        "heat_status": heat["status"],
+        "heat_warnings": "\n".join(heat["warnings"]),
+    }
+    return root.assign(variables).assign_attrs(said)
+
+
 def _temperatures(roller: dict[str, Any]) -> Any:
-    attributes = {key: value for key, value in roller.items() if isinstance(value, float)}
-    return _rows("r", {name: roller[name] for name in ("r", "temperature")}, attributes)
+    from rollnip.heat.figures import ROLLER_FIGURES
+
+    rows = _rows("r", {name: roller[name] for name in ("r", "temperature")}, {})
+    figures = {key: (one, roller[key]) for key, one in ROLLER_FIGURES.items()}
+    return rows.assign(_scalars(figures))
+
+
+def _scalars(figures: dict[str, tuple[Figure, float | None]]) -> dict[str, Any]:
+    """Return figures and their values as variables without a dimension; None becomes NaN."""
+    return {
+        key: ((), float("nan") if value is None else value, figure.described)
+        for key, (figure, value) in figures.items()
+    }
 
 
 def _warm_up(rows: dict[str, Any]) -> Any:

@@ -108,11 +108,13 @@ def refine_sheet(
         except np.linalg.LinAlgError:
             failures, count = failures + 1, _next_count(count, inf)
             continue
-        if stand.stands_still:
-            history = _with_zones_of(stand, history, search, last_count)
         here = _size_of(stand, model.geometry)
         figures = here[1]
         errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
+        is_enough = may_be_last and ratio(nip, figures, errors) <= model.tolerance
+        if stand.stands_still and not is_enough:
+            history = _with_zones_of(stand, history, search, last_count)
+            errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
         latest = SheetRefined(stand, figures, errors, violation(stand), round(count))
         if stand.stands_still:
             history.append(here)

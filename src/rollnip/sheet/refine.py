@@ -111,8 +111,8 @@ def refine_sheet(
         here = _size_of(stand, model.geometry)
         figures = here[1]
         errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
-        is_enough = may_be_last and ratio(nip, figures, errors) <= model.tolerance
-        if stand.stands_still and not is_enough:
+        is_near = stand.stands_still and may_be_last
+        if is_near and ratio(nip, figures, errors) > model.tolerance:
             history = _with_zones_of(stand, history, search, last_count)
             errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
         latest = SheetRefined(stand, figures, errors, violation(stand), round(count))

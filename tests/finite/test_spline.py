@@ -1,20 +1,37 @@
-"""Cubic splines against those of scipy."""
+"""Splines of fifth degree against those of scipy."""
 
 import numpy as np
 import pytest
-from scipy.interpolate import CubicSpline
+from scipy.interpolate import make_interp_spline
 
 from rollnip.finite._spline import Spline
 
+_NATURAL = [(3, 0.0), (4, 0.0)]
 
-def test_is_the_natural_spline():
+
+@pytest.mark.parametrize("shortest", [0.001, 0.1])
+def test_is_the_natural_spline_of_fifth_degree(shortest: float):
     rng = np.random.default_rng(4)
-    x = np.cumsum(rng.uniform(0.01, 1.0, 30))
+    x = np.cumsum(10.0 ** rng.uniform(np.log10(shortest), 0.0, 30))
     values = rng.normal(size=30)
-    ours, theirs = Spline.through(x, values), CubicSpline(x, values, bc_type="natural")
+    ours, theirs = (
+        Spline.through(x, values),
+        make_interp_spline(x, values, k=5, bc_type=(_NATURAL,) * 2),
+    )
     at = np.linspace(x[0], x[-1], 400)
-    np.testing.assert_allclose(ours(at), theirs(at), atol=1e-10)
-    np.testing.assert_allclose(ours(at, 1), theirs(at, 1), atol=1e-8)
+    most, steepest = np.abs(theirs(at)).max(), np.abs(theirs(at, 1)).max()
+    np.testing.assert_allclose(ours(at), theirs(at), atol=1e-9 * most)
+    np.testing.assert_allclose(ours(at, 1), theirs(at, 1), atol=1e-9 * steepest)
+
+
+def test_a_mean_is_that_of_the_functions():
+    x, other = np.linspace(0.0, 3.0, 13), np.linspace(0.0, 3.0, 9)
+    one, two = Spline.through(x, np.sin(x)), Spline.through(x, x**2)
+    at = np.linspace(0.0, 3.0, 50)
+    both = Spline.mean(np.array([0.3, 0.7]), [one, two])
+    np.testing.assert_allclose(both(at, 1), 0.3 * one(at, 1) + 0.7 * two(at, 1), atol=1e-12)
+    elsewhere = Spline.mean(np.array([1.0, 0.0]), [one, Spline.through(other, other)])
+    np.testing.assert_allclose(elsewhere(other), one(other), atol=1e-12)
 
 
 def test_is_constant_beyond_its_points():

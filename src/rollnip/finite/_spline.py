@@ -1,6 +1,7 @@
-"""Cubic splines on points at any distances.
+"""Splines of fifth degree on points at any distances.
 
-Those of scipy do the same; to import them takes longer than to solve a nip.
+A skin answers the fourth derivative of a displacement with a pressure. In a cubic spline that is a
+force at every point and nothing between; here it is continuous.
 """
 
 from __future__ import annotations
@@ -14,43 +15,60 @@ from scipy.linalg import lapack
 
 Array = NDArray[np.float64]
 
+# Second derivatives of half the integral of the square of a third derivative over an interval of
+# length 1, by slope and second derivative at its beginning and at its end; below them those by
+# these and by the rise, with the sign changed.
+_STIFF = np.array(
+    [
+        [192.0, 36.0, 168.0, -24.0],
+        [36.0, 9.0, 24.0, -3.0],
+        [168.0, 24.0, 192.0, -36.0],
+        [-24.0, -3.0, -36.0, 9.0],
+        [360.0, 60.0, 360.0, -60.0],
+    ]
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Spline:
-    """A piecewise cubic function with a continuous second derivative, constant beyond its points.
+    """A piecewise function of fifth degree with four continuous derivatives, constant beyond.
 
     Attributes
     ----------
     x : (n,) increasing points.
-    values, slopes : (n,) there.
+    values, slopes, bends : (n,) the function there, its first and its second derivative.
     """
 
     x: Array
     values: Array
     slopes: Array
+    bends: Array
 
     @classmethod
     def through(cls, x: Array, values: Array) -> Spline:
-        """Return the spline through some points, n >= 3, without curvature at both ends."""
-        diagonal, beside = np.empty(x.size), 1.0 / (x[1:] - x[:-1])
-        diagonal[1:-1] = 2.0 * (beside[1:] + beside[:-1])
-        diagonal[0], diagonal[-1] = 2.0 * beside[0], 2.0 * beside[-1]
-        bent = 3.0 * (values[1:] - values[:-1]) * beside * beside
-        right = np.empty(x.size)
-        right[1:-1] = bent[1:] + bent[:-1]
-        right[0], right[-1] = bent[0], bent[-1]
-        return cls(x, values, lapack.dptsv(diagonal, beside, right)[2])
+        """Return the function through some points with the least third derivatives, n >= 3.
+
+        That is the least integral of their square.
+        """
+        length, rise = x[1:] - x[:-1], values[1:] - values[:-1]
+        powers = length ** -np.arange(6.0)[:, None]
+        band, right = np.zeros((4, 2 * x.size)), np.zeros(2 * x.size)
+        for i in range(4):
+            for j in range(i + 1):
+                band[i - j, j : j + 2 * length.size : 2] += _STIFF[i, j] * powers[3 - i % 2 - j % 2]
+            right[i : i + 2 * length.size : 2] += _STIFF[4, i] * rise * powers[4 - i % 2]
+        made = lapack.dpbsv(band, right, lower=1)[1]
+        return cls(x, values, made[::2], made[1::2])
 
     @classmethod
     def mean(cls, shares: Array, splines: Sequence[Spline]) -> Spline:
         """Return a weighted sum of splines, on the points of the last one."""
         x = splines[-1].x
-        values, slopes = np.zeros((2, x.size))
+        sums = np.zeros((3, x.size))
         for share, one in zip(shares, splines, strict=True):
             on = one if one.x is x else cls.through(x, one(x))
-            values += share * on.values
-            slopes += share * on.slopes
-        return cls(x, values, slopes)
+            sums += share * np.stack((on.values, on.slopes, on.bends))
+        return cls(x, *sums)
 
     def __call__(self, x: Array, order: int = 0) -> Array:
         """Value at ``x``, of its shape, or with ``order`` 1 its derivative."""
@@ -60,12 +78,19 @@ class Spline:
         left = self.x[cell]
         length = self.x[cell + 1] - left
         t = (place - left) / length
-        here = self.values[cell]
-        rise = self.values[cell + 1] - here
-        start, stop = length * self.slopes[cell], length * self.slopes[cell + 1]
-        bend = start + stop - 2.0 * rise
+        here, slope = self.values[cell], length * self.slopes[cell]
+        bend, next_bend = length**2 * self.bends[cell], length**2 * self.bends[cell + 1]
+        # What a parabola from the beginning misses at the end: value, slope and bend.
+        off = self.values[cell + 1] - here - slope - 0.5 * bend
+        turn = length * self.slopes[cell + 1] - slope - bend
+        grown = 0.5 * (next_bend - bend)
+        a, b, c = (
+            10.0 * off - 4.0 * turn + grown,
+            7.0 * turn - 15.0 * off - 2.0 * grown,
+            6.0 * off - 3.0 * turn + grown,
+        )
         if order == 1:
-            turn = 2.0 * (rise - start - bend) + 3.0 * t * bend
-            return np.asarray((start + t * turn) / length * ((x >= first) & (x <= last)))
+            tilt = slope + t * (bend + t * (3.0 * a + t * (4.0 * b + t * 5.0 * c)))
+            return np.asarray(tilt / length * ((x >= first) & (x <= last)))
         assert order == 0
-        return np.asarray(here + t * (start + t * (rise - start - bend + t * bend)))
+        return np.asarray(here + t * (slope + t * (0.5 * bend + t * (a + t * (b + t * c)))))

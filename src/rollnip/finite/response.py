@@ -388,6 +388,5 @@ class _LoadedMesh:
 
 def _nothing(nodes: Array) -> tuple[Spline, Spline]:
     """Return no displacement."""
-    zero = np.zeros(3)
-    flat = Spline(np.linspace(nodes[0], nodes[-1], 3), zero, zero)
+    flat = Spline.through(np.linspace(nodes[0], nodes[-1], 3), np.zeros(3))
     return flat, flat

@@ -18,7 +18,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from math import inf
+from math import inf, sqrt
 
 import numpy as np
 from scipy.linalg import lapack
@@ -34,7 +34,9 @@ from rollnip.materials import Energy, NeoHookean, Slopes
 # the result: every step reduces what is left of J - 1 by about this factor.
 _YIELD = 1e-6
 _SOFT = NeoHookean()
-STILL = 1e-5  # what a result may still be off, over the displacement
+# What a result may still be off, over the displacement, in energy: a skin answers short waves that
+# are a millionth of the displacement with pressures like those of the contact.
+STILL = 1e-5
 _MOST_STEPS = 40
 _LEAST_VOLUME = 0.1  # J that a step may reach
 _AT_REST = np.array([1.0, 0.0, 0.0, 1.0])[:, None, None]
@@ -334,27 +336,26 @@ class Body:
         return MeshState(displacement, self.at_first.pressures(local))
 
     def equilibrium(
-        self, tractions: Tractions, start: MeshState, still: float = STILL, share: float = 0.0
+        self, tractions: Tractions, start: MeshState, still: float = STILL
     ) -> MeshState:
         """Solve by Newton's method, until ``still`` times the displacement or less is left.
 
-        Or until no more is left than a ``share`` of the first step. A derivative is kept as long as
-        steps shrink to 0.3 with it. Raises `NoEquilibriumError` where steps do not come to rest
-        from ``start``, not even with the derivative there.
+        Both are measured by the root of their work, that of what is out of balance and that of the
+        tractions. A derivative is kept as long as steps shrink to 0.3 with it. Raises
+        `NoEquilibriumError` where steps do not come to rest from ``start``, not even with the
+        derivative there.
         """
         if start.tangent is None:
-            return self._by_steps(tractions, start, still, share)
+            return self._by_steps(tractions, start, still)
         try:
-            return self._by_steps(tractions, start, still, share)
+            return self._by_steps(tractions, start, still)
         except NoEquilibriumError:
             afresh = MeshState(start.displacement, start.pressure)
-            return self._by_steps(tractions, afresh, still, share)
+            return self._by_steps(tractions, afresh, still)
 
-    def _by_steps(
-        self, tractions: Tractions, start: MeshState, still: float, share: float
-    ) -> MeshState:
+    def _by_steps(self, tractions: Tractions, start: MeshState, still: float) -> MeshState:
         """Solve from a state, the first steps with its derivative if that is known."""
-        state, tangent, before, first = start, start.tangent, inf, 0.0
+        state, tangent, before = start, start.tangent, inf
         deformation = self.deformation(state.displacement)
         for _ in range(_MOST_STEPS):
             fields = self._fields(state, deformation)
@@ -370,11 +371,12 @@ class Body:
             moved, pressed = state.displacement + part * step, state.pressure + change
             state = MeshState(moved, pressed, tangent)
             size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
-            first = max(first, size)
             is_first = before == inf
             shrinks = _CURVED * size if is_first else size / before
-            left = size if is_first and not is_new else size * min(shrinks, 1.0)
-            if part == 1.0 and left <= max(still, share * first):
+            done = max(float(pulled.loads @ state.displacement), float(np.finfo(float).tiny))
+            work = float(left_over @ step) / done
+            left = sqrt(abs(work)) * (1.0 if is_first and not is_new else min(shrinks, 1.0))
+            if part == 1.0 and left <= still:
                 return state
             before = size
             if part < 1.0 or not shrinks <= _CONTRACTION:

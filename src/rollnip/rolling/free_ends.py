@@ -107,9 +107,14 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
         count = as_cosines(latest)
         if history and history[-1].breaks.size != stand.layout.breaks.size:
             history.clear()  # figures of other zones tell nothing of the errors with these
+        roughness = _roughness(nip, model, latest)
+        if roughness > 1.0 and not history and nip.friction == 0.0:
+            # Without friction zones stay as they are: how rough tractions are says all.
+            count, known = _next_count(count, roughness, model.tolerance), True
+            continue
         history.append(sized(nip, model, latest, count, stand.layout.breaks))
         best = latest = with_errors(nip, latest, history)
-        ratio, roughness = excess(nip, latest, model.tolerance), _roughness(nip, model, latest)
+        ratio = excess(nip, latest, model.tolerance)
         stand_still = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
         if largest(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:
             final = converge(nip, model, latest, placing.given, latest.zones)

@@ -142,7 +142,7 @@ class Placing:
             known_to = min(known_to, off)
             is_quiet = self.kernels.is_fixed or stand.is_quiet
             is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
-            is_placed = self._is_placed(layout, asked) and asked.is_proper and latest.stands_still
+            is_placed = self._is_placed(layout, asked, known=known) and asked.is_proper and latest.stands_still
             is_placed = is_placed and is_quiet
             is_placed = is_placed and not latest.mesh.pulls_at_edge(latest.state.pressure)
             wanted = crowding_of(layout.breaks, self.boundary)
@@ -184,7 +184,7 @@ class Placing:
             layout, before = stand.layout, off
             latest, asked = self._solved_on(stand, shape, MOST_TURNS)
             off = asked.distance(layout)
-            is_placed = self._is_placed(layout, asked)
+            is_placed = self._is_placed(layout, asked, known=True)
             if (
                 not asked.is_proper
                 or self.search.wanted(latest, layout, whole=is_placed) is not None
@@ -230,14 +230,15 @@ class Placing:
         rollers = self.nip.upper, self.nip.lower
         return min(_incompressible(roller) for roller in rollers if not roller.is_rigid)
 
-    def _is_placed(self, layout: Layout, asked: Layout) -> bool:
+    def _is_placed(self, layout: Layout, asked: Layout, *, known: bool) -> bool:
         """Return whether ends of zones are off by as little as second-order terms that are at rest.
 
-        That is over the width of the contact. Without friction edges are placed as closely over the
-        length of their boundary layer, if that is less: pressures change within it.
+        That is over the width of the contact. Without friction edges of zones that are ``known``
+        are placed as closely over the length of their boundary layer, if that is less: pressures
+        change within it.
         """
         length = layout.width
-        if self.nip.friction == 0.0:
+        if known and self.nip.friction == 0.0:
             length = min(length, self.boundary)
         return asked.distance(layout) * layout.width <= STILL * self.model.tolerance * length
 
@@ -290,7 +291,7 @@ class Placing:
         latest = self._solve_on_mesh(self.model, mesh, start, zones, most)
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         is_hasty = most < MOST_TURNS and not latest.stands_still
-        if is_hasty and self._is_placed(layout, asked):
+        if is_hasty and self._is_placed(layout, asked, known=False):
             start = states, latest.second, latest.steps
             latest = self._solve_on_mesh(self.model, mesh, start, zones)
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)

@@ -336,26 +336,28 @@ class Body:
         return MeshState(displacement, self.at_first.pressures(local))
 
     def equilibrium(
-        self, tractions: Tractions, start: MeshState, still: float = STILL
+        self, tractions: Tractions, start: MeshState, still: float = STILL, share: float = 0.0
     ) -> MeshState:
         """Solve by Newton's method, until ``still`` times the displacement or less is left.
 
-        Both are measured by the root of their work, that of what is out of balance and that of the
-        tractions. A derivative is kept as long as steps shrink to 0.3 with it. Raises
-        `NoEquilibriumError` where steps do not come to rest from ``start``, not even with the
-        derivative there.
+        Or until no more is left than a ``share`` of the first step. All are measured by the root of
+        a work: that of a step against what is out of balance, and that of the tractions. A
+        derivative is kept as long as steps shrink to 0.3 with it. Raises `NoEquilibriumError` where
+        steps do not settle from ``start``, not even with the derivative there.
         """
         if start.tangent is None:
-            return self._by_steps(tractions, start, still)
+            return self._by_steps(tractions, start, still, share)
         try:
-            return self._by_steps(tractions, start, still)
+            return self._by_steps(tractions, start, still, share)
         except NoEquilibriumError:
             afresh = MeshState(start.displacement, start.pressure)
-            return self._by_steps(tractions, afresh, still)
+            return self._by_steps(tractions, afresh, still, share)
 
-    def _by_steps(self, tractions: Tractions, start: MeshState, still: float) -> MeshState:
+    def _by_steps(
+        self, tractions: Tractions, start: MeshState, still: float, share: float
+    ) -> MeshState:
         """Solve from a state, the first steps with its derivative if that is known."""
-        state, tangent, before = start, start.tangent, inf
+        state, tangent, before, first = start, start.tangent, inf, 0.0
         deformation = self.deformation(state.displacement)
         for _ in range(_MOST_STEPS):
             fields = self._fields(state, deformation)
@@ -374,9 +376,10 @@ class Body:
             is_first = before == inf
             shrinks = _CURVED * size if is_first else size / before
             done = max(float(pulled.loads @ state.displacement), float(np.finfo(float).tiny))
-            work = float(left_over @ step) / done
-            left = sqrt(abs(work)) * (1.0 if is_first and not is_new else min(shrinks, 1.0))
-            if part == 1.0 and left <= still:
+            work = sqrt(abs(float(left_over @ step)) / done)
+            first = max(first, work)
+            left = work if is_first and not is_new else work * min(shrinks, 1.0)
+            if part == 1.0 and left <= max(still, share * first):
                 return state
             before = size
             if part < 1.0 or not shrinks <= _CONTRACTION:

@@ -20,7 +20,7 @@ from rollnip.finite._smooth import Smoothing
 from rollnip.finite._spline import Spline
 from rollnip.finite.acting import Acting, Linear
 from rollnip.finite.columns import Columns
-from rollnip.finite.equilibrium import Body
+from rollnip.finite.equilibrium import STILL, Body
 from rollnip.finite.power import heat_inside, linear_heat_inside
 from rollnip.finite.state import LEFT, MeshState, NoEquilibriumError
 from rollnip.finite.strip import Array, Depths, Strip, below_radius, on_circle
@@ -32,6 +32,7 @@ _NEAR = 4.0  # half-widths beyond which the surface is of no interest
 _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
 _SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
 _STAYS = 0.01  # by which places may move and keep their mesh, over the width of the contact
+_SHARE = 0.01  # what equilibria may be off, over the change since the last one
 # While tractions are far from their solution:
 _COARSE_WAVE_SHARE = 0.5  # of the wave numbers that are kept
 _COARSE_MOVE_FACTOR = 2.5  # times `_STAYS`
@@ -315,7 +316,7 @@ class FiniteResponse:
         last, tractions = self._mesh, acting.tractions
         stays = self._move_factor * _STAYS * float(np.ptp(places[loaded]))
         if last is not None and last.is_near(places[loaded], self._speed_now, stays):
-            state = last.body.equilibrium(tractions, last.state)
+            state = last.body.equilibrium(tractions, last.state, STILL, _SHARE)
             return replace(last, state=state, acting=acting)
         if last is not None:
             flat, body, state = self._moved(last, places, loaded)
@@ -325,7 +326,7 @@ class FiniteResponse:
             arcs = acting.moved(places[loaded], places[loaded] - moved)
             state = flat.linear_state(arcs.tractions, self._left)
         for _ in range(_MOST_MESHES):
-            state = body.equilibrium(tractions, state)
+            state = body.equilibrium(tractions, state, STILL, _SHARE)
             mesh = _LoadedMesh(flat, body, state, loaded, acting)
             if mesh.is_near(places[loaded], None, stays):
                 break

@@ -1,4 +1,4 @@
-"""Under a stiff skin the pressure is smooth: none of the waves that a skin answers is an error's."""
+"""Under a stiff skin the pressure is smooth, and rises from either edge."""
 
 import numpy as np
 import pytest

@@ -142,8 +142,8 @@ class Placing:
             known_to = min(known_to, off)
             is_quiet = self.kernels.is_fixed or stand.is_quiet
             is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
-            is_placed = self._is_placed(layout, asked, known=known) and asked.is_proper and latest.stands_still
-            is_placed = is_placed and is_quiet
+            is_placed = self._is_placed(layout, asked, known=known) and asked.is_proper
+            is_placed = is_placed and latest.stands_still and is_quiet
             is_placed = is_placed and not latest.mesh.pulls_at_edge(latest.state.pressure)
             wanted = crowding_of(layout.breaks, self.boundary)
             is_placed = is_placed and not _crowds_more(wanted, shape[1])

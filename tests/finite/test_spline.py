@@ -1,12 +1,22 @@
-"""Splines of fifth degree against those of scipy."""
+"""Splines of third and fifth degree against those of scipy."""
 
 import numpy as np
 import pytest
-from scipy.interpolate import make_interp_spline
+from scipy.interpolate import CubicSpline, make_interp_spline
 
 from rollnip.finite._spline import Spline
 
 _NATURAL = [(3, 0.0), (4, 0.0)]
+
+
+def test_is_the_natural_spline():
+    rng = np.random.default_rng(4)
+    x = np.cumsum(rng.uniform(0.01, 1.0, 30))
+    values = rng.normal(size=30)
+    ours, theirs = Spline.through(x, values), CubicSpline(x, values, bc_type="natural")
+    at = np.linspace(x[0], x[-1], 400)
+    np.testing.assert_allclose(ours(at), theirs(at), atol=1e-10)
+    np.testing.assert_allclose(ours(at, 1), theirs(at, 1), atol=1e-8)
 
 
 @pytest.mark.parametrize("shortest", [0.001, 0.1])
@@ -15,7 +25,7 @@ def test_is_the_natural_spline_of_fifth_degree(shortest: float):
     x = np.cumsum(10.0 ** rng.uniform(np.log10(shortest), 0.0, 30))
     values = rng.normal(size=30)
     ours, theirs = (
-        Spline.through(x, values),
+        Spline.bending(x, values),
         make_interp_spline(x, values, k=5, bc_type=(_NATURAL,) * 2),
     )
     at = np.linspace(x[0], x[-1], 400)

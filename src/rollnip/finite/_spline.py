@@ -1,7 +1,8 @@
-"""Splines of fifth degree on points at any distances.
+"""Splines of third and of fifth degree on points at any distances.
 
 A skin answers the fourth derivative of a displacement with a pressure. In a cubic spline that is a
-force at every point and nothing between; here it is continuous.
+force at every point and nothing between; in a spline of fifth degree it is continuous.
+Cubic splines of scipy do the same as these; to import them takes longer than to solve a nip.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ _STIFF = np.array(
 
 @dataclass(frozen=True, slots=True)
 class Spline:
-    """A piecewise function of fifth degree with four continuous derivatives, constant beyond.
+    """A piecewise function of fifth degree at most, constant beyond its points.
 
     Attributes
     ----------
@@ -46,9 +47,22 @@ class Spline:
 
     @classmethod
     def through(cls, x: Array, values: Array) -> Spline:
-        """Return the function through some points with the least third derivatives, n >= 3.
+        """Return the cubic spline through some points, n >= 3, without curvature at both ends."""
+        over, rise = 1.0 / (x[1:] - x[:-1]), values[1:] - values[:-1]
+        diagonal, right, bent = np.zeros(x.size), np.zeros(x.size), 3.0 * rise * over * over
+        for part in (slice(None, -1), slice(1, None)):
+            diagonal[part] += 2.0 * over
+            right[part] += bent
+        slopes = lapack.dptsv(diagonal, over, right)[2]
+        bends = np.zeros(x.size)
+        bends[:-1] = 2.0 * (bent - over * (2.0 * slopes[:-1] + slopes[1:]))
+        return cls(x, values, slopes, bends)
 
-        That is the least integral of their square.
+    @classmethod
+    def bending(cls, x: Array, values: Array) -> Spline:
+        """Return the spline of fifth degree, of second degree at both ends, likewise.
+
+        It has the least integral of the square of third derivatives, and four continuous ones.
         """
         length, rise = x[1:] - x[:-1], values[1:] - values[:-1]
         powers = length ** -np.arange(6.0)[:, None]

@@ -244,7 +244,8 @@ class FiniteResponse:
         if not roughly or self._off is None or self._off.shape != u.shape:
             self._off = self._off_in_linear_theory(mesh, x, surface.arcs[near])
         u -= self._off + mesh.acting.linear_displacement(self._linear, x)
-        return tuple(Spline.through(x, row) for row in u)
+        through = Spline.bending if self._columns.skin < np.inf else Spline.through
+        return tuple(through(x, row) for row in u)
 
     def _smoothing_for(self, start: float, stop: float) -> Smoothing:
         """Return the smoothing for a contact; the same while the contact is about the same."""

@@ -4,6 +4,7 @@ import re
 
 import numpy as np
 import pytest
+from tests.browser.conftest import Designer, new_context
 
 import rollnip as rn
 from rollnip.io import parse_case
@@ -33,6 +34,24 @@ def test_feed_tension_and_strain_are_those_of_the_solver(sheet):
     drawn = designer.trace("chart-sheet", "tension")
     np.testing.assert_allclose(drawn["y"], solution.sheet.profiles.tension, atol=1e-9)
     assert "feed" in designer.saved("csv-figures").lower()
+
+
+def test_a_phone_shows_all_names_of_curves_and_the_curves(browser, base):
+    """They stood in a box that scrolled, and left a chart of 50 pixels under it."""
+    context = new_context(browser, viewport={"width": 390, "height": 844})
+    designer = Designer(context.new_page(), base).open()
+    designer.sent(lambda: designer.page.check("#in-has-sheet"))
+    designer.trace("chart-pressure", "pressure")
+    sizes = """() => [".scrollbar", ".legend", ".nsewdrag"].map(part => {
+      const found = document.querySelector(`#chart-pressure ${part}`);
+      return found ? found.getBoundingClientRect().height : 0;
+    })"""
+    designer.quiet()
+    bar, names, curves = designer.page.evaluate(sizes)
+    assert names > 0
+    assert bar < 1.0
+    assert curves > 130.0
+    context.close()
 
 
 def test_a_usual_sheet_is_taken_and_becomes_an_own_one(sheet):

@@ -43,6 +43,8 @@ export class Chart {
   async draw(figure) {
     const Plotly = await plotly();
     if (this.figure !== figure || !this.node.isConnected) return;
+    const named = figure.data.filter(({ name, showlegend }) => name && showlegend !== false);
+    this.node.style.setProperty("--names", named.length); // a narrow chart is as much higher
     await Plotly.react(this.node, figure.data, sized(figure.layout, this.node), CONFIG);
     this.node.dispatchEvent(new CustomEvent("drawn"));
   }

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import inf, sqrt
 
 from rollnip.nip import Nip
+from rollnip.rollers import Roller
 
 
 def sheet_layer(nip: Nip) -> float:
@@ -40,14 +42,14 @@ def squeeze_layer(nip: Nip) -> float:
     return sheet.thickness * (1.0 + 0.5 * sheet.thickness * yielding / sheet.squeeze)
 
 
-def unlike_layer(nip: Nip, tolerance: float) -> float:
-    """Return the length in which nodes crowd beside a compressible surface, over the width.
+def unlike_layer(rollers: Sequence[Roller], tolerance: float) -> float:
+    """Return the length in which nodes crowd beside compressible surfaces, over the width.
 
     Beside a stiff sheet tractions at the end of a zone go as s^(1/2 + i e) in stick, where
     tanh(pi e) = b, and as s^(1/2 + e) in slip, tan(pi e) = mu b, with Dundurs' constant
     b = (1 - 2 nu)/(2 (1 - nu)) of the surface. Nodes at cosine places follow the root alone: ends
     are misplaced by about b^2 of the first element, which crowding makes shorter.
     """
-    tops = [roller.materials[0] for roller in (nip.upper, nip.lower) if roller.materials]
-    most = max(0.5 * (1.0 - 2.0 * top.poisson) / (1.0 - top.poisson) for top in tops)
+    ratios = [roller.materials[0].poisson for roller in rollers if roller.materials]
+    most = max((0.5 * (1.0 - 2.0 * ratio) / (1.0 - ratio) for ratio in ratios), default=0.0)
     return tolerance / most**2 if most > 0.0 else inf

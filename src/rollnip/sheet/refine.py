@@ -30,7 +30,7 @@ _MORE = 1.4  # than as many elements as bring an error to the tolerance
 MOST_COUNT = 260
 _SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
 _ORDER_OF_TWO = 1.5  # of errors, where only two sizes are there
-_ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and with others
+ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and with others
 # Sizes of mesh before an error is believed, and one more with memory, as without a sheet.
 FEWEST = 2
 FEWEST_WITH_SLIP = 3
@@ -106,15 +106,15 @@ def refine_sheet(
         try:
             stand = search.placed(stand.zones, round(count), stand, closely)
         except np.linalg.LinAlgError:
-            failures, count = failures + 1, _next_count(count, inf)
+            failures, count = failures + 1, next_count(count, inf)
             continue
         here = _size_of(stand, model.geometry)
         figures = here[1]
-        errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
+        errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
         is_near = stand.stands_still and may_be_last
         if is_near and ratio(nip, figures, errors) > model.tolerance:
             history = _with_zones_of(stand, history, search, last_count)
-            errors = SheetFigures(errors_between(nip, [*history, here], _ORDERS))
+            errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
         latest = SheetRefined(stand, figures, errors, violation(stand), round(count))
         if stand.stands_still:
             history.append(here)
@@ -127,9 +127,9 @@ def refine_sheet(
             best = best or latest
             failures += 1
         least = _LEAST_GROWTH * _elements(stand.zones, count)
-        count = _next_count(count, ratio(nip, figures, errors) / model.tolerance)
+        count = next_count(count, ratio(nip, figures, errors) / model.tolerance)
         while count < MOST_COUNT and _elements(stand.zones, count) < least:
-            count = _next_count(count, 0.0)  # short zones have their fewest elements still
+            count = next_count(count, 0.0)  # short zones have their fewest elements still
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return _with_overlap(best, kernels, model.geometry)
@@ -161,13 +161,14 @@ def _with_zones_of(
     return [_size_of(again, search.model.geometry)]
 
 
-def _next_count(count: float, ratio: float) -> float:
+def next_count(count: float, ratio: float, most: float = MOST_COUNT) -> float:
     """Return how many elements an error ``ratio`` times too large asks for; inf: no more are left.
 
-    As if errors were of second order in the size of the elements.
+    As if errors were of second order in the size of the elements. ``most``: elements of the last
+    size.
     """
     growth = min(max(_MORE * sqrt(ratio), _LEAST_GROWTH), GROWTH)
-    return min(count * growth, MOST_COUNT) if _LEAST_GROWTH * count < MOST_COUNT else inf
+    return min(count * growth, most) if _LEAST_GROWTH * count < most else inf
 
 
 def _elements(zones: Zones, count: float) -> int:

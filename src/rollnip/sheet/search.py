@@ -158,8 +158,8 @@ class SheetSearch:
 
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return how nodes crowd at ends that are known to some share of the width."""
-        width = float(breaks[-1] - breaks[0])
-        shortest = min(self.boundary, unlike_layer(self.nip, self.model.tolerance) * width)
+        width, rollers = float(breaks[-1] - breaks[0]), (self.nip.upper, self.nip.lower)
+        shortest = min(self.boundary, unlike_layer(rollers, self.model.tolerance) * width)
         return crowding_of(breaks, max(shortest, max(known, SHORTEST_LAYER) * width))
 
     @cached_property

@@ -74,6 +74,24 @@ def pulls_at_edges(stand: PlateAttempt) -> bool:
     return any(mesh.pulls_at_edge(pressure) for mesh, pressure in sides)
 
 
+def added_to_peaks(stand: PlateAttempt, asked: PlateZones) -> float:
+    """Return what misplaced edges add to highest pressures at the nodes beside them, over these.
+
+    An edge that lies inwards by delta of where it should leaves p ~ sqrt(y) + delta/(2 sqrt(y))
+    beside it, which on short elements exceeds all other pressures.
+
+    ``asked``: zones whose edges are where they should be.
+    """
+    most = 0.0
+    for side, mesh in enumerate(stand.problem.meshes):
+        x, top = mesh.inner, int(np.argmax(stand.state.pressure[side]))
+        for node, edge, place in zip((1, x.size - 2), (0, -1), asked.edges[side], strict=True):
+            if top == node:
+                off, away = abs(place - x[edge]), abs(x[node] - x[edge])
+                most = max(most, float(off / (2.0 * away + off)))
+    return most
+
+
 def overlap(stand: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how far surfaces and sheet overlap outside the contacts, and tension, relative.
 

@@ -14,23 +14,22 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.assemble import moment
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.power_balance import rates_of, slip_losses
-from rollnip.rolling.round import peak_pressure
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import displacements_of, lost_inside, pull_of
 from rollnip.sheet.plate.search import PlateSearch
-from rollnip.sheet.plate.sides import SIGNS
+from rollnip.sheet.plate.sides import SIGNS, highest
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.powers import SheetPowers, slip_zones
 from rollnip.sheet.refine import (
     FEWEST,
-    FEWEST_WITH_SLIP,
     FIRST_COUNT,
-    GROWTH,
+    ORDERS,
     claimed_of_powers,
     errors_between,
+    next_count,
 )
 
 Array = NDArray[np.float64]
@@ -122,7 +121,7 @@ def refine_plate(
     below: list[tuple[float, SheetFigures, PlateZones]] = []
     best: PlateRefined | None = None
     stand = search.begun(half_width, round(count)) if before is None else before
-    failed = 0
+    failed, fewest = 0, FEWEST + nip.is_viscoelastic
     while count <= _MOST_COUNT:
         if history or failed or model.geometry != "linear":
             stand = search.placed(stand.zones, round(count), stand)
@@ -130,17 +129,15 @@ def refine_plate(
         here = (count, figures, stand.zones)
         lower = of_lower(figures, stand)
         here_below = (count, lower, stand.zones)
-        errors = SheetFigures(errors_between(nip, [*history, here]))
-        lower_errors = SheetFigures(errors_between(nip, [*below, here_below]))
+        errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
+        lower_errors = SheetFigures(errors_between(nip, [*below, here_below], ORDERS))
         left = violation(stand)
         latest = PlateRefined(stand, figures, errors, left, lower, lower_errors, round(count))
         if stand.stands_still:
             history.append(here)
             below.append(here_below)
             best = latest
-            slips = any(side.states.size > 1 for side in stand.zones.sides)
-            enough = len(history) >= (FEWEST_WITH_SLIP if slips else FEWEST)
-            if enough and max(left, latest.ratio(nip, model)) <= model.tolerance:
+            if len(history) >= fewest and max(left, latest.ratio(nip, model)) <= model.tolerance:
                 best = _with_overlap(latest, kernels, model.geometry)
                 if best.residual <= model.tolerance:
                     return best
@@ -149,7 +146,7 @@ def refine_plate(
             best, failed = best or latest, failed + 1
         if failed == _MOST_FAILED:
             break
-        count *= GROWTH
+        count = next_count(count, latest.ratio(nip, model) / model.tolerance, _MOST_COUNT)
     assert best is not None
     return _with_overlap(best, kernels, model.geometry)
 
@@ -173,7 +170,7 @@ def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
     """Return the figures of a solution."""
     problem, state, meshes = stand.problem, stand.state, stand.problem.meshes
     upper = meshes[0]
-    peak, place = peak_pressure(upper.fine.nodes[1:-1], upper.between(state.pressure[0]))
+    peak, place = highest(upper, state.pressure[0])
     x = np.unique(np.concatenate([mesh.inner for mesh in meshes]))
     tension, strain = problem.tension_at(state, x), problem.strain_at(state, x)
     pulls = [float(mesh.weights @ q) for mesh, q in zip(meshes, state.shear, strict=True)]
@@ -196,7 +193,7 @@ def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
 def of_lower(figures: SheetFigures, stand: PlateAttempt) -> SheetFigures:
     """Return figures with width, highest pressure and its place on the lower interface."""
     mesh = stand.problem.meshes[1]
-    peak, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(stand.state.pressure[1]))
+    peak, place = highest(mesh, stand.state.pressure[1])
     values = figures.values.copy()
     values[[NAMES.index(name) for name in ("nip_width", "peak_pressure", "peak_pressure_x")]] = (
         stand.zones.lower.width,

@@ -22,10 +22,11 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.layers import sheet_layer, squeeze_layer
+from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.plate.attempt import (
     PlateAttempt,
+    added_to_peaks,
     carried,
     pulls_at_edges,
     shear_over,
@@ -146,6 +147,7 @@ class PlateSearch:
             is_met = is_fair and shear_over(stand) <= self._slack
             is_placed = off <= placed and stand.stands_still and is_fine
             is_placed = is_placed and not pulls_at_edges(stand)
+            is_placed = is_placed and added_to_peaks(stand, asked) <= self.model.tolerance
             if is_met and is_placed:
                 return replace(stand, zones=asked, off=off)
             if is_fair and is_placed and fair is None:
@@ -219,9 +221,10 @@ class PlateSearch:
         """
         meshes, is_fine, (count, shapes) = [], True, sizes
         for number, side in enumerate(zones.sides):
-            least = max(self._boundary_of(number), SHORTEST_LAYER * side.width)
-            is_rigid = (self.nip.upper, self.nip.lower)[number].is_rigid
-            breaks = zones.breaks_of_mesh(number, self._thickness, peaks=is_rigid)
+            roller = (self.nip.upper, self.nip.lower)[number]
+            unlike = unlike_layer((roller,), self.model.tolerance) * side.width
+            least = max(min(self._boundary_of(number), unlike), SHORTEST_LAYER * side.width)
+            breaks = zones.breaks_of_mesh(number, self._thickness, peaks=roller.is_rigid)
             crowding = crowding_of(breaks, max(least, known * side.width))
             is_fine = is_fine and crowding == crowding_of(breaks, least)
             kept = shapes.get((number, crowding))

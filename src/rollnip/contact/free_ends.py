@@ -39,7 +39,6 @@ from rollnip.contact.problem import (
 _RESPONSE = (-0.6831, -0.1132, -0.0597)
 
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
-_SHORTEST = 1e-4  # likewise, of a zone found node by node
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
 _STICK_BETWEEN = 0.1
 _MOVE_WITHOUT_PLACE = 0.1  # likewise, where no place is asked for
@@ -109,7 +108,7 @@ class Layout:
     def around(cls, zones: tuple[ContactZone, ...], room: float) -> Layout:
         """Return the layout of zones and of the free surfaces between and beside them.
 
-        Zones shorter than `_SHORTEST` of the width are left out.
+        Zones without a length are left out.
 
         Parameters
         ----------
@@ -117,7 +116,7 @@ class Layout:
         room : length of the free surface beyond either edge [mm].
         """
         start, stop = zones[0].start, zones[-1].stop
-        least = _SHORTEST * (stop - start)
+        least = _ROUNDING * (stop - start)
         breaks, states = [start - room, start], [FREE]
         for zone in zones:
             if zone.start - breaks[-1] > least:

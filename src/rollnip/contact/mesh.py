@@ -22,11 +22,11 @@ LEAST_SHARE_OF_A_ZONE = 0.08
 # the shear at the edge leaves it there although the shear is right. Half-plane (tests).
 CREEP_TO_EDGE = 0.02655
 _OUTER_NODE_DISTANCE = 1e-3  # of the nodes beyond both ends of cosine places, in edge elements
-_PIECES_PER_ELEMENT, _MOST_PIECES_PER_ELEMENT = 2, 64
+_PIECES_PER_ELEMENT = 2
 _MOST_NODE_VALUES = 500_000  # pieces times the square of the nodes, where pieces are many
 _GAUSS_POINTS = 4  # in each piece
 _CROWDED_LAYER_LENGTHS = 4.0  # nodes crowd where a zone is longer than so many boundary layers
-_STRONGEST_CROWDING = 2.0**-20
+_ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least share of a zone's length: digits are lost
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,7 +85,7 @@ def subdivided(
     counts = tuple(elements.tolist())
     crowding = (1.0,) * len(counts) if crowding is None else crowding
     longest = float(np.max(np.diff(nodes)))
-    most = min(_MOST_PIECES_PER_ELEMENT, _MOST_NODE_VALUES // nodes.size**2)
+    most = _MOST_NODE_VALUES // nodes.size**2
     parts = max(min(ceil(longest / shortest), most), _PIECES_PER_ELEMENT)
     values, acting, means = _cubics(counts, crowding, parts)
     finer = _cosine_values(tuple(parts * n for n in counts), crowding)
@@ -220,7 +220,7 @@ def crowding_of(breaks: Array, length: float) -> tuple[float, ...]:
         _CROWDED_LAYER_LENGTHS * length / (stop - start)
         for start, stop in pairwise(breaks.tolist())
     ]
-    shares = (min(max(share, _STRONGEST_CROWDING), 1.0) for share in wanted)
+    shares = (min(max(share, _ROUNDING), 1.0) for share in wanted)
     return tuple(2.0 ** ceil(log2(share)) for share in shares)
 
 

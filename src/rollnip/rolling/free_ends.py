@@ -7,7 +7,7 @@ tractions between them.
 
 from __future__ import annotations
 
-from math import ceil, inf, log, sqrt
+from math import inf, sqrt
 from typing import TypeGuard
 
 import numpy as np
@@ -31,7 +31,6 @@ from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import converge, with_residual
 
 _FIRST_COUNT = 18
-_MOST_AT_FIRST = 50
 _ELEMENTS_PER_ZONE = 4  # elements more for each zone
 # Sizes of mesh before an error is believed, and one more with memory: the tractions then have
 # boundary layers as long as speed times relaxation time, and meshes all too coarse for these agree
@@ -40,7 +39,7 @@ _FEWEST_SIZES = 2
 _MOST_ELEMENTS = 300  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
 _FIRST_GROWTH = 1.6  # of the number of elements from size to size
-_LEAST_GROWTH, _MOST_GROWTH = 1.2, 3.5
+_LEAST_GROWTH = 1.2
 # Of the tolerance: mean error of the cubics, over the largest traction.
 _MOST_ROUGHNESS = 0.1
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
@@ -82,7 +81,6 @@ def with_free_ends(
             stand = placing.guessed(layout, count)
         else:
             stand = SearchState(layout, before, off=off)
-            count = max(count, min(before.problem.x.size // 2, _MOST_AT_FIRST))
         return (
             None
             if stand is None
@@ -134,13 +132,11 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
 def _next_count(count: int, ratio: float, tolerance: float) -> int:
     """Return how many elements would bring an error ``ratio`` times too large to the tolerance.
 
-    The number grows in limited steps, up to that for which such an error can be claimed.
+    They are at least as many as such an error can be claimed with.
     """
     growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), _LEAST_GROWTH)
-    claimed = 1.02 * sqrt(float(np.max(LEAST_ERROR)) / tolerance) / count
-    if claimed > growth:
-        growth = claimed ** (1.0 / ceil(log(claimed) / log(_MOST_GROWTH)))
-    return int(count * growth) + 1
+    claimed = 1.02 * sqrt(float(np.max(LEAST_ERROR)) / tolerance)
+    return int(max(count * growth, claimed)) + 1
 
 
 def as_cosines(latest: Round) -> int:

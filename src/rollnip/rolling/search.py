@@ -13,7 +13,6 @@ from rollnip.contact import (
     State,
     States,
     contact_intervals,
-    creep,
     next_slip,
     next_states,
 )
@@ -22,15 +21,11 @@ from rollnip.contact.secants import Secants
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.round import Round, creepage_scale
+from rollnip.rolling.round import Round
 from rollnip.rolling.surfaces import PairKernels
 
 _STICK_AND_SLIP = HeldContact()
 NEAR_ENOUGH_FOR_SLIP = 0.1  # over the width of the contact: good enough to see what slips
-# Shear over the bound counts as rounding up to the tolerance, and never beyond this.
-_MOST_SHEAR_SLACK = 1e-3
-# Of the tolerance: creep against the shear of one interval, over that of the whole contact.
-_LITTLE_CREEP = 0.02
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,14 +104,8 @@ class ZoneSearch:
         those of the nodes next to the end of a zone, which may be misplaced. ``whole``: whether
         contact is examined too; until the edges are placed, only stick and slip.
         """
-        slack, given = min(self.model.tolerance, _MOST_SHEAR_SLACK), latest.state.states
+        slack, given = self.model.tolerance, latest.state.states
         wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
-        if whole:
-            allowed = creepage_scale(self.nip, latest.figures) * latest.figures.nip_width
-            little = _LITTLE_CREEP * self.model.tolerance * allowed
-            slips = (given > State.STICK) & (wanted != State.FREE)
-            slips &= np.abs(creep(latest.problem, latest.state)) < little
-            wanted[slips] = given[slips]
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)
         differs[ends] = False  # ends belong to two zones alike
@@ -161,7 +150,7 @@ class ZoneSearch:
         Return None where the worst place does not lie in an element that sticks up to an edge.
         """
         friction, x = self.nip.friction, latest.mesh.inner
-        slack = min(self.model.tolerance, _MOST_SHEAR_SLACK) * latest.figures.peak_pressure
+        slack = self.model.tolerance * latest.figures.peak_pressure
         over = np.abs(latest.shear) - friction * np.maximum(latest.pressure, 0.0)
         worst = int(np.argmax(over))
         place, shear = latest.x[worst], latest.shear[worst]

@@ -282,10 +282,12 @@ def _into_sheet(stand: PlateAttempt) -> float:
     """
     problem, state = stand.problem, stand.state
     rate, taken = sheet_rate(*state.creepages), 0.0
+    x = np.concatenate([mesh.inner for mesh in problem.meshes])
+    directions = problem.direction_at(state, x, stand.lagged.curved)
     for side, mesh in enumerate(problem.meshes):
         pushed, sign = _pushed(stand, side), SIGNS[side]
         strained = problem.strain_over(state, side)[:-1]
-        turned = np.diff(problem.direction_at(state, mesh.inner, stand.lagged.curved))
+        turned = np.diff(np.split(directions, [problem.meshes[0].inner.size])[side])
         face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]
         taken += sign * float(pushed @ (1.0 + face))
     return rate * taken

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import factorial, sqrt
+from typing import ClassVar
 
 import numpy as np
 from numpy.polynomial import Polynomial
@@ -17,7 +18,7 @@ from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.round import peaks_alike
-from rollnip.rolling.surfaces import Mesh, mesh_on
+from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.plate.bending import Plate
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheets import Sheet
@@ -34,7 +35,17 @@ _WITHIN = 0.25  # of the mesh: length over which Gauss points would not do
 _GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # points of a piece, over its length
 
 
-def side_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels, side: int) -> Mesh:
+@dataclass(frozen=True, slots=True)
+class SideMesh(Mesh):
+    """A mesh on one interface, where one roller alone has displacements.
+
+    ``influence`` is empty: that of a contact with a plate is `PlateProblem.matrix`.
+    """
+
+    is_bare: ClassVar[bool] = False
+
+
+def side_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels, side: int) -> SideMesh:
     """Return a mesh on which one roller alone has displacements; none where it is rigid."""
     surface = (kernels.upper, kernels.lower)[side]
     if surface is None:
@@ -50,14 +61,14 @@ def side_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels, side: int) 
         together=surface.together,
         hoops=(hoops[0], hoops[1]),
     )
-    return mesh_on(nodes, alone, fine)
+    return SideMesh.on(nodes, alone, fine)
 
 
-def _rigid_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels) -> Mesh:
+def _rigid_mesh(nodes: Array, fine: Subdivision, kernels: PairKernels) -> SideMesh:
     inner, acting = nodes[1:-1], fine.acting
     assert acting is not None
     alone = replace(kernels, second_upper=None, second_lower=None, held=None, hoops=(0.0, 0.0))
-    return Mesh(
+    return SideMesh(
         nodes=nodes,
         fine=fine,
         inner=inner,
@@ -140,9 +151,9 @@ class Spread:
         return cls(sheet, plate, nodes, lines, tails)
 
     def of(self, values: Array) -> Spread:
-        """Return the spread of one set of tractions, of nodal values (n,)."""
-        one = values[:, None]
-        return replace(self, lines=self.lines @ one, tails=self.tails @ one)
+        """Return the spread of one set of tractions, of nodal values (n,), or of s sets (n, s)."""
+        sets = values.reshape(values.shape[0], -1)
+        return replace(self, lines=self.lines @ sets, tails=self.tails @ sets)
 
     @property
     def whole(self) -> Array:

@@ -146,18 +146,18 @@ class PlateProblem:
                 for mesh, along in zip(meshes, arcs, strict=True)
             )
             pulls = upper, lower
-        blocks, owns = [], []
-        for at, mesh in enumerate(meshes):
-            first = _by_roller(mesh, at)
-            n = mesh.inner.size
-            own = np.diagonal(first)[n:] - sheet.shear_by_thickness / 3.0
-            owns.append(own)
-            rows = [_by_sheet(meshes, (spreads, pulls), (at, by), own) for by in (0, 1)]
-            rows[at] += first
-            rows[at][2 * n - 2, 2 * n - 2] *= 1.0 - CREEP_TO_EDGE
-            blocks.append(rows)
-        matrix = np.block(blocks)
-        both = owns[0], owns[1]
+        by_rollers = [_by_roller(mesh, at) for at, mesh in enumerate(meshes)]
+        above, below = (
+            np.diagonal(first)[first.shape[0] // 2 :] - sheet.shear_by_thickness / 3.0
+            for first in by_rollers
+        )
+        both = above, below
+        by_sheet = [_by_sheet(meshes, (spreads, pulls), by, both) for by in (0, 1)]
+        for at, first in enumerate(by_rollers):
+            rows = by_sheet[at][at]
+            rows += first
+            rows[-2, -2] *= 1.0 - CREEP_TO_EDGE
+        matrix = np.block([[by_sheet[by][at] for by in (0, 1)] for at in (0, 1)])
         return cls(nip, sheet, plate, meshes, spreads, pulls, frictions_of(nip), both, matrix)
 
     @property
@@ -239,9 +239,9 @@ class PlateProblem:
         """Return what pressure and shear of either interface do as loads, see `Spread.bent`."""
         out = []
         for one, *tractions in zip(self.spreads, state.pressure, state.shear, strict=True):
-            alone = [one.of(values) for values in tractions]
-            made = [[part[:, 0] for part in of.bent(x, of.beyond(x))] for of in alone]
-            out.append((made[0], made[1]))
+            both = one.of(np.stack(tractions, axis=1))
+            made = both.bent(x, both.beyond(x))
+            out.append(([part[:, 0] for part in made], [part[:, 1] for part in made]))
         return out
 
     def thinned_at(self, state: PlateState, x: Array) -> Array:
@@ -305,28 +305,50 @@ def _by_roller(mesh: Mesh, side: int) -> Array:
 def _by_sheet(
     meshes: tuple[Mesh, Mesh],
     spreads: tuple[tuple[Spread, Spread], tuple[Spread, Spread]],
+    by: int,
+    owns: Pair,
+) -> tuple[Array, Array]:
+    """Return gap and creep of either interface by what tractions on one do to the sheet.
+
+    ``spreads``: of loads, and of pulls; ``by``: the interface that the tractions act on.
+    """
+    one, pull = spreads[0][by], spreads[1][by]
+    x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
+    beyond = one.beyond(x)
+    pulled = beyond if pull is one else pull.beyond(x)
+    bent, end = one.bent(x, beyond), meshes[0].nodes.size - 1
+    upper, lower = (
+        _by_sheet_at(meshes, (one, pull), (at, by), owns[at], made)
+        for at, made in enumerate(
+            zip(*(np.split(part, [end]) for part in (*beyond[:1], *pulled[:2], *bent)), strict=True)
+        )
+    )
+    return upper, lower
+
+
+def _by_sheet_at(
+    meshes: tuple[Mesh, Mesh],
+    spreads: tuple[Spread, Spread],
     sides: tuple[int, int],
     own: Array,
+    made: tuple[Array, ...],
 ) -> Array:
     """Return gap and creep of one interface by what tractions on one of them do to the sheet.
 
-    ``spreads``: of loads, and of pulls; ``sides``: the interface that they are of, and the one that
-    the tractions act on.
+    ``sides``: the interface that they are of, and the one that the tractions act on; ``made``: int
+    t ds beyond nodes[1:] of loads, that of pulls and its integral, and what `Spread.bent` says.
     """
-    (at, by), mesh = sides, meshes[sides[0]]
-    one, pull = spreads[0][by], spreads[1][by]
-    n, m, x = mesh.inner.size, one.lines.shape[1], mesh.nodes[1:]
+    (at, by), mesh, (one, pull) = sides, meshes[sides[0]], spreads
+    n, m = mesh.inner.size, one.lines.shape[1]
     sheet, half = one.sheet, 0.5 * one.sheet.thickness
     here, there = SIGNS[at], SIGNS[by]
-    beyond = one.beyond(x)
-    first, second = (beyond if pull is one else pull.beyond(x))[:2]
-    height, slope, bend = one.bent(x, beyond)
+    loads, first, second, height, slope, bend = made
     by_pressure = sheet.stretch_by_pressure
     out = np.zeros((2, n, 2, m))
     # y goes with -p_u and +p_l, the gap above with -y and below with +y
     out[0, :, 0] = here * there * height[:-1] + one.squeezed(mesh.inner, far=at != by)
     out[0, :, 1] = here * half * slope[:-1] - 0.5 * there * by_pressure * first[:-1]
-    pressed = beyond[0, :-1] - beyond[0, 1:]
+    pressed = loads[:-1] - loads[1:]
     out[1, :, 0] = -there * half * np.diff(slope, axis=0) - 0.5 * here * by_pressure * pressed
     share = _lumped_share(one, mesh, own)
     exact = _stretched(one, here * there, np.diff(second, axis=0), np.diff(bend, axis=0))
@@ -337,7 +359,7 @@ def _by_sheet(
     if at == by:
         out[1, :, 1] += through * (np.eye(n, k=1) - np.eye(n))
     else:
-        out[1, :, 1] += through * np.diff(values_at(meshes[by], x), axis=0)
+        out[1, :, 1] += through * np.diff(values_at(meshes[by], mesh.nodes[1:]), axis=0)
     return out.reshape(2 * n, 2 * m)
 
 

@@ -29,6 +29,52 @@ def random_case(number, geometry=None):
     return Case(number, _nip(rng), geometry or chosen)
 
 
+def squeezed_case(number, geometry="linear"):
+    """Nip ``number`` of a thin covering, pressed 5 to 80 times as wide as it is thick.
+
+    Half of them are incompressible; half of the others roll on a covering that is softer or thicker
+    than theirs, which then takes up a part of the approach.
+    """
+    return Case(number, _squeezed(np.random.default_rng([20241, number])), geometry)
+
+
+def _squeezed(rng):
+    ratio, pressed = _power(rng, 0.7, 1.9), _power(rng, -2.0, -1.0)
+    thickness, modulus = _power(rng, -1.5, 0.3), _power(rng, -0.3, 1.2)
+    poisson = float(rng.choice([0.5, 0.5, 0.49, 0.3]))
+    half_width = ratio * thickness
+    # The volume under a parabola stays in a covering that cannot be compressed.
+    curvature = (6.0 if poisson == 0.5 else 2.0) * pressed * thickness / half_width**2
+    share = rng.uniform(0.2, 0.8)
+    springs = 2.0 * constrained_modulus(modulus, poisson) * curvature * half_width**3
+    squeezed = 2.0 * modulus * curvature * half_width**5 / (45.0 * thickness**3)
+    load = 1.0 / (3.0 * thickness / springs + 1.0 / squeezed)
+    other = ()
+    if rng.random() < 0.5:
+        softer = rn.Elastic(modulus=modulus * _power(rng, -1.0, 0.0), poisson=0.49)
+        other = (rn.Layer(thickness * _power(rng, 0.0, 1.0), softer),)
+    covering = rn.Layer(thickness, rn.Elastic(modulus=modulus, poisson=poisson))
+    upper = rn.Roller(radius=1.0 / (share * curvature), layers=(covering,))
+    lower = rn.Roller(radius=1.0 / ((1.0 - share) * curvature), layers=other)
+    friction = 0.0 if rng.random() < 0.4 else _power(rng, -1.5, 0.0)
+    traction = float(rng.choice([0.0, rng.uniform(-0.9, 0.9)])) * friction * load
+    return rn.Nip(
+        upper=upper,
+        lower=lower,
+        normal=rn.LineLoad(load),
+        friction=friction,
+        tangential=rn.Traction(traction),
+        speed=100.0,
+    )
+
+
+def constrained_modulus(modulus, poisson):
+    """Stress over strain across a layer that cannot widen; inf where incompressible [MPa]."""
+    if poisson == 0.5:
+        return inf
+    return modulus * (1.0 - poisson) / ((1.0 + poisson) * (1.0 - 2.0 * poisson))
+
+
 def _power(rng, low, high):
     """10^low ... 10^high, evenly in the exponent."""
     return float(10.0 ** rng.uniform(low, high))

@@ -4,13 +4,13 @@ from contextlib import suppress
 
 import numpy as np
 import pytest
-from population import numbers
+from population import numbers, squeezed_case
 
 import rollnip as rn
 
 
-def solved(nip, tolerance=1e-3):
-    return rn.solve(nip, rn.Model(geometry="linear", tolerance=tolerance))
+def solved(nip, tolerance=1e-3, geometry="linear"):
+    return rn.solve(nip, rn.Model(geometry=geometry, tolerance=tolerance))
 
 
 def roller(radius, *layers):
@@ -19,9 +19,9 @@ def roller(radius, *layers):
     return rn.Roller(radius=radius, layers=plies)
 
 
-def over_claim(nip):
+def over_claim(nip, geometry="linear"):
     """Largest error over its claim, against a solution with a twentieth of the tolerance."""
-    coarse, fine = solved(nip), solved(nip, 5e-5)
+    coarse, fine = solved(nip, geometry=geometry), solved(nip, 5e-5, geometry)
     assert coarse.converged
     assert fine.converged
     names = ["nip_width", "peak_pressure", "approach"]
@@ -127,3 +127,35 @@ def test_thin_incompressible_coverings_converge(ratio):
     for name in ("nip_width", "approach", "peak_pressure"):
         apart = abs(getattr(solution, name) - getattr(fine, name))
         assert apart <= 3.0 * solution.error[name], name
+
+
+@pytest.mark.parametrize("geometry", ["linear", "curved"])
+def test_claims_under_squeezed_coverings(geometry):
+    """Nips 5 to 80 times as wide as their covering is thick; other ones for each seed."""
+    drawn = [squeezed_case(number).nip for number in numbers(4, 0, 2**31)]
+    found = {nip: solved(nip, geometry=geometry) for nip in drawn}
+    nips = [nip for nip in drawn if "pressed in by" not in found[nip].status]
+    judged = [nip for nip in nips if found[nip].converged and solved(nip, 5e-5, geometry).converged]
+    assert len(judged) >= 0.75 * len(drawn)
+    beyond = [nip for nip in judged if over_claim(nip, geometry) > 3.0]
+    assert not beyond
+
+
+def test_random_squeezed_coverings_are_as_wide_as_lubrication_says():
+    """Incompressible ones on a rigid roller without friction; to first order in h/a, see above."""
+    judged = 0
+    for number in range(60):
+        nip = squeezed_case(number).nip
+        (covering,) = nip.upper.layers
+        if covering.material.poisson < 0.5 or nip.lower.layers or nip.friction > 0.0:
+            continue
+        solution, thickness = solved(nip), covering.thickness
+        per_curvature = 45.0 * nip.normal.load * thickness**3 / (2.0 * covering.material.modulus)
+        limit = (per_curvature / nip.curvature) ** 0.2
+        assert solution.converged, number
+        expected = 2.0 * (limit - 1.46 * thickness)
+        second = (thickness / limit) ** 2  # what the first order leaves out: half of it was found
+        claimed = solution.error["nip_width"] / solution.nip_width
+        assert abs(solution.nip_width / expected - 1.0) <= second + claimed, number
+        judged += 1
+    assert judged >= 4

@@ -4,8 +4,6 @@ Nor how zones are found: from a guess of the width, and first node by node. The 
 node itself, which knows no ends of zones, has the same figures as well as its mesh can tell.
 """
 
-from itertools import islice
-
 import numpy as np
 import pytest
 from claims import ROUNDING, scales
@@ -13,7 +11,7 @@ from population import numbers, random_case
 
 import rollnip as rn
 from rollnip.rolling import excess, half_width_guess, pair_kernels, refine
-from rollnip.rolling.refinement import by_nodes, refine_by_nodes
+from rollnip.rolling.refinement import by_nodes, finer_by_nodes, refine_by_nodes
 
 TOLERANCE = 1e-3
 
@@ -75,8 +73,8 @@ def check_nodes(case):
     nip, kernels = case.nip, pair_kernels(case.nip, case.geometry)
     model = rn.Model(geometry=case.geometry, tolerance=TOLERANCE)
     final = refined(case, kernels, 1.0, True)
-    sizes = by_nodes(nip, model, kernels, half_width_guess(nip, kernels))
-    (_, rough), (_, fine) = islice(sizes, 2, 4)  # 64 and 128 elements
+    rough = by_nodes(nip, model, kernels, half_width_guess(nip, kernels))
+    fine = finer_by_nodes(nip, model, kernels, rough)
     if not (stands(nip, final) and rough.stands_still and fine.stands_still):
         return False
     assert not fine.is_placed

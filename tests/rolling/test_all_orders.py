@@ -60,7 +60,7 @@ def test_a_contact_that_failed_is_not_solved_again_with_the_same_correction(monk
 
     def refused(nip, model, kernels, half_width):
         asked.append(kernels.held)
-        return SimpleNamespace(stands_still=False, is_placed=True)
+        return SimpleNamespace(stands_still=False, is_placed=False)
 
     monkeypatch.setattr(held, "refine", refused)
     latest = SimpleNamespace(figures=SimpleNamespace(nip_width=2.0))

@@ -27,7 +27,7 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, WeightedSum
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
-from rollnip.rolling.held import Stage, anew, begin, solved_next
+from rollnip.rolling.held import Asked, Stage, anew, begin, solved_next
 from rollnip.rolling.largest import largest
 from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.round import Ended, Round
@@ -80,7 +80,7 @@ def refine_all_orders(
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
-    latest = begin(nip, model, kernels, half_width)
+    latest, stage = begin(nip, model, kernels, half_width)
     ended: Ended | None = None
     if latest.stands_still and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
@@ -92,7 +92,7 @@ def refine_all_orders(
                 return found
         for share in SHARES_KEPT:
             orders = AllOrders.of(nip, kernels, half_width, strain, share)
-            found = _turns(nip, model, kernels, latest, orders, Stage.COARSE)
+            found = _turns(nip, model, kernels, latest, orders, stage)
             if not isinstance(found, Ended):
                 return found
             ended = found
@@ -188,7 +188,8 @@ def _turns(
     cause: Literal["balance", "contact", "turns"] = "turns"
     for turn in range(MOST_CORRECTIONS):
         try:
-            made, is_whole = orders.beyond(latest, roughly=stage is Stage.COARSE)
+            roughly = stage is Stage.COARSE and latest.is_placed
+            made, is_whole = orders.beyond(latest, roughly=roughly)
         except NoEquilibriumError:
             cause, turns = "balance", turn
             break
@@ -205,11 +206,11 @@ def _turns(
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
         near = min(change, to_come_after(change, before)) / model.tolerance
-        was, near = stage, near if is_whole else inf
-        found, stage = solved_next(nip, model, mixed, latest, stage, near)
-        if not found.stands_still and afresh < _MOST_AFRESH:
+        was, asked = stage, Asked(change, near if is_whole else inf)
+        found, stage = solved_next(nip, model, mixed, latest, stage, asked)
+        if not found.stands_still and stage is not Stage.FINE and afresh < _MOST_AFRESH:
             afresh += 1
-            kernels, found = anew(nip, model, (mixed, smooth), latest, stage)
+            kernels, found, stage = anew(nip, model, (mixed, smooth), latest, stage)
         if not found.stands_still:
             cause = "contact"
             break

@@ -1,15 +1,16 @@
 """Contacts with a correction of all orders that is held, on ever better meshes.
 
-While the correction changes much, a coarse contact is enough: one mesh or, where zones are not
-found from a guess of the width, as under stiff foils with friction, a solution to a larger
-tolerance.
+While the correction changes much, a coarse contact is enough. Where one with free ends is not found
+from a guess of the width, as under stiff foils with friction, contact, stick and slip are sought
+node by node until the correction is at rest; only then free ends take over the zones.
 """
 
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from enum import IntEnum
+from math import inf
 
 import numpy as np
 
@@ -20,12 +21,22 @@ from rollnip.rolling.assemble import second_order
 from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.placing import Placing
-from rollnip.rolling.refinement import refine
-from rollnip.rolling.round import Round
+from rollnip.rolling.refinement import (
+    BY_NODES,
+    by_nodes,
+    finer_by_nodes,
+    placed,
+    refine,
+)
+from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.turns import STILL, solve_on_mesh
 
+_FAR = 0.1  # change from which a contact is sought anew, where it is sought node by node
+_AT_REST = 0.3  # change of such a contact's correction, over the tolerance: free ends take over
 _COARSE = 24  # elements of the contact while its correction still changes
+NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
 # Change, over the tolerance, from which on the mesh of a bare nip is refined: at once where the
 # correction is moderate, later where a layer is viscoelastic (coarse turns are cheap then) or a
 # skin needs a correction that nearly fits to find its edges.
@@ -39,19 +50,39 @@ class Stage(IntEnum):
     """How good a contact is that a correction is evaluated from."""
 
     COARSE = 0
-    REFINED = 1
+    FINE = 1  # sought node by node, on a fine mesh
+    REFINED = 2
 
 
-def begin(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
-    """Return a coarse contact to begin with; where it is not found it does not stand still."""
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """Demands of a correction on the next contact.
+
+    Attributes
+    ----------
+    change : by which the correction changes the terms of finite strain.
+    near : that change or the sum of those to come, over the tolerance; inf where the correction is
+        not that of the tractions themselves.
+    """
+
+    change: float
+    near: float
+
+
+def begin(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> tuple[Round, Stage]:
+    """Return a contact to begin with: with free ends, coarse or refined, or by nodes."""
     found = _coarsely_placed(nip, model, kernels, half_width)
-    return found or _from_nothing(nip, coarsely(model), kernels, half_width)
-
-
-def _from_nothing(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
-    """Return a contact that is sought without another; without free ends it is not at rest."""
-    found = refine(nip, model, kernels, half_width)
-    return found if found.is_placed else replace(found, stands_still=False)
+    if found is not None:
+        return found, Stage.COARSE
+    guessed = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
+    if is_verified(guessed, model):
+        return guessed, Stage.REFINED
+    located = by_nodes(nip, coarsely(model), kernels, half_width)
+    if located.stands_still:
+        guessed = placed(nip, model, kernels, located)
+        if is_verified(guessed, model):
+            return guessed, Stage.REFINED
+    return located, Stage.COARSE
 
 
 def _coarsely_placed(
@@ -67,24 +98,43 @@ def _coarsely_placed(
 
 
 def solved_next(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, near: float
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, asked: Asked
 ) -> tuple[Round, Stage]:
     """Solve with another correction, on better meshes where it is nearly right.
 
     Where that fails the round does not stand still.
-
-    Parameters
-    ----------
-    near : by which the correction changes the terms of finite strain, or the sum of such changes to
-        come, over the tolerance; inf where it is not that of the tractions themselves.
     """
+    if asked.near <= _enough_for_better(nip, latest, stage):
+        return _better(nip, model, kernels, latest, stage)
+    return _solved_again(nip, model, kernels, latest, stage, asked.change), stage
+
+
+def _enough_for_better(nip: Nip, latest: Round, stage: Stage) -> float:
+    """Return the change, over the tolerance, from which on a better mesh is worth its cost."""
+    if stage is Stage.REFINED:
+        return -inf
+    if stage is Stage.FINE:
+        return _AT_REST
+    if not latest.is_placed:
+        return NEARLY
     waits = nip.is_viscoelastic or skin_thickness(nip) > 0.0
-    enough = _REFINED_LATER_FROM if waits else _REFINED_FROM
-    if stage is Stage.COARSE and near <= enough:
-        return _refined(nip, model, kernels, latest), Stage.REFINED
-    model = coarsely(model) if stage is Stage.COARSE else model
-    found = _placed_again(nip, model, kernels, latest)
-    return replace(found, error=latest.error, further_error=latest.further_error), stage
+    return _REFINED_LATER_FROM if waits else _REFINED_FROM
+
+
+def _better(
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage
+) -> tuple[Round, Stage]:
+    """Solve on better meshes, with a correction that is held and nearly right."""
+    if latest.is_placed:
+        found = _refined(nip, model, kernels, latest)
+        return found, Stage.REFINED if found.is_placed else Stage.FINE
+    ready = placed(nip, model, kernels, latest) if stage is Stage.FINE else None
+    if ready is not None and excess(nip, ready, model.tolerance) <= 1.0:
+        return ready, Stage.REFINED
+    finer = finer_by_nodes(nip, model, kernels, latest)
+    if finer is None and ready is not None:
+        return ready, Stage.REFINED  # its errors stay too large, and are said
+    return finer or replace(latest, stands_still=False), Stage.FINE
 
 
 def coarsely(model: Model) -> Model:
@@ -94,10 +144,12 @@ def coarsely(model: Model) -> Model:
 
 def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
     """Refine a solution with free ends on a coarse mesh, with a correction that is held."""
-    layout, found = Layout.of(latest.zones), None
+    layout = Layout.of(latest.zones)
     if layout is not None:
         found = with_free_ends(nip, model, kernels, layout, latest, _OFF)
-    return found if is_verified(found, model) else replace(latest, stands_still=False)
+        if is_verified(found, model):
+            return found
+    return refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
 
 
 def anew(
@@ -106,17 +158,37 @@ def anew(
     both: tuple[PairKernels, PairKernels],
     latest: Round,
     stage: Stage,
-) -> tuple[PairKernels, Round]:
+) -> tuple[PairKernels, Round, Stage]:
     """Solve from the beginning: with a mean of corrections or, if it leads astray, the last one."""
     half_width, mixed = 0.5 * latest.figures.nip_width, both[0]
+    if stage is Stage.COARSE:
+        again = _coarsely_placed(nip, model, mixed, half_width)
+        if again is not None:
+            return mixed, again, stage
     for kernels in both if mixed.held is not both[1].held else both[:1]:
-        if stage is Stage.COARSE:
-            found = begin(nip, model, kernels, half_width)
+        if stage is Stage.COARSE and not latest.is_placed:
+            found, stage = begin(nip, model, kernels, half_width)
         else:
-            found = _from_nothing(nip, model, kernels, half_width)
+            found = refine(nip, model, kernels, half_width)
+            stage = Stage.REFINED if found.is_placed else Stage.FINE
         if found.stands_still:
             break
-    return kernels, found
+    return kernels, found, stage
+
+
+def _solved_again(
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, change: float
+) -> Round:
+    """Solve with another correction; where that fails the round does not stand still."""
+    if not latest.is_placed:
+        if change > _FAR:
+            return by_nodes(nip, model, kernels, 0.5 * latest.figures.nip_width)
+        start = latest.state.states, latest.second, latest.steps
+        found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, STILL)
+    else:
+        asked = coarsely(model) if stage is Stage.COARSE else model
+        found = _placed_again(nip, asked, kernels, latest)
+    return replace(found, error=latest.error, further_error=latest.further_error)
 
 
 def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:

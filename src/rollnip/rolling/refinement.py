@@ -26,6 +26,7 @@ from rollnip.rolling.turns import (
 BY_NODES = Safeguarded()
 """Solver of a contact problem whose states are sought node by node."""
 _SIZES = (16, 32, 64, 128, 256)  # elements of the meshes on which states are sought node by node
+_ENOUGH_FOR_ZONES = 3  # of these sizes
 _FEWEST, _MOST = 2, 8  # meshes of a size, as long as second-order terms move
 _ROOM = 0.1  # beyond either edge of such a mesh, over the width of the contact
 
@@ -60,7 +61,7 @@ def refine_by_nodes(
     ``best``: what free ends have found from a guess, if anything; else as `refine`.
     """
     settled: Round | None = None
-    for count, located in by_nodes(nip, model, kernels, half_width):
+    for count, located in _by_nodes(nip, model, kernels, half_width):
         latest = located
         if not located.stands_still:
             continue
@@ -84,16 +85,30 @@ def placed(nip: Nip, model: Model, kernels: PairKernels, located: Round) -> Roun
     return with_free_ends(nip, model, kernels, layout, located, 1.0 / count, fewest)
 
 
-def by_nodes(
-    nip: Nip, model: Model, kernels: PairKernels, half_width: float
-) -> Iterator[tuple[int, Round]]:
-    """Find contact, stick and slip node by node on ever finer meshes, as long as there is any.
+def by_nodes(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
+    """Return contact, stick and slip of the nodes of a mesh that is dense at the ends of zones."""
+    for _, latest in _by_nodes(nip, model, kernels, half_width, _SIZES[:_ENOUGH_FOR_ZONES]):
+        found = latest
+    return found
 
-    Each comes with the number of elements on the contact.
-    """
+
+def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
+    """Return contact, stick and slip of the nodes of a finer mesh; None where it is the finest."""
+    finer = [count for count in _SIZES[_ENOUGH_FOR_ZONES:] if count > 1.3 * before.mesh.inner.size]
+    return _on(Placing(nip, model, kernels), 0.0, finer[0], before) if finer else None
+
+
+def _by_nodes(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    half_width: float,
+    sizes: tuple[int, ...] = _SIZES,
+) -> Iterator[tuple[int, Round]]:
+    """Find contact, stick and slip node by node on ever finer meshes, as long as there is any."""
     placing = Placing(nip, model, kernels)
     before: Round | None = None
-    for count in _SIZES:
+    for count in sizes:
         found = _on(placing, half_width, count, before)
         yield count, found
         if not (found.figures.peak_pressure > 0.0 and has_grip(found)):

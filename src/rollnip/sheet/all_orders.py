@@ -32,10 +32,9 @@ from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
-from rollnip.rolling.held import coarsely
+from rollnip.rolling.held import NEARLY, coarsely
 
 _MOST_AFRESH = 10  # turns that are solved from the beginning
-_NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
 COARSE = 20
 """Elements of the contact while its corrections still change."""
 
@@ -208,7 +207,7 @@ def _turn_to_rest(
                 break
         kernels = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         near = min(to_come, change / tolerance)
-        refine = refined is None and is_whole and near <= _NEARLY
+        refine = refined is None and is_whole and near <= NEARLY
         if refine:
             past = Past(places_by_the_edges(sheeted.edges(stand)))
         contact.solve(kernels, refine=refine)

@@ -59,9 +59,16 @@ def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> S
     )
 
 
-def with_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
-    """Return the round with the estimated errors of the figures that the tolerance is for."""
-    return replace(latest, error=estimated_error(nip, latest, history))
+def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | None) -> Round:
+    """Return the round with the estimated errors of the figures that the tolerance is for.
+
+    They are those of the mesh and what the ends of zones may still change (``left``): two sizes of
+    mesh whose ends are off alike agree on figures that are wrong.
+    """
+    error = estimated_error(nip, latest, history)
+    if left is not None:
+        error = Figures(*(error.array() + left.array()).tolist())
+    return replace(latest, error=error)
 
 
 def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:

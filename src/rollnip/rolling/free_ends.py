@@ -98,7 +98,8 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
     fewest = _FEWEST_SIZES + nip.is_viscoelastic
     best: Round | None = None
     while count <= most:
-        placed = placing.placed(stand, count, known=known or bool(history))
+        closely = len(history) + 1 >= fewest  # the error may be small enough
+        placed = placing.placed(stand, count, known=known or bool(history), closely=closely)
         if placed is None:
             break
         stand, latest = placed, placed.before
@@ -111,7 +112,7 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
             count, known = _next_count(count, roughness, model.tolerance), True
             continue
         history.append(sized(nip, model, latest, count, stand.layout.breaks))
-        best = latest = with_errors(nip, latest, history)
+        best = latest = with_errors(nip, latest, history, stand.left)
         ratio = excess(nip, latest, model.tolerance)
         stand_still = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
         if largest(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:

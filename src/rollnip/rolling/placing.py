@@ -26,7 +26,7 @@ from rollnip.contact.mesh import LEAST_SHARE_OF_A_ZONE
 from rollnip.contact.problem import Indices
 from rollnip.contact.secants import Secants
 from rollnip.influence import has_stiff_skin
-from rollnip.model import Model
+from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.assemble import (
@@ -36,7 +36,7 @@ from rollnip.rolling.assemble import (
     second_order,
 )
 from rollnip.rolling.changes import to_come_after
-from rollnip.rolling.round import Round
+from rollnip.rolling.round import Figures, Round, excess
 from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 from rollnip.rolling.turns import (
@@ -105,7 +105,9 @@ class Placing:
             asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
         return SearchState(layout.towards(asked), latest, off=asked.distance(layout))
 
-    def placed(self, start: SearchState, count: int, *, known: bool) -> SearchState | None:
+    def placed(
+        self, start: SearchState, count: int, *, known: bool, closely: bool = False
+    ) -> SearchState | None:
         """Find the solution on a mesh of some size whose nodes lie at the ends of its zones.
 
         Parameters
@@ -113,6 +115,7 @@ class Placing:
         start : where the search stands.
         count : elements, about.
         known : whether the zones are right.
+        closely : whether ends must not change the figures any more; two meshes tell.
 
         Returns
         -------
@@ -123,6 +126,8 @@ class Placing:
         loosely = self.kernels.is_fixed and not known
         shape: Shape | None = None
         ends, meshes = Secants(), 0
+        last: tuple[Layout, Figures] | None = None
+        closely = closely and self._rests_by_figures
         tried: set[bytes] = set()
         most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
         while meshes < most_meshes and _can_be_placed(stand.layout):
@@ -133,7 +138,7 @@ class Placing:
                 # Elements stay as they are while edges are sought: other ones would move the edges.
                 shape = elements_of_zones(layout.breaks, count, crowd), crowd
                 ends.forget()
-                off = inf
+                off, last = inf, None
             # Transitions that come from a guess will move again, whatever the second order.
             hasty = loosely and off > _NEARLY_PLACED and layout.states.size > 1
             most = 1 if hasty else MOST_TURNS
@@ -142,8 +147,12 @@ class Placing:
             known_to = min(known_to, off)
             is_quiet = self.kernels.is_fixed or stand.is_quiet
             is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
-            is_placed = self._is_placed(layout, asked, known=known) and asked.is_proper
-            is_placed = is_placed and latest.stands_still and is_quiet
+            is_still = latest.stands_still and is_quiet
+            there = ends.next(layout, asked, self._singular(latest, layout), is_still=is_still)
+            left = None if last is None else _left_to_change(last, (layout, latest.figures), there)
+            last = layout, latest.figures
+            is_placed = self._is_placed(layout, asked, known=known) and asked.is_proper and is_still
+            is_placed = is_placed and not (closely and self._changes(latest, left))
             is_placed = is_placed and not latest.mesh.pulls_at_edge(latest.state.pressure)
             wanted = crowding_of(layout.breaks, self.boundary)
             is_placed = is_placed and not _crowds_more(wanted, shape[1])
@@ -157,15 +166,13 @@ class Placing:
                 meshes = meshes if known else 0
             elif is_placed and not moves_on:
                 if not self.search.pulls(latest):
-                    return _standing_at(asked, latest, stand, off)
+                    return replace(_standing_at(there, latest, stand, off), left=left)
                 parted = self.search.parted(latest, layout)
                 if parted is None or parted.key in tried:
                     return None
                 tried.add(parted.key)
                 stand, shape, ends = self._renewed(SearchState(parted, latest)), None, Secants()
             else:
-                is_still = latest.stands_still and is_quiet
-                there = ends.next(layout, asked, self._singular(latest, layout), is_still=is_still)
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
         return None
 
@@ -230,17 +237,32 @@ class Placing:
         rollers = self.nip.upper, self.nip.lower
         return min(_incompressible(roller) for roller in rollers if not roller.is_rigid)
 
-    def _is_placed(self, layout: Layout, asked: Layout, *, known: bool) -> bool:
-        """Return whether ends of zones are off by as little as second-order terms that are at rest.
+    @property
+    def _rests_by_figures(self) -> bool:
+        """Whether ends of zones are placed when the figures do not change with them any more.
 
-        That is over the width of the contact. Without friction edges of zones that are ``known``
-        are placed as closely over the length of their boundary layer, if that is less: pressures
-        change within it.
+        Figures do not depend on edges to first order without friction. Corrections of finite strain
+        follow the tractions, and need ends that are as exact as themselves.
         """
+        return self.nip.friction > 0.0 and self.model.geometry not in FINITE
+
+    def _is_placed(self, layout: Layout, asked: Layout, *, known: bool) -> bool:
+        """Return whether ends of zones are off by little over the width of the contact.
+
+        Without friction edges of zones that are ``known`` are placed over the length of their
+        boundary layer, if that is less: pressures change within it.
+        """
+        most = self.model.tolerance * (1.0 if self._rests_by_figures else STILL)
         length = layout.width
         if known and self.nip.friction == 0.0:
             length = min(length, self.boundary)
-        return asked.distance(layout) * layout.width <= STILL * self.model.tolerance * length
+        return asked.distance(layout) * layout.width <= most * length
+
+    def _changes(self, latest: Round, left: Figures | None) -> bool:
+        """Return whether the figures still change with the ends, by more than iterations may."""
+        if left is None:
+            return True
+        return excess(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
 
     def _singular(self, latest: Round, layout: Layout) -> Array | None:
         """Return `Layout.singular`; None with friction, or with several zones.
@@ -307,6 +329,18 @@ class Placing:
     ) -> Round:
         most = MOST_TURNS if self.still < STILL else most
         return solve_on_mesh(self.nip, model, mesh, start, self.given, self.still, zones, most)
+
+
+def _left_to_change(
+    before: tuple[Layout, Figures], now: tuple[Layout, Figures], there: Layout
+) -> Figures:
+    """Return how much the figures would change with the ends moved there, from the last move.
+
+    Near their places the figures are linear in the ends.
+    """
+    step = now[0].distance(before[0])
+    share = there.distance(now[0]) / step if step > 0.0 else 0.0
+    return Figures(*(share * np.abs(now[1].array() - before[1].array())).tolist())
 
 
 def _can_be_placed(layout: Layout) -> bool:

@@ -21,7 +21,7 @@ from rollnip.contact.secants import Secants
 from rollnip.model import Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.round import Round
+from rollnip.rolling.round import Figures, Round
 from rollnip.rolling.surfaces import PairKernels
 
 _STICK_AND_SLIP = HeldContact()
@@ -40,6 +40,7 @@ class SearchState:
         the tolerance.
     expected : the change that all further evaluations would add up to, over the tolerance.
     off : how far the ends of zones may be off, over the width of the contact.
+    left : what that may still change of each figure; None: one mesh does not tell.
     """
 
     layout: Layout
@@ -47,6 +48,7 @@ class SearchState:
     change: float = inf
     expected: float = inf
     off: float = NEAR_ENOUGH_FOR_SLIP
+    left: Figures | None = None
 
     @property
     def is_quiet(self) -> bool:

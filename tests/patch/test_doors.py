@@ -156,7 +156,7 @@ def test_the_command_prints_json_and_draws(tmp_path):
     assert done.exit_code == 1  # one grid claims no error, and so nothing is verified
     tree = json.loads(done.stdout)
     assert tree["converged"] is False
-    assert tree["status"].startswith("One grid alone tells no error")
+    assert tree["status"].startswith("With a single grid no error can be estimated")
     assert picture.stat().st_size > 10_000
 
 

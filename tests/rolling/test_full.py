@@ -415,5 +415,6 @@ def test_a_plate_on_a_soft_layer_keeps_free_ends(share):
     assert solution.converged
     assert solution.model.geometry == "finite"
     assert solution.final.mesh.fine.values is not None
-    # Peaks of 14 loads from 0.68 to 1.39 of it lie within 0.3 % of this power.
-    assert solution.peak_pressure == pytest.approx(2.2890 * share**0.354, rel=5e-3)
+    # Peaks of 13 loads from 0.68 to 1.53 of it lie within 0.12 % of this power, at a tolerance of
+    # 1e-3 and of 3e-4.
+    assert solution.peak_pressure == pytest.approx(2.2934 * share**0.3632, rel=3e-3)

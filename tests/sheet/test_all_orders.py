@@ -166,7 +166,7 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
     # With smooth stretches the loss was 4.6 % larger, 0.6 % of the power; with those of all waves
     # where a side slips and smooth ones where it sticks a torque was up to 0.3 % of the traction
     # off. Whether all waves come to rest is a matter of rounding, so there are several loads.
-    loads = (1.6, 1.775) if bending else (1.6, 1.775, 1.782, 1.79)
+    loads = (1.6, 1.775, 1.782, 1.79)
     solved = [_driven_hard(load, (share,), monkeypatch, bending=bending) for load in loads]
     solved = [(nip, one) for nip, one in solved if one.model.geometry == "finite"]
     assert solved
@@ -181,9 +181,9 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
             off = abs(getattr(solution, name) - radius * _moment(solution, side))
             # the elements over the depth are few for such stretches: they leave 1 %, and say so
             assert off < 1.1 * claims[name], name
-        # a stiff sheet keeps half of the stretch away
-        shows = 1e-3 if bending else 2e-3
-        assert solution.refined.cut_losses[0] > shows * solution.traction
+    cuts = [one.refined.cut_losses[0] / one.traction for _, one in solved]
+    # a stiff sheet keeps half of the stretch away, and more at some loads
+    assert max(cuts) > 1.5e-3 if bending else min(cuts) > 2e-3
 
 
 @pytest.mark.slow

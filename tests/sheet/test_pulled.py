@@ -47,8 +47,7 @@ def test_the_spreading_length_bends_a_sheet_as_it_presses_the_covering_in(tensio
 @pytest.fixture(scope="module")
 def web():
     """A thin web that is pulled over a roller of steel, whose stiffness hardly counts."""
-    roughly = rn.Model(geometry="linear", tolerance=3e-3)
-    solution = rn.solve(nip_with(WEB, lower=RIGID), roughly)
+    solution = rn.solve(nip_with(WEB, lower=RIGID), rn.Model(geometry="linear", tolerance=3e-3))
     assert solution.converged, solution.status
     assert solution.sheet.bends
     assert bending_length(solution.nip) < 0.05 * solution.nip_width
@@ -63,11 +62,13 @@ def test_pressures_differ_by_tension_times_curvature(web):
     """
     sheet, x = web.sheet, web.profiles.x
     trailing, leading = sheet.zones_lower[0].start, sheet.zones_lower[-1].stop
-    inside = np.abs(x - 0.5 * (trailing + leading)) < 0.35 * (leading - trailing)
-    apart = (sheet.profiles.pressure_lower - web.profiles.pressure)[inside]
-    shears = np.gradient(web.profiles.shear + sheet.profiles.shear_lower, x)[inside]
-    wanted = 0.2 / 20.0 + 0.5 * WEB.thickness * shears
-    assert np.median(np.abs(apart - wanted)) < 0.01 * 0.2 / 20.0
+    apart = sheet.profiles.pressure_lower - web.profiles.pressure
+    shears = np.gradient(web.profiles.shear + sheet.profiles.shear_lower, x)
+    off = np.abs(apart - 0.2 / 20.0 - 0.5 * WEB.thickness * shears)
+    # evenly over the contact: nodes crowd at transitions, where the shears' slope has no bound
+    middle, reach = 0.5 * (trailing + leading), 0.35 * (leading - trailing)
+    evenly = np.linspace(middle - reach, middle + reach, 1000)
+    assert np.median(np.interp(evenly, x, off)) < 0.01 * 0.2 / 20.0
 
 
 @pytest.mark.slow

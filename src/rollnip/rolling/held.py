@@ -205,6 +205,5 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
         is_crowded = min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.turned(search)
-            count = as_cosines(latest)
-            found = found or placing.placed(search, count, known=True, closely=True)
+            found = found or placing.placed(search, as_cosines(latest), known=True)
     return replace(latest if found is None else found.before, stands_still=found is not None)

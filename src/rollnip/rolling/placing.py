@@ -127,7 +127,6 @@ class Placing:
         shape: Shape | None = None
         ends, meshes = Secants(), 0
         last: tuple[Layout, Figures] | None = None
-        closely = closely and self._rests_by_figures
         tried: set[bytes] = set()
         most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
         while meshes < most_meshes and _can_be_placed(stand.layout):
@@ -239,10 +238,9 @@ class Placing:
 
     @property
     def _rests_by_figures(self) -> bool:
-        """Whether ends of zones are placed when the figures do not change with them any more.
+        """Whether ends are placed when the figures do not change with them any more.
 
-        Figures do not depend on edges to first order without friction. Corrections of finite strain
-        follow the tractions, and need ends that are as exact as themselves.
+        Without friction they hardly do; corrections of finite strain need ends exact as they are.
         """
         return self.nip.friction > 0.0 and self.model.geometry not in FINITE
 
@@ -260,6 +258,8 @@ class Placing:
 
     def _changes(self, latest: Round, left: Figures | None) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may."""
+        if not self._rests_by_figures:
+            return False
         if left is None:
             return True
         return excess(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
@@ -334,10 +334,7 @@ class Placing:
 def _left_to_change(
     before: tuple[Layout, Figures], now: tuple[Layout, Figures], there: Layout
 ) -> Figures:
-    """Return how much the figures would change with the ends moved there, from the last move.
-
-    Near their places the figures are linear in the ends.
-    """
+    """Return what the next move of the ends would change, as the last one did in proportion."""
     step = now[0].distance(before[0])
     share = there.distance(now[0]) / step if step > 0.0 else 0.0
     return Figures(*(share * np.abs(now[1].array() - before[1].array())).tolist())

@@ -25,6 +25,7 @@ from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.powers import SheetPowers, slip_zones
 from rollnip.sheet.refine import (
     FEWEST,
+    FEWEST_WITH_SLIP,
     FIRST_COUNT,
     ORDERS,
     claimed_of_powers,
@@ -121,7 +122,7 @@ def refine_plate(
     below: list[tuple[float, SheetFigures, PlateZones]] = []
     best: PlateRefined | None = None
     stand = search.begun(half_width, round(count)) if before is None else before
-    failed, fewest = 0, FEWEST + nip.is_viscoelastic
+    failed = 0
     while count <= _MOST_COUNT:
         if history or failed or model.geometry != "linear":
             stand = search.placed(stand.zones, round(count), stand)
@@ -137,6 +138,8 @@ def refine_plate(
             history.append(here)
             below.append(here_below)
             best = latest
+            slips = any(side.states.size > 1 for side in stand.zones.sides)
+            fewest = FEWEST_WITH_SLIP if slips else FEWEST + nip.is_viscoelastic
             if len(history) >= fewest and max(left, latest.ratio(nip, model)) <= model.tolerance:
                 best = _with_overlap(latest, kernels, model.geometry)
                 if best.residual <= model.tolerance:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import factorial, sqrt
+from math import factorial, nan, sqrt
 from typing import ClassVar
 
 import numpy as np
@@ -293,6 +293,8 @@ def highest(mesh: Mesh, pressure: Array) -> tuple[float, float]:
     """
     fence = np.concatenate([[-np.inf], pressure, [-np.inf]])
     tops = np.flatnonzero((pressure >= fence[:-2]) & (pressure >= fence[2:]))
+    if not tops.size:  # no numbers: the search has failed
+        return nan, nan
     found = np.array([_highest_about(mesh, pressure, top) for top in tops.tolist()])
     parted = np.stack([found[:, 0], np.zeros(tops.size)], axis=1).ravel()
     height, place = found[peaks_alike(parted)[-1] // 2]

@@ -204,6 +204,6 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
         search = SearchState(layout, replace(latest, second=second), off=_OFF)
         is_crowded = min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
-            found = None if is_crowded else placing.turned(search)
+            found = None if is_crowded else placing.solved_at_moved_ends(search)
             found = found or placing.placed(search, as_cosines(latest), known=True)
     return replace(latest if found is None else found.before, stands_still=found is not None)

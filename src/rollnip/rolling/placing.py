@@ -175,7 +175,7 @@ class Placing:
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
         return None
 
-    def turned(self, stand: SearchState) -> SearchState | None:
+    def solved_at_moved_ends(self, stand: SearchState) -> SearchState | None:
         """Solve on meshes like the last one, with the ends of zones where the last one put them.
 
         Once where ends hardly move, else twice; they need not be placed.

@@ -96,7 +96,9 @@ class Sheeted(Protocol[S, R]):
         """Return how badly a solution violates its conditions with the terms of the other one."""
         ...
 
-    def checked(self, refined: R, stand: S, kernels: PairKernels, left: float) -> tuple[R, float]:
+    def with_residual(
+        self, refined: R, stand: S, kernels: PairKernels, left: float
+    ) -> tuple[R, float]:
         """Return a refined solution on its last mesh, and how badly it violates its conditions.
 
         ``left``: how badly those of gap and creep.
@@ -202,7 +204,7 @@ def _turn_to_rest(
         to_come = to_come_after(change, before) / tolerance
         if refined is not None and change < SMALL and is_whole:
             missed = sheeted.missed(stand, own)
-            found, left = sheeted.checked(refined, own, smooth, missed)
+            found, left = sheeted.with_residual(refined, own, smooth, missed)
             if least.is_enough((smooth, found, own), left / tolerance, to_come):
                 break
         kernels = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))

@@ -87,7 +87,7 @@ class Membrane:
         """Return how badly a solution violates its conditions with the terms of the other one."""
         return missed(other.lagged, stand.lagged, stand.problem, stand.state)
 
-    def checked(
+    def with_residual(
         self, refined: SheetRefined, stand: SheetAttempt, kernels: PairKernels, left: float
     ) -> tuple[SheetRefined, float]:
         """Return a refined solution on its last mesh, and how badly it violates its conditions.

@@ -102,7 +102,7 @@ class Bending:
         """Return how badly a solution violates its conditions with the terms of the other one."""
         return missed(other.lagged, stand.lagged, stand.problem, stand.state)
 
-    def checked(
+    def with_residual(
         self, refined: PlateRefined, stand: PlateAttempt, kernels: PairKernels, left: float
     ) -> tuple[PlateRefined, float]:
         """Return a refined solution on its last meshes, and how badly it violates conditions.

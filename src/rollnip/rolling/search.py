@@ -23,6 +23,7 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.round import Figures, Round
 from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.turns import STILL
 
 _STICK_AND_SLIP = HeldContact()
 NEAR_ENOUGH_FOR_SLIP = 0.1  # over the width of the contact: good enough to see what slips
@@ -102,11 +103,13 @@ class ZoneSearch:
     def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
         """Return the states that a solution calls for; None where nodes in contact have them.
 
-        Violations that the residual of a result may have are no reason for another state, nor are
-        those of the nodes next to the end of a zone, which may be misplaced. ``whole``: whether
-        contact is examined too; until the edges are placed, only stick and slip.
+        Violations up to `STILL` of what the residual of a result may have are no reason for another
+        state: with all of that, zones of slip at edges are missed on which the creepage of a wide,
+        thin covering depends. Nor are those of the nodes next to the end of a zone, which may be
+        misplaced. ``whole``: whether contact is examined too; until the edges are placed, only
+        stick and slip.
         """
-        slack, given = self.model.tolerance, latest.state.states
+        slack, given = STILL * self.model.tolerance, latest.state.states
         wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)

@@ -18,7 +18,7 @@ from rollnip.contact import (
 )
 from rollnip.contact.features import runs
 from rollnip.contact.secants import Secants
-from rollnip.model import Geometry, Model
+from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.round import Figures, Round
@@ -105,11 +105,13 @@ class ZoneSearch:
 
         Violations up to `STILL` of what the residual of a result may have are no reason for another
         state: with all of that, zones of slip at edges are missed on which the creepage of a wide,
-        thin covering depends. Nor are those of the nodes next to the end of a zone, which may be
-        misplaced. ``whole``: whether contact is examined too; until the edges are placed, only
-        stick and slip.
+        thin covering depends. At finite strain all of it is none, for the correction may leave it.
+        Nor are those of the nodes next to the end of a zone, which may be misplaced. ``whole``:
+        whether contact is examined too; until the edges are placed, only stick and slip.
         """
-        slack, given = STILL * self.model.tolerance, latest.state.states
+        slack, given = self.model.tolerance, latest.state.states
+        if self.model.geometry not in FINITE:
+            slack *= STILL
         wanted = (next_states if whole else next_slip)(latest.problem, latest.state, slack)
         differs = (wanted != given) & (given != State.FREE)
         ends = layout.ends(latest.problem.x)

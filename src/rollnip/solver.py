@@ -38,15 +38,15 @@ from rollnip.rolling import (
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import StrainSizes, instead_of, validity_reservations
+from rollnip.validity import StrainSizes, instead_of, second_share, validity_reservations
+from rollnip.volume import BULK_MODULUS
 
 _CLEARLY = 1.5  # times a limit that is known roughly
 _THIN = 0.025  # covering over half the nip width, below which hardly compressible ones are hard
 _HARDLY_COMPRESSIBLE = 0.49  # Poisson ratio
-# K of natural rubber: Wood & Martin (1964), J. Res. Natl. Bur. Stand. 68A, 259-268.
 _VOLUME = (
     " So thin a rubber yields by its change of volume, too: give its Poisson ratio, "
-    "0.5 - E/(6 K), with a bulk modulus K of some 2000 MPa."
+    f"0.5 - E/(6 K), with a bulk modulus K of some {BULK_MODULUS:g} MPa."
 )
 _DIVERGED = 0.1  # last change of second-order terms that approach no solution, relative
 
@@ -148,7 +148,7 @@ def _solved(
     model = replace(model, geometry=geometry_for(nip, model))
     kernels, final = _refined(nip, model, cache, near)
     left: list[tuple[Geometry, str]] = []
-    while model.geometry in FINITE and (cause := _without_solution(model, final)):
+    while model.geometry in FINITE and (cause := _without_solution(nip, model, final)):
         left.append((model.geometry, cause))
         model = replace(model, geometry=SIMPLER[model.geometry])
         kernels, final = _refined(nip, model, cache, None)
@@ -180,11 +180,11 @@ def _solved(
     )
 
 
-def _without_solution(model: Model, final: Round) -> str:
+def _without_solution(nip: Nip, model: Model, final: Round) -> str:
     """Return why the iteration for finite strain has no solution; "" if it has one.
 
     A solution that misses the tolerance counts as one: the model never depends on an error
-    estimate.
+    estimate. Second-order terms that are larger than the approach are no expansion.
     """
     if not final.zones or not final.figures.peak_pressure > 0.0:
         return "its surfaces do not touch"
@@ -195,6 +195,8 @@ def _without_solution(model: Model, final: Round) -> str:
             f"its {BEYOND[model.geometry]} did not settle (they last changed by "
             f"{final.geometry_change:.2g} of the first-order ones)"
         )
+    if model.geometry == "second" and not second_share(nip, final) < 1.0:
+        return f"its {BEYOND[model.geometry]} exceed the approach"
     return "" if final.stands_still else "contact, stick and slip did not settle"
 
 

@@ -20,6 +20,7 @@ from rollnip.nip import Nip
 from rollnip.reservation import Reservation
 from rollnip.rollers import Layer, Roller, Side
 from rollnip.rolling import Round, surface_strain_in_nip
+from rollnip.volume import volume_reservations
 
 NIP_STRAIN = 0.15
 """Approach over the thickness of the coverings."""
@@ -70,7 +71,7 @@ class StrainSizes:
         surface = surface_strain_in_nip(nip, model.geometry, final)
         if model.geometry == "finite":  # of all orders: nothing is left out
             return cls(surface, 0.0, 0.0)
-        return cls(surface, _second_share(nip, final), _skin_stretch(nip, final))
+        return cls(surface, second_share(nip, final), _skin_stretch(nip, final))
 
 
 def validity_reservations(
@@ -88,6 +89,7 @@ def validity_reservations(
         *(_flat_half_space(side, roller, model) for side, roller in rollers),
         *(_thin_top_layer(side, roller, final) for side, roller in rollers),
         *(one for side, roller in rollers for one in _materials(side, roller, nip, final)),
+        *(one for side, roller in rollers for one in volume_reservations(side, roller, nip, final)),
         *(one for side, roller in rollers for one in _energies(side, roller, model)),
     ]
     return tuple(one for one in found if one is not None)
@@ -187,8 +189,8 @@ def _surface_strain(largest: float) -> Reservation | None:
     )
 
 
-def _second_share(nip: Nip, final: Round) -> float:
-    """Return `StrainSizes.second` of a solution."""
+def second_share(nip: Nip, final: Round) -> float:
+    """Return the largest second-order indentation in the contact over the approach."""
     if final.mesh.kernels.is_linear:
         return 0.0
     inside = final.mesh.inner[final.state.pressure > 0.0]

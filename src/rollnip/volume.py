@@ -30,7 +30,7 @@ def volume_reservations(
 
     The change of the approach is estimated under the mean pressure. Layers of the thickness d under
     half a nip of a are kept from widening by the share a^2/(a^2 + d^2), about: this gives 0.8 to
-    1.1 of the true change where a is 1.2 to 80 times d (decision 61).
+    1.1 of the true change where a is 1.2 to 80 times d (decision 64).
     """
     figures = final.figures
     if nip.has_half_space or not figures.approach > 0.0:

@@ -32,6 +32,7 @@ from rollnip.sheet.common import (
     require_torque,
     sheet_verdict,
     solved_instead,
+    tension_of_curved,
 )
 from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.solved import longest_freely, solve_plate
@@ -111,6 +112,7 @@ def _bending_freely(
         status=status,
         reservations=left
         + _reservations(nip, refined)
+        + tension_of_curved(nip, model)
         + validity_reservations(nip, model, final, strains),
         solver=SolverInfo(
             elements=int(refined.stand.problem.mesh.nodes.size - 1),

@@ -29,6 +29,7 @@ from rollnip.sheet.common import (
     require_grip,
     sheet_verdict,
     solved_instead,
+    tension_of_curved,
 )
 from rollnip.sheet.plate.all_orders import Bending
 from rollnip.sheet.plate.refine import PlateRefined, peak_allowed, refine_plate
@@ -139,7 +140,8 @@ def _solution(
     both = final, lower_round(refined, final)
     converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
-    said += pushed(refined.figures) + validity_reservations(nip, model, final, strains)
+    said += pushed(refined.figures) + tension_of_curved(nip, model)
+    said += validity_reservations(nip, model, final, strains)
     plain: Any = refined
     solution = PlateSolution(
         nip=nip,

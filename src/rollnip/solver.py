@@ -39,14 +39,14 @@ from rollnip.rolling import (
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import StrainSizes, instead_of, second_share, validity_reservations
-from rollnip.volume import BULK_MODULUS
 
 _CLEARLY = 1.5  # times a limit that is known roughly
 _THIN = 0.025  # covering over half the nip width, below which hardly compressible ones are hard
 _HARDLY_COMPRESSIBLE = 0.49  # Poisson ratio
+# As `rollnip.volume` has it.
 _VOLUME = (
     " So thin a rubber yields by its change of volume, too: give its Poisson ratio, "
-    f"0.5 - E/(6 K), with a bulk modulus K of some {BULK_MODULUS:g} MPa."
+    "0.5 - E/(6 K), with a bulk modulus K of some 2000 MPa."
 )
 _DIVERGED = 0.1  # last change of second-order terms that approach no solution, relative
 

@@ -395,4 +395,5 @@ def _checked(number: float, value: object, infinite: bool) -> float:
 def _refusal(dimension: Dimension, value: object, why: str) -> InvalidInputError:
     kind = _KINDS[dimension]
     shown = f'"{value}"' if isinstance(value, str) else repr(value)
-    return InvalidInputError(f'must be {kind.called} such as "{kind.example}", got {shown}: {why}.')
+    end = why if why.endswith("?") else f"{why}."
+    return InvalidInputError(f'must be {kind.called} such as "{kind.example}", got {shown}: {end}')

@@ -22,6 +22,9 @@ from rollnip.rollers import Profile, Roller
 
 Array = NDArray[np.float64]
 
+PATCH_TOLERANCE = 5e-3
+"""Relative accuracy where none is wanted."""
+
 _FREE = Creepage(0.0)
 _LARGEST_SLOPE = 0.999
 """An end radius is followed to where it is this steep, short of upright."""

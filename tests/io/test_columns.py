@@ -107,6 +107,10 @@ def test_a_unit_may_have_to_be_said(table):
         ("load\nnan\n", 'line 2: "load"'),
         ("load\n1e999\n", "beyond what can be computed with"),
         ("lad [N/mm]\n1\n", 'did you mean "lad"'),
+        ("Press 3\nload [N/mm],x\n1,2\n", "a title above them must begin with #"),
+        ("load\nN/mm\n1\n", 'got "N/mm"; a unit belongs to the column name: "load [N/mm]"'),
+        ("load\n2024-01-02\n", 'must be a number, got the date "2024-01-02"; give its cell'),
+        ("load\n1.5 n/mm\n", '"n/mm" is not a known unit; did you mean "N/mm"?'),
     ],
 )
 def test_what_is_wrong_is_said_with_file_line_and_column(table, text, said):
@@ -114,6 +118,7 @@ def test_what_is_wrong_is_said_with_file_line_and_column(table, text, said):
         read_columns(table(text)).numbers("load", "line load")
     assert said in str(error.value)
     assert "data.csv" in str(error.value)
+    assert not str(error.value).endswith("?.")
 
 
 def test_files_that_are_no_tables(table, tmp_path):
@@ -227,6 +232,7 @@ def test_comments_of_a_workbook_are_kept(tmp_path):
         ([["load", "load"], [1.0, 2.0]], None, 'column "load" must not be there twice'),
         ([["load"]], None, "must hold a line of column names and rows below it"),
         ([["load", "width"], [1.0, ""]], None, 'line 2: "width" must not be empty'),
+        ([["load", "width"], [1.0, ""]], None, "merged cells hold their value in the first only"),
         ([["load [mm]", "width"], [1.0, 2.0]], None, 'unit of column "load" '),
     ],
 )
@@ -242,6 +248,21 @@ def test_what_is_wrong_with_a_workbook_is_said_with_its_name(tmp_path, rows, she
     with pytest.raises(InvalidInputError, match=words) as caught:
         read()
     assert "data.xlsx" in str(caught.value)
+
+
+def test_empty_columns_of_a_sheet_are_left_out(tmp_path):
+    path = tmp_path / "data.xlsx"
+    workbook(path, {"one": [["", "load", "", "width"], ["", 1.0, "", 2.0], ["", 3.0, "", ""]]})
+    columns = read_columns(path)
+    assert columns.names == ("load", "width")
+    assert columns.rows == ((1.0, 2.0), (3.0, ""))
+
+
+def test_of_several_sheets_the_one_that_was_read_is_named(tmp_path):
+    path = tmp_path / "data.xlsx"
+    workbook(path, {"notes": [["of Monday"]], "data": [["load"], [1.0]]})
+    with pytest.raises(InvalidInputError, match=r'data.xlsx, sheet "notes": must hold a line'):
+        read_columns(path)
 
 
 def test_what_is_no_workbook_is_said(table):

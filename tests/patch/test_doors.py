@@ -13,6 +13,7 @@ from typer.testing import CliRunner
 
 import rollnip as rn
 from rollnip._errors import CaseFileError
+from rollnip._results.case import patch_case_tree
 from rollnip.cli.app import app
 from rollnip.io.patch_case import parse_patch_case, patch_hash, read_patch_case
 from rollnip.io.patch_files import write_patch, write_stress
@@ -132,6 +133,34 @@ def test_the_tree_holds_every_figure_and_field(solved):
     assert "fields" not in patch_dict(solved)
 
 
+def test_the_case_of_a_result_gives_the_same_result(solved):
+    tree = patch_dict(solved)
+    case = parse_patch_case(tree["case"])
+    assert case.patch == solved.patch
+    assert patch_hash(case) == tree["case_hash"]
+    again = rn.solve_patch(case.patch, tolerance=case.tolerance, grid=case.grid)
+    assert patch_dict(again) == tree
+    assert (tree["tolerance"], tree["version"]) == (solved.tolerance, rn.__version__)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"normal": rn.Approach(0.3)},
+        {"along": rn.Creepage(0.01), "across": rn.Force(-3.0)},
+        {
+            "across_upper": rn.Across(radius=80.0),
+            "across_lower": rn.Across(radius=-900.0, face=12.0),
+        },
+        {"upper": rn.Roller(radius=50.0, core=rn.Elastic(modulus=3.0, poisson=0.4))},
+    ],
+    ids=["approach", "motions", "shapes", "half-space"],
+)
+def test_every_kind_of_patch_survives_as_a_case(solved, change):
+    patch = replace(solved.patch, **change)
+    assert parse_patch_case(patch_case_tree(patch, 0.01)).patch == patch
+
+
 def test_the_summary_says_figures_with_units_and_errors(solved):
     lines = list(patch_lines(solved))
     assert lines[0] == "Wheel"
@@ -175,6 +204,8 @@ def test_files_hold_the_fields(solved, tmp_path, ending):
         assert read["shear_x"].attrs["units"] == "MPa"
         assert float(read["load"]) == pytest.approx(200.0)
         assert read.attrs["status"] == solved.status
+        assert read.attrs["case_hash"] == patch_dict(solved)["case_hash"]
+        assert json.loads(read.attrs["case"]) == patch_dict(solved)["case"]
 
 
 def vtr(path):

@@ -74,6 +74,22 @@ def test_gap_and_what_it_would_be(driven):
     assert ax.get_ylim()[0] < -driven.approach
 
 
+@pytest.mark.parametrize("geometry", ["linear", "corrected", "curved", "second", "finite"])
+def test_a_rigid_roller_covers_its_undeformed_outline(geometry):
+    rubber = rn.Elastic(modulus=2.0, poisson=0.4)
+    nip = rn.Nip(
+        upper=rn.Roller(radius=50.0, layers=(rn.Layer(4.0, rubber),)),
+        lower=rn.Roller(radius=25.0),
+        normal=rn.LineLoad(1.0),
+        friction=0.0,
+    )
+    ax = plot_deformed_surfaces(rn.solve(nip, rn.Model(geometry=geometry)))
+    lower = curve(ax, "lower roller (rigid)")
+    ink = ax.lines[-1].get_color()
+    outlines = [line.get_ydata() for line in ax.lines if line.get_color() == ink]
+    assert min(np.max(np.abs(lower - outline)) for outline in outlines) < 1e-12
+
+
 def test_heights_say_how_much_they_are_stretched(driven):
     ax = plot_deformed_surfaces(driven)
     assert ax.get_ylabel() == f"height [mm], stretched {ax.get_aspect():g} times"

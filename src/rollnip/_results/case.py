@@ -23,7 +23,8 @@ from rollnip.materials import (
     Yeoh,
 )
 from rollnip.model import Model
-from rollnip.nip import Nip
+from rollnip.nip import Approach, Creepage, Nip
+from rollnip.patches import Across, Force, Patch
 from rollnip.rollers import Roller
 from rollnip.shafts import Crown, CrownTable, Face, Shaft
 
@@ -75,6 +76,56 @@ def problem_hash(
         materials = (*nip.upper.materials, *nip.lower.materials)
         parts = (*parts, heat, tuple(material.thermal for material in materials))
     return sha256(repr(parts).encode()).hexdigest()[:16]
+
+
+def patch_case_tree(
+    patch: Patch, tolerance: float, grid: tuple[int, int] | None = None
+) -> dict[str, Any]:
+    """Return a problem in three dimensions as the tree of a case file, written as `case_tree` does.
+
+    Parameters
+    ----------
+    patch : the problem.
+    tolerance : wanted relative accuracy.
+    grid : numbers of rectangles along x and y that were prescribed; None: none.
+    """
+    tree: dict[str, Any] = {"title": patch.title} if patch.title else {}
+    tree["nip"] = _without_none(
+        _driven("load", "approach", patch.normal)
+        | _driven("traction", "creepage", patch.along)
+        | _driven("lateral_traction", "lateral_creepage", patch.across)
+        | {"spin": patch.spin, "friction": patch.friction, "speed": patch.speed}
+    )
+    tree["patch"] = {} if grid is None else {"grid": list(grid)}
+    tree["solver"] = {"tolerance": tolerance}
+    tree["upper"] = _roller(patch.upper) | _across(patch.across_upper)
+    tree["lower"] = _roller(patch.lower) | _across(patch.across_lower)
+    return tree
+
+
+def patch_problem_hash(patch: Patch, tolerance: float, grid: tuple[int, int] | None = None) -> str:
+    """Return 16 hexadecimal digits that tell patches apart; the title does not count."""
+    parts = (replace(patch, title=""), tolerance, grid)
+    return sha256(repr(parts).encode()).hexdigest()[:16]
+
+
+def _driven(force: str, motion: str, given: Force | Approach | Creepage) -> dict[str, float]:
+    """Return what is prescribed, as the key of a force or of a motion."""
+    if isinstance(given, Force):
+        return {force: given.force}
+    return {motion: given.approach if isinstance(given, Approach) else given.creepage}
+
+
+def _across(shape: Across) -> dict[str, Any]:
+    """Return the keys of a roller about its shape along the axis."""
+    return _without_none(
+        {
+            "lateral_radius": "inf" if isinf(shape.radius) else shape.radius,
+            "face": shape.face,
+            "end_radius": shape.end_radius,
+            "lateral_profile": None if shape.profile is None else repr(shape.profile),
+        }
+    )
 
 
 def heat_tree(heat: HeatBalance) -> dict[str, Any]:

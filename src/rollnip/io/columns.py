@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from io import BytesIO
+from itertools import compress
 from pathlib import Path
 
 import numpy as np
@@ -40,6 +41,9 @@ EXCEL = (".xlsx", ".xls", ".xlsb", ".ods")
 # #DIV/0!, #NAME?, #WERT!, #N/A and #NV alone in a cell: a value that is missing, and no comment.
 _SPREADSHEET_ERROR = re.compile(r"\s*#(N/A|NV|[^\W\d_a-z][^\W_a-z/]*(/0)?[!?])\s*([;,\t]|$)")
 
+_DATE = re.compile(r"\d{4}-\d\d-\d\d")
+_DIGIT = re.compile(r"\d")
+
 
 @dataclass(frozen=True, slots=True)
 class TableColumns:
@@ -54,6 +58,7 @@ class TableColumns:
     lines : (n,) line of the file, or row of the sheet, each row stands in.
     comments : (line, text) behind each hash, without it.
     decimal_comma : whether a comma in a number can only be a decimal one.
+    is_workbook : whether the cells are those of a sheet.
     """
 
     source: str
@@ -63,6 +68,7 @@ class TableColumns:
     lines: tuple[int, ...]
     comments: tuple[tuple[int, str], ...] = ()
     decimal_comma: bool = False
+    is_workbook: bool = False
 
     def cells(self, name: str) -> tuple[Cell, ...]:
         """The cells of one column. Raises InvalidInputError where there is no such column."""
@@ -121,6 +127,13 @@ class TableColumns:
             f'"{name} [{base_unit(dimension)}]".'
         )
 
+    @property
+    def _of_empty(self) -> str:
+        """What a sheet may show where its cell is empty."""
+        if not self.is_workbook:
+            return ""
+        return " (merged cells hold their value in the first only; an error value counts as empty)"
+
     def _index(self, name: str) -> int:
         if name in self.names:
             return self.names.index(name)
@@ -143,7 +156,8 @@ class TableColumns:
     def _number(self, cell: Cell, line: int, name: str, dimension: Dimension) -> float:
         where = f'{self.source}, line {line}: "{name}"'
         if cell == "":
-            raise InvalidInputError(f"{where} must not be empty.")
+            raise InvalidInputError(f"{where} must not be empty{self._of_empty}.")
+        self._require_digits(cell, where, name, dimension)
         written = f"{cell!r}" if isinstance(cell, float) else cell
         if self.decimal_comma and written.count(",") == 1 and "." not in written:
             written = written.replace(",", ".")
@@ -152,6 +166,29 @@ class TableColumns:
             return parse_quantity(f"{written} {unit}".rstrip(), dimension)
         except InvalidInputError as problem:
             raise InvalidInputError(f"{where} {problem}") from None
+
+    def _require_digits(self, cell: Cell, where: str, name: str, dimension: Dimension) -> None:
+        """Raise InvalidInputError where a cell is a date, or a text without digits."""
+        text = str(cell)
+        if _DATE.match(text):
+            raise InvalidInputError(
+                f'{where} must be a number, got the date "{text}"; give its cell the format of a '
+                "number, and enter it again."
+            )
+        if _DIGIT.search(text):
+            return
+        hint = ""
+        if _is_unit(text, dimension):
+            hint = f'; a unit belongs to the column name: "{name} [{text}]"'
+        raise InvalidInputError(f'{where} must be a number, got "{text}"{hint}.')
+
+
+def _is_unit(text: str, dimension: Dimension) -> bool:
+    try:
+        parse_quantity(f"1 {text}", dimension)
+    except InvalidInputError:
+        return False
+    return True
 
 
 def read_columns(path: str | Path, *, sheet: str | None = None) -> TableColumns:
@@ -176,14 +213,13 @@ def read_columns(path: str | Path, *, sheet: str | None = None) -> TableColumns:
         data = read_regular(file, LARGEST)
     except UnreadableError as error:
         raise InvalidInputError(f"{file}: {error}") from None
-    decimal_comma = False
     if file.suffix.lower() in EXCEL:
-        numbered = list(_sheet_rows(file, data, sheet))
-    else:
-        if sheet is not None:
-            raise InvalidInputError(f"{path}: is a text file and has no sheets; leave out `sheet`.")
-        numbered, decimal_comma = _text_rows(file, data)
-    return _columns(str(path), numbered, decimal_comma)
+        source, numbered = _sheet_rows(file, data, sheet)
+        return _columns(source, numbered, is_workbook=True)
+    if sheet is not None:
+        raise InvalidInputError(f"{path}: is a text file and has no sheets; leave out `sheet`.")
+    numbered, decimal_comma = _text_rows(file, data)
+    return _columns(str(path), numbered, decimal_comma=decimal_comma)
 
 
 def _text_rows(file: Path, data: bytes) -> tuple[list[_Line], bool]:
@@ -207,7 +243,11 @@ def _split(line: str, mark: str) -> list[Cell]:
     return [cell.strip() for cell in next(csv.reader([line], delimiter=mark))]
 
 
-def _sheet_rows(file: Path, data: bytes, sheet: str | None) -> Iterator[_Line]:
+def _sheet_rows(file: Path, data: bytes, sheet: str | None) -> tuple[str, list[_Line]]:
+    """Name of the file, with that of the sheet where there are several, and rows with a value.
+
+    Columns without any value are left out.
+    """
     require_extra("tables", f"{file}: reading a workbook", "save the sheet as CSV")
     from python_calamine import CalamineError, CalamineWorkbook
 
@@ -216,12 +256,13 @@ def _sheet_rows(file: Path, data: bytes, sheet: str | None) -> Iterator[_Line]:
         with CalamineWorkbook.from_filelike(BytesIO(data)) as book:
             name = _sheet_name(file, book.sheet_names, sheet)
             rows = book.get_sheet_by_name(name).to_python(skip_empty_area=False)
+            several = len(book.sheet_names) > 1
     except (CalamineError, OSError) as problem:
         raise InvalidInputError(f"{file}: cannot be read as a workbook: {problem}.") from None
-    for number, row in enumerate(rows, start=1):
-        cells = [cell_of(value) for value in row]
-        if any(cell != "" for cell in cells):
-            yield number, cells
+    filled = [any(cell != "" for cell in column) for column in zip(*rows, strict=True)]
+    cells = [list(compress(map(cell_of, row), filled)) for row in rows]
+    numbered = [(number, row) for number, row in enumerate(cells, 1) if any(c != "" for c in row)]
+    return f'{file}, sheet "{name}"' if several else str(file), numbered
 
 
 def check_extents(file: Path, data: bytes) -> None:
@@ -257,7 +298,13 @@ def cell_of(value: object) -> Cell:
     return str(value).strip()
 
 
-def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> TableColumns:
+def _columns(
+    source: str,
+    lines: Sequence[_Line],
+    *,
+    decimal_comma: bool = False,
+    is_workbook: bool = False,
+) -> TableColumns:
     comments = tuple(
         (number, " ".join(map(str, cells)).strip().lstrip("#").strip())
         for number, cells in lines
@@ -273,7 +320,8 @@ def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> TableC
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
         raise InvalidInputError(f'{source}: column "{twice}" must not be there twice.')
-    rows = [_row(source, line, cells, len(names)) for line, cells in numbered[1:]]
+    head = numbered[0][0]
+    rows = [_row(source, line, cells, len(names), head) for line, cells in numbered[1:]]
     return TableColumns(
         source=source,
         names=names,
@@ -282,6 +330,7 @@ def _columns(source: str, lines: Sequence[_Line], decimal_comma: bool) -> TableC
         lines=tuple(line for line, _ in numbered[1:]),
         comments=comments,
         decimal_comma=decimal_comma,
+        is_workbook=is_workbook,
     )
 
 
@@ -296,12 +345,13 @@ def head_parts(head: str, source: str) -> tuple[str, str]:
     return name, unit[:-1].strip()
 
 
-def _row(source: str, line: int, cells: list[Cell], count: int) -> tuple[Cell, ...]:
+def _row(source: str, line: int, cells: list[Cell], count: int, head: int) -> tuple[Cell, ...]:
     while len(cells) > count and cells[-1] == "":
         cells = cells[:-1]
     if len(cells) != count:
         raise InvalidInputError(
-            f"{source}, line {line}: must have {count} cells, has {len(cells)}."
+            f"{source}, line {line}: must have {count} cells, has {len(cells)}; line {head} counts "
+            "as the column names, so a title above them must begin with #."
         )
     return tuple(cells)
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
-from hashlib import sha256
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from rollnip._errors import InvalidInputError, RollnipError
+from rollnip._results.case import patch_problem_hash
 from rollnip.io.build import Builder
 from rollnip.io.case import Case, built_case
 from rollnip.io.document import folder_of, read_document, tree_of
@@ -18,7 +18,7 @@ from rollnip.io.profile import read_profile
 from rollnip.io.tables import CaseTable, NipTable, RollerTable
 from rollnip.io.tables_patch import PATCH_TABLES, PatchCaseTable, PatchNipTable, PatchRollerTable
 from rollnip.nip import Approach, Creepage
-from rollnip.patches import Across, Force, Patch
+from rollnip.patches import PATCH_TOLERANCE, Across, Force, Patch
 
 _CHOICES = (
     ("load", "approach"),
@@ -96,8 +96,7 @@ def any_case(tree: Mapping[str, Any], source: str, folder: Path | None = None) -
 
 def patch_hash(case: PatchCase) -> str:
     """Return 16 hexadecimal digits of the patch, its tolerance and grid; titles do not count."""
-    parts = (replace(case.patch, title=""), case.tolerance, case.grid)
-    return sha256(repr(parts).encode()).hexdigest()[:16]
+    return patch_problem_hash(case.patch, case.tolerance or PATCH_TOLERANCE, case.grid)
 
 
 def _built(tree: dict[str, Any], source: str, folder: Path | None) -> PatchCase:

@@ -17,7 +17,7 @@ from rollnip.io.netcdf import require_netcdf, write_netcdf
 from rollnip.io.paraview import rectilinear
 from rollnip.patch.depth import STRESSES, PatchStress
 from rollnip.patch.figures import PATCH_FIELDS, PATCH_FIGURES, PATCH_PLACES
-from rollnip.patch.report import fields_of, patch_dict
+from rollnip.patch.report import fields_of, origin_of, patch_dict
 from rollnip.patch.solution import PatchSolution
 from rollnip.rollers import Side
 
@@ -36,9 +36,9 @@ def write_patch(solution: PatchSolution, path: str | Path) -> None:
     """Write a solved patch with its fields to a file, all or nothing.
 
     ``.json``: the tree of `rollnip patch solve --fields`. ``.nc``: netCDF by the extra
-    ``rollnip[netcdf]``: fields over y and x with units, figures and their errors as scalars.
-    ``.vtr``: the fields over the plane of contact for ParaView, shear and slip as vectors; the gap
-    beyond the end of a face is NaN.
+    ``rollnip[netcdf]``: fields over y and x with units, figures and their errors as scalars, the
+    case, version and tolerance as attributes. ``.vtr``: the fields over the plane of contact for
+    ParaView, shear and slip as vectors; the gap beyond the end of a face is NaN.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ def _stress_dataset(solution: PatchSolution, side: Side, field: PatchStress) -> 
             "y": ("y", field.y, PATCH_PLACES["y"].described),
             "z": ("z", field.z, depth),
         },
-        attrs={"title": solution.patch.title, "roller": side, "status": solution.status},
+        attrs={"roller": side, **_attributes(solution)},
     )
 
 
@@ -160,9 +160,18 @@ def _dataset(solution: PatchSolution) -> Any:
         coords={
             key: (key, getattr(solution, key), one.described) for key, one in PATCH_PLACES.items()
         },
-        attrs={
-            "title": solution.patch.title,
-            "status": solution.status,
-            "converged": int(solution.converged),
-        },
+        attrs=_attributes(solution),
     )
+
+
+def _attributes(solution: PatchSolution) -> dict[str, Any]:
+    """Return what a netCDF file says of its solution as a whole; the case is a text of JSON."""
+    origin = origin_of(solution)
+    return {
+        "title": solution.patch.title,
+        "status": solution.status,
+        "converged": int(solution.converged),
+        **origin,
+        "case": dumps(origin["case"]),
+        "warnings": "\n".join(solution.warnings),
+    }

@@ -6,8 +6,8 @@ from rollnip.patch.depth import PatchStress
 from rollnip.patch.durometer import Indentation, least_thickness, shore_a_reading
 from rollnip.patch.ends import FaceEnd, face_end
 from rollnip.patch.solution import PatchSolution
-from rollnip.patch.solve import PATCH_TOLERANCE, solve_patch
-from rollnip.patches import Across, Force, Patch
+from rollnip.patch.solve import solve_patch
+from rollnip.patches import PATCH_TOLERANCE, Across, Force, Patch
 
 __all__ = [
     "PATCH_TOLERANCE",

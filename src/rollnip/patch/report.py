@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from importlib.metadata import version
 from math import isfinite
 from typing import Any
 
 import numpy as np
 
+from rollnip._results.case import patch_case_tree, patch_problem_hash
 from rollnip.figure import Units
 from rollnip.patch.coefficients import Array
 from rollnip.patch.depth import PatchStress
@@ -23,6 +25,11 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
     ----------
     solution : what `solve_patch` returned.
     fields : whether the fields over the grid are part of it, as lists of rows along x.
+
+    Returns
+    -------
+    A tree of numbers, texts and None. Units mm, N, MPa, s. ``case`` is what was solved, as the tree
+    of a case file in base units, which gives the same result when solved again.
     """
     grid = solution.grid
     figures: dict[str, Any] = {key: one.value(solution) for key, one in PATCH_FIGURES.items()}
@@ -32,6 +39,8 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
         "title": solution.patch.title,
         "converged": solution.converged,
         "status": solution.status,
+        "geometry": "linear",
+        **origin_of(solution),
         "patch": figures,
         "warnings": list(solution.warnings),
         "solver": {
@@ -46,6 +55,17 @@ def patch_dict(solution: PatchSolution, *, fields: bool = False) -> dict[str, An
         values = {name: _rows(field) for name, field in fields_of(solution).items()}
         tree["fields"] = {"x": grid.x.tolist(), "y": grid.y.tolist()} | values
     return tree
+
+
+def origin_of(solution: PatchSolution) -> dict[str, Any]:
+    """Return what was solved and with which rollnip: tolerance, version, case and its hash."""
+    problem = (solution.patch, solution.tolerance, solution.prescribed)
+    return {
+        "tolerance": solution.tolerance,
+        "version": version("rollnip"),
+        "case_hash": patch_problem_hash(*problem),
+        "case": patch_case_tree(*problem),
+    }
 
 
 def fields_of(solution: PatchSolution) -> dict[str, Array]:

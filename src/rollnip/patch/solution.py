@@ -47,6 +47,7 @@ class PatchSolution:
     converged : whether all iterations settled and all errors are within the tolerance.
     status : one sentence on what was reached.
     levels : numbers of rectangles (nx, ny) of all grids, coarsest first.
+    prescribed : numbers of rectangles that the caller asked for; None: refined to the tolerance.
     """
 
     patch: Patch
@@ -56,6 +57,7 @@ class PatchSolution:
     converged: bool
     status: str
     levels: tuple[tuple[int, int], ...]
+    prescribed: tuple[int, int] | None = None
 
     def __repr__(self) -> str:
         figures = (PATCH_FIGURES[key] for key in ("load", "length", "width", "peak_pressure"))

@@ -20,10 +20,7 @@ from rollnip.patch.level import Level, solve_level
 from rollnip.patch.measures import FIGURES, figures_of
 from rollnip.patch.solution import PatchSolution
 from rollnip.patch.tables import PairTables
-from rollnip.patches import Force, Patch
-
-PATCH_TOLERANCE = 5e-3
-"""Relative accuracy where none is wanted."""
+from rollnip.patches import PATCH_TOLERANCE, Force, Patch
 
 _SEARCH = 32
 """Rectangles along each side while the place of the patch is looked for."""
@@ -109,7 +106,7 @@ def _solved(patch: Patch, tolerance: float, wanted: tuple[int, int] | None) -> P
     status = _status(level, name, worst, tolerance)
     if is_cut:
         status = "The contact reaches the rim of the grid; the figures are those of a part of it."
-    return PatchSolution(patch, level, errors, tolerance, converged, status, tuple(sizes))
+    return PatchSolution(patch, level, errors, tolerance, converged, status, tuple(sizes), wanted)
 
 
 def _with_rim(patch: Patch, box: Box, sizes: tuple[int, int]) -> Box:

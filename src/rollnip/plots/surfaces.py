@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError, require_positive
 from rollnip.figures import PROFILES
-from rollnip.geometry import sagitta
 from rollnip.plots.style import (
     Look,
     Style,
@@ -28,6 +27,7 @@ from rollnip.plots.style import (
     view,
 )
 from rollnip.rollers import Roller
+from rollnip.rolling import Displacements, surface_depths
 from rollnip.solution import Solution
 
 Array = NDArray[np.float64]
@@ -285,15 +285,9 @@ def _finish(
 
 def _outlines(solution: Solution, x: Array) -> tuple[Array, Array]:
     """Heights of the undeformed surfaces, in the frame and the gap model of the solution."""
-    still = np.zeros_like(x)
-
-    def depth(roller: Roller) -> Array:
-        if solution.model.geometry == "corrected":
-            return sagitta(x, roller.curvature, still, still)
-        return np.asarray(0.5 * roller.curvature * x * x)
-
-    approach = solution.approach or 0.0
-    return depth(solution.nip.upper) - approach, -depth(solution.nip.lower)
+    still = Displacements(np.zeros((4, x.size)))
+    upper, lower = surface_depths(x, solution.nip, solution.model.geometry, still)
+    return upper - (solution.approach or 0.0), -lower
 
 
 def _stretch(

@@ -56,8 +56,8 @@ def _checked(number: int, largest: int) -> bytes:
         raise UnreadableError("is a directory, not a file.")
     if not S_ISREG(found.st_mode):
         raise UnreadableError(
-            "must be a regular file, it is a pipe or a device; write it to a file first (a case may "
-            "come on the standard input: give - as its name)."
+            "must be a regular file, it is a pipe or a device; write it to a file first (a case "
+            "may come on the standard input: give - as its name)."
         )
     too_large = f"must be at most {largest:,} bytes large, it is larger."
     if found.st_size > largest:

@@ -234,7 +234,7 @@ def broken_strands(body, state, shear, time):
     assert rate.min() > -1e-12
     if viscous.volume is not None:
         rate += viscous.stress[..., 3] ** 2 / (1.5 * viscous.volume[0] * time)
-    return float((rate * body.strip.shapes[1]).sum()) / SPEED
+    return float((rate * body.strip.volumes).sum()) / SPEED
 
 
 def test_an_elastic_covering_makes_no_heat():

@@ -39,7 +39,6 @@ _SOFT = NeoHookean()
 STILL = 1e-5
 _MOST_STEPS = 40
 _LEAST_VOLUME = 0.1  # J that a step may reach
-_AT_REST = np.array([1.0, 0.0, 0.0, 1.0])[:, None, None]
 _LEFT_BY_A_STEP = 1e-3  # of the loads of a step, by an iterative solution
 _SHORTEST = 1e-2  # part of a step that is worth while
 _CONTRACTION = 0.3  # of steps, up to which a derivative is kept
@@ -50,7 +49,7 @@ _CURVED = 3.0  # contraction expected of a derivative that is a step old, over t
 class _Fields:
     """Deformation and stress at the points of Gauss, for the forces and their derivative.
 
-    F (4, elements, 9); c with G w_J, and 2 G w_I, (elements, 9); step and rate of the pressures;
+    F (4, elements, 9), see `Strip.deformation`; c with G w_J, and 2 G w_I, (elements, 9); step and rate of the pressures;
     G times the derivatives of w, None where those of second order are zero; stresses that
     relax, None where there are none.
     """
@@ -129,16 +128,6 @@ class Body:
         """Return the undeformed state."""
         return MeshState(np.zeros(self.strip.size), np.zeros((self.strip.layer.size, 3)))
 
-    def deformation(self, displacement: Array) -> Array:
-        """Return F_xx, F_xy, F_yx and F_yy at the points of Gauss, (4, elements, 9)."""
-        return np.asarray(self._gradient(displacement) + _AT_REST)
-
-    def _gradient(self, displacement: Array) -> Array:
-        """Return the same less that at rest."""
-        local = np.append(displacement, 0.0)[self.strip.unknowns].reshape(-1, 9, 2)
-        by = self.strip.shapes[0] @ local
-        return np.asarray(by.reshape(-1, 2, 9, 2).transpose(3, 1, 0, 2).reshape(4, -1, 9))
-
     def _law(self, volume: Array) -> tuple[Array, Array]:
         """Return c and dc/dJ of compressible elements; what incompressible ones get is not used."""
         shear, lame, _ = self._constants
@@ -182,15 +171,15 @@ class Body:
         return all(isinstance(energy, NeoHookean) for energy, _ in self._energies)
 
     def _fields(self, state: MeshState, deformation: Array | None = None) -> _Fields:
-        """Return the fields of a state; ``deformation`` is what `deformation` gives of it."""
+        """Return the fields of a state; ``deformation`` is F of it."""
         if deformation is None:
-            deformation = self.deformation(state.displacement)
-        f_xx, f_xy, f_yx, f_yy = deformation
-        ratio, shear = f_xx * f_yy - f_xy * f_yx, self._constants[0]
+            deformation = self.strip.deformation(state.displacement)
+        x_s, x_z, y_s, y_z = deformation
+        ratio, shear = x_s * y_z - x_z * y_s, self._constants[0]
         straight, second = np.broadcast_to(shear, ratio.shape), None
         slopes: tuple[Array | float, ...] = (0.5, 0.0, 0.0, 0.0, 0.0)
         if not self._is_soft:
-            slopes = self._slopes(ratio, (f_xx - f_yy) ** 2 + (f_xy + f_yx) ** 2)
+            slopes = self._slopes(ratio, (x_s - y_z) ** 2 + (x_z + y_s) ** 2)
             second = Slopes(*(shear * one for one in slopes))
             straight = 2.0 * second.i
         viscous = None
@@ -208,23 +197,18 @@ class Body:
 
     def _means(self, fields: _Fields) -> Array:
         """Return the derivatives of the volumes, weighted with the basis `LINEAR`."""
-        f_xx, f_xy, f_yx, f_yy = fields.deformation[:, :, None, :]
-        weighted, shapes = self.strip.products[0], self.strip.shapes[0]
-        by = np.empty((weighted.shape[0], 6, 18))
-        by[:, :3, :9], by[:, :3, 9:] = weighted * f_yy, -weighted * f_yx
-        by[:, 3:, :9], by[:, 3:, 9:] = -weighted * f_xy, weighted * f_xx
-        made = (by @ shapes).reshape(-1, 2, 3, 9)
-        return np.ascontiguousarray(made.transpose(0, 2, 3, 1)).reshape(-1, 3, 18)
+        x_s, x_z, y_s, y_z = fields.deformation
+        return self.strip.in_basis(np.stack([y_z, -y_s, -x_z, x_s]))
 
     def _force(self, fields: _Fields, means: Array) -> Array:
         """Return the forces of the elements on the nodes, (unknowns,)."""
-        f_xx, f_xy, f_yx, f_yy = fields.deformation
-        shapes, volume = self.strip.shapes
-        shear, c = fields.straight * volume, fields.c * volume
-        stress = np.empty((f_xx.shape[0], 18, 2))
-        stress[:, :9, 0], stress[:, 9:, 0] = shear * f_xx + c * f_yy, shear * f_xy - c * f_yx
-        stress[:, :9, 1], stress[:, 9:, 1] = shear * f_yx - c * f_xy, shear * f_yy + c * f_xx
-        force = (shapes.transpose(0, 2, 1) @ stress).reshape(-1, 18)
+        (x_s, x_z, y_s, y_z), c = fields.deformation, fields.c
+        stress = fields.straight * fields.deformation
+        stress[0] += c * y_z
+        stress[1] -= c * y_s
+        stress[2] -= c * x_z
+        stress[3] += c * x_s
+        force = self.strip.forces(stress)
         force += (fields.step[:, None] @ means)[:, 0]
         if fields.viscous is not None:
             force += fields.viscous.force
@@ -234,12 +218,7 @@ class Body:
     @cached_property
     def _soft(self) -> Array:
         """Stiffness G grad.grad of neo-Hookean elements, the same at any strain."""
-        return self._isotropic(self._constants[0])
-
-    def _isotropic(self, straight: Array) -> Array:
-        shapes, volume = self.strip.shapes
-        weight = np.tile(straight * volume, (1, 2))[..., None]
-        return np.asarray(shapes.transpose(0, 2, 1) @ (shapes * weight))
+        return self.strip.isotropic(self._constants[0])
 
     def _stiffness(
         self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
@@ -255,35 +234,30 @@ class Body:
     def _element_stiffness(
         self, fields: _Fields, means: Array, rate: Array, relaxing: Relaxing | None
     ) -> Array:
-        """Return the same of every element by itself, (elements, 9, 2, 9, 2)."""
-        shapes, volume = self.strip.shapes
-        straight = self._soft if self._is_soft else self._isotropic(fields.straight)
-        turn = shapes[:, :9].transpose(0, 2, 1) @ (shapes[:, 9:] * (fields.c * volume)[..., None])
-        turn = turn - turn.transpose(0, 2, 1)
+        """Return the same of every element by itself, (elements, 2, 9, 2, 9)."""
+        straight = self._soft if self._is_soft else self.strip.isotropic(fields.straight)
+        turn = self.strip.turning(fields.c)
         stiff = means.transpose(0, 2, 1) @ rate
         if fields.viscous is not None and relaxing is not None:
             straight = straight + fields.viscous.turning
             stiff += relaxing.at_once()
-        stiff = stiff.reshape(-1, 9, 2, 9, 2)
-        stiff[:, :, 0, :, 0] += straight
-        stiff[:, :, 1, :, 1] += straight
-        stiff[:, :, 0, :, 1] += turn
-        stiff[:, :, 1, :, 0] -= turn
         if fields.second is not None:
-            stiff += self._stiffening(fields.deformation, fields.second).reshape(stiff.shape)
+            stiff += self._stiffening(fields.deformation, fields.second)
+        stiff = stiff.reshape(-1, 2, 9, 2, 9)
+        stiff[:, 0, :, 0] += straight
+        stiff[:, 1, :, 1] += straight
+        stiff[:, 0, :, 1] += turn
+        stiff[:, 1, :, 0] -= turn
         return np.asarray(stiff)
 
     def _stiffening(self, deformation: Array, second: Slopes) -> Array:
         """Return what second derivatives of w add: dI = 2 F : dF, dJ = cof F : dF."""
-        f_xx, f_xy, f_yx, f_yy = deformation[..., None]
-        shapes, volume = self.strip.shapes
-        by_x, by_y = shapes[:, :9], shapes[:, 9:]
-        along, swell = np.empty((2, *volume.shape, 9, 2))
-        along[..., 0], along[..., 1] = f_xx * by_x + f_xy * by_y, f_yx * by_x + f_yy * by_y
-        swell[..., 0], swell[..., 1] = f_yy * by_x - f_yx * by_y, f_xx * by_y - f_xy * by_x
-        along = 2.0 * along.reshape(*volume.shape, 18)
-        swell = swell.reshape(*volume.shape, 18)
-        ii, ij, jj = ((one * volume)[..., None] for one in (second.ii, second.ij, second.jj))
+        x_s, x_z, y_s, y_z = deformation[..., None]
+        by_s, by_z = self.strip.shapes
+        along = 2.0 * np.concatenate([x_s * by_s + x_z * by_z, y_s * by_s + y_z * by_z], axis=-1)
+        swell = np.concatenate([y_z * by_s - y_s * by_z, x_s * by_z - x_z * by_s], axis=-1)
+        parts = (second.ii, second.ij, second.jj)
+        ii, ij, jj = ((one * self.strip.volumes)[..., None] for one in parts)
         by_i, by_j = ii * along + ij * swell, ij * along + jj * swell
         return np.asarray(along.transpose(0, 2, 1) @ by_i + swell.transpose(0, 2, 1) @ by_j)
 
@@ -332,8 +306,7 @@ class Body:
     def linear_state(self, tractions: Tractions, left: float = LEFT) -> MeshState:
         """Return the displacements of linear theory with their pressures, in the same form."""
         displacement = self.linear_displacements(tractions, left)
-        local = np.append(displacement, 0.0)[self.strip.unknowns]
-        return MeshState(displacement, self.at_first.pressures(local))
+        return MeshState(displacement, self.at_first.pressures(self.strip.local(displacement)))
 
     def equilibrium(
         self, tractions: Tractions, start: MeshState, still: float = STILL, share: float = 0.0
@@ -358,7 +331,7 @@ class Body:
     ) -> MeshState:
         """Solve from a state, the first steps with its derivative if that is known."""
         state, tangent, before, first = start, start.tangent, inf, 0.0
-        deformation = self.deformation(state.displacement)
+        deformation = self.strip.deformation(state.displacement)
         for _ in range(_MOST_STEPS):
             fields = self._fields(state, deformation)
             pulled = Pull.of(self.strip, state.displacement, tractions)
@@ -368,8 +341,7 @@ class Body:
             left_over = pulled.loads - self._force(fields, tangent.means)
             step = tangent.solved(left_over, _LEFT_BY_A_STEP)
             part, deformation = self._part(deformation, step)
-            local = np.append(part * step, 0.0)[self.strip.unknowns]
-            change = part * fields.step + tangent.pressures(local)
+            change = part * fields.step + tangent.pressures(self.strip.local(part * step))
             moved, pressed = state.displacement + part * step, state.pressure + change
             state = MeshState(moved, pressed, tangent)
             size = float(np.abs(step).max()) / float(np.abs(state.displacement).max())
@@ -388,11 +360,11 @@ class Body:
 
     def _part(self, deformation: Array, step: Array) -> tuple[float, Array]:
         """Return how much of a step leaves every element the right side out, and F after it."""
-        change, part = self._gradient(step), 1.0
+        change, part = self.strip.gradient(step), 1.0
         while part >= _SHORTEST:
             moved = deformation + part * change
-            f_xx, f_xy, f_yx, f_yy = moved
-            if float((f_xx * f_yy - f_xy * f_yx).min()) > _LEAST_VOLUME:
+            x_s, x_z, y_s, y_z = moved
+            if float((x_s * y_z - x_z * y_s).min()) > _LEAST_VOLUME:
                 return part, moved
             part *= 0.5
         raise NoEquilibriumError

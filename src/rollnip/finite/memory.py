@@ -108,13 +108,6 @@ class Memory:
         return np.repeat(back, 3, axis=1)
 
     @cached_property
-    def shapes(self) -> Array:
-        """Derivatives of the shape functions by arc and by depth, (2, elements, 9, 9)."""
-        cos, sin = (one[..., None] for one in self.strip.points[1:])
-        by_x, by_y = np.split(self.strip.shapes[0], 2, axis=1)
-        return np.stack([cos * by_x + sin * by_y, cos * by_y - sin * by_x])
-
-    @cached_property
     def is_compressible(self) -> bool:
         """Return whether the volume of a viscoelastic layer may change."""
         materials = [layer.material for layer in self.strip.depths.roller.layers]

@@ -83,10 +83,10 @@ def element_fields(
     """
     strip, viscous = body.strip, body.relaxing(state)
     law = _Law.of(strip)
-    local = np.append(state.displacement, 0.0)[strip.unknowns].reshape(-1, 9, 2)
+    local = strip.local(state.displacement).reshape(-1, 2, 9).transpose(0, 2, 1)
     arc, depth, moved, hoop, inward = _deformed(strip, local, along, down)
     at = np.stack([along, down], axis=-1)
-    c, stored = _volume_law(strip, law, local, state.pressure, at)
+    c, stored = _volume_law(strip, law, state, at)
     held = None
     if viscous is not None:
         held = _projected(strip, _relaxed(law, viscous), at)
@@ -173,21 +173,17 @@ def _polar(angle: Array, moved: Array) -> tuple[Array, Array]:
     return x * cos + y * sin, y * cos - x * sin
 
 
-def _volume_law(
-    strip: Strip, law: _Law, local: Array, pressure: Array, at: Array
-) -> tuple[Array, Array]:
+def _volume_law(strip: Strip, law: _Law, state: MeshState, at: Array) -> tuple[Array, Array]:
     """Return c of P = 2 G w_I F + (G w_J + c) cof F, and U, at places ``at`` (points, 2)."""
     basis = np.concatenate([np.ones((1, at.shape[0])), at.T])
-    c = pressure @ basis - law.rest * law.shear
+    c = state.pressure @ basis - law.rest * law.shear
     if law.rigid.all():
         return c, np.zeros(c.shape)
-    shapes, volume = strip.shapes
-    by = shapes @ local
-    x, y = by[:, :9], by[:, 9:]
-    ratio = (1.0 + x[..., 0]) * (1.0 + y[..., 1]) - x[..., 1] * y[..., 0]
+    x_s, x_z, y_s, y_z = strip.deformation(state.displacement)
+    ratio = x_s * y_z - x_z * y_s
 
     def projected(values: Array) -> Array:
-        sums = (volume * values) @ LINEAR
+        sums = (strip.volumes * values) @ LINEAR
         return np.asarray((strip.products[1] @ sums[..., None])[..., 0])
 
     mean = projected(ratio) @ LINEAR.T

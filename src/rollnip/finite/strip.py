@@ -37,8 +37,15 @@ def quadratics(at: Array) -> tuple[Array, Array]:
 
 
 (_N_S, _D_S), (_N_Z, _D_Z) = quadratics(_ALONG), quadratics(_DOWN)
-_BY_ARC = (_D_S[:, :, None] * _N_Z[:, None, :]).reshape(9, 9)
-_BY_DEPTH = (_N_S[:, :, None] * _D_Z[:, None, :]).reshape(9, 9)
+# Derivatives of the shape functions on [-1, 1] along and over the depth, by point and node, and
+# integrals of them and of their products that are the same in every element.
+_BY = np.stack([_D_S[:, :, None] * _N_Z[:, None, :], _N_S[:, :, None] * _D_Z[:, None, :]])
+_BY = _BY.reshape(2, 9, 9)
+_WEIGHTED = (_AREA[:, None] * _BY).reshape(18, 9)
+_IN_BASIS = (LINEAR[:, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)).reshape(18, 27)
+_SQUARES = (_BY[:, :, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)).reshape(18, 81)
+_CROSS = _BY[0][:, :, None] * _WEIGHTED.reshape(2, 9, 1, 9)[1]
+_CROSS = (_CROSS - _CROSS.transpose(0, 2, 1)).reshape(9, 81)
 
 
 @dataclass(frozen=True)
@@ -135,30 +142,92 @@ class Strip:
         return grid.transpose(0, 2, 1, 3).reshape(3 * self.columns, rows, -1)
 
     @cached_property
-    def shapes(self) -> tuple[Array, Array]:
-        """Derivatives of the shape functions, (elements, 18, 9), and volumes, (elements, 9).
-
-        Those by x at the nine points of Gauss come first, then those by y.
-        """
+    def _lengths(self) -> Array:
+        """Half length of the arc at the points of Gauss and half height, (2, elements, 9)."""
         half_s, half_z, _, z = (values[:, None] for values in self._grid)
-        shrink = 1.0 - self.depths.roller.curvature * (z + half_z * _DOWN)
-        cos, sin = (values[..., None] for values in self.points[1:])
-        by_arc = _BY_ARC / (half_s * shrink)[..., None]
-        by_depth = _BY_DEPTH / half_z[..., None]
-        out = np.empty((half_s.size, 18, 9))
-        out[:, :9] = by_arc * cos - by_depth * sin
-        out[:, 9:] = by_arc * sin + by_depth * cos
-        return out, _AREA * half_s * half_z * shrink
+        out = np.empty((2, half_s.size, 9))
+        out[0] = half_s * (1.0 - self.depths.roller.curvature * (z + half_z * _DOWN))
+        out[1] = half_z
+        return out
+
+    @cached_property
+    def _rates(self) -> Array:
+        """Derivatives of places on [-1, 1] by arc and by depth, (2, elements, 9)."""
+        return 1.0 / self._lengths
+
+    @cached_property
+    def volumes(self) -> Array:
+        """Volumes of the points of Gauss, (elements, 9)."""
+        return np.asarray(_AREA * self._lengths[0] * self._lengths[1])
+
+    @cached_property
+    def shapes(self) -> Array:
+        """Derivatives of the shape functions by arc and by depth, (2, elements, 9, 9)."""
+        return np.asarray(_BY[:, None] * self._rates[..., None])
+
+    @cached_property
+    def _at_rest(self) -> Array:
+        """F of the undeformed strip, (2, 2, elements, 9)."""
+        cos, sin = self.points[1:]
+        return np.stack([cos, -sin, sin, cos]).reshape(2, 2, *cos.shape)
+
+    def deformation(self, displacement: Array) -> Array:
+        """Return F on the unit vectors along the arc and into the roller at the points of Gauss.
+
+        (4, elements, 9): x by arc, x by depth, y by arc, y by depth.
+        """
+        return self.gradient(displacement) + self._at_rest.reshape(4, -1, 9)
+
+    def gradient(self, displacement: Array) -> Array:
+        """Return the same less that at rest."""
+        made = self.local(displacement).reshape(-1, 9) @ _BY.reshape(18, 9).T
+        by = made.reshape(-1, 2, 2, 9).transpose(1, 2, 0, 3)
+        out = np.empty(by.shape)
+        return np.multiply(by, self._rates, out=out).reshape(4, -1, 9)
+
+    def local(self, displacement: Array) -> Array:
+        """Return the displacements of the nodes of every element, (elements, 18)."""
+        return np.append(displacement, 0.0)[self.unknowns]
+
+    def forces(self, stress: Array) -> Array:
+        """Return the forces of nominal stresses (4, elements, 9) on the nodes, (elements, 18)."""
+        return np.asarray(self._on_sides(stress) @ _WEIGHTED).reshape(-1, 18)
+
+    def in_basis(self, stress: Array) -> Array:
+        """Return the forces of nominal stresses times the basis `LINEAR`, (elements, 3, 18)."""
+        made = (self._on_sides(stress) @ _IN_BASIS).reshape(-1, 2, 3, 9)
+        return np.ascontiguousarray(made.transpose(0, 2, 1, 3)).reshape(-1, 3, 18)
+
+    def _on_sides(self, stress: Array) -> Array:
+        """Return stresses times the half lengths that they act on, (2 elements, 18)."""
+        out = np.empty((self.layer.size, 2, 2, 9))
+        by_part = stress.reshape(2, 2, -1, 9)
+        np.multiply(by_part, self._lengths[::-1], out=out.transpose(1, 2, 0, 3))
+        return out.reshape(-1, 18)
+
+    def isotropic(self, modulus: Array) -> Array:
+        """Return int modulus grad N_a . grad N_b, (elements, 9, 9); modulus (elements, 9)."""
+        weight = modulus * self._lengths[::-1] * self._rates
+        return np.asarray(weight.transpose(1, 0, 2).reshape(-1, 18) @ _SQUARES).reshape(-1, 9, 9)
+
+    def turning(self, c: Array) -> Array:
+        """Return int c (N_a,s N_b,z - N_a,z N_b,s), (elements, 9, 9); c (elements, 9).
+
+        Lengths cancel: it is the same for all shapes of an element.
+        """
+        return np.asarray(c @ _CROSS).reshape(-1, 9, 9)
 
     @cached_property
     def products(self) -> tuple[Array, Array]:
         """Basis `LINEAR` times the volumes, (elements, 3, 9), and the inverse of its products."""
-        weighted = LINEAR.T * self.shapes[1][:, None, :]
-        return weighted, np.asarray(np.linalg.inv(weighted @ LINEAR))
+        weighted = LINEAR.T * self.volumes[:, None, :]
+        rows, half = self.depths.owner.size, self._grid[0]
+        column = np.linalg.inv(weighted[:rows] @ LINEAR) * half[0]  # all columns are alike in shape
+        return weighted, np.tile(column, (self.columns, 1, 1)) / half[:, None, None]
 
     @property
     def unknowns(self) -> Indices:
-        """Unknowns of every element, (elements, 18), x and y of each node; -1 on the core."""
+        """Unknowns of every element, (elements, 18), x of all nodes, then y; -1 on the core."""
         return _unknowns(self.columns, self.depths.owner.size)
 
     @property
@@ -212,9 +281,8 @@ def _unknowns(columns: int, elements: int) -> Indices:
     column = 2 * np.arange(columns)[:, None, None, None] + np.arange(3)[:, None]
     row = 2 * np.arange(elements)[:, None, None] + np.arange(3)
     node = np.where(row < 2 * elements, column * 2 * elements + row, -1).reshape(-1, 9)
-    pair = np.stack((2 * node, 2 * node + 1), axis=-1)
-    pair[node < 0] = -1
-    unknowns = pair.reshape(-1, 18)
+    unknowns = np.concatenate((2 * node, 2 * node + 1), axis=-1)
+    unknowns[np.tile(node < 0, 2)] = -1
     unknowns.setflags(write=False)
     return unknowns
 

@@ -48,27 +48,23 @@ class Viscous:
         energies: Sequence[tuple[Energy, Array | slice]],
         slopes: tuple[Array | float, ...],
     ) -> Viscous:
-        """Return the stresses at F_xx, F_xy, F_yx and F_yy, (4, elements, 9).
+        """Return the stresses at some deformation, (4, elements, 9).
 
         ``constants`` are G, lambda and the slope of the energy at rest of every element;
         ``energies`` come with masks of their elements.
         """
-        f_xx, f_xy, f_yx, f_yy = deformation
-        cos, sin = memory.strip.points[1:]
-        turned = np.empty(deformation.shape)
-        turned[0], turned[1] = f_xx * cos + f_xy * sin, f_xy * cos - f_xx * sin
-        turned[2], turned[3] = f_yx * cos + f_yy * sin, f_yy * cos - f_yx * sin
         scale, lame, rest = constants
         volume = None
         if memory.is_compressible:
             weighted, inverse = memory.strip.products
-            ratio = f_xx * f_yy - f_xy * f_yx
+            x_s, x_z, y_s, y_z = deformation
+            ratio = x_s * y_z - x_z * y_s
             mean = (inverse @ (weighted @ ratio[..., None]))[..., 0] @ LINEAR.T
             volume = np.empty((4, *mean.shape))
             volume[0] = lame
             for energy, where in energies:
                 volume[1:, where] = energy.volume_measure(mean[where])
-        return cls(memory, turned, scale, rest, slopes, volume)
+        return cls(memory, deformation, scale, rest, slopes, volume)
 
     @cached_property
     def _ratio(self) -> Array:
@@ -98,10 +94,10 @@ class Viscous:
 
     @cached_property
     def _swell(self) -> Array:
-        """Derivative of J by the displacements of an element, (elements, 9, 9, 2)."""
+        """Derivative of J by the displacements of an element, (elements, 9, 2, 9)."""
         x_s, x_z, y_s, y_z = self.deformation[..., None]
-        by_s, by_z = self.memory.shapes
-        return np.stack([y_z * by_s - y_s * by_z, x_s * by_z - x_z * by_s], axis=-1)
+        by_s, by_z = self.memory.strip.shapes
+        return np.stack([y_z * by_s - y_s * by_z, x_s * by_z - x_z * by_s], axis=-2)
 
     def _projected_swell(self) -> Array:
         """Derivative of the projected J, (elements, 9, 18)."""
@@ -113,12 +109,12 @@ class Viscous:
     def by(self) -> Array:
         """Derivatives of the strains by the displacements, (elements, 9, parts, 18)."""
         x_s, x_z, y_s, y_z = self.deformation[..., None]
-        by_s, by_z = self.memory.shapes
+        by_s, by_z = self.memory.strip.shapes
         parts = 3 if self.volume is None else 4
-        out = np.empty((*self._ratio.shape, parts, 9, 2))
+        out = np.empty((*self._ratio.shape, parts, 2, 9))
         for i, (f_s, f_z) in enumerate(((x_s, x_z), (y_s, y_z))):
-            out[:, :, 0, :, i], out[:, :, 1, :, i] = f_s * by_s, f_z * by_z
-            out[:, :, 2, :, i] = f_s * by_z + f_z * by_s
+            out[:, :, 0, i], out[:, :, 1, i] = f_s * by_s, f_z * by_z
+            out[:, :, 2, i] = f_s * by_z + f_z * by_s
         out = out.reshape(*self._ratio.shape, parts, 18)
         if self.volume is not None:
             out[:, :, 3] = self.volume[2][..., None] * self._projected_swell()
@@ -156,21 +152,21 @@ class Viscous:
     @property
     def force(self) -> Array:
         """Forces of the relaxing part of T on the nodes of every element, (elements, 18)."""
-        held = self.stress[..., :3] * self.memory.strip.shapes[1][..., None]
+        held = self.stress[..., :3] * self.memory.strip.volumes[..., None]
         x_s, x_z, y_s, y_z = self.deformation
-        by_s, by_z = self.memory.shapes.transpose(0, 1, 3, 2)
+        by_s, by_z = self.memory.strip.shapes.transpose(0, 1, 3, 2)
         along, across, mixed = held[..., 0], held[..., 1], held[..., 2]
-        out = np.empty((held.shape[0], 9, 2))
+        out = np.empty((held.shape[0], 2, 9))
         for i, (f_s, f_z) in enumerate(((x_s, x_z), (y_s, y_z))):
-            out[..., i] = (by_s @ (f_s * along + f_z * mixed)[..., None])[..., 0]
-            out[..., i] += (by_z @ (f_z * across + f_s * mixed)[..., None])[..., 0]
+            out[:, i] = (by_s @ (f_s * along + f_z * mixed)[..., None])[..., 0]
+            out[:, i] += (by_z @ (f_z * across + f_s * mixed)[..., None])[..., 0]
         return out.reshape(-1, 18)
 
     @property
     def turning(self) -> Array:
         """Stiffness of either direction that T adds as it is, (elements, 9, 9)."""
-        by_s, by_z = self.memory.shapes
-        held = (self.stress * self.memory.strip.shapes[1][..., None])[:, :, None]
+        by_s, by_z = self.memory.strip.shapes
+        held = (self.stress * self.memory.strip.volumes[..., None])[:, :, None]
         pulled = held[..., 0] * by_s + held[..., 2] * by_z
         pushed = held[..., 1] * by_z + held[..., 2] * by_s
         return np.asarray(by_s.transpose(0, 2, 1) @ pulled + by_z.transpose(0, 2, 1) @ pushed)
@@ -200,7 +196,7 @@ class Relaxing:
     @classmethod
     def of(cls, viscous: Viscous) -> Relaxing:
         """Return the derivative at some stresses."""
-        by = viscous.by * viscous.memory.strip.shapes[1][..., None, None]
+        by = viscous.by * viscous.memory.strip.volumes[..., None, None]
         flat = (by.shape[0], -1, 18)
         slope = None if viscous.volume is None else viscous.volume[2]
         return cls(viscous.memory, by.reshape(flat), viscous.rate.reshape(flat), slope)
@@ -241,7 +237,7 @@ class Relaxing:
     def from_far(self, displacement: Array) -> Array:
         """Return the forces (unknowns,) that come from beyond the next element of a row."""
         strip = self.memory.strip
-        local = np.append(displacement, 0.0)[strip.unknowns]
+        local = strip.local(displacement)
         change = (self.rate @ local[..., None]).reshape(local.shape[0], 9, -1)
         force = self.memory.from_far(change).reshape(local.shape[0], 1, -1) @ self.by
         places = strip.unknowns.ravel() + 1

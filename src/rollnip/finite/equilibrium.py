@@ -49,9 +49,9 @@ _CURVED = 3.0  # contraction expected of a derivative that is a step old, over t
 class _Fields:
     """Deformation and stress at the points of Gauss, for the forces and their derivative.
 
-    F (4, elements, 9), see `Strip.deformation`; c with G w_J, and 2 G w_I, (elements, 9); step and rate of the pressures;
-    G times the derivatives of w, None where those of second order are zero; stresses that
-    relax, None where there are none.
+    F (4, elements, 9), see `Strip.deformation`; c with G w_J, and 2 G w_I, (elements, 9); step and
+    rate of the pressures; G times the derivatives of w, None where those of second order are zero;
+    stresses that relax, None where there are none.
     """
 
     deformation: Array

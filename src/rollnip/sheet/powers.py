@@ -134,10 +134,15 @@ def off_the_moments(
 
 
 def slip_zones(states: States) -> list[NDArray[np.bool_]]:
-    """Return which intervals between nodes belong to each zone of slip, (n - 1,) each."""
+    """Return which intervals between nodes belong to each zone of slip, (n - 1,) each.
+
+    The one from its last node to the first that sticks belongs to it: where a transition is off by
+    delta the shear jumps there, and what that slips makes up for the rest of the zone but for
+    delta^2. On that to the other side the creep is zero.
+    """
     slips = states > State.STICK
-    slips = slips[:-1] & slips[1:]
-    zone = np.cumsum(~slips)  # the same number from one interval that sticks to the next
+    zone = np.cumsum(~slips)[:-1]  # the same number from one node that does not slip to the next
+    slips = slips[:-1] & (states[1:] != State.FREE)
     return [slips & (zone == number) for number in np.unique(zone[slips])]
 
 

@@ -21,6 +21,7 @@ from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
 from rollnip.sheet.plate.lagged import displacements_of, lost_inside, pull_of
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.sides import SIGNS, highest
+from rollnip.sheet.plate.system import PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
 from rollnip.sheet.powers import SheetPowers, slip_zones
 from rollnip.sheet.refine import (
@@ -174,7 +175,7 @@ def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
     problem, state, meshes = stand.problem, stand.state, stand.problem.meshes
     upper = meshes[0]
     peak, place = highest(upper, state.pressure[0])
-    x = np.unique(np.concatenate([mesh.inner for mesh in meshes]))
+    x = _turning_places(problem, state)
     tension, strain = problem.tension_at(state, x), problem.strain_at(state, x)
     pulls = [float(mesh.weights @ q) for mesh, q in zip(meshes, state.shear, strict=True)]
     first = [
@@ -191,6 +192,22 @@ def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
     spent = plate_powers(stand, geometry)
     last = [place, float(strain[np.argmax(np.abs(strain))])]
     return SheetFigures(np.array([*first, *spent.array().tolist(), *last]))
+
+
+def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
+    """Return the finer nodes of both meshes, and where tension turns between them, (m,) [mm].
+
+    Between these nodes its slope q_u - q_l is a straight line.
+    """
+    x = np.unique(np.concatenate([one.nodes for one in problem.pulls]))
+    upper, lower = (
+        np.interp(x, one.nodes, one.of(shear).lines[:, 0])
+        for one, shear in zip(problem.pulls, state.shear, strict=True)
+    )
+    slope = upper - lower
+    turns = np.flatnonzero(slope[:-1] * slope[1:] < 0.0)
+    share = slope[turns] / (slope[turns] - slope[turns + 1])
+    return np.unique(np.append(x, x[turns] + share * np.diff(x)[turns]))
 
 
 def of_lower(figures: SheetFigures, stand: PlateAttempt) -> SheetFigures:

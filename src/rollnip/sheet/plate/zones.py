@@ -37,8 +37,10 @@ class PlateZones(SideZones):
         Opposite an edge of the other contact, and opposite a place where its slip turns to stick,
         where the couple of its shear rises steeply, the pressure turns over about the thickness of
         the sheet, which the nodes of a wide contact do not resolve by themselves. A place nearer
-        than that to another one has the nodes of that one. Where the pressure ends in peaks about
-        as long as the sheet is thick, nodes crowd at either side of them.
+        than that to another one has the nodes of that one, but for both edges of a contact that is
+        narrower than that: through the sheet the shear beside either edge is felt as it is. Where
+        the pressure ends in peaks about as long as the sheet is thick, nodes crowd at either side
+        of them.
 
         Parameters
         ----------
@@ -52,8 +54,10 @@ class PlateZones(SideZones):
         begins = np.append(opposite.states == State.STICK, True)
         begins[0] = True
         breaks = own.breaks
+        trailing, leading = opposite.edges
         for x in opposite.breaks[begins].tolist():
-            if first < x < last and float(np.abs(breaks - x).min()) > thickness:
+            others = breaks[breaks != trailing] if x == leading else breaks
+            if first < x < last and float(np.abs(others - x).min()) > thickness:
                 breaks = np.append(breaks, x)
         if peaks:
             for x in (first + thickness, last - thickness):

@@ -224,10 +224,12 @@ def _peaks_at_edge(nip: Nip, final: Round) -> bool:
 
 
 def _is_peak_unresolved(final: Round) -> bool:
-    """Return whether the pressure is largest at the outermost node that carries any.
+    """Return whether the pressure is largest beside an edge, where it should go to 0.
 
-    It goes to 0 at an edge, so such a peak lies between nodes, and its height is not known.
+    There an edge is misplaced, or the peak lies between nodes: its height is not known.
     """
+    if final.is_placed:
+        return final.mesh.peaks_at_edge(final.state.pressure)
     carried = np.flatnonzero(final.pressure > 0.0)
     return carried.size > 0 and int(np.argmax(final.pressure)) in (carried[0], carried[-1])
 

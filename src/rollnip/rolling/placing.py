@@ -153,6 +153,7 @@ class Placing:
             is_placed = self._is_placed(layout, asked, known=known) and asked.is_proper and is_still
             is_placed = is_placed and not (closely and self._changes(latest, left))
             is_placed = is_placed and not latest.mesh.pulls_at_edge(latest.state.pressure)
+            is_placed = is_placed and not latest.mesh.peaks_at_edge(latest.state.pressure)
             wanted = crowding_of(layout.breaks, self.boundary)
             is_placed = is_placed and not _crowds_more(wanted, shape[1])
             other = self.search.other_zones(

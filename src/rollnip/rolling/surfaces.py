@@ -194,6 +194,21 @@ class Mesh:
         """
         return bool(np.any(self.acting(pressure)[self.is_beside_edge] < 0.0))
 
+    def peaks_at_edge(self, pressure: Array) -> bool:
+        """Return whether the pressure is highest in the element at an edge, or where that ends.
+
+        An edge that lies inwards by delta of where it should leaves
+        p ~ sqrt(y) + delta/(2 sqrt(y)) beside it. On an element that is short enough this exceeds
+        all other pressures: no peak, but a singularity that grows with finer meshes.
+
+        ``pressure``: at nodes[1:-1] of the elements [MPa].
+        """
+        edges = np.array(self.fine.edges, dtype=int)
+        beside = edges + np.resize([1, -1], edges.size)
+        if np.any(beside == np.argmax(pressure)):
+            return True
+        return bool(self.is_beside_edge[np.argmax(self.acting(pressure))])
+
     @property
     def is_beside_edge(self) -> NDArray[np.bool_]:
         """Return which of the finer nodes lie in the element beside an edge, or beyond it."""

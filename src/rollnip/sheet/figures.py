@@ -89,6 +89,16 @@ NAMES = (
 )  # fmt: skip
 
 
+ALIKE = tuple(
+    [NAMES.index(name) for name in names]
+    for names in (
+        ("creepage_upper", "creepage_lower"),
+        ("tension_max", "tension_min", "strain_max"),
+    )
+)
+"""Figures of one kind: what a mesh leaves of one of them, it may leave of the others."""
+
+
 def largest_of(mesh: SheetMesh, values: Array) -> float:
     """Return the largest of values at ``mesh.inner``, between nodes too.
 

@@ -13,7 +13,6 @@ from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
 
-_MOST_STEPS = 4  # linear systems, while a few nodes change their states
 _LEAST = 0.15  # of the highest pressure to begin with: what a node has at least
 
 
@@ -54,13 +53,18 @@ def slipping(
 ) -> SheetState | None:
     """Return the solution on a given contact whose stick and slip suit it; None where not near.
 
-    ``state``: a solution near to it; ``slack``: see `next_slip`.
+    Transitions move from node to node, so there are as many steps as nodes at most. ``state``: a
+    solution near to it; ``slack``: see `next_slip`.
     """
-    for steps in range(1, _MOST_STEPS + 1):
+    tried: set[bytes] = set()
+    for steps in range(1, state.states.size):
         creeps = problem.gap_and_creeps(state, lagged)[1:]
         wanted = next_slip(problem, state, creeps, slack)
         if steps > 1 and np.array_equal(wanted, state.both_states):
             return replace(state, steps=steps)
+        if wanted.tobytes() in tried:
+            return None
+        tried.add(wanted.tobytes())
         try:
             state = problem.solve(wanted, lagged)
         except np.linalg.LinAlgError:  # nothing is left that sticks

@@ -11,19 +11,23 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import elements_of_zones
 from rollnip.model import Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import PairKernels
-from rollnip.sheet.figures import NAMES, SheetFigures, ratio, scales
+from rollnip.sheet.figures import ALIKE, NAMES, SheetFigures, ratio, scales
 from rollnip.sheet.powers import off_the_moments, slip_works
-from rollnip.sheet.search import SheetAttempt, SheetSearch, overlap, violation
+from rollnip.sheet.search import (
+    FIRST_SIZE,
+    SheetAttempt,
+    SheetSearch,
+    overlap,
+    violation,
+)
 from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
 
 FIRST_COUNT = 20  # elements where zones are not known
-_FIRST = 24  # of the first size of mesh
 GROWTH = 1.6  # of the number of elements from size to size, at most
 _LEAST_GROWTH = 1.25
 _MORE = 1.4  # than as many elements as bring an error to the tolerance
@@ -95,7 +99,7 @@ def refine_sheet(
     numpy.linalg.LinAlgError
         where no size of mesh has a solution.
     """
-    search, count = SheetSearch(nip, model, kernels), float(_FIRST)
+    search, count = SheetSearch(nip, model, kernels), float(FIRST_SIZE)
     stand = search.begun(half_width, FIRST_COUNT) if before is None else before
     history: list[_Size] = []
     best: SheetRefined | None = None
@@ -126,10 +130,7 @@ def refine_sheet(
         else:
             best = best or latest
             failures += 1
-        least = _LEAST_GROWTH * _elements(stand.zones, count)
         count = next_count(count, ratio(nip, figures, errors) / model.tolerance)
-        while count < MOST_COUNT and _elements(stand.zones, count) < least:
-            count = next_count(count, 0.0)  # short zones have their fewest elements still
     if best is None:
         raise np.linalg.LinAlgError("no size of mesh has a solution")
     return _with_overlap(best, kernels, model.geometry)
@@ -169,11 +170,6 @@ def next_count(count: float, ratio: float, most: float = MOST_COUNT) -> float:
     """
     growth = min(max(_MORE * sqrt(ratio), _LEAST_GROWTH), GROWTH)
     return min(count * growth, most) if _LEAST_GROWTH * count < most else inf
-
-
-def _elements(zones: Zones, count: float) -> int:
-    """Return how many elements a mesh of some size has, apart from those that crowd."""
-    return int(elements_of_zones(zones.breaks, round(count)).sum())
 
 
 def _closely(count: float) -> float:
@@ -241,8 +237,9 @@ def errors_between(
     The last change counts by the second order, or the first where the changes do not shrink so
     fast; from two sizes alone, which show no order, by one between them. Two sizes may agree by
     chance, so earlier changes count too, by higher orders; but for the first size, which finds the
-    zones and hardly resolves short ones, where three finer ones stand. No error is less than the
-    least of such meshes in random nips.
+    zones and hardly resolves short ones, where three finer ones stand. So may figures of one kind,
+    which are given the largest error of their kind. No error is less than the least of such meshes
+    in random nips.
 
     ``orders``: by which earlier changes count where the zones have not changed since, and where
     they have.
@@ -268,7 +265,10 @@ def errors_between(
     floor = _LEAST * scales(nip, figures) / count**2
     prescribed = 1 if isinstance(nip.normal, LineLoad) else 0
     floor[prescribed] = _ROUNDING * abs(figures.values[prescribed])
-    return np.asarray(np.maximum(error, floor))
+    error, sizes = np.maximum(error, floor), scales(nip, figures)
+    for kind in ALIKE:
+        error[kind] = sizes[kind] * np.max(error[kind] / sizes[kind])
+    return np.asarray(error)
 
 
 def traction_slope(stand: SheetAttempt) -> float:

@@ -23,6 +23,7 @@ from rollnip.contact import (
     elements_of_zones,
     subdivided,
 )
+from rollnip.contact.mesh import FEWEST_ELEMENTS_OF_A_ZONE
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels, surface_depths
@@ -49,7 +50,11 @@ from rollnip.sheet.system import (
 from rollnip.sheet.zones import Zones
 
 Array = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
+FIRST_SIZE = 24
+"""Elements of the first size of mesh."""
+_LEAST_SHARE = FEWEST_ELEMENTS_OF_A_ZONE / FIRST_SIZE  # so every zone is refined from size to size
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
@@ -126,20 +131,26 @@ class SheetSearch:
             crowd = self._crowding(breaks, known)
             is_fine = crowd == self._crowding(breaks, 0.0)
             if elements is None or crowd != crowding or elements.size != breaks.size - 1:
-                elements, crowding = elements_of_zones(breaks, count, crowd), crowd
+                elements = elements_of_zones(breaks, count, crowd, _LEAST_SHARE)
+                crowding = crowd
             problem = self._problem(zones, (elements, crowding), stand)
             start = first_lagged(problem) if stand is None else carried(stand, problem)
             stand = self._solved(problem, zones, start, steps, (near, off))
             steps = stand.steps
             called = _ZonesCalledFor(stand, self._slack)
-            asked, are_clear = zones.moved(problem, stand.state, called)
+            is_near = known <= _NEARLY_PLACED
+            asked, are_clear = zones.moved(problem, stand.state, called, is_near=is_near)
             off = asked.distance(zones)
             near = known = min(known, off)
             is_met = violation(stand) <= self._slack
-            rough = off > _FAIRLY_PLACED and not changes
-            # Without a violation zones are doubted once; with one, as soon as no end moves.
-            sure = changes > 0 if is_met else off > placed
-            stay = rough or (is_met and sure) or ((is_met or sure) and called.are_like)
+            stay = off > _FAIRLY_PLACED and not changes
+            # With a violation zones are doubted at once where nodes call for zones unlike them;
+            # without one, as soon as no end moves, and once.
+            moves = off > placed
+            if is_met:
+                stay = stay or moves or changes > 0 or called.are_like
+            else:
+                stay = stay or (moves and called.are_like)
             if stay and are_clear:
                 if off <= placed and stand.stands_still and is_fine and is_met:
                     return replace(stand, zones=asked, off=off)
@@ -288,6 +299,18 @@ class _ZonesCalledFor:
         """Return whether they make zones like those of the solution."""
         same = np.array_equal(self._wanted, self.stand.state.both_states)
         return same or self._found is not None
+
+    def creeps_back(self, number: int) -> Mask:
+        """Return beside which transitions of an interface slip is called to stick, (m,).
+
+        That is where it creeps against its own shear, at the node of the transition and at the next
+        one: the shear comes to its bound there as at the end of a zone, but not for the first time.
+        """
+        side = self.stand.zones.sides[number]
+        ends = side.ends(self.stand.problem.mesh.inner)[1:-1]
+        sticks = self._wanted[number] == State.STICK
+        into_slip = np.where(side.states[:-1] == State.STICK, 1, -1)
+        return np.asarray(sticks[ends] & sticks[ends + into_slip])
 
     @property
     def sides(self) -> tuple[Layout, Layout]:

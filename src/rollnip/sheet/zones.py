@@ -30,6 +30,10 @@ class LazyZones(Protocol):
         """Return the zones of the upper and of the lower interface."""
         ...
 
+    def creeps_back(self, number: int) -> NDArray[np.bool_]:
+        """Return beside which transitions of an interface slip is called to stick, (m,)."""
+        ...
+
 
 @dataclass(frozen=True, slots=True)
 class SideZones:
@@ -124,13 +128,14 @@ class Zones(SideZones):
         return Zones(upper, lower)
 
     def moved(
-        self, problem: SheetProblem, state: SheetState, called: LazyZones
+        self, problem: SheetProblem, state: SheetState, called: LazyZones, *, is_near: bool
     ) -> tuple[Zones, bool]:
         """Return the zones with their breaks moved to where a solution with them puts them.
 
         ``called``: like zones, of the states that the solution calls for. They say where a
         transition belongs whose nearest shears do not, or would move it beyond the middle of a
-        zone. Return also whether the nearest pressures say where the edges belong, which stay where
+        zone; and, where ends ``is_near`` their places, also where slip beside it creeps back.
+        Return also whether the nearest pressures say where the edges belong, which stay where
         they do not.
         """
         x = problem.mesh.inner
@@ -150,6 +155,8 @@ class Zones(SideZones):
             middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])
             inner = wanted[1:-1]
             clear = (inner > middles[:-1]) & (inner < middles[1:])
+            if is_near and inner.size:
+                clear &= ~called.creeps_back(number)
             if not clear.all():
                 inner[~clear] = called.sides[number].breaks[1:-1][~clear]
             sides.append(Layout(held(side.breaks, wanted, (trailing, leading)), side.states))

@@ -2,7 +2,7 @@
 
 Influence functions from the layers by an inverse Fourier transform; contact stresses, approach
 and creepage by the contact algorithm; repeated on better meshes, with the geometry corrected,
-until the results stand still; and a fresh check of what came out.
+until the results settle; and a check of the conditions at more points.
 """
 
 from __future__ import annotations

@@ -66,7 +66,7 @@ def test_find_says_what_where_and_how_sure(case):
     assert result.stdout.startswith("nip.load = ")
     assert " ± " in result.stdout.splitlines()[0]
     assert "gives nip_width = 0.40000 mm. That is" not in result.stdout
-    assert "solved afresh" in result.stdout
+    assert "solved again" in result.stdout
 
 
 def test_whatever_was_asked_for_stands_among_the_results(case):
@@ -77,7 +77,7 @@ def test_whatever_was_asked_for_stands_among_the_results(case):
         assert name in {line.partition("  ")[2].split(" ")[0] for line in result_lines(row, name)}
     long = "heat.upper.bond_temperature"
     assert f"  {long} 70.000 degC" in result_lines(row | {long: 70.0}, long)
-    assert result_lines({}) == ["", "Results there, solved afresh"]
+    assert result_lines({}) == ["", "Results there, solved again"]
 
 
 def test_find_refuses_a_second_result_rather_than_forget_the_first(case):

@@ -153,7 +153,7 @@ def optimise(
     The whole box is looked through by differential evolution; from its best places that are apart
     from each other COBYQA follows the slope to the nearest optimum. Both keep the limits on
     results. That the searches agree is a sign, no proof, that there is nothing better. A case that
-    cannot be solved counts as worse than any other, and is reported. The answer is solved afresh.
+    cannot be solved counts as worse than any other, and is reported. The answer is solved again.
 
     Parameters
     ----------
@@ -310,7 +310,7 @@ def _sentences(
     fault = problem.fault(row)
     if fault:
         return [
-            f"The best case found could not be solved once more, at {problem.said(values)}: {fault}"
+            f"The best case found could not be solved again, at {problem.said(values)}: {fault}"
         ]
     quantity, unit = problem.objective.key, QUANTITIES[problem.objective.quantity]
     value = format_quantity(row[quantity], unit, digits=_SHOWN)

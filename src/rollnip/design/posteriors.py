@@ -41,7 +41,7 @@ def posterior(fit: Mapping[str, Any]) -> tuple[tuple[Varied, ...], tuple[Correla
             raise
         raise InvalidInputError(
             "`fit` must be the fit.json that `rollnip fit --out` writes, with unknowns and their "
-            "covariance; write it anew with this version."
+            "covariance; write it again with this version."
         ) from None
     return tuple(parameters), tuple(pairs)
 

@@ -64,7 +64,7 @@ def result_lines(row: Mapping[str, Any], *asked: str) -> list[str]:
     names = dict.fromkeys((*_SHOWN, *_SHOWN_OF_FACE, *_SHOWN_OF_SHEET, *asked))
     shown = [name for name in names if name in QUANTITIES and row.get(name) is not None]
     wide = max([20, *(len(name) + 1 for name in shown)])
-    lines = ["", "Results there, solved afresh"]
+    lines = ["", "Results there, solved again"]
     lines += [f"  {name:{wide}s}{_with_error(row, name)}" for name in shown]
     warnings = str(row.get("warnings") or "")
     return [*lines, f"Note: {warnings}"] if warnings else lines

@@ -154,7 +154,7 @@ def find(
     """Find the value of one parameter, between two limits, that gives a wanted result.
 
     A few cases are solved from limit to limit; where their results pass the wanted value, it is
-    closed in on by Brent's method, and the value found is solved afresh. The result may rise,
+    closed in on by Brent's method, and the value found is solved again. The result may rise,
     fall or bend. Two crossings between neighbouring samples are missed where the samples show no
     bend: raise ``points``.
 
@@ -259,7 +259,7 @@ def _no_influence(question: _FindQuestion, curve: Curve) -> str:
 
 
 def _fresh(question: _FindQuestion, root: Point) -> Point:
-    """The case at the value found, rounded, solved once more."""
+    """The case at the value found, rounded, solved again."""
     return question.solve(float(f"{root.x:.{_DIGITS}g}"))
 
 

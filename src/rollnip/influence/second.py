@@ -22,7 +22,7 @@ where it came from.
 
 In the transform u_x is i times an amplitude where u_z is an amplitude, and t_x where t_z: elastic
 layers have real amplitudes.  Those of g are the same ones, at viscoelastic layers too: the wave
-that tests the surface runs the other way, with conjugate moduli, and is conjugated once more.
+that tests the surface runs the other way, with conjugate moduli, and is conjugated again.
 """
 
 from __future__ import annotations

@@ -108,7 +108,7 @@ class TableColumns:
     def samples(self, name: str, dimension: Dimension) -> Array:
         """Return a column as `numbers` does, ten times as fast, for many readings.
 
-        All plain numbers are converted at once, which rounds each once more.
+        All plain numbers are converted at once, which rounds each a second time.
         """
         scale, offset = self._scale(name, dimension)
         try:

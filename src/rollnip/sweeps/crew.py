@@ -173,7 +173,7 @@ def available_cores() -> int:
 def processes(count: int) -> Iterator[Processes]:
     """Worker processes of this machine, gone at the end; one thread for linear algebra in each.
 
-    They are started afresh (not forked), leave Ctrl-C to this process, and end with it whatever
+    They are new processes, not forked, leave Ctrl-C to this process, and end with it whatever
     ends it. Raises RollnipError where they cannot be started.
     """
     crew = Processes(count)

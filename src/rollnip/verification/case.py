@@ -64,7 +64,7 @@ class VerificationCase:
     scale: float
 
     def compute(self) -> float:
-        """Compute the figure afresh."""
+        """Compute the figure."""
         return float(self.read(self.problem()))
 
 

@@ -44,7 +44,10 @@ def parameter_dimension(tree: Mapping[str, Any], path: str) -> Dimension:
 
 
 def read_parameter(said: str, value: object, dimension: Dimension) -> float:
-    """A number in base units, or a text with its unit; ``said`` names it in messages."""
+    """Return a number in base units from one, or from a text with its unit.
+
+    Raises InvalidInputError, which names it as ``said``.
+    """
     try:
         return parse_quantity(value, dimension)
     except InvalidInputError as error:
@@ -52,7 +55,7 @@ def read_parameter(said: str, value: object, dimension: Dimension) -> float:
 
 
 def read_result(said: str, value: object, quantity: str) -> float:
-    """A wanted value of a result, as `read_parameter` does."""
+    """Return a wanted value of a result in its base unit, as `read_parameter` does."""
     unit = QUANTITIES[quantity]
     dimension = next((one for one in get_args(Dimension) if base_unit(one) == unit), None)
     if dimension is not None:

@@ -211,6 +211,13 @@ def load_range(
     Returns
     -------
     None where no load between a quarter and four times the given one is as even as that.
+
+    Raises
+    ------
+    InvalidInputError
+        where the nip has no load, or ``within`` is out of range; and as `solve_face` does.
+    ConvergenceError
+        as `solve_face`.
     """
     if not isinstance(nip.normal, LineLoad):
         raise InvalidInputError("`load` must be given to look for a range about it.")

@@ -47,7 +47,10 @@ def face_of(table: FaceTable) -> Face:
 
 
 def end_loads_of(table: FaceTable) -> tuple[float, float] | None:
-    """Return the end loads that a table gives, or that its arms make; None without either."""
+    """Return the end loads [N] that a table gives, or that its arms make; None without either.
+
+    Raises InvalidInputError where there are neither one nor two arms.
+    """
     if table.arms is None:
         return None if table.end_loads is None else tuple(table.end_loads)  # type: ignore[return-value]
     if len(table.arms) not in (1, 2):

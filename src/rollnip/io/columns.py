@@ -335,7 +335,11 @@ def _columns(
 
 
 def head_parts(head: str, source: str) -> tuple[str, str]:
-    """Part ``load [N/mm]`` into name and unit; a path may itself hold an index in brackets."""
+    """Return name and unit of a head such as ``load [N/mm]``; without brackets the unit is empty.
+
+    An index in brackets belongs to the name: ``upper.layers[0]``. Raises InvalidInputError with the
+    ``source`` where the name is empty.
+    """
     name, bracket, unit = head.rpartition("[")
     if not bracket or not unit.endswith("]") or unit[:-1].isdigit():
         name, unit = head, "]"

@@ -42,7 +42,11 @@ def folder_of(path: str | Path) -> Path:
 
 
 def parse_document(text: str, name: str) -> dict[str, Any]:
-    """Read TOML or JSON (a text that opens with a brace, or a name that ends in .json)."""
+    """Return the tree that a text in TOML or JSON holds.
+
+    JSON is a text that opens with a brace, or one whose name ends in .json. Raises CaseFileError
+    with that name where the text is neither, is nested too deeply, or holds no table.
+    """
     is_json = name.lower().endswith(".json") or text.lstrip().startswith("{")
     if not is_json and _has_deep_key(text):
         raise CaseFileError(f"{name}: is nested too deeply for a case file.")
@@ -60,7 +64,7 @@ def parse_document(text: str, name: str) -> dict[str, Any]:
 
 
 def tree_of(case: str | Mapping[str, Any], name: str) -> dict[str, Any]:
-    """Return the tree of a case that is a text (TOML or JSON) or that tree itself."""
+    """Return the tree of a case, which is that tree or a text for `parse_document`."""
     return parse_document(case, name) if isinstance(case, str) else plain_tree(case)
 
 

@@ -17,7 +17,11 @@ _LEAST_CYCLES = 1.0  # within one envelope width: below, positive and negative f
 
 
 def fringe_spacing(wavelength: float, beam_angle: float) -> float:
-    """d_f = wavelength/(2 sin(beam_angle/2)), in the unit of the wavelength; angle in rad."""
+    """Return the distance of the fringes, d_f = wavelength/(2 sin(beam_angle/2)).
+
+    It has the unit of the wavelength; the full angle between the beams is in rad. Raises
+    InvalidInputError where either is not positive, or the angle is more than pi.
+    """
     require_positive("wavelength", wavelength)
     require_positive("beam_angle", beam_angle)
     if beam_angle > pi:

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 
 
 def finite_row(name: str, values: ArrayLike) -> Array:
-    """A row of finite numbers."""
+    """Return values as a row, (n,). Raises InvalidInputError unless they are one, and finite."""
     array = np.asarray(values, dtype=float)
     if array.ndim != 1 or array.size == 0 or not np.isfinite(array).all():
         raise InvalidInputError(

@@ -5,7 +5,14 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from rollnip.rolling.estimates import LEAST_ERROR, Size, estimated_error, zone_excess
+import rollnip as rn
+from rollnip.rolling.estimates import (
+    LEAST_ERROR,
+    Size,
+    estimated_error,
+    lag_within,
+    zone_excess,
+)
 from rollnip.rolling.round import Figures, Further
 
 
@@ -71,8 +78,28 @@ def test_two_sizes_that_agree_by_chance_are_not_believed(one):
 
 def test_no_error_is_claimed_below_what_random_nips_have(one):
     found = claimed(one, sizes([20, 32], lambda n: 7.0 + 1e-9 * n))
-    assert found.nip_width == pytest.approx(LEAST_ERROR[3] * 7.0 / 32**2)
+    # Two zones of 16 elements: elements at the edges are twice as long as with one zone of 32.
+    assert found.nip_width == pytest.approx(2.0 * LEAST_ERROR[3] * 7.0 / 32**2)
+    alone = claimed(one, sizes([20, 32], lambda n: 7.0 + 1e-9 * n, (-1.0, 1.0)))
+    assert alone.nip_width == pytest.approx(LEAST_ERROR[3] * 7.0 / 32**2)
     assert found.approach == 0.0  # the same to the last digit: it was prescribed
+
+
+@pytest.mark.parametrize("length", [1e-3, 0.3, 1.0, 4.0, 500.0])
+def test_what_relaxes_within_an_element_lags_behind(length):
+    """By V int (E(t)/E(h/V) - 1) dt: nothing at first, at last V tau k in all."""
+    rubber = rn.StandardLinearSolid(modulus=2.0, stiffening=6.0, relaxation_time=0.01, poisson=0.5)
+    roller = rn.Roller(radius=30.0, layers=[rn.Layer(2.0, rubber)])
+    share = np.exp(-length)  # with 100 mm/s the memory is 1 mm long
+    expected = 3.0 * (1.0 - share - length * share) / (1.0 + 3.0 * share)
+    assert lag_within(length, roller, 100.0) == pytest.approx(expected, rel=1e-4, abs=1e-9)
+
+
+def test_what_has_no_memory_does_not_lag():
+    elastic = rn.Roller(radius=30.0, layers=[rn.Layer(2.0, rn.Elastic(modulus=1.0, poisson=0.5))])
+    assert lag_within(0.1, elastic, 100.0) == 0.0
+    assert lag_within(0.1, elastic, None) == 0.0
+    assert lag_within(0.1, rn.Roller(radius=30.0), 100.0) == 0.0
 
 
 def test_zones_count_by_their_own_length_or_a_twentieth_of_the_nip():

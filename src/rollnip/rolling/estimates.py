@@ -9,8 +9,10 @@ from math import inf
 
 import numpy as np
 
+from rollnip.materials import memory_integral, relaxation_modulus
 from rollnip.model import Model
-from rollnip.nip import Nip
+from rollnip.nip import Creepage, Nip
+from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
 from rollnip.rolling.further import further_errors, further_figures
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
@@ -23,8 +25,9 @@ _ORDER_FROM_TWO_SIZES = np.array([2.0, 2.0, 1.0, 2.0, 2.0])
 # square root at every end; where unlike surfaces stick up to an edge they do not, the edge is
 # misplaced by a share of the first element, and the order is 2.
 LEAST_ERROR = np.array([0.02, 0.05, 0.3, 0.2, 0.2])
-_CREEPAGE, _PEAK = (
-    [one.name for one in fields(Figures)].index(name) for name in ("creepage", "peak_pressure")
+_CREEPAGE, _WIDTH, _PEAK = (
+    [one.name for one in fields(Figures)].index(name)
+    for name in ("creepage", "nip_width", "peak_pressure")
 )
 
 
@@ -45,6 +48,12 @@ class Size:
     breaks: Array
     make_further: Callable[[], Further]
 
+    @property
+    def edge_elements(self) -> float:
+        """Length of the elements at the edges, over that of as many elements in a single zone."""
+        lengths = np.diff(self.breaks)
+        return float(np.sqrt(lengths).sum() ** 2 / lengths.sum())
+
     @cached_property
     def further(self) -> Further:
         """Further figures."""
@@ -62,13 +71,45 @@ def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> S
 def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | None) -> Round:
     """Return the round with the estimated errors of the figures that the tolerance is for.
 
-    They are those of the mesh and what the ends of zones may still change (``left``): two sizes of
-    mesh whose ends are off alike agree on figures that are wrong.
+    They are those of the mesh, what the ends of zones may still change (``left``), and what memory
+    does within their elements: two sizes of mesh whose ends are off alike, or whose elements are
+    all too long, agree on figures that are wrong.
     """
-    error = estimated_error(nip, latest, history)
+    error = estimated_error(nip, latest, history).array() + _unseen_memory(nip, latest)
     if left is not None:
-        error = Figures(*(error.array() + left.array()).tolist())
-    return replace(latest, error=error)
+        error += left.array()
+    return replace(latest, error=Figures(*error.tolist()))
+
+
+def _unseen_memory(nip: Nip, latest: Round) -> Array:
+    """Return the error of each figure from a memory that is shorter than elements at the ends.
+
+    By that much edges are off. A creepage at a given traction goes as the square of the width, as
+    the load does. Approach, load and peak pressure do not depend on edges to first order.
+    """
+    nodes, elements = latest.mesh.inner, np.array(latest.mesh.fine.elements)
+    last = np.cumsum(elements) - 1
+    longest = float(np.max(np.diff(nodes)[[*last, *(last - elements + 1)]]))
+    rollers, figures = (nip.upper, nip.lower), latest.figures
+    edge = max(lag_within(longest, roller, nip.speed) for roller in rollers)
+    creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
+    if isinstance(nip.tangential, Creepage):
+        creepage = 0.0
+    return np.array([0.0, 0.0, creepage, edge, 0.0])
+
+
+def lag_within(length: float, roller: Roller, speed: float | None) -> float:
+    """Return how far the stress of a surface lags behind its strain within a length h [mm].
+
+    A stress that has been int E(t) de(t) since the material came in equals, to first order, E(h/V)
+    times the strain that was there V int (E(t)/E(h/V) - 1) dt before, with t up to h/V. It is 0
+    both where nothing relaxes within h and where h is rolled in no time.
+    """
+    if roller.is_rigid or speed is None or not roller.materials[0].relaxation_times:
+        return 0.0
+    surface, time = roller.materials[0], np.array([length / speed])
+    relaxed = (memory_integral(surface, time) + time) * surface.relaxed_modulus
+    return speed * float((relaxed / relaxation_modulus(surface, time) - time)[0])
 
 
 def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
@@ -103,6 +144,7 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size]) -> Figures:
     scales = np.abs(figures.array())
     scales[_CREEPAGE] = creepage_scale(nip, figures)
     floor = LEAST_ERROR * scales / count**2
+    floor[_WIDTH] *= history[-1].edge_elements
     given = np.isnan(change) | (change < 1e-12 * scales)  # nan, or prescribed
     return Figures(*(float(e) for e in np.where(given, change, np.maximum(change, floor))))
 

@@ -32,10 +32,6 @@ from rollnip.rolling.turns import converge, with_residual
 
 _FIRST_COUNT = 18
 _ELEMENTS_PER_ZONE = 4  # elements more for each zone
-# Sizes of mesh before an error is believed, and one more with memory: the tractions then have
-# boundary layers as long as speed times relaxation time, and meshes all too coarse for these agree
-# on other edges.
-_FEWEST_SIZES = 2
 _MOST_ELEMENTS = 300  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
 _FIRST_GROWTH = 1.6  # of the number of elements from size to size
@@ -95,11 +91,10 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
     most = max(most, _MOST_TIMES_FIRST * count)
-    fewest = _FEWEST_SIZES + nip.is_viscoelastic
     best: Round | None = None
     while count <= most:
-        closely = len(history) + 1 >= fewest  # the error may be small enough
-        placed = placing.placed(stand, count, known=known or bool(history), closely=closely)
+        closely = bool(history)  # the error may be small enough
+        placed = placing.placed(stand, count, known=known or closely, closely=closely)
         if placed is None:
             break
         stand, latest = placed, placed.before
@@ -115,7 +110,7 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
         best = latest = with_errors(nip, latest, history, stand.left)
         ratio = excess(nip, latest, model.tolerance)
         stand_still = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
-        if largest(ratio, roughness) <= 1.0 and stand_still and len(history) >= fewest:
+        if largest(ratio, roughness) <= 1.0 and stand_still:
             final = converge(nip, model, latest, placing.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:

@@ -150,8 +150,10 @@ class Placing:
             there = ends.next(layout, asked, self._singular(latest, layout), is_still=is_still)
             left = None if last is None else _left_to_change(last, (layout, latest.figures), there)
             last = layout, latest.figures
-            is_placed = self._is_placed(layout, asked, known=known) and asked.is_proper and is_still
-            is_placed = is_placed and not (closely and self._changes(latest, left))
+            by_figures = closely and self._rests_by_figures
+            is_placed = self._is_placed(layout, asked, known=known, by_figures=by_figures)
+            is_placed = is_placed and asked.is_proper and is_still
+            is_placed = is_placed and not (by_figures and self._changes(latest, left))
             is_placed = is_placed and not latest.mesh.pulls_at_edge(latest.state.pressure)
             is_placed = is_placed and not latest.mesh.peaks_at_edge(latest.state.pressure)
             wanted = crowding_of(layout.breaks, self.boundary)
@@ -245,13 +247,16 @@ class Placing:
         """
         return self.nip.friction > 0.0 and self.model.geometry not in FINITE
 
-    def _is_placed(self, layout: Layout, asked: Layout, *, known: bool) -> bool:
+    def _is_placed(
+        self, layout: Layout, asked: Layout, *, known: bool, by_figures: bool = False
+    ) -> bool:
         """Return whether ends of zones are off by little over the width of the contact.
 
+        Where the figures say how exactly they are placed (``by_figures``), the tolerance will do.
         Without friction edges of zones that are ``known`` are placed over the length of their
         boundary layer, if that is less: pressures change within it.
         """
-        most = self.model.tolerance * (1.0 if self._rests_by_figures else STILL)
+        most = self.model.tolerance * (1.0 if by_figures else STILL)
         length = layout.width
         if known and self.nip.friction == 0.0:
             length = min(length, self.boundary)
@@ -259,8 +264,6 @@ class Placing:
 
     def _changes(self, latest: Round, left: Figures | None) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may."""
-        if not self._rests_by_figures:
-            return False
         if left is None:
             return True
         return excess(self.nip, replace(latest, error=left), self.model.tolerance) > STILL

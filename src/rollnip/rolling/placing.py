@@ -151,13 +151,14 @@ class Placing:
             left = None if last is None else _left_to_change(last, (layout, latest.figures), there)
             last = layout, latest.figures
             by_figures = closely and self._rests_by_figures
-            is_placed = self._is_placed(layout, asked, known=known, by_figures=by_figures)
-            is_placed = is_placed and asked.is_proper and is_still
-            is_placed = is_placed and not (by_figures and self._changes(latest, left))
-            is_placed = is_placed and not latest.mesh.pulls_at_edge(latest.state.pressure)
-            is_placed = is_placed and not latest.mesh.peaks_at_edge(latest.state.pressure)
-            wanted = crowding_of(layout.breaks, self.boundary)
-            is_placed = is_placed and not _crowds_more(wanted, shape[1])
+            is_placed = (
+                self._is_placed(layout, asked, known=known, by_figures=by_figures)
+                and (asked.is_proper and is_still)
+                and not (by_figures and self._changes(latest, left))
+                and not latest.mesh.pulls_at_edge(latest.state.pressure)
+                and not latest.mesh.peaks_at_edge(latest.state.pressure)
+                and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
+            )
             other = self.search.other_zones(
                 latest, (layout, asked), ends, is_placed=is_placed, is_near=is_near
             )
@@ -299,12 +300,7 @@ class Placing:
             stand.layout, replace(before, mesh=mesh, second=second), change, expected
         )
 
-    def _solved_on(
-        self,
-        stand: SearchState,
-        shape: Shape,
-        most: int,
-    ) -> tuple[Round, Layout]:
+    def _solved_on(self, stand: SearchState, shape: Shape, most: int) -> tuple[Round, Layout]:
         """Solve on one mesh; return the solution, and where it puts the ends of zones.
 
         At ``most`` so many turns of the second-order terms while ends are not placed; then as many

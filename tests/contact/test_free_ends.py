@@ -9,13 +9,14 @@ from rollnip.contact import (
     CREEP_TO_EDGE,
     ContactState,
     ContactZone,
+    CoupledActiveSet,
     GivenStates,
-    HeldContact,
     Layout,
     State,
     cosine_nodes,
     elements_of_zones,
     gap,
+    next_slip,
     subdivided,
 )
 from rollnip.contact.coupled import LinearSystem
@@ -267,7 +268,7 @@ def test_zones_are_found_from_states_of_nodes():
     traction = HERTZ_LOAD * (1.0 - b * b)
     problem = half_planes([-1.0, 1.0], [24], load=HERTZ_LOAD, traction=traction, friction=1.0)
     start = Layout(np.array([-1.0, 1.0]), np.array([STICK], dtype=np.int8)).states_on(problem.x)
-    found = HeldContact().solve(problem, start)
+    found = CoupledActiveSet(wanted=next_slip).solve(problem, start)
     np.testing.assert_array_equal(found.states != State.FREE, start != State.FREE)
     layout = Layout.found(problem.x, found, 1.0, (-1.0, 1.0))
     assert layout is not None

@@ -1,7 +1,7 @@
 """A nip has one solution: where the search starts and how it goes do not show in it.
 
-Nor how zones are found: from a guess of the width, and first node by node. The solution node by
-node itself, which knows no ends of zones, has the same figures as well as its mesh can tell.
+Nor from which mesh zones are taken: one of 16 elements, or a finer one. The solution node by node
+itself, which knows no ends of zones, has the same figures as well as its mesh can tell.
 """
 
 import numpy as np
@@ -11,13 +11,13 @@ from population import numbers, random_case
 
 import rollnip as rn
 from rollnip.rolling import excess, half_width_guess, pair_kernels, refine
-from rollnip.rolling.refinement import by_nodes, finer_by_nodes, refine_by_nodes
+from rollnip.rolling.refinement import SIZES, by_nodes, finer_by_nodes
 
 TOLERANCE = 1e-3
 
 
-# name -> share of the first guess of the half-width, whether free ends are tried from it
-STARTS = {"narrow": (0.6, True), "wide": (1.6, True), "node by node": (1.0, False)}
+# name -> share of the first guess of the half-width, sizes of mesh on which zones are sought
+STARTS = {"narrow": (0.6, SIZES), "wide": (1.6, SIZES), "finer nodes": (1.0, SIZES[1:])}
 
 
 def stands(nip, final):
@@ -27,12 +27,10 @@ def stands(nip, final):
     )
 
 
-def refined(case, kernels, start, free_ends):
+def refined(case, kernels, start, sizes):
     model = rn.Model(geometry=case.geometry, tolerance=TOLERANCE)
     half_width = start * half_width_guess(case.nip, kernels)
-    if free_ends:
-        return refine(case.nip, model, kernels, half_width)
-    return refine_by_nodes(case.nip, model, kernels, half_width, None)
+    return refine(case.nip, model, kernels, half_width, sizes)
 
 
 def check_start(case, name):
@@ -41,7 +39,7 @@ def check_start(case, name):
     Returns whether they were compared, and whether they were reached in different ways.
     """
     kernels = pair_kernels(case.nip, case.geometry)
-    one = refined(case, kernels, 1.0, True)
+    one = refined(case, kernels, 1.0, SIZES)
     other = refined(case, kernels, *STARTS[name])
     if not (stands(case.nip, one) and stands(case.nip, other)):
         return False, False
@@ -72,8 +70,8 @@ def check_nodes(case):
     """Whether both solutions stand; of the states of nodes no mesh lies at the ends of zones."""
     nip, kernels = case.nip, pair_kernels(case.nip, case.geometry)
     model = rn.Model(geometry=case.geometry, tolerance=TOLERANCE)
-    final = refined(case, kernels, 1.0, True)
-    rough = by_nodes(nip, model, kernels, half_width_guess(nip, kernels))
+    final = refined(case, kernels, 1.0, SIZES)
+    *_, rough = by_nodes(nip, model, kernels, half_width_guess(nip, kernels), SIZES[:3])
     fine = finer_by_nodes(nip, model, kernels, rough)
     if not (stands(nip, final) and rough.stands_still and fine.stands_still):
         return False

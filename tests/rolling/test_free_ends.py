@@ -9,8 +9,9 @@ import pytest
 import rollnip as rn
 from rollnip.closed_forms import carter, contact_modulus
 from rollnip.contact import Layout, State
-from rollnip.rolling import pair_kernels, refinement
+from rollnip.rolling import half_width_guess, pair_kernels, refinement
 from rollnip.rolling.free_ends import with_free_ends
+from rollnip.rolling.refinement import by_nodes
 
 LINEAR = rn.Model(geometry="linear")
 FIGURES = ("approach", "load", "creepage", "nip_width", "peak_pressure")
@@ -83,9 +84,11 @@ def test_the_same_as_node_by_node(case, solved, node_by_node):
 
 @pytest.fixture
 def attempt(wheels):
-    """Free ends with no solution before, from a layout that is made up."""
+    """Free ends from a layout that is made up."""
     kernels = pair_kernels(wheels, "linear")
-    return lambda layout: with_free_ends(wheels, LINEAR, kernels, layout)
+    half_width = half_width_guess(wheels, kernels)
+    (before,) = by_nodes(wheels, LINEAR, kernels, half_width, (16,))
+    return lambda layout: with_free_ends(wheels, LINEAR, kernels, layout, before, 0.1)
 
 
 @pytest.mark.parametrize("off", [0.8, 1.0, 1.2])

@@ -4,8 +4,6 @@ from rollnip.contact.complementarity import Complementary, Inequalities, interio
 from rollnip.contact.coupled import CoupledActiveSet, next_slip, next_states
 from rollnip.contact.features import ContactZone, contact_intervals, contact_zones
 from rollnip.contact.free_ends import Layout
-from rollnip.contact.grid import Convolution, GridProblem, GridState, grid_intervals
-from rollnip.contact.grid_solver import GridActiveSet
 from rollnip.contact.mesh import (
     CREEP_TO_EDGE,
     Subdivision,
@@ -17,7 +15,7 @@ from rollnip.contact.mesh import (
     more_elements,
     subdivided,
 )
-from rollnip.contact.methods import GivenStates, HeldContact, Safeguarded
+from rollnip.contact.methods import GivenStates, Safeguarded
 from rollnip.contact.problem import (
     ContactProblem,
     ContactState,
@@ -36,13 +34,8 @@ __all__ = [
     "ContactState",
     "ContactZone",
     "Control",
-    "Convolution",
     "CoupledActiveSet",
     "GivenStates",
-    "GridActiveSet",
-    "GridProblem",
-    "GridState",
-    "HeldContact",
     "Inequalities",
     "Layout",
     "Safeguarded",
@@ -58,7 +51,6 @@ __all__ = [
     "cubic_error",
     "elements_of_zones",
     "gap",
-    "grid_intervals",
     "influence_of",
     "interior_point",
     "more_elements",

@@ -6,6 +6,7 @@ equations for all unknowns together; the solution tells which states were wrong.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -28,38 +29,6 @@ from rollnip.contact.problem import (
 
 _TINY = np.finfo(float).tiny
 _LEAST_DIVISOR = 0.1  # from zero: what a change of one column may leave of the determinant
-
-
-@dataclass(frozen=True, slots=True)
-class CoupledActiveSet:
-    """Active-set solver of a contact problem for all unknowns at once.
-
-    Parameters
-    ----------
-    max_steps :
-        linear systems to solve at most.
-    rounding :
-        conditions violated by less than this, relative to the largest gap, pressure or creep,
-        count as met.
-    """
-
-    max_steps: int = 40
-    rounding: float = 1e-11
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Iterate from ``states`` until they reproduce themselves, or ``max_steps``."""
-        states = _ensure_solvable(problem, states)
-        seen: set[bytes] = set()
-        for step in range(1, self.max_steps + 1):
-            solution = solve_states(problem, states)
-            wanted = next_states(problem, solution, self.rounding)
-            if wanted.tobytes() == states.tobytes():
-                return replace(solution, steps=step, settled=True)
-            seen.add(states.tobytes())
-            if wanted.tobytes() in seen:
-                wanted = _gentler(states, wanted, solution)
-            states = _ensure_solvable(problem, wanted)
-        return replace(solution, steps=self.max_steps)
 
 
 def solve_states(
@@ -262,6 +231,42 @@ def _nearest_states(states: States, in_contact: Mask, new: Indices) -> States:
     before = touching[np.maximum(place - 1, 0)]
     after = touching[np.minimum(place, touching.size - 1)]
     return states[np.where(np.abs(before - new) < np.abs(after - new), before, after)]
+
+
+@dataclass(frozen=True, slots=True)
+class CoupledActiveSet:
+    """Active-set solver of a contact problem for all unknowns at once.
+
+    Parameters
+    ----------
+    max_steps :
+        linear systems to solve at most.
+    rounding :
+        conditions violated by less than this, relative to the largest gap, pressure or creep,
+        count as met.
+    wanted :
+        gives the states that follow from a solution: `next_states`, or `next_slip` on a contact
+        set that is held. There pressure may be negative and surfaces may overlap.
+    """
+
+    max_steps: int = 40
+    rounding: float = 1e-11
+    wanted: Callable[[ContactProblem, ContactState, float], States] = next_states
+
+    def solve(self, problem: ContactProblem, states: States) -> ContactState:
+        """Iterate from ``states`` until they reproduce themselves, or ``max_steps``."""
+        states = _ensure_solvable(problem, states)
+        seen: set[bytes] = set()
+        for step in range(1, self.max_steps + 1):
+            solution = solve_states(problem, states)
+            wanted = self.wanted(problem, solution, self.rounding)
+            if wanted.tobytes() == states.tobytes():
+                return replace(solution, steps=step, settled=True)
+            seen.add(states.tobytes())
+            if wanted.tobytes() in seen:
+                wanted = _gentler(states, wanted, solution)
+            states = _ensure_solvable(problem, wanted)
+        return replace(solution, steps=self.max_steps)
 
 
 def _ensure_solvable(problem: ContactProblem, states: States) -> States:

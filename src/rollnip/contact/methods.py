@@ -1,4 +1,4 @@
-"""Solvers of a contact problem: with states or the contact set given, or neither."""
+"""Solvers of a contact problem: with given states, and with states that are sought."""
 
 from __future__ import annotations
 
@@ -10,7 +10,6 @@ from rollnip.contact.complementarity import Inequalities, interior_point
 from rollnip.contact.coupled import (
     CoupledActiveSet,
     LinearSystem,
-    next_slip,
     next_states,
     solve_states,
 )
@@ -36,35 +35,6 @@ class GivenStates:
         ):
             last = self._last = LinearSystem.of(problem, states)
         return last.solved(problem, settled=True)
-
-
-@dataclass(frozen=True, slots=True)
-class HeldContact:
-    """Solver of a contact problem whose contact set is given; stick and slip are found.
-
-    Parameters
-    ----------
-    max_steps : linear systems to solve at most.
-    rounding : as that of `CoupledActiveSet`.
-    """
-
-    max_steps: int = 12
-    rounding: float = 1e-11
-
-    def solve(self, problem: ContactProblem, states: States) -> ContactState:
-        """Return the solution on the contact set of ``states``, with stick and slip iterated.
-
-        Pressure may be negative and surfaces may overlap; this is checked later.
-        """
-        for step in range(1, self.max_steps + 1):
-            solution = solve_states(problem, states, steps=step, settled=True)
-            if step == self.max_steps:
-                break
-            wanted = next_slip(problem, solution, self.rounding)
-            if np.array_equal(wanted, states):
-                break
-            states = wanted
-        return solution
 
 
 @dataclass(frozen=True, slots=True)

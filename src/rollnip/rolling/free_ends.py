@@ -51,8 +51,8 @@ def with_free_ends(
     model: Model,
     kernels: PairKernels,
     layout: Layout,
-    before: Round | None = None,
-    off: float = 0.1,
+    before: Round,
+    off: float,
     fewest: int = 0,
 ) -> Round | None:
     """Solve with zones whose ends are free, on ever finer meshes until the error is small enough.
@@ -60,7 +60,7 @@ def with_free_ends(
     Parameters
     ----------
     layout : the zones to start with, and about where they are.
-    before : the solution that the layout comes from; None: it is a guess.
+    before : the solution that the layout comes from.
     off : how far its zones may be off, over the width of the contact.
     fewest : elements of the first mesh, at least, where the zones are those of so fine a mesh; 0:
         they may well be others.
@@ -72,16 +72,9 @@ def with_free_ends(
     """
     placing = Placing(nip, model, kernels)
     count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
+    start = SearchState(layout, before, off=off)
     try:
-        if before is None:
-            stand = placing.guessed(layout, count)
-        else:
-            stand = SearchState(layout, before, off=off)
-        return (
-            None
-            if stand is None
-            else _refined(placing, stand, count, known=fewest > _ENOUGH_FOR_ZONES)
-        )
+        return _refined(placing, start, count, known=fewest > _ENOUGH_FOR_ZONES)
     except np.linalg.LinAlgError:
         return None
 

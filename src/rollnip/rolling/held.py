@@ -23,6 +23,8 @@ from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
     BY_NODES,
+    ENOUGH_FOR_ZONES,
+    SIZES,
     by_nodes,
     finer_by_nodes,
     placed,
@@ -71,30 +73,17 @@ class Asked:
 
 def begin(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> tuple[Round, Stage]:
     """Return a contact to begin with: with free ends, coarse or refined, or by nodes."""
-    found = _coarsely_placed(nip, model, kernels, half_width)
-    if found is not None:
-        return found, Stage.COARSE
-    guessed = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
-    if is_verified(guessed, model):
-        return guessed, Stage.REFINED
-    located = by_nodes(nip, coarsely(model), kernels, half_width)
-    if located.stands_still:
-        guessed = placed(nip, model, kernels, located)
-        if is_verified(guessed, model):
-            return guessed, Stage.REFINED
-    return located, Stage.COARSE
-
-
-def _coarsely_placed(
-    nip: Nip, model: Model, kernels: PairKernels, half_width: float
-) -> Round | None:
-    placing = Placing(nip, coarsely(model), kernels)
-    try:
-        stand = placing.guessed(Layout.sticking(half_width), _COARSE)
-        found = None if stand is None else placing.placed(stand, _COARSE, known=False)
-    except np.linalg.LinAlgError:
-        return None
-    return None if found is None else found.before
+    asked = coarsely(model)
+    for located in by_nodes(nip, asked, kernels, half_width, SIZES[:ENOUGH_FOR_ZONES]):
+        layout = Layout.of(located.zones) if located.stands_still else None
+        if layout is not None:
+            start = SearchState(layout, located, off=1.0 / located.mesh.inner.size)
+            with suppress(np.linalg.LinAlgError):
+                found = Placing(nip, asked, kernels).placed(start, _COARSE, known=False)
+                if found is not None:
+                    return found.before, Stage.COARSE
+    refined = placed(nip, model, kernels, located) if located.stands_still else None
+    return (refined, Stage.REFINED) if is_verified(refined, model) else (located, Stage.COARSE)
 
 
 def solved_next(
@@ -160,13 +149,9 @@ def anew(
     stage: Stage,
 ) -> tuple[PairKernels, Round, Stage]:
     """Solve from the beginning: with a mean of corrections or, if it leads astray, the last one."""
-    half_width, mixed = 0.5 * latest.figures.nip_width, both[0]
-    if stage is Stage.COARSE:
-        again = _coarsely_placed(nip, model, mixed, half_width)
-        if again is not None:
-            return mixed, again, stage
-    for kernels in both if mixed.held is not both[1].held else both[:1]:
-        if stage is Stage.COARSE and not latest.is_placed:
+    half_width = 0.5 * latest.figures.nip_width
+    for kernels in both if both[0].held is not both[1].held else both[:1]:
+        if stage is Stage.COARSE:
             found, stage = begin(nip, model, kernels, half_width)
         else:
             found = refine(nip, model, kernels, half_width)
@@ -182,7 +167,9 @@ def _solved_again(
     """Solve with another correction; where that fails the round does not stand still."""
     if not latest.is_placed:
         if change > _FAR:
-            return by_nodes(nip, model, kernels, 0.5 * latest.figures.nip_width)
+            sizes = SIZES[:ENOUGH_FOR_ZONES]
+            *_, found = by_nodes(nip, model, kernels, 0.5 * latest.figures.nip_width, sizes)
+            return found
         start = latest.state.states, latest.second, latest.steps
         found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, STILL)
     else:

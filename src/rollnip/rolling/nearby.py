@@ -57,7 +57,7 @@ class Nearby:
             return None
         kernels = replace(kernels, held=held)
         before = replace(self.final, mesh=self.final.mesh.holding(kernels), steps=0)
-        found = with_free_ends(nip, model, kernels, layout, before)
+        found = with_free_ends(nip, model, kernels, layout, before, _NEAR)
         return (kernels, found) if is_verified(found, model) else None
 
     def _is_like(self, nip: Nip, half_width: float) -> bool:

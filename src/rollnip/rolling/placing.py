@@ -29,12 +29,7 @@ from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.assemble import (
-    SecondOrder,
-    first_guess,
-    has_no_second_order,
-    second_order,
-)
+from rollnip.rolling.assemble import SecondOrder, second_order
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.round import Figures, Round, excess
 from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
@@ -73,37 +68,6 @@ class Placing:
     model: Model
     kernels: PairKernels
     given: GivenStates = field(default_factory=GivenStates)
-
-    def guessed(self, layout: Layout, count: int) -> SearchState | None:
-        """Find which zones there are, and about where, from one mesh on a guess.
-
-        Ends that are far off leave singular tractions. Where these slip, second-order terms under
-        them mean nothing, so zones are sought without these terms. Where all sticks, the mesh is
-        solved once more with them.
-
-        Returns
-        -------
-        None where the zones that the solution calls for have no layout.
-        """
-        kernels = held_from(self.kernels, None)
-        even = (1.0,) * layout.states.size
-        elements = elements_of_zones(layout.breaks, count)
-        mesh = _mesh(layout, (elements, even), self.thinnest, kernels)
-        states, zones = layout.states_on(mesh.inner), layout.zones
-        start = states, first_guess(self.nip, mesh), 0
-        latest = self._solve_on_mesh(replace(self.model, geometry="linear"), mesh, start, zones)
-        asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        is_near = asked.distance(layout) < NEAR_ENOUGH_FOR_SLIP
-        wanted = self.search.wanted(latest, layout, whole=False) if is_near else None
-        if wanted is not None or not asked.is_proper:
-            edges = asked if asked.is_proper else layout.towards(asked)
-            other = self.search.between_edges(latest, wanted, edges, "linear")
-            return other if other is not None or wanted is not None else SearchState(edges, latest)
-        if self.kernels.is_fixed and not has_no_second_order(self.nip, self.model.geometry):
-            second = second_order(self.nip, self.model.geometry, mesh, latest.state)
-            latest = self._solve_on_mesh(self.model, mesh, (states, second, latest.steps), zones, 1)
-            asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        return SearchState(layout.towards(asked), latest, off=asked.distance(layout))
 
     def placed(
         self, start: SearchState, count: int, *, known: bool, closely: bool = False

@@ -25,48 +25,42 @@ from rollnip.rolling.turns import (
 
 BY_NODES = Safeguarded()
 """Solver of a contact problem whose states are sought node by node."""
-_SIZES = (16, 32, 64, 128, 256)  # elements of the meshes on which states are sought node by node
-_ENOUGH_FOR_ZONES = 3  # of these sizes
+SIZES = (16, 32, 64, 128, 256)  # elements of the meshes on which states are sought node by node
+ENOUGH_FOR_ZONES = 3  # of these sizes, where the contact itself is only a coarse one
 _FEWEST, _MOST = 2, 8  # meshes of a size, as long as second-order terms move
 _ROOM = 0.1  # beyond either edge of such a mesh, over the width of the contact
 
 
-def refine(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
+def refine(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    half_width: float,
+    sizes: tuple[int, ...] = SIZES,
+) -> Round:
     """Solve on ever better meshes until the estimated error is below the tolerance.
 
-    As a rule a guess of the width is enough for zones with free ends (`with_free_ends`). Where it
-    is not, contact, stick and slip are sought node by node, on ever finer meshes that reach beyond
-    the contact, and the zones that each of them finds are given to free ends to begin with.
+    Contact, stick and slip are sought node by node, on a coarse mesh that reaches beyond a guess of
+    the contact, and the zones found are given to free ends to begin with (`with_free_ends`). Where
+    these do not verify a solution, zones are sought again on ever finer meshes.
 
     Parameters
     ----------
     half_width : first guess [mm].
+    sizes : elements of the meshes on which zones are sought, in turn.
 
     Returns
     -------
     A verified solution; else the best one with free ends or, where there is none, the last one
     node by node, of those that stand still if any does: a start whose ends were not found.
     """
-    guessed = with_free_ends(nip, model, kernels, Layout.sticking(half_width))
-    if is_verified(guessed, model):
-        return guessed
-    return refine_by_nodes(nip, model, kernels, half_width, guessed)
-
-
-def refine_by_nodes(
-    nip: Nip, model: Model, kernels: PairKernels, half_width: float, best: Round | None
-) -> Round:
-    """Find zones node by node and give them to free ends, where a guess was not enough.
-
-    ``best``: what free ends have found from a guess, if anything; else as `refine`.
-    """
+    best: Round | None = None
     settled: Round | None = None
-    for count, located in _by_nodes(nip, model, kernels, half_width):
-        latest = located
-        if not located.stands_still:
+    for latest in by_nodes(nip, model, kernels, half_width, sizes):
+        if not latest.stands_still:
             continue
-        settled = located
-        found = placed(nip, model, kernels, located) if count > _SIZES[0] else None
+        settled = latest
+        found = placed(nip, model, kernels, latest)
         if is_verified(found, model):
             return found
         best = found or best
@@ -85,35 +79,28 @@ def placed(nip: Nip, model: Model, kernels: PairKernels, located: Round) -> Roun
     return with_free_ends(nip, model, kernels, layout, located, 1.0 / count, fewest)
 
 
-def by_nodes(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> Round:
-    """Return contact, stick and slip of the nodes of a mesh that is dense at the ends of zones."""
-    for _, latest in _by_nodes(nip, model, kernels, half_width, _SIZES[:_ENOUGH_FOR_ZONES]):
-        found = latest
-    return found
-
-
-def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
-    """Return contact, stick and slip of the nodes of a finer mesh; None where it is the finest."""
-    finer = [count for count in _SIZES[_ENOUGH_FOR_ZONES:] if count > 1.3 * before.mesh.inner.size]
-    return _on(Placing(nip, model, kernels), 0.0, finer[0], before) if finer else None
-
-
-def _by_nodes(
+def by_nodes(
     nip: Nip,
     model: Model,
     kernels: PairKernels,
     half_width: float,
-    sizes: tuple[int, ...] = _SIZES,
-) -> Iterator[tuple[int, Round]]:
+    sizes: tuple[int, ...],
+) -> Iterator[Round]:
     """Find contact, stick and slip node by node on ever finer meshes, as long as there is any."""
     placing = Placing(nip, model, kernels)
     before: Round | None = None
     for count in sizes:
         found = _on(placing, half_width, count, before)
-        yield count, found
+        yield found
         if not (found.figures.peak_pressure > 0.0 and has_grip(found)):
             return
         before = found if found.stands_still else before
+
+
+def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
+    """Return contact, stick and slip of the nodes of a finer mesh; None where it is the finest."""
+    finer = [count for count in SIZES[ENOUGH_FOR_ZONES:] if count > 1.3 * before.mesh.inner.size]
+    return _on(Placing(nip, model, kernels), 0.0, finer[0], before) if finer else None
 
 
 def _on(placing: Placing, half_width: float, count: int, before: Round | None) -> Round:

@@ -8,7 +8,7 @@ from math import inf
 import numpy as np
 
 from rollnip.contact import (
-    HeldContact,
+    CoupledActiveSet,
     Layout,
     State,
     States,
@@ -25,7 +25,7 @@ from rollnip.rolling.round import Figures, Round
 from rollnip.rolling.surfaces import PairKernels
 from rollnip.rolling.turns import STILL
 
-_STICK_AND_SLIP = HeldContact()
+_STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
 NEAR_ENOUGH_FOR_SLIP = 0.1  # over the width of the contact: good enough to see what slips
 
 

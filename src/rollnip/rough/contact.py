@@ -9,10 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
-from rollnip.contact import Convolution, GridActiveSet, GridProblem, GridState, grid_intervals
 from rollnip.influence import Kernel, displacement_matrix, grid_displacements
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling import PairKernels
+from rollnip.rough.grid import Convolution, GridProblem, GridState, grid_intervals
+from rollnip.rough.grid_solver import GridActiveSet
 from rollnip.rough.sampling import SampledProfiles
 
 Array = NDArray[np.float64]

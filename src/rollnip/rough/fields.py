@@ -8,7 +8,6 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import Convolution
 from rollnip.influence import (
     SurfaceKernels,
     displacement_matrix,
@@ -17,6 +16,7 @@ from rollnip.influence import (
     strain_matrix,
 )
 from rollnip.rough.contact import RoughContact
+from rollnip.rough.grid import Convolution
 
 Array = NDArray[np.float64]
 

@@ -6,8 +6,8 @@ from scipy.linalg import toeplitz
 from scipy.optimize import nnls
 
 from rollnip.closed_forms import hertz_line, wavy_contact
-from rollnip.contact import Convolution, GridActiveSet, GridProblem
-from rollnip.contact.grid_solver import _growing
+from rollnip.rough.grid import Convolution, GridProblem
+from rollnip.rough.grid_solver import GridActiveSet, _growing
 
 MODULUS = 100.0  # E*
 TIGHT = GridActiveSet(tolerance=1e-9)

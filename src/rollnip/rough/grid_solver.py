@@ -21,8 +21,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.linalg import LinAlgError, cho_factor, cho_solve
 
-from rollnip.contact.grid import Convolution, GridProblem, GridState, InverseWithHoles
 from rollnip.contact.problem import Array, Indices, Mask
+from rollnip.rough.grid import Convolution, GridProblem, GridState, InverseWithHoles
 
 # Nodes of the first grid at most; a grid that is not halved has no estimated errors.
 _COARSEST_NODES = 256

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from scipy.linalg import eigh, toeplitz
 
-from rollnip.contact import Convolution, grid_intervals
-from rollnip.contact.grid import InverseWithHoles
+from rollnip.rough.grid import Convolution, InverseWithHoles, grid_intervals
 
 
 def logarithm(n):

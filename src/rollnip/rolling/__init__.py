@@ -1,4 +1,20 @@
-"""The rolling contact of two rollers: assembly, rounds of refinement, the check afterwards."""
+"""The rolling contact of two rollers, from a nip to its figures and what they claim.
+
+1. Influence functions of both rollers are tabulated (`surfaces.pair_kernels`), and the width of the
+   contact is guessed from elliptic pressures (`start`).
+2. Where surfaces are free, stick or slip is found node by node on a coarse mesh that reaches beyond
+   that contact (`refinement`; solvers in `rollnip.contact`).
+3. These zones get nodes at their ends. The tractions beside each end tell where it should be, and
+   it is moved there; a solution with placed ends tells whether its zones are right (`placing`,
+   `search`). On each mesh, terms that depend on the solution are found in turns (`turns`).
+4. Meshes are refined until the estimated errors are below the tolerance (`free_ends`, `estimates`).
+   Where they do not become so, zones are found again from more nodes (`refinement`).
+5. The contact conditions are evaluated afresh, between the nodes too (`check`). With the errors,
+   that is what the figures claim (`claimed_errors`).
+
+At finite strain a correction of all orders is held through steps 2 to 4 and evaluated anew from
+their solution, until both agree (`beyond`, `held`).
+"""
 
 from rollnip.rolling.assemble import stretch_excess, surface_depths
 from rollnip.rolling.beyond import refine_all_orders, with_second_order

@@ -3,7 +3,8 @@
 "second" adds the second order, which every mesh evaluates anew. "finite" adds all orders by finite
 elements instead: what they give beyond the linear displacements is a correction, which is held
 while a contact is solved and evaluated anew from its solution. In free rolling the correction is a
-few hundredths of the first-order terms, and a turn leaves a twentieth of its error.
+few hundredths of the first-order terms, and of elastic layers an iteration leaves a seventh of its
+error at most.
 """
 
 from __future__ import annotations

@@ -51,7 +51,7 @@ _MOST_MESHES = 8
 _MOST_HALVINGS = 6
 _NEARLY_PLACED = 0.008  # over the width of the contact
 _HARDLY_MOVED = 0.001  # likewise
-_WEAKEST_CONTRACTION = 0.7  # of how far ends are off, from mesh to mesh of a turn
+_WEAKEST_CONTRACTION = 0.7  # of how far ends are off, from mesh to mesh
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
 
@@ -85,7 +85,7 @@ class Placing:
         -------
         None where there is no such solution.
         """
-        # The second order held so far is that of a coarser mesh: each size evaluates it anew.
+        # The second order held so far is that of a coarser mesh: each size evaluates its own.
         stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
         loosely = self.kernels.is_fixed and not known
         shape: Shape | None = None
@@ -190,7 +190,7 @@ class Placing:
 
     @cached_property
     def still(self) -> float:
-        """Change of second-order terms in a turn that is small enough, over the tolerance.
+        """Change of second-order terms in an iteration that is small enough, over the tolerance.
 
         Under a stiff skin without friction the pressure beside an edge follows each small change of
         the gap.
@@ -267,8 +267,8 @@ class Placing:
     def _solved_on(self, stand: SearchState, shape: Shape, most: int) -> tuple[Round, Layout]:
         """Solve on one mesh; return the solution, and where it puts the ends of zones.
 
-        At ``most`` so many turns of the second-order terms while ends are not placed; then as many
-        as these need.
+        At ``most`` so many iterations of the second-order terms while ends are not placed; then as
+        many as these need.
         """
         layout, before = stand.layout, stand.before
         mesh = _mesh(layout, shape, self.thinnest, before.mesh.kernels)

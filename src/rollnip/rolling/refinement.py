@@ -52,7 +52,7 @@ def refine(
     Returns
     -------
     A verified solution; else the best one with free ends or, where there is none, the last one
-    node by node, of those that stand still if any does: a start whose ends were not found.
+    node by node, of those that have settled if any has: a start whose ends were not found.
     """
     best: Round | None = None
     settled: Round | None = None
@@ -106,7 +106,7 @@ def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) 
 def _on(placing: Placing, half_width: float, count: int, before: Round | None) -> Round:
     """Solve node by node on meshes of one size, each dense at the ends that the last one found.
 
-    They are as many as second-order terms need to come to rest, for each holds those of the last.
+    They are as many as second-order terms need to settle, for each holds those of the last.
     """
     for number in range(_MOST):
         found = _on_one(placing, half_width, count, before)

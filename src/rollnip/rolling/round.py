@@ -65,12 +65,12 @@ class Further:
 
 @dataclass(frozen=True, slots=True)
 class Ended:
-    """How far turns of contact and correction got that found no solution.
+    """How far iterations of contact and correction got that found no solution.
 
     Attributes
     ----------
     cause : no equilibrium was found ("balance"), contact, stick and slip did not settle
-        ("contact"), or the correction still changed after the last turn allowed ("turns").
+        ("contact"), or the correction still changed after the last iteration allowed ("turns").
     turns : how often a correction was found.
     change : the last change of the correction, over the first-order terms; inf without any.
     """
@@ -92,16 +92,16 @@ class Round:
     figures : approach, load, creepage, nip width, peak pressure.
     error : estimated discretisation error of each figure, in its own unit; inf where unknown.
     steps : linear systems solved in all rounds so far.
-    stands_still : whether states and second-order terms stand still.
+    stands_still : whether states and second-order terms have settled.
     geometry_change : last change of the second-order terms (e(x) of "corrected", the stretch of
         "curved", the traction for a torque), relative to approach and creepage.
-    residual : largest relative violation of the contact conditions, evaluated afresh; inf where
+    residual : largest relative violation of the contact conditions, evaluated again; inf where
         it was not evaluated.
     further_error : estimated discretisation error of the further figures; None where unknown.
     cut : largest relative violation of the contact conditions by what "finite" leaves out, because
         it is too short for the contact.
-    ended : how far the turns of "finite" got where they found no solution; None where they did, or
-        where there were none.
+    ended : how far the iterations of "finite" got where they found no solution; None where they
+        did, or where there were none.
     """
 
     mesh: Mesh

@@ -197,28 +197,28 @@ def _without_solution(nip: Nip, model: Model, final: Round) -> str:
         )
     if model.geometry == "second" and not second_share(nip, final) < 1.0:
         return f"its {BEYOND[model.geometry]} exceed the approach"
-    return "" if final.stands_still else "contact, stick and slip did not settle"
+    return "" if final.settled else "contact, stick and slip did not settle"
 
 
 def _how_far(ended: Ended) -> str:
     """Return why contact and correction found no solution, and how far their iteration got."""
-    turns, change = ended.turns, f"{ended.change:.2g}"
-    if ended.cause == "balance" and turns == 0:
+    done, change = ended.iterations, f"{ended.change:.2g}"
+    if ended.cause == "balance" and done == 0:
         return "no equilibrium was found under its tractions, nor under a sixteenth of them"
     if ended.cause == "balance":
         return (
-            f"no equilibrium was found under its tractions in iteration {turns + 1} of contact and "
+            f"no equilibrium was found under its tractions in iteration {done + 1} of contact and "
             f"correction (in the iteration before, its terms beyond the linear ones changed by "
             f"{change} of the first-order ones)"
         )
     if ended.cause == "contact":
         return (
-            f"contact, stick and slip did not settle in iteration {turns} of contact and "
+            f"contact, stick and slip did not settle in iteration {done} of contact and "
             f"correction (in it, its terms beyond the linear ones changed by {change} of the "
             "first-order ones)"
         )
     return (
-        f"its terms beyond the linear ones did not settle in {turns} iterations of contact and "
+        f"its terms beyond the linear ones did not settle in {done} iterations of contact and "
         f"correction (they last changed by {change} of the first-order ones)"
     )
 
@@ -247,11 +247,11 @@ def _require_grip(nip: Nip, final: Round) -> None:
     wanted = final.problem.control.traction
     if wanted is None or has_grip(final):
         return
-    if isinstance(nip.tangential, Torque) and not final.stands_still:
+    if isinstance(nip.tangential, Torque) and not final.settled:
         return  # the traction that it takes is rough; `_verdict` says what it may be
     limit = nip.friction * final.figures.load
     given = isinstance(nip.normal, LineLoad)
-    if not given and not final.stands_still and abs(wanted) < _CLEARLY * limit:
+    if not given and not final.settled and abs(wanted) < _CLEARLY * limit:
         return  # the load is rough
     name = "torque_lower" if isinstance(nip.tangential, Torque) else "traction"
     raise InvalidInputError(
@@ -269,14 +269,14 @@ def _may_spin(nip: Nip, final: Round) -> bool:
 
 def _verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Return whether the solution is valid, and a sentence that says so or what to do."""
-    if not final.stands_still and _may_spin(nip, final):
+    if not final.settled and _may_spin(nip, final):
         return False, (
             "Contact, stick and slip did not settle: a traction of about "
             f"{final.problem.control.traction:.4g} N/mm may be asked for, and friction * load "
             f"carries {nip.friction * final.figures.load:.4g} N/mm; lower it, or raise the load "
             "or the friction."
         )
-    if not final.stands_still:
+    if not final.settled:
         what = "Contact, stick and slip did not settle"
         if final.geometry_change > 0.1 * model.tolerance:
             name = "The geometry correction"

@@ -22,9 +22,7 @@ STARTS = {"narrow": (0.6, SIZES), "wide": (1.6, SIZES), "finer nodes": (1.0, SIZ
 
 def stands(nip, final):
     """Whether solve would call it converged."""
-    return (
-        final.stands_still and final.residual <= TOLERANCE and excess(nip, final, TOLERANCE) <= 1.0
-    )
+    return final.settled and final.residual <= TOLERANCE and excess(nip, final, TOLERANCE) <= 1.0
 
 
 def refined(case, kernels, start, sizes):
@@ -73,7 +71,7 @@ def check_nodes(case):
     final = refined(case, kernels, 1.0, SIZES)
     *_, rough = by_nodes(nip, model, kernels, half_width_guess(nip, kernels), SIZES[:3])
     fine = finer_by_nodes(nip, model, kernels, rough)
-    if not (stands(nip, final) and rough.stands_still and fine.stands_still):
+    if not (stands(nip, final) and rough.settled and fine.settled):
         return False
     assert not fine.is_placed
     for figure, scale in scales(nip, final.figures).items():

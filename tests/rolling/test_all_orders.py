@@ -67,11 +67,11 @@ def test_a_contact_that_failed_is_not_solved_again_with_the_same_correction(monk
 
     def refused(nip, model, kernels, half_width):
         asked.append(kernels.held)
-        return SimpleNamespace(stands_still=False, is_placed=False)
+        return SimpleNamespace(settled=False, is_placed=False)
 
     monkeypatch.setattr(held, "refine", refused)
     latest = SimpleNamespace(figures=SimpleNamespace(nip_width=2.0))
     mean, last = (SimpleNamespace(held=object()) for _ in range(2))
     for both in ((last, last), (mean, last)):
-        held.anew(None, None, both, latest, held.Stage.REFINED)
+        held.restarted(None, None, both, latest, held.Stage.REFINED)
     assert asked == [last.held, mean.held, last.held]

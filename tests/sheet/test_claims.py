@@ -36,7 +36,7 @@ def _errors(number, geometry=None):
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
     search = SheetSearch(case.nip, model, solution.kernels)
     fine = search.placed(refined.stand.zones, round(2.2 * solution.solver.elements), refined.stand)
-    if not fine.stands_still:
+    if not fine.settled:
         return None
     truth = SheetFigures.of(fine, model.geometry)
     scale = scales(case.nip, truth)
@@ -125,7 +125,7 @@ def _errors_below(number):
     count = min(round(2.2 * solution.solver.elements), 240)
     search = PlateSearch(case.nip, model, solution.kernels)
     fine = search.placed(stand.zones, count, stand)
-    if not fine.stands_still:
+    if not fine.settled:
         return None
     mesh, sheet = fine.problem.meshes[1], solution.sheet
     pressure = mesh.between(fine.state.pressure[1])

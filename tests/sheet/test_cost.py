@@ -57,7 +57,7 @@ def test_what_never_settles_is_given_up_after_three_sizes_of_mesh(monkeypatch):
 
     def restless(self, zones, count, *more):
         sizes.append(count)
-        return replace(placed(self, zones, count, *more), stands_still=False)
+        return replace(placed(self, zones, count, *more), settled=False)
 
     monkeypatch.setattr(search.SheetSearch, "placed", restless)
     assert not rn.solve(random_case(17).nip, rn.Model(geometry="curved")).converged

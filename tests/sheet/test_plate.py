@@ -337,7 +337,7 @@ def test_slip_both_ways_below_a_stiff_sheet_is_found():
 
 def test_a_sheet_without_pressure_on_one_side_did_not_settle():
     # the violation of conditions is infinite there, which no sentence should say
-    refined = SimpleNamespace(stand=SimpleNamespace(stands_still=False), residual=inf)
+    refined = SimpleNamespace(stand=SimpleNamespace(settled=False), residual=inf)
     is_met, said = sheet_verdict(nip_with(BOARD), LINEAR, refined, None)
     assert not is_met
     assert "no pressure was found on one of them" in said
@@ -365,7 +365,7 @@ def test_random_plates_that_were_not_verified(number):
 
 
 def test_a_plate_that_is_not_verified_says_why():
-    stand = SimpleNamespace(stands_still=False, off=2e-3)
+    stand = SimpleNamespace(settled=False, off=2e-3)
     refined = SimpleNamespace(stand=stand, residual=1e-3)
     is_met, said = _verdict(nip_with(BOARD), LINEAR, refined, (None, None))
     assert not is_met

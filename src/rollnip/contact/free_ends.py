@@ -6,7 +6,7 @@ its ends are edges like the outer ones, where the pressure goes to zero as a squ
 A zone that is too wide by delta leaves, to first order, delta/2 times an inverse square root in
 the tractions beside its end; one that is too narrow leaves the opposite. On nodes at cosine places
 that pattern is the same for every zone, in units of the first element: at short distance every
-surface responds as a half-plane does. So the first nodes tell how far an end is off. It is Newton's
+surface responds as a half-plane does. So the first nodes tell the error of an end. It is Newton's
 method with the derivative known beforehand; misplaced by a whole element, an end is found again
 to a hundredth of one.
 """

@@ -17,7 +17,7 @@ _TINY = float(np.finfo(float).tiny)
 class Secants:
     """Places of the ends of zones, by Broyden's method from what the last meshes asked for.
 
-    A solution asks each end to move by as much as it is off where the surfaces respond as
+    A solution asks each end to move by its error where the surfaces respond as
     half-planes and no end moves another. So the slope of the moves asked for is taken as -1 on the
     diagonal, and each mesh adds what it shows of the rest. Where a solution says only which way an
     end should go, it goes half-way to the last place that asked for the other.

@@ -145,7 +145,7 @@ def _cut(roller: Roller) -> float:
     """Return the wave number up to which the displacement of a stiff top layer counts.
 
     Waves shorter than its thickness carry the peak of pressure beside an edge, which only a layer
-    many times stiffer than what it covers has. Beside a slipping edge turns do not come to rest
+    many times stiffer than what it covers has. Beside a slipping edge iterations do not settle
     with such waves.
     """
     if len(roller.layers) < 2:

@@ -34,7 +34,7 @@ from rollnip.materials import Energy, NeoHookean, Slopes
 # the result: every step reduces what is left of J - 1 by about this factor.
 _YIELD = 1e-6
 _SOFT = NeoHookean()
-# What a result may still be off, over the displacement, in energy: a skin answers short waves that
+# Allowed error of a result, over the displacement, in energy: a skin answers short waves that
 # are a millionth of the displacement with pressures like those of the contact.
 STILL = 1e-5
 _MOST_STEPS = 40
@@ -323,8 +323,8 @@ class Body:
         try:
             return self._by_steps(tractions, start, still, share)
         except NoEquilibriumError:
-            afresh = MeshState(start.displacement, start.pressure)
-            return self._by_steps(tractions, afresh, still, share)
+            unloaded = MeshState(start.displacement, start.pressure)
+            return self._by_steps(tractions, unloaded, still, share)
 
     def _by_steps(
         self, tractions: Tractions, start: MeshState, still: float, share: float

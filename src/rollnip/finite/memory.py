@@ -11,7 +11,7 @@ components along the undeformed arc and into the undeformed roller, which turn w
 incompressible layer has no second integral; its pressure is free. At small strain T and lambda m
 together are the linear stress: E*(s) with a constant Poisson ratio. Slow rolling is elastic with
 the relaxed modulus, fast rolling with the glassy one. The neo-Hookean T = G (1 - C^-1) is that of
-a network whose strands break and form anew without stress (Green & Tobolsky 1946, J. Chem. Phys.
+a network whose strands break and form again without stress (Green & Tobolsky 1946, J. Chem. Phys.
 14, 80-92; Lodge 1956, Trans. Faraday Soc. 52, 120-130), which never gives back more than it took.
 
 In steady rolling a material point runs along its row of elements towards smaller arcs s with the

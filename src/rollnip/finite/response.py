@@ -32,7 +32,7 @@ _NEAR = 4.0  # half-widths beyond which the surface is of no interest
 _FRONT = 0.8  # of the radius: how far the arcs reach of which x increases
 _SAME_SPEED = 1e-3  # change of speed that a mesh may leave out
 _STAYS = 0.01  # by which places may move and keep their mesh, over the width of the contact
-_SHARE = 0.01  # what equilibria may be off, over the change since the last one
+_SHARE = 0.01  # allowed error of equilibria, over the change since the last one
 # While tractions are far from their solution:
 _COARSE_WAVE_SHARE = 0.5  # of the wave numbers that are kept
 _COARSE_MOVE_FACTOR = 2.5  # times `_STAYS`
@@ -103,7 +103,7 @@ def linear_surface(body: Body, displacement: Array) -> tuple[Array, Array]:
 
 
 class FiniteResponse:
-    """Displacement beyond the linear one of a covering under tractions, evaluated time and again.
+    """Displacement beyond the linear one of a covering under tractions, evaluated repeatedly.
 
     Each equilibrium starts from the one before, the first from one given, if any. Where none is
     found, that under tractions between the last and the new ones is looked for; the first ones
@@ -242,7 +242,7 @@ class FiniteResponse:
         near = np.abs(surface.arcs) < self._near
         x, u = surface.x[near], np.stack([surface.u_x[near], surface.u_z[near]])
         if not roughly or self._off is None or self._off.shape != u.shape:
-            self._off = self._off_in_linear_theory(mesh, x, surface.arcs[near])
+            self._off = self._error_in_linear_theory(mesh, x, surface.arcs[near])
         u -= self._off + mesh.acting.linear_displacement(self._linear, x)
         through = Spline.bending if self._columns.skin < np.inf else Spline.through
         return tuple(through(x, row) for row in u)
@@ -259,8 +259,8 @@ class FiniteResponse:
         assert self._smoothing is not None
         return self._smoothing
 
-    def _off_in_linear_theory(self, mesh: _LoadedMesh, x: Array, arcs: Array) -> Array:
-        """Return by how much the elements are off in linear theory, (2, n).
+    def _error_in_linear_theory(self, mesh: _LoadedMesh, x: Array, arcs: Array) -> Array:
+        """Return the error of the elements in linear theory, (2, n).
 
         Under the tractions on the material that they act on now: the elements are loaded as at
         finite strain.

@@ -16,7 +16,7 @@ _MOST_STARTS = 3
 
 
 class NoEquilibriumError(ArithmeticError):
-    """No equilibrium was found: an element is turned inside out, or steps do not come to rest."""
+    """No equilibrium was found: an element is turned inside out, or steps do not settle."""
 
 
 @dataclass(frozen=True)

@@ -49,7 +49,7 @@ from rollnip.model import Geometry, Model
 
 Array = NDArray[np.float64]
 
-_MOST_TURNS = 8  # rounds of fitting and estimating the noise
+_MOST_ROUNDS = 8  # rounds of fitting and estimating the noise
 _STILL = 0.02  # relative change of the noise of the sets against each other
 _IMPROBABLE = 0.01  # chi-square below this probability: the errors given are too small
 
@@ -310,7 +310,7 @@ def _with_noise(misfit: Misfit, best: Local, noise: Noise) -> tuple[Misfit, Loca
     """Return the fit with the noise estimated from it, where errors were not given."""
     if not any(noise.estimated):
         return misfit, best, noise
-    for _ in range(_MOST_TURNS):
+    for _ in range(_MOST_ROUNDS):
         plain = straightened(misfit, best)
         found = estimated_noise(misfit.parts, noise, plain, misfit.loss)
         change = largest_change(noise, found)

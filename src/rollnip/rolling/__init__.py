@@ -6,13 +6,13 @@
    that contact (`refinement`; solvers in `rollnip.contact`).
 3. These zones get nodes at their ends. The tractions beside each end tell where it should be, and
    it is moved there; a solution with placed ends tells whether its zones are right (`placing`,
-   `search`). On each mesh, terms that depend on the solution are found in turns (`turns`).
+   `search`). On each mesh, terms that depend on the solution are found by iteration (`iterations`).
 4. Meshes are refined until the estimated errors are below the tolerance (`free_ends`, `estimates`).
    Where they do not become so, zones are found again from more nodes (`refinement`).
-5. The contact conditions are evaluated afresh, between the nodes too (`check`). With the errors,
-   that is what the figures claim (`claimed_errors`).
+5. The contact conditions are evaluated between the nodes, too (`check`). With the errors, that is
+   what the figures claim (`claimed_errors`).
 
-At finite strain a correction of all orders is held through steps 2 to 4 and evaluated anew from
+At finite strain a correction of all orders is held through steps 2 to 4 and evaluated again from
 their solution, until both agree (`beyond`, `held`).
 """
 

@@ -1,8 +1,8 @@
 """What a geometry of finite strain adds to the influence functions of both rollers.
 
-"second" adds the second order, which every mesh evaluates anew. "finite" adds all orders by finite
+"second" adds the second order, which every mesh evaluates again. "finite" adds all orders by finite
 elements instead: what they give beyond the linear displacements is a correction, which is held
-while a contact is solved and evaluated anew from its solution. In free rolling the correction is a
+while a contact is solved and evaluated again from its solution. In free rolling the correction is a
 few hundredths of the first-order terms, and of elastic layers an iteration leaves a seventh of its
 error at most.
 """
@@ -28,23 +28,23 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, WeightedSum
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
-from rollnip.rolling.held import Asked, Stage, anew, begin, solved_next
+from rollnip.rolling.held import Asked, Stage, begin, restarted, solved_next
+from rollnip.rolling.iterations import change_of, with_residual
 from rollnip.rolling.largest import largest
 from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import change_of, with_residual
 
 Array = NDArray[np.float64]
 _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
 MOST_CORRECTIONS = 30  # of the correction and the contact
-# Violation of the contact conditions, or last change, from which turns need not go on: over the
-# tolerance, or over the violation by what is cut, which the solution says that it leaves open.
+# Violation of the contact conditions, or last change, from which iterations need not go on: over
+# the tolerance, or over the violation by what is cut, which the solution says that it leaves open.
 _ENOUGH = 0.3
-SMALL = 0.1  # change of a turn from which it may be the last one
-_MOST_AFRESH = 10  # turns that are solved from the beginning
-# Of the wave numbers: with all of them turns may not come to rest beside an edge that slips at
+SMALL = 0.1  # change of an iteration from which it may be the last one
+_MOST_RESTARTS = 10  # iterations that are solved from the beginning
+# Of the wave numbers: with all of them iterations may not settle beside an edge that slips at
 # strains of two and more. Which cut they need is not known before; what it costs is claimed.
 SHARES_KEPT = (1.0, 0.5, 0.25)
 # Tolerance that nips with a stiff skin are solved to at least: violations of the contact conditions
@@ -70,20 +70,20 @@ def with_second_order(
 def refine_all_orders(
     nip: Nip, model: Model, kernels: PairKernels, half_width: float, near: Nearby | None = None
 ) -> tuple[PairKernels, Round]:
-    """Solve a coarse contact in turns with the correction of all orders, then refine it.
+    """Solve a coarse contact by iteration with the correction of all orders, then refine it.
 
-    Where a nip much like it has been solved, turns start from that solution.
+    Where a nip much like it has been solved, iterations start from that solution.
 
     Returns
     -------
     The influence functions with the last correction, and the solution with it. Where no equilibrium
-    is found, or no contact, it does not stand still; ``ended`` tells how far turns got.
+    is found, or no contact, it has not settled; ``ended`` tells how far iterations got.
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
     latest, stage = begin(nip, model, kernels, half_width)
     ended: Ended | None = None
-    if latest.stands_still and latest.figures.peak_pressure > 0.0:
+    if latest.settled and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
         begun = None if near is None else near.begun(nip, model, kernels, half_width)
         if near is not None and begun is not None:
@@ -97,9 +97,9 @@ def refine_all_orders(
             if not isinstance(found, Ended):
                 return found
             ended = found
-            if ended.cause == "balance" and ended.turns == 0:
+            if ended.cause == "balance" and ended.iterations == 0:
                 break  # the tractions to begin with have none, whatever waves are kept
-    return kernels, replace(latest, stands_still=False, ended=ended)
+    return kernels, replace(latest, settled=False, ended=ended)
 
 
 @dataclass
@@ -157,7 +157,7 @@ class Least(Generic[Found]):
     left: float = inf
 
     def is_enough(self, found: Found, left: float, to_come: float, cut: float = 0.0) -> bool:
-        """Take in a further solution; return whether there is one from which turns need not go on.
+        """Take in a further solution; return whether there is one to stop at.
 
         ``left``: violation by it, over the tolerance; ``to_come``: sum of the changes to come, over
         the tolerance; ``cut``: violation by what is cut from its correction, likewise.
@@ -177,24 +177,24 @@ def _turns(
     orders: AllOrders,
     stage: Stage,
 ) -> tuple[PairKernels, Round] | Ended:
-    """Solve the contact and evaluate its correction in turns.
+    """Solve the contact and evaluate its correction by iteration.
 
-    First on a coarse mesh, until the changes to come are small. Then the mesh is refined, and turns
-    go on until the contact conditions are met with the correction that belongs to the solution
-    itself.
+    First on a coarse mesh, until the changes to come are small. Then the mesh is refined, and
+    iterations go on until the contact conditions are met with the correction that belongs to the
+    solution itself.
     """
-    change, afresh, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
+    change, restarts, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
     least = Least[tuple[PairKernels, Round]]()
-    turns = 0
-    cause: Literal["balance", "contact", "turns"] = "turns"
-    for turn in range(MOST_CORRECTIONS):
+    iterations = 0
+    cause: Literal["balance", "contact", "iterations"] = "iterations"
+    for iteration in range(MOST_CORRECTIONS):
         try:
             roughly = stage is Stage.COARSE and latest.is_placed
             made, is_whole = orders.beyond(latest, roughly=roughly)
         except NoEquilibriumError:
-            cause, turns = "balance", turn
+            cause, iterations = "balance", iteration
             break
-        turns = turn + 1
+        iterations = iteration + 1
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
         if stage is Stage.REFINED and change < SMALL and is_whole:
@@ -202,24 +202,24 @@ def _turns(
             left, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
             if least.is_enough((smooth, checked), left, change / model.tolerance, cut):
                 break
-            if turn == 0:  # of another nip's correction, later ones may well violate them more
+            if iteration == 0:  # of another nip's correction, later ones may well violate them more
                 least = Least()
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
         near = min(change, to_come_after(change, before)) / model.tolerance
         was, asked = stage, Asked(change, near if is_whole else inf)
         found, stage = solved_next(nip, model, mixed, latest, stage, asked)
-        if not found.stands_still and stage is not Stage.FINE and afresh < _MOST_AFRESH:
-            afresh += 1
-            kernels, found, stage = anew(nip, model, (mixed, smooth), latest, stage)
-        if not found.stands_still:
+        if not found.settled and stage is not Stage.FINE and restarts < _MOST_RESTARTS:
+            restarts += 1
+            kernels, found, stage = restarted(nip, model, (mixed, smooth), latest, stage)
+        if not found.settled:
             cause = "contact"
             break
         if stage is not was:
             past = Past(places_by_the_edges(_edges(latest)))
         latest = found
     if least.found is None:
-        return Ended(cause, turns, change)
+        return Ended(cause, iterations, change)
     return least.found
 
 
@@ -230,7 +230,7 @@ def _edges(latest: Round) -> tuple[float, float]:
 def even_places(edges: tuple[float, float]) -> Array:
     """Return places at which corrections are compared, at even distances.
 
-    Dense beside the edges, the short waves there would hide what is slow to come to rest.
+    Dense beside the edges, the short waves there would hide what is slow to settle.
     """
     return np.linspace(*edges, _COMPARED)
 
@@ -249,7 +249,7 @@ def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round, change
     """
     checked = with_residual(nip, model, kernels, _with(latest, kernels))
     change = largest(change, latest.geometry_change)
-    checked = replace(checked, geometry_change=change, stands_still=True)
+    checked = replace(checked, geometry_change=change, settled=True)
     if not checked.residual <= model.tolerance or kernels.held is None:
         return checked
     uncut = replace(kernels, held=kernels.held.uncut)

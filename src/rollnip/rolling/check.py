@@ -1,4 +1,4 @@
-"""The contact conditions evaluated afresh, on more points than were solved on."""
+"""The contact conditions evaluated on more points than were solved on."""
 
 from __future__ import annotations
 

@@ -23,12 +23,12 @@ from rollnip.rolling.estimates import (
     with_further_errors,
     zone_excess,
 )
+from rollnip.rolling.iterations import converge, with_residual
 from rollnip.rolling.largest import largest
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import converge, with_residual
 
 _FIRST_COUNT = 18
 _ELEMENTS_PER_ZONE = 4  # elements more for each zone

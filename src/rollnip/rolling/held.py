@@ -2,7 +2,7 @@
 
 While the correction changes much, a coarse contact is enough. Where one with free ends is not found
 from a guess of the width, as under stiff foils with friction, contact, stick and slip are sought
-node by node until the correction is at rest; only then free ends take over the zones.
+node by node until the correction has settled; only then free ends take over the zones.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
+from rollnip.rolling.iterations import STILL, solve_on_mesh
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
     BY_NODES,
@@ -33,15 +34,14 @@ from rollnip.rolling.refinement import (
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import SearchState
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import STILL, solve_on_mesh
 
-_FAR = 0.1  # change from which a contact is sought anew, where it is sought node by node
+_FAR = 0.1  # change from which a contact is sought again, where it is sought node by node
 _AT_REST = 0.3  # change of such a contact's correction, over the tolerance: free ends take over
 _COARSE = 24  # elements of the contact while its correction still changes
 NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
 # Change, over the tolerance, from which on the mesh of a bare nip is refined: at once where the
-# correction is moderate, later where a layer is viscoelastic (coarse turns are cheap then) or a
-# skin needs a correction that nearly fits to find its edges.
+# correction is moderate, later where a layer is viscoelastic (coarse iterations are cheap then) or
+# a skin needs a correction that nearly fits to find its edges.
 _REFINED_FROM = 400.0
 _REFINED_LATER_FROM = 50.0
 _COARSELY = 1e-2  # tolerance of such contacts
@@ -75,14 +75,14 @@ def begin(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> tu
     """Return a contact to begin with: with free ends, coarse or refined, or by nodes."""
     asked = coarsely(model)
     for located in by_nodes(nip, asked, kernels, half_width, SIZES[:ENOUGH_FOR_ZONES]):
-        layout = Layout.of(located.zones) if located.stands_still else None
+        layout = Layout.of(located.zones) if located.settled else None
         if layout is not None:
             start = SearchState(layout, located, off=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
                 found = Placing(nip, asked, kernels).placed(start, _COARSE, known=False)
                 if found is not None:
                     return found.before, Stage.COARSE
-    refined = placed(nip, model, kernels, located) if located.stands_still else None
+    refined = placed(nip, model, kernels, located) if located.settled else None
     return (refined, Stage.REFINED) if is_verified(refined, model) else (located, Stage.COARSE)
 
 
@@ -91,7 +91,7 @@ def solved_next(
 ) -> tuple[Round, Stage]:
     """Solve with another correction, on better meshes where it is nearly right.
 
-    Where that fails the round does not stand still.
+    Where that fails the round has not settled.
     """
     if asked.near <= _enough_for_better(nip, latest, stage):
         return _better(nip, model, kernels, latest, stage)
@@ -123,7 +123,7 @@ def _better(
     finer = finer_by_nodes(nip, model, kernels, latest)
     if finer is None and ready is not None:
         return ready, Stage.REFINED  # its errors stay too large, and are said
-    return finer or replace(latest, stands_still=False), Stage.FINE
+    return finer or replace(latest, settled=False), Stage.FINE
 
 
 def coarsely(model: Model) -> Model:
@@ -141,7 +141,7 @@ def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Rou
     return refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
 
 
-def anew(
+def restarted(
     nip: Nip,
     model: Model,
     both: tuple[PairKernels, PairKernels],
@@ -156,7 +156,7 @@ def anew(
         else:
             found = refine(nip, model, kernels, half_width)
             stage = Stage.REFINED if found.is_placed else Stage.FINE
-        if found.stands_still:
+        if found.settled:
             break
     return kernels, found, stage
 
@@ -164,7 +164,7 @@ def anew(
 def _solved_again(
     nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, change: float
 ) -> Round:
-    """Solve with another correction; where that fails the round does not stand still."""
+    """Solve with another correction; where that fails the round has not settled."""
     if not latest.is_placed:
         if change > _FAR:
             sizes = SIZES[:ENOUGH_FOR_ZONES]
@@ -193,4 +193,4 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.solved_at_moved_ends(search)
             found = found or placing.placed(search, as_cosines(latest), known=True)
-    return replace(latest if found is None else found.before, stands_still=found is not None)
+    return replace(latest if found is None else found.before, settled=found is not None)

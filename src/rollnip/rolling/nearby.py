@@ -1,8 +1,8 @@
 """A nip that has been solved, as a start for one that is much like it.
 
 The correction of all orders that belongs to the old solution is held while the new contact is
-solved, and its elements start from their old equilibrium. The turns that follow end as any others
-do: where the contact conditions are met with the correction of the solution itself.
+solved, and its elements start from their old equilibrium. The iterations that follow end as any
+others do: where the contact conditions are met with the correction of the solution itself.
 """
 
 from __future__ import annotations

@@ -31,17 +31,17 @@ from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.assemble import SecondOrder, second_order
 from rollnip.rolling.changes import to_come_after
-from rollnip.rolling.round import Figures, Round, excess
-from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
-from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
-from rollnip.rolling.turns import (
-    MOST_TURNS,
+from rollnip.rolling.iterations import (
+    MOST_ITERATIONS,
     STILL,
     STILL_UNDER_SKIN,
     change_of,
     held_from,
     solve_on_mesh,
 )
+from rollnip.rolling.round import Figures, Round, excess
+from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
+from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 
 # Meshes of one size with the same zones at a tolerance of 1e-3, and one more for each digit. Of 708
 # sizes of 200 random nips one needed more, and those that failed would have taken 10 to 19.
@@ -51,7 +51,7 @@ _MOST_MESHES = 8
 _MOST_HALVINGS = 6
 _NEARLY_PLACED = 0.008  # over the width of the contact
 _HARDLY_MOVED = 0.001  # likewise
-_WEAKEST_CONTRACTION = 0.7  # of how far ends are off, from mesh to mesh
+_WEAKEST_CONTRACTION = 0.7  # of the error of ends, from mesh to mesh
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
 
@@ -104,13 +104,13 @@ class Placing:
                 off, last = inf, None
             # Transitions that come from a guess will move again, whatever the second order.
             hasty = loosely and off > _NEARLY_PLACED and layout.states.size > 1
-            most = 1 if hasty else MOST_TURNS
+            most = 1 if hasty else MOST_ITERATIONS
             latest, asked = self._solved_on(stand, shape, most)
             off = asked.distance(layout)
             known_to = min(known_to, off)
             is_quiet = self.kernels.is_fixed or stand.is_quiet
             is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
-            is_still = latest.stands_still and is_quiet
+            is_still = latest.settled and is_quiet
             there = ends.next(layout, asked, self._singular(latest, layout), is_still=is_still)
             left = None if last is None else _left_to_change(last, (layout, latest.figures), there)
             last = layout, latest.figures
@@ -156,7 +156,7 @@ class Placing:
         shape, off = (np.array(fine.elements), fine.crowding), inf
         for _ in range(2):
             layout, before = stand.layout, off
-            latest, asked = self._solved_on(stand, shape, MOST_TURNS)
+            latest, asked = self._solved_on(stand, shape, MOST_ITERATIONS)
             off = asked.distance(layout)
             is_placed = self._is_placed(layout, asked, known=True)
             if (
@@ -215,7 +215,7 @@ class Placing:
     def _is_placed(
         self, layout: Layout, asked: Layout, *, known: bool, by_figures: bool = False
     ) -> bool:
-        """Return whether ends of zones are off by little over the width of the contact.
+        """Return whether the errors of ends of zones are small over the width of the contact.
 
         Where the figures say how exactly they are placed (``by_figures``), the tolerance will do.
         Without friction edges of zones that are ``known`` are placed over the length of their
@@ -276,7 +276,7 @@ class Placing:
         start = states, before.second.carried(before.mesh, mesh), before.steps
         latest = self._solve_on_mesh(self.model, mesh, start, zones, most)
         asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        is_hasty = most < MOST_TURNS and not latest.stands_still
+        is_hasty = most < MOST_ITERATIONS and not latest.settled
         if is_hasty and self._is_placed(layout, asked, known=False):
             start = states, latest.second, latest.steps
             latest = self._solve_on_mesh(self.model, mesh, start, zones)
@@ -289,9 +289,9 @@ class Placing:
         mesh: Mesh,
         start: tuple[States, SecondOrder, int],
         zones: tuple[ContactZone, ...],
-        most: int = MOST_TURNS,
+        most: int = MOST_ITERATIONS,
     ) -> Round:
-        most = MOST_TURNS if self.still < STILL else most
+        most = MOST_ITERATIONS if self.still < STILL else most
         return solve_on_mesh(self.nip, model, mesh, start, self.given, self.still, zones, most)
 
 

@@ -80,7 +80,7 @@ class SolverInfo:
     ----------
     elements : of the last mesh.
     iterations : linear systems solved in all.
-    residual : largest violation of the contact conditions, evaluated afresh, relative.
+    residual : largest violation of the contact conditions, evaluated on more points, relative.
     geometry_change : last change of the geometry correction, relative; 0 for "linear".
     seconds : wall time.
     version : of rollnip.

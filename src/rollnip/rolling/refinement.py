@@ -10,10 +10,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess, second_order
 from rollnip.rolling.free_ends import is_verified, with_free_ends
-from rollnip.rolling.placing import Placing, are_too_many
-from rollnip.rolling.round import Round, has_grip
-from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import (
+from rollnip.rolling.iterations import (
     STILL,
     change_of,
     converge,
@@ -22,6 +19,9 @@ from rollnip.rolling.turns import (
     solve_on_mesh,
     with_residual,
 )
+from rollnip.rolling.placing import Placing, are_too_many
+from rollnip.rolling.round import Round, has_grip
+from rollnip.rolling.surfaces import PairKernels
 
 BY_NODES = Safeguarded()
 """Solver of a contact problem whose states are sought node by node."""
@@ -57,7 +57,7 @@ def refine(
     best: Round | None = None
     settled: Round | None = None
     for latest in by_nodes(nip, model, kernels, half_width, sizes):
-        if not latest.stands_still:
+        if not latest.settled:
             continue
         settled = latest
         found = placed(nip, model, kernels, latest)
@@ -94,7 +94,7 @@ def by_nodes(
         yield found
         if not (found.figures.peak_pressure > 0.0 and has_grip(found)):
             return
-        before = found if found.stands_still else before
+        before = found if found.settled else before
 
 
 def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
@@ -110,7 +110,7 @@ def _on(placing: Placing, half_width: float, count: int, before: Round | None) -
     """
     for number in range(_MOST):
         found = _on_one(placing, half_width, count, before)
-        is_pressed = found.stands_still and found.figures.peak_pressure > 0.0
+        is_pressed = found.settled and found.figures.peak_pressure > 0.0
         if not is_pressed or (number + 1 >= _FEWEST and not _moves(placing, found)):
             break
         before = found

@@ -70,13 +70,14 @@ class Ended:
     Attributes
     ----------
     cause : no equilibrium was found ("balance"), contact, stick and slip did not settle
-        ("contact"), or the correction still changed after the last iteration allowed ("turns").
-    turns : how often a correction was found.
+        ("contact"), or the correction still changed after the last iteration allowed
+        ("iterations").
+    iterations : how often a correction was found.
     change : the last change of the correction, over the first-order terms; inf without any.
     """
 
-    cause: Literal["balance", "contact", "turns"]
-    turns: int
+    cause: Literal["balance", "contact", "iterations"]
+    iterations: int
     change: float
 
 
@@ -92,7 +93,7 @@ class Round:
     figures : approach, load, creepage, nip width, peak pressure.
     error : estimated discretisation error of each figure, in its own unit; inf where unknown.
     steps : linear systems solved in all rounds so far.
-    stands_still : whether states and second-order terms have settled.
+    settled : whether states and second-order terms have settled.
     geometry_change : last change of the second-order terms (e(x) of "corrected", the stretch of
         "curved", the traction for a torque), relative to approach and creepage.
     residual : largest relative violation of the contact conditions, evaluated again; inf where
@@ -112,7 +113,7 @@ class Round:
     figures: Figures
     error: Figures
     steps: int
-    stands_still: bool
+    settled: bool
     geometry_change: float
     residual: float = inf
     further_error: Further | None = None

@@ -21,9 +21,9 @@ from rollnip.contact.secants import Secants
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
+from rollnip.rolling.iterations import STILL
 from rollnip.rolling.round import Figures, Round
 from rollnip.rolling.surfaces import PairKernels
-from rollnip.rolling.turns import STILL
 
 _STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
 NEAR_ENOUGH_FOR_SLIP = 0.1  # over the width of the contact: good enough to see what slips

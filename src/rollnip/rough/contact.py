@@ -32,13 +32,14 @@ class RoughContact:
     sampling : grid and heights.
     kernels : influence functions of both rollers.
     state : pressures and approach; with a half-space core the approach is relative.
-    gap : (n,) of the deformed surfaces, evaluated afresh [mm].
+    gap : (n,) of the deformed surfaces, evaluated at the end [mm].
     pressed_in :
         approach from where the rough rollers first touch, at the nodes [mm]; a constant added to
         the heights changes the approach, but not this. With a half-space core it is relative.
     depth : scale of distances, ``pressed_in`` or the gap at the edges, the larger [mm].
     coarser : figures of the same profile with every second sample; None on too few.
-    residual : largest violation of the contact conditions at the nodes, evaluated afresh, relative.
+    residual : largest violation of the contact conditions at the nodes, evaluated at the end,
+        relative.
     between : the same between the nodes, where nothing was solved.
     """
 

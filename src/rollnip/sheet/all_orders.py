@@ -1,9 +1,9 @@
-"""Finite strain of all orders with a sheet: turns of the contact and of both rollers' corrections.
+"""Finite strain of all orders with a sheet: the contact and both corrections, by iteration.
 
 As in a bare nip (`rollnip.rolling.beyond`), the displacements of a surface are the linear ones plus
 a correction that is held while a contact is solved. With a sheet each roller has tractions of its
 own: pressure and the shear of its interface. The correction of each follows from these alone, so
-that turns are those of a bare nip, and the sheet is no part of them.
+that iterations are those of a bare nip, and the sheet is no part of them.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
 from rollnip.rolling.held import NEARLY, coarsely
 
-_MOST_AFRESH = 10  # turns that are solved from the beginning
+_MOST_RESTARTS = 10  # iterations that are solved from the beginning
 COARSE = 20
 """Elements of the contact while its corrections still change."""
 
 
 class Stand(Protocol):
-    """A solution between ends of zones, as far as turns ask."""
+    """A solution between ends of zones, as far as the iterations need it."""
 
     @property
     def change(self) -> float:
@@ -48,8 +48,8 @@ class Stand(Protocol):
         ...
 
     @property
-    def stands_still(self) -> bool:
-        """Whether zones and terms stand still."""
+    def settled(self) -> bool:
+        """Whether zones and terms have settled."""
         ...
 
 
@@ -58,7 +58,7 @@ R = TypeVar("R")
 
 
 class Sheeted(Protocol[S, R]):
-    """A nip with a sheet of some kind, as far as turns ask."""
+    """A nip with a sheet of some kind, as far as the iterations need it."""
 
     def begun(self, model: Model, kernels: PairKernels, half_width: float) -> S:
         """Return a solution of a coarse contact, from no other one."""
@@ -110,21 +110,21 @@ class Sheeted(Protocol[S, R]):
         ...
 
 
-def solve_in_turns(
+def solve_by_iteration(
     nip: Nip, model: Model, kernels: PairKernels, sheeted: Sheeted[S, R], half_width: float
 ) -> tuple[PairKernels, R] | None:
-    """Solve the contact with a sheet and evaluate both corrections in turns.
+    """Solve the contact with a sheet and evaluate both corrections by iteration.
 
     First on a coarse mesh, from the linear displacements, until the changes to come are small. Then
-    the mesh is refined, and turns go on until the contact conditions are met with the corrections
-    that belong to the solution itself.
+    the mesh is refined, and iterations go on until the contact conditions are met with the
+    corrections that belong to the solution itself.
 
-    Where they do not come to rest, with fewer of the short waves.
+    Where they do not settle, with fewer of the short waves.
 
     Returns
     -------
     The influence functions with the last corrections and the solution with them; None where there
-    is no equilibrium, or zones or corrections do not come to rest.
+    is no equilibrium, or zones or corrections do not settle.
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
@@ -135,7 +135,7 @@ def solve_in_turns(
     for share in SHARES_KEPT:
         orders = AllOrders.of(nip, kernels, half_width, sheeted.strain(stand), share)
         try:
-            found = _turn_to_rest(kernels, _Contact(sheeted, model, stand), orders)
+            found = _iterate_until_settled(kernels, _Contact(sheeted, model, stand), orders)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -145,7 +145,7 @@ def solve_in_turns(
 
 @dataclass
 class _Contact(Generic[S, R]):
-    """A contact that is solved time and again.
+    """A contact that is solved repeatedly.
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ class _Contact(Generic[S, R]):
     stand : the last solution.
     refined : the refined one; None: the mesh is coarse still.
     count : size of its mesh.
-    afresh : how often it was begun anew.
+    restarts : how often it was restarted.
     """
 
     sheeted: Sheeted[S, R]
@@ -161,12 +161,12 @@ class _Contact(Generic[S, R]):
     stand: S
     refined: R | None = None
     count: int = COARSE
-    afresh: int = 0
+    restarts: int = 0
 
     def solve(self, kernels: PairKernels, *, refine: bool) -> None:
         """Solve with other corrections, from the last solution.
 
-        Where zones do not come to rest, from none. ``refine``: on finer and finer meshes.
+        Where zones do not settle, from none. ``refine``: on finer and finer meshes.
         """
         found = self.sheeted.holding(self.stand, kernels)
         if refine:
@@ -174,10 +174,10 @@ class _Contact(Generic[S, R]):
             return
         model = coarsely(self.model) if self.refined is None else self.model
         found = self.sheeted.placed(model, kernels, found, self.count)
-        if not found.stands_still and self.afresh < _MOST_AFRESH:
+        if not found.settled and self.restarts < _MOST_RESTARTS:
             start, stop = self.sheeted.edges(self.stand)
             found = self.sheeted.begun(model, kernels, 0.5 * (stop - start))
-            self.afresh += 1
+            self.restarts += 1
             if self.refined is not None:
                 self._refine(kernels, found)
                 return
@@ -187,10 +187,10 @@ class _Contact(Generic[S, R]):
         self.refined, self.stand, self.count = self.sheeted.refined(self.model, kernels, before)
 
 
-def _turn_to_rest(
+def _iterate_until_settled(
     kernels: PairKernels, contact: _Contact[S, R], orders: AllOrders
 ) -> tuple[PairKernels, R] | None:
-    """Solve in turns, see `solve_in_turns`."""
+    """Iterate, see `solve_by_iteration`."""
     sheeted, tolerance, change = contact.sheeted, contact.model.tolerance, inf
     past = Past(even_places(sheeted.edges(contact.stand)))
     least = Least[tuple[PairKernels, R, S]]()
@@ -213,7 +213,7 @@ def _turn_to_rest(
         if refine:
             past = Past(places_by_the_edges(sheeted.edges(stand)))
         contact.solve(kernels, refine=refine)
-        if not contact.stand.stands_still and contact.refined is not None:
+        if not contact.stand.settled and contact.refined is not None:
             break
     if least.found is None:
         return None

@@ -33,7 +33,7 @@ class Attempt(Generic[ZonesT, ProblemT, StateT, TermsT]):
     change : last change of the lagged terms, relative.
     off : how far ends were off, over the width.
     steps : linear systems solved so far.
-    stands_still : whether zones and terms stand still.
+    settled : whether zones and terms have settled.
     """
 
     zones: ZonesT
@@ -43,7 +43,7 @@ class Attempt(Generic[ZonesT, ProblemT, StateT, TermsT]):
     change: float
     off: float
     steps: int
-    stands_still: bool
+    settled: bool
 
     @property
     def wanted_traction(self) -> float | None:

@@ -28,8 +28,8 @@ class FoundSolution(Protocol):
     """A solution, as far as its verdict asks."""
 
     @property
-    def stands_still(self) -> bool:
-        """Whether zones and terms stand still."""
+    def settled(self) -> bool:
+        """Whether zones and terms have settled."""
         ...
 
     @property
@@ -109,7 +109,7 @@ def require_grip(nip: Nip, refined: Refined) -> None:
     sides = zip(("upper", "lower"), pulls, frictions_of(nip), strict=True)
     for side, pull, friction in sides:
         if abs(pull) >= friction * load and (
-            refined.stand.stands_still or isinstance(nip.tangential, Traction)
+            refined.stand.settled or isinstance(nip.tangential, Traction)
         ):
             raise InvalidInputError(_slips_through(name, side, pull, friction * load))
 
@@ -142,7 +142,7 @@ def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
 
 def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:
     """Return whether the solution is valid, and what to do; if it is, the words up to it."""
-    if not refined.stand.stands_still:
+    if not refined.stand.settled:
         if not isfinite(refined.residual):
             return False, (
                 "Stick and slip on both sides of the sheet did not settle (no pressure was found "

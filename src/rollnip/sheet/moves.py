@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Bounds of the move that a solution asks for over how far an end is off.
+# Bounds of the move that a solution asks for over the error of an end.
 _SLOPES = 0.4, 2.5
 
 

@@ -120,7 +120,7 @@ def smooth_works(
 def off_the_moments(
     problem: SheetProblem, geometry: Geometry, state: SheetState, spent: SheetPowers
 ) -> Array:
-    """Return how far the torques are off the moments of the tractions, over the radii, (2,) [N/mm].
+    """Return by how much torques differ from moments of the tractions, over the radii, (2,) [N/mm].
 
     In equilibrium they are the same. Both come from the displacements of finite elements, and a
     stretch of several times beside a slipping edge is less well known than the height there.

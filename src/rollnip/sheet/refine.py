@@ -38,8 +38,8 @@ ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and wi
 # Sizes of mesh before an error is believed, and one more with memory, as without a sheet.
 FEWEST = 2
 FEWEST_WITH_SLIP = 3
-_MOST_FAILURES = 3  # sizes of mesh whose zones do not come to rest
-_ROUGHLY, LAST_CLOSELY = 1.0, 0.03  # of the tolerance: what ends may be off on first, last sizes
+_MOST_FAILURES = 3  # sizes of mesh whose zones do not settle
+_ROUGHLY, LAST_CLOSELY = 1.0, 0.03  # of the tolerance: allowed error of ends on first, last sizes
 _LAST_COUNT = 60  # elements beyond which ends are placed better
 _ROUNDING = 1e-12
 # Least error of each figure over its scale, times the square of the number of elements; measured
@@ -115,12 +115,12 @@ def refine_sheet(
         here = _size_of(stand, model.geometry)
         figures = here[1]
         errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
-        is_near = stand.stands_still and may_be_last
+        is_near = stand.settled and may_be_last
         if is_near and ratio(nip, figures, errors) > model.tolerance:
             history = _with_zones_of(stand, history, search, last_count)
             errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
         latest = SheetRefined(stand, figures, errors, violation(stand), round(count))
-        if stand.stands_still:
+        if stand.settled:
             history.append(here)
             best, last_count = latest, round(count)
             if may_be_last and ratio(nip, figures, errors) <= model.tolerance:
@@ -148,7 +148,7 @@ def _with_zones_of(
     """Return the sizes of mesh before a solution, the last of them with its zones.
 
     Where a solution has other zones than the sizes before, which missed them, what it changes says
-    nothing of its own errors. The last size before, of ``count`` elements, is solved once more,
+    nothing of its own errors. The last size before, of ``count`` elements, is solved again,
     with nodes at the ends of these zones.
     """
     if not history or history[-1][2].is_like(stand.zones):
@@ -157,7 +157,7 @@ def _with_zones_of(
         again = search.placed(stand.zones, count, stand, _ROUGHLY)
     except np.linalg.LinAlgError:
         return history
-    if not (again.stands_still and again.zones.is_like(stand.zones)):
+    if not (again.settled and again.zones.is_like(stand.zones)):
         return history
     return [_size_of(again, search.model.geometry)]
 
@@ -173,7 +173,7 @@ def next_count(count: float, ratio: float, most: float = MOST_COUNT) -> float:
 
 
 def _closely(count: float) -> float:
-    """Return what ends may be off, of the tolerance: less on finer meshes, which claim less."""
+    """Return the allowed error of ends over the tolerance: less on finer meshes."""
     return LAST_CLOSELY * min(1.0, (_LAST_COUNT / count) ** 2)
 
 
@@ -184,7 +184,7 @@ def _with_overlap(refined: SheetRefined, kernels: PairKernels, geometry: Geometr
 
 
 def with_errors_of_powers(refined: SheetRefined, geometry: Geometry) -> SheetRefined:
-    """Return a solution that claims slip along its own shear, and what torques are off its moments.
+    """Return a solution that claims slip along its own shear, and errors of torques.
 
     The former has no place in its losses. Only at finite strain are moments as exact as torques.
     """

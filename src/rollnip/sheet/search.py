@@ -58,13 +58,13 @@ _LEAST_SHARE = FEWEST_ELEMENTS_OF_A_ZONE / FIRST_SIZE  # so every zone is refine
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
-_PLACED = 0.5  # of the tolerance: what an end may be off on a first mesh, over the width
+_PLACED = 0.5  # of the tolerance: allowed error of an end on a first mesh, over the width
 _MOST_MESHES = 14
 _MOST_CHANGES = 5  # of zones, on meshes of one size
 _REACH = 1.12  # half of the first mesh over the half-width of the rollers alone
 _WIDER = 1.5  # times the reach, where the contact does not fit in
 _MOST_REACHES = 4
-_MOST_TURNS = 10
+_MOST_ITERATIONS = 10
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
 _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
 SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
@@ -113,7 +113,7 @@ class SheetSearch:
     ) -> SheetAttempt:
         """Find the solution on a mesh of some size with nodes at the ends of its zones.
 
-        ``closely``: what an end may be off, of the tolerance times the width.
+        ``closely``: allowed error of an end, of the tolerance times the width.
         """
         placed = closely * self.model.tolerance
         steps, changes, off = (0, 0, inf) if before is None else (before.steps, 0, before.off)
@@ -152,7 +152,7 @@ class SheetSearch:
             else:
                 stay = stay or (moves and called.are_like)
             if stay and are_clear:
-                if off <= placed and stand.stands_still and is_fine and is_met:
+                if off <= placed and stand.settled and is_fine and is_met:
                     return replace(stand, zones=asked, off=off)
                 zones = asked if off > _NEARLY_PLACED else self.moves.next(zones, asked)
                 continue
@@ -165,7 +165,7 @@ class SheetSearch:
         if stand is None:
             raise np.linalg.LinAlgError("zones without length")
         proper = zones if zones.is_proper else stand.zones
-        return replace(stand, zones=proper, stands_still=False, off=off)
+        return replace(stand, zones=proper, settled=False, off=off)
 
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return how nodes crowd at ends that are known to some share of the width."""
@@ -218,14 +218,14 @@ class SheetSearch:
         steps: int,
         off: tuple[float, float],
     ) -> SheetAttempt:
-        """Solve on one mesh with given zones, in turns of the lagged terms.
+        """Solve on one mesh with given zones, in iterations of the lagged terms.
 
         ``off``: how far ends were off, the least and on the last mesh of this size. Ends that are
         far off leave singular tractions, under which new terms mean nothing.
         """
         system = Factorised.of(problem, zones.states_on(problem.mesh.inner))
         change, still = 0.0, _STILL * self.model.tolerance
-        most = _MOST_TURNS if off[1] < _NEARLY_PLACED else 2
+        most = _MOST_ITERATIONS if off[1] < _NEARLY_PLACED else 2
         for _ in range(most):
             state = system.solved(lagged)
             steps += 1

@@ -22,7 +22,7 @@ from rollnip.rolling import (
     with_second_order,
 )
 from rollnip.rolling.assemble import SecondOrder
-from rollnip.sheet.all_orders import solve_in_turns
+from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length
 from rollnip.sheet.common import (
     half_width_with_sheet,
@@ -138,7 +138,7 @@ def _refined(
     while True:
         found = _attempt(nip, model, cache)
         simpler = SIMPLER.get(model.geometry)
-        if found is not None and (simpler is None or found[1].stand.stands_still):
+        if found is not None and (simpler is None or found[1].stand.settled):
             return model, *found, solved_instead(left, model.geometry)
         if simpler is None:
             require_torque(nip, 1.0)
@@ -171,7 +171,7 @@ def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, S
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     half_width = half_width_with_sheet(nip, half_width)
     if model.geometry == "finite":
-        return solve_in_turns(nip, model, kernels, Membrane(nip), half_width)
+        return solve_by_iteration(nip, model, kernels, Membrane(nip), half_width)
     try:
         return kernels, refine_sheet(nip, model, kernels, half_width)
     except np.linalg.LinAlgError:
@@ -204,7 +204,7 @@ def as_round(nip: Nip, refined: SheetRefined) -> Round:
         figures=figures.watched,
         error=refined.errors.watched,
         steps=stand.steps,
-        stands_still=stand.stands_still,
+        settled=stand.settled,
         geometry_change=stand.change,
         residual=refined.residual,
         cut=refined.cut,

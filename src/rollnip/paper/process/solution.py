@@ -15,11 +15,11 @@ from rollnip.paper.process.algorithms import Alternation
 from rollnip.paper.process.nodes import graded_nodes, states_on
 from rollnip.rolling import half_width_guess, pair_kernels, peak_pressure
 from rollnip.rolling.assemble import contact_problem, first_guess, second_order
+from rollnip.rolling.iterations import change_of
 from rollnip.rolling.surfaces import Array, Mesh, mesh_on
-from rollnip.rolling.turns import change_of
 
 _MESHES = 4  # the last three graded to the zones of the one before
-_MOST_TURNS = 40
+_MOST_ITERATIONS = 40
 _STILL = 1e-6  # last change of the second-order terms, relative
 _ROOM = 1.3  # of the guessed half-width: contact on the first mesh ends somewhere within
 
@@ -103,7 +103,7 @@ def _solved_on(
     second, states = first_guess(nip, mesh), states_on(mesh.inner, zones)
     if not states.any():
         states[np.argmin(np.abs(mesh.inner))] = State.STICK
-    for _ in range(_MOST_TURNS):
+    for _ in range(_MOST_ITERATIONS):
         state = Alternation().solve(contact_problem(nip, mesh, second), states)
         updated = second_order(nip, geometry, mesh, state)
         change = change_of(updated, second, mesh, nip, state)

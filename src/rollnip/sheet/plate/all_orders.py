@@ -1,4 +1,4 @@
-"""A sheet that resists bending, as turns of finite strain of all orders ask of it."""
+"""A sheet that resists bending, as the iterations at finite strain of all orders require it."""
 
 from __future__ import annotations
 

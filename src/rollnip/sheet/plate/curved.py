@@ -90,7 +90,7 @@ def is_stiff(problem: PlateProblem, state: PlateState, x: Array) -> bool:
 
     A couple of N times the slope bends a wave of length 2 pi l by N l^2 over
     D + N_o l^2 + k l^4 of itself, k the softer covering's E/d. That is N/(N_o + 2 sqrt(D k)) at
-    most, so that turns of a lagged couple come to rest where N is less. Half of it is asked for,
+    most, so that iterations of a lagged couple settle where N is less. Half of it is asked for,
     and that N_o, too, is less: where tension spreads pressures, bending is little beside it. So it
     is where l is less than the share of the nip from which stiffness counts.
     """

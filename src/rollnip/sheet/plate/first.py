@@ -65,7 +65,7 @@ class FirstZones:
         return self._closest(closer, None, count)
 
     def again(self, zones: PlateZones, lagged: LaggedPlate, count: int) -> PlateZones:
-        """Return zones from some that did not come to rest, with terms of their solution."""
+        """Return zones from some that did not settle, with terms of their solution."""
         elements = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS))
         return self._closest(self._closer(zones, lagged, elements), lagged, count)
 

@@ -39,7 +39,7 @@ Array = NDArray[np.float64]
 _MOST_COUNT = 340
 _FIRST_PER_LENGTH = 1.6  # elements of the first size over the bending lengths in the width
 _MOST_FIRST = 60.0  # of the first size
-_MOST_FAILED = 3  # sizes of mesh in a row on which zones do not come to rest
+_MOST_FAILED = 3  # sizes of mesh in a row on which zones do not settle
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,7 +135,7 @@ def refine_plate(
         lower_errors = SheetFigures(errors_between(nip, [*below, here_below], ORDERS))
         left = violation(stand)
         latest = PlateRefined(stand, figures, errors, left, lower, lower_errors, round(count))
-        if stand.stands_still:
+        if stand.settled:
             history.append(here)
             below.append(here_below)
             best = latest
@@ -162,10 +162,10 @@ def _with_overlap(refined: PlateRefined, kernels: PairKernels, geometry: Geometr
 
 
 def with_errors_of_powers(refined: PlateRefined, geometry: Geometry) -> PlateRefined:
-    """Return a solution that claims slip along its own shear, and what torques are off moments."""
+    """Return a solution that claims slip along its own shear, and errors of torques."""
     stand = refined.stand
     works = _slip_works(stand, geometry, _pulls_of(stand, geometry))
-    off = _off_the_moments(stand, refined.figures.powers) if geometry == "finite" else np.zeros(2)
+    off = _error_of_torques(stand, refined.figures.powers) if geometry == "finite" else np.zeros(2)
     errors = claimed_of_powers(refined.errors, works, off)
     return replace(refined, errors=errors)
 
@@ -250,8 +250,8 @@ def _pulls_of(stand: PlateAttempt, geometry: Geometry) -> list[tuple[float, floa
     return out
 
 
-def _off_the_moments(stand: PlateAttempt, spent: SheetPowers) -> Array:
-    """Return how far the torques are off the moments of the tractions, over the radii, (2,) [N/mm].
+def _error_of_torques(stand: PlateAttempt, spent: SheetPowers) -> Array:
+    """Return by how much torques differ from moments of the tractions, over the radii, (2,) [N/mm].
 
     See `rollnip.sheet.powers.off_the_moments`.
     """

@@ -3,7 +3,7 @@
 Zones begin on meshes that reach beyond the contacts, with the states of all nodes found at once
 (`first`). Edges and transitions then lie at nodes of the interface that they belong to, and the
 tractions at the first nodes beside them say where they move (`contact.Layout.moved`). Where a
-solution violates its conditions, the states of its nodes are found once more.
+solution violates its conditions, the states of its nodes are found again.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ Array = NDArray[np.float64]
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 2e-3  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
-_CLOSELY = 0.03  # of the tolerance: what an end may be off, over the width
+_CLOSELY = 0.03  # of the tolerance: allowed error of an end, over the width
 _ROUGHLY = 1.0  # the same where a solution only begins another one
 _OF_THICKNESS = 0.25  # of the sheet: the boundary layer of the pressure on a rigid roller
 # Of all elements, in each zone. The strip between the edges of both contacts decides as much as
@@ -62,7 +62,7 @@ _MOST_MESHES = 18
 _MOST_ROUGH = 6  # meshes in a row on which ends only move
 _MOST_NODES = 320  # of a mesh whose states are sought all at once
 _MOST_CHANGES = 3  # of zones, before contact, stick and slip are sought together
-_MOST_TURNS = 25
+_MOST_ITERATIONS = 25
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
 
 
@@ -101,7 +101,7 @@ class PlateSearch:
     ) -> PlateAttempt:
         """Find the solution on meshes of some size with nodes at the ends of its zones.
 
-        ``closely``: what an end may be off, of the tolerance times the width.
+        ``closely``: allowed error of an end, of the tolerance times the width.
         """
         placed = closely * self.model.tolerance
         try:
@@ -109,8 +109,8 @@ class PlateSearch:
         except np.linalg.LinAlgError:
             if before is None:
                 raise
-            return replace(before, stands_still=False)
-        if stand.stands_still:
+            return replace(before, settled=False)
+        if stand.settled:
             return stand
         start = stand.zones if stand.zones.is_proper else zones
         try:
@@ -118,15 +118,15 @@ class PlateSearch:
             again = self._moved_until(found, count, stand, placed)
         except np.linalg.LinAlgError:
             return stand
-        return again if again.stands_still or again.off < stand.off else stand
+        return again if again.settled or again.off < stand.off else stand
 
     def _moved_until(
         self, zones: PlateZones, count: int, before: PlateAttempt | None, placed: float
     ) -> PlateAttempt:
-        """Move the ends of zones until they stand still, and change zones that are wrong.
+        """Move the ends of zones until they settle, and change zones that are wrong.
 
         Slip that one node asks for is tried; where it does not settle, the zones without it do.
-        ``placed``: what an end may be off, over the width.
+        ``placed``: allowed error of an end, over the width.
         """
         self.moves.refined()
         shapes = _Shapes()
@@ -145,7 +145,7 @@ class PlateSearch:
             known = min(known, off)
             is_fair = violation(stand) <= self._slack
             is_met = is_fair and shear_over(stand) <= self._slack
-            is_placed = off <= placed and stand.stands_still and is_fine
+            is_placed = off <= placed and stand.settled and is_fine
             is_placed = is_placed and not pulls_at_edges(stand)
             is_placed = is_placed and added_to_peaks(stand, asked) <= self.model.tolerance
             if is_met and is_placed:
@@ -271,11 +271,11 @@ class PlateSearch:
         steps: int,
         off: float,
     ) -> PlateAttempt:
-        """Solve on two meshes with given zones, in turns of the lagged terms."""
+        """Solve on two meshes with given zones, in iterations of the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
         change, still = 0.0, _STILL * self.model.tolerance
-        for _ in range(2 if off > _FAIRLY_PLACED else _MOST_TURNS):
+        for _ in range(2 if off > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1
             if has_none(problem, self.model.geometry):
@@ -306,8 +306,8 @@ class PlateSearch:
 
 
 def _unplaced(zones: PlateZones, stand: PlateAttempt | None, off: float) -> PlateAttempt:
-    """Return the last solution, whose ends do not stand still."""
+    """Return the last solution, whose ends have not settled."""
     if stand is None:
         raise np.linalg.LinAlgError("zones without length")
     proper = zones if zones.is_proper else stand.zones
-    return replace(stand, zones=proper, stands_still=False, off=off)
+    return replace(stand, zones=proper, settled=False, off=off)

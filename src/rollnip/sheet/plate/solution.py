@@ -256,7 +256,7 @@ def plate_round(refined: PlateRefined) -> Round:
         figures=refined.figures.watched,
         error=refined.errors.watched,
         steps=stand.steps,
-        stands_still=stand.stands_still,
+        settled=stand.settled,
         geometry_change=stand.change,
         residual=refined.residual,
         cut=refined.cut,

@@ -21,7 +21,7 @@ from rollnip.rolling import (
     pair_kernels,
     with_second_order,
 )
-from rollnip.sheet.all_orders import solve_in_turns
+from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED
 from rollnip.sheet.common import (
     half_width_with_sheet,
@@ -76,7 +76,7 @@ def solve_plate(
                 "tensions, or `bending = false`."
             )
         return None
-    if not asked and not refined.stand.stands_still:
+    if not asked and not refined.stand.settled:
         return None
     require_grip(nip, refined)
     found = _solution(nip, model, kernels, refined, (said, perf_counter() - start, version))
@@ -90,7 +90,7 @@ def longest_freely(nip: Nip, model: Model, cache: KernelCache) -> float:
 
 
 def _rests(refined: PlateRefined | None) -> bool:
-    return refined is not None and refined.stand.stands_still
+    return refined is not None and refined.stand.settled
 
 
 def _refined(
@@ -121,7 +121,7 @@ def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, P
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     half_width = half_width_with_sheet(nip, half_width)
     if model.geometry == "finite":
-        return solve_in_turns(nip, model, kernels, Bending(nip), half_width) or (kernels, None)
+        return solve_by_iteration(nip, model, kernels, Bending(nip), half_width) or (kernels, None)
     try:
         return kernels, refine_plate(nip, model, kernels, half_width)
     except np.linalg.LinAlgError:
@@ -170,13 +170,13 @@ def _verdict(
 ) -> tuple[bool, str]:
     """Return whether the solution is valid on both sides, and a sentence that says why."""
     stand = refined.stand
-    if not stand.stands_still and refined.residual <= _HARDLY:
+    if not stand.settled and refined.residual <= _HARDLY:
         return False, (
             "Edges, or ends of stick and slip, on the sides of the sheet did not settle "
             f"(they still moved by {100.0 * stand.off:.1g} % of the width); try another tolerance, "
             "another load or other tensions, or `bending = false`."
         )
-    if stand.stands_still and not np.isfinite(refined.errors.values).all():
+    if stand.settled and not np.isfinite(refined.errors.values).all():
         return False, (
             "Contact, stick and slip settled on one size of mesh only, so no error can be "
             "estimated; try another tolerance, another load or other tensions, or "

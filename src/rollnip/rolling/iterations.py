@@ -1,4 +1,4 @@
-"""The solution on one mesh: turns of contact and its second-order terms, and the check."""
+"""The solution on one mesh: iterations of contact and its second-order terms, and the check."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels
 
-MOST_TURNS = 40
-# Change of the second-order terms in a turn, over the tolerance. A turn reduces their remaining
-# error at least tenfold; a coarse mesh that only looks for zones needs them less accurately.
+MOST_ITERATIONS = 40
+# Change of the second-order terms in an iteration, over the tolerance. An iteration reduces their
+# remaining error at least tenfold; a coarse mesh that only looks for zones needs them less
+# accurately.
 STILL = 0.1
 STILL_UNDER_SKIN = 1e-3
 
@@ -37,7 +38,7 @@ def holding(kernels: PairKernels, before: Round | None) -> PairKernels:
     The second order is small and smooth: a few updates are enough, and the last mesh is checked
     with its own.
     """
-    return held_from(kernels, before if before is not None and before.stands_still else None)
+    return held_from(kernels, before if before is not None and before.settled else None)
 
 
 def held_from(kernels: PairKernels, before: Round | None) -> PairKernels:
@@ -57,12 +58,12 @@ def solve_on_mesh(
     method: Method,
     still: float,
     zones: tuple[ContactZone, ...] | None = None,
-    most: int = MOST_TURNS,
+    most: int = MOST_ITERATIONS,
 ) -> Round:
-    """Solve on one mesh in turns, until the second-order terms change by so many tolerances.
+    """Solve on one mesh by iteration, until the second-order terms change by so many tolerances.
 
     ``start`` holds states, second-order terms and the steps taken before; ``zones`` those of the
-    solution where they are known; ``most`` turns at most.
+    solution where they are known; ``most`` iterations at most.
     """
     states, second, steps = start
     change = 0.0
@@ -81,10 +82,8 @@ def solve_on_mesh(
         zones = contact_zones(problem.x, state, nip.friction)
     unknown = Figures(inf, inf, inf, inf, inf)
     figures = figures_of(mesh, state, zones, second.lean)
-    stands_still = (
-        state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
-    )
-    return Round(mesh, problem, state, second, zones, figures, unknown, steps, stands_still, change)
+    settled = state.settled and change <= still * model.tolerance and figures.peak_pressure > 0.0
+    return Round(mesh, problem, state, second, zones, figures, unknown, steps, settled, change)
 
 
 def change_of(
@@ -120,11 +119,11 @@ def converge(
     method: Method,
     zones: tuple[ContactZone, ...] | None = None,
 ) -> Round:
-    """Repeat turns until the second-order terms change as little as those of a result must.
+    """Repeat iterations until the second-order terms change as little as those of a result must.
 
     ``zones`` are those of the solution where they are known.
     """
-    if not latest.stands_still or latest.geometry_change <= STILL * model.tolerance:
+    if not latest.settled or latest.geometry_change <= STILL * model.tolerance:
         return latest
     start = (latest.state.states, latest.second, latest.steps)
     still = solve_on_mesh(nip, model, latest.mesh, start, method, STILL, zones)

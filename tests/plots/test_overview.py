@@ -67,7 +67,7 @@ def test_a_sheet_has_its_feed_tension_and_grip_among_the_figures():
     }
     for name, value in shown.items():
         number = float(texts[texts.index(name) + 1].replace("−", "-"))
-        assert number == pytest.approx(value, rel=1e-3, abs=1e-9), name
+        assert number == pytest.approx(value, rel=1e-3, abs=1e-8), name
     assert "slides first where pulled: upper side" in texts
 
 

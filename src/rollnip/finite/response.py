@@ -148,7 +148,7 @@ class FiniteResponse:
         kept: float = 1.0,
     ) -> None:
         self._linear = linear
-        self._speed = self._speed_now = speed if roller.is_viscoelastic else None
+        self._speed = self._speed_now = speed
         self._depths = Depths.of(roller, half_width)
         self._cut, self._kept = cut, kept
         self._columns = Columns.of(roller, half_width)

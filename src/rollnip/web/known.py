@@ -19,7 +19,7 @@ from rollnip.rollers import Roller
 from rollnip.solution import Solution
 
 JUDGED: Mapping[Geometry, Mapping[str, float]] = {
-    "finite": {"nip_width": 0.003, "approach": 0.0005, "peak_pressure": 0.001},
+    "finite": {"nip_width": 0.0032, "approach": 0.0005, "peak_pressure": 0.001},
     "second": {"nip_width": 0.008, "approach": 0.01, "peak_pressure": 0.01},
     "curved": {"nip_width": 0.046, "approach": 0.066, "peak_pressure": 0.049},
     "corrected": {"nip_width": 0.038, "approach": 0.135, "peak_pressure": 0.045},

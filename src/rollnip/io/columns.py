@@ -129,7 +129,7 @@ class TableColumns:
 
     @property
     def _of_empty(self) -> str:
-        """What a sheet may show where its cell is empty."""
+        """Return a remark on cells that look filled but are empty; "" where it is no workbook."""
         if not self.is_workbook:
             return ""
         return " (merged cells hold their value in the first only; an error value counts as empty)"

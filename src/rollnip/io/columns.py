@@ -244,9 +244,9 @@ def _split(line: str, mark: str) -> list[Cell]:
 
 
 def _sheet_rows(file: Path, data: bytes, sheet: str | None) -> tuple[str, list[_Line]]:
-    """Name of the file, with that of the sheet where there are several, and rows with a value.
+    """Return the name of the file, with that of its sheet if one of several, and its rows.
 
-    Columns without any value are left out.
+    Rows and columns without any value are left out.
     """
     require_extra("tables", f"{file}: reading a workbook", "save the sheet as CSV")
     from python_calamine import CalamineError, CalamineWorkbook

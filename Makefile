@@ -13,7 +13,7 @@ CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
 
 .DEFAULT_GOAL := help
 .PHONY: help venv demo serve test test-first-half test-second-half test-slow test-slow-laws \
-        test-slow-others test-browser bench check docs clean
+        test-slow-others test-browser bench rates check docs clean
 
 help: ## list the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
@@ -76,6 +76,9 @@ test-browser: venv ## the tests in a browser
 
 bench: venv ## how long things take, as ratios to a calibration on this machine
 	$(BIN)/python -m pytest benchmarks -q -p no:cacheprovider --benchmark-timer=time.process_time --benchmark-quiet
+
+rates: venv ## measure the times that the documentation states, to docs/rates.json
+	$(BIN)/python benchmarks/rates.py
 
 check: venv ## style, types, floors
 	$(BIN)/ruff check .

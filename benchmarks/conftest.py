@@ -1,9 +1,7 @@
 """The unit of all times, and the table of them in units."""
 
-import time
-
-import numpy as np
 import pytest
+from rates import seconds_of, unit
 
 from rollnip._own_process import keep_freed_memory
 
@@ -11,22 +9,6 @@ keep_freed_memory()  # as in the command's own processes
 
 UNIT = "numpy.linalg.solve of a normal 400 x 400 matrix, one right-hand side, one BLAS thread"
 _rows = []
-
-
-def seconds_of(call, rounds=7):
-    """Median CPU seconds of a call; other processes do not count."""
-    times = []
-    for number in range(rounds):
-        start = time.process_time()
-        call(number)
-        times.append(time.process_time() - start)
-    return float(np.median(times))
-
-
-def unit():
-    """Seconds of the unit, now."""
-    matrix = np.random.default_rng(0).normal(size=(400, 400))
-    return seconds_of(lambda _: np.linalg.solve(matrix, matrix[0]))
 
 
 class Watch:

@@ -9,54 +9,23 @@ import sys
 import time
 import tracemalloc
 from dataclasses import replace
-from math import pi, sqrt
+from math import sqrt
 from pathlib import Path
 
 import numpy as np
 import pytest
+from rates import (
+    CURVED,
+    EXAMPLES,
+    SECOND,
+    carter,
+    measured_profile,
+    nip_of,
+    thicker,
+    two_on_two,
+)
 
 import rollnip as rn
-
-EXAMPLES = Path(__file__).parents[1] / "examples"
-CURVED = rn.Model(geometry="curved")
-SECOND = rn.Model(geometry="second")
-RUBBER = rn.StandardLinearSolid(modulus=2.0, stiffening=3.0, relaxation_time=0.007, poisson=0.5)
-SPONGE = rn.Elastic(modulus=1.0, poisson=0.45)
-
-
-def nip_of(name):
-    return rn.read_case(EXAMPLES / f"{name}.toml").nip
-
-
-def thicker(nip, number):
-    """Another thickness in each call: nothing tabulated before can be used again."""
-    first, *others = nip.upper.layers
-    first = replace(first, thickness=first.thickness * (1.0 + 1e-4 * (number + 2)))
-    return replace(nip, upper=replace(nip.upper, layers=(first, *others)))
-
-
-def two_on_two():
-    layers = (rn.Layer(2.0, RUBBER), rn.Layer(3.0, SPONGE))
-    return rn.Nip(
-        upper=rn.Roller(radius=50.0, layers=layers),
-        lower=rn.Roller(radius=40.0, layers=layers),
-        normal=rn.LineLoad(3.0),
-        tangential=rn.Traction(0.3),
-        friction=0.5,
-        speed=100.0,
-    )
-
-
-def carter(number=0):
-    half_space = rn.Elastic(modulus=2.0, poisson=0.3)
-    radius = 50.0 * (1.0 + 1e-4 * (number + 2))
-    return rn.Nip(
-        upper=rn.Roller(radius=radius, core=half_space),
-        lower=rn.Roller(radius=50.0, core=half_space),
-        normal=rn.LineLoad(1.0),
-        tangential=rn.Traction(0.15),
-        friction=0.3,
-    )
 
 
 @pytest.mark.parametrize(
@@ -127,22 +96,7 @@ def test_interior(in_units, name):
 
 
 def test_measured_profile(watch):
-    rng = np.random.default_rng(1)
-    x = np.linspace(-6.0, 6.0, 100_000)
-    waves = np.arange(1, 200)
-    phases = rng.uniform(0.0, 2.0 * pi, waves.size)
-    height = sum(
-        2e-3 / wave**1.3 * np.cos(2.0 * pi * wave * x / 12.0 + phase)
-        for wave, phase in zip(waves, phases, strict=True)
-    )
-    nip = rn.Nip(
-        upper=rn.Roller(
-            radius=50.0, layers=[rn.Layer(2.0, SPONGE)], profile=rn.Profile(x=x, height=height)
-        ),
-        lower=rn.Roller(radius=25.0),
-        normal=rn.LineLoad(1.0),
-        friction=0.0,
-    )
+    nip = measured_profile()
     seconds = watch.seconds_of(lambda _: rn.solve(nip, rn.Model(geometry="linear")), 3)
     ratio = f"{seconds / watch.unit():.0f} x"
     watch.note("measured profile, 1e5 points", f"{seconds:.2f} s", ratio, "5 s")

@@ -12,6 +12,7 @@ from rollnip.rolling.claimed_errors import MODEL_SHARES, SHARE_OF_EDGE_PEAK
 
 HERE = Path(__file__).parent
 sys.path.insert(0, str(HERE / "_ext"))
+import timings  # noqa: E402  from docs/_ext
 
 # Small dense systems are many times slower with threaded BLAS; the kernels inherit this.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
@@ -76,6 +77,7 @@ myst_substitutions = {
         for name in ("load", "creepage", "nip_width", "peak_pressure")
     },
     "share_edge_peak": f"{100 * SHARE_OF_EDGE_PEAK['finite']:g} %",
+    **timings.substitutions(),
 }
 myst_heading_anchors = 3
 myst_dmath_double_inline = True

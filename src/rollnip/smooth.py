@@ -105,14 +105,7 @@ class SmoothSolution(Solution):
         }
         return tuple(Zone(z.start, z.stop, *kinds[z.state]) for z in self.final.zones)
 
-    @property
-    def error(self) -> dict[str, float]:
-        """Estimated errors, absolute, in the unit of each figure; nan where it is not defined.
-
-        What the mesh leaves; in "second" at least what its second order leaves open. `converged`
-        and `status` follow from those that `Model.tolerance` is for. A prescribed figure is off by
-        what it misses the prescribed value by.
-        """
+    def _claimed_errors(self) -> dict[str, float]:
         geometry, final = self.model.geometry, self.final
         further = further_claims(self.nip, geometry, final, self._powers)
         return claims(self.nip, geometry, final) | further

@@ -11,6 +11,7 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from rollnip._blas import one_blas_thread
 from rollnip._errors import InvalidInputError
 from rollnip._results.presented import Presented
 from rollnip.interior import (
@@ -195,7 +196,6 @@ class Solution(Presented, ABC):
         return self.nip.speed * (traction * (self.creepage or 0.0) + upper + lower)
 
     @property
-    @abstractmethod
     def error(self) -> dict[str, float]:
         """Estimated errors, absolute, in the unit of each figure; nan where it is not defined.
 
@@ -203,6 +203,16 @@ class Solution(Presented, ABC):
         and `status` follow from those that `Model.tolerance` is for. A prescribed figure is off by
         what it misses the prescribed value by.
         """
+        return dict(self._claims)
+
+    @cached_property
+    @one_blas_thread()
+    def _claims(self) -> dict[str, float]:
+        return self._claimed_errors()
+
+    @abstractmethod
+    def _claimed_errors(self) -> dict[str, float]:
+        """Return what `error` is."""
 
     @property
     @abstractmethod
@@ -239,6 +249,7 @@ class Solution(Presented, ABC):
         In stick next to a transition it is within friction times pressure to the tolerance only.
         """
 
+    @one_blas_thread()
     def interior(
         self,
         roller: Side,
@@ -283,6 +294,7 @@ class Solution(Presented, ABC):
             beyond=self._beyond(roller),
         )
 
+    @one_blas_thread()
     def heat_below(self, roller: Side, z: ArrayLike) -> Array | None:
         """Return the power lost inside a roller below some depths; None without speed.
 
@@ -309,6 +321,7 @@ class Solution(Presented, ABC):
         return np.asarray(self.nip.speed * rate * share * lost[1:])
 
     @cached_property
+    @one_blas_thread()
     def interfaces(self) -> tuple[InterfaceStress, ...]:
         """Stresses on every interface and bond of the upper, then of the lower roller."""
         x = np.union1d(self._section, self.nodes)

@@ -114,9 +114,8 @@ class RoughSolution(Solution):
         """Power of both axles: None, for it is not defined for a snapshot."""
         return None
 
-    @property
-    def error(self) -> dict[str, float]:
-        """Estimated errors: what changes where every second sample is left out, absolute."""
+    def _claimed_errors(self) -> dict[str, float]:
+        """Return what changes where every second sample is left out, absolute."""
         approach, load, width, peak = self.rough.errors
         if self.nip.has_half_space:
             approach = nan

@@ -93,9 +93,7 @@ class SheetSolution(SmoothSolution):
         work = rate[0] * axles.driving_upper + rate[1] * axles.driving_lower
         return self.nip.speed * (work + creep * (upper + lower))
 
-    @property
-    def error(self) -> dict[str, float]:
-        """Estimated errors, absolute, in the unit of each figure; nan where it is not defined."""
+    def _claimed_errors(self) -> dict[str, float]:
         nip, geometry, final = self.nip, self.model.geometry, self.final
         out = claims(nip, geometry, final)
         mine = self._errors

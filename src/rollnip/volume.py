@@ -16,7 +16,9 @@ from rollnip.rollers import Roller, Side
 from rollnip.rolling import Round
 
 BULK_MODULUS = 2000.0
-"""Bulk modulus of rubber [MPa]; Wood & Martin (1964), J. Res. Natl. Bur. Stand. 68A, 259-268."""
+"""Bulk modulus of rubber [MPa], about: what the tables of Lindley, Engineering Design with Natural
+Rubber, give as the value of Wood & Martin (1964), J. Res. Natl. Bur. Stand. 68A, 259-268, which was
+not consulted itself; the tables' own value for springs is half of it."""
 NEARLY_INCOMPRESSIBLE = 0.499
 """Poisson ratio from which a layer is meant to keep its volume."""
 VOLUME_SHARE = 0.05

@@ -59,30 +59,25 @@ def loss_per_distance(
     """
     if not roller.is_viscoelastic:
         return 0.0
-    size = _shared_size(tractions)
-    phases = Phases(tractions.places)
-    total = 0.0
-    for block, xx, zz, xz in _loss_parts(roller, speed, geometry, size):
-        t_x, t_z = tractions.transform(block.k, phases.sums(block, tractions.kinks))
-        turning = t_x.real * t_z.imag - t_x.imag * t_z.real  # Im(conj(t_x) t_z)
-        total += float(xx @ _square(t_x) + zz @ _square(t_z) + xz @ turning)
-    return total
-
-
-_Parts = tuple[tuple[Block, Array, Array, Array], ...]
+    blocks, k, xx, zz, xz = _loss_parts(roller, speed, geometry, _shared_size(tractions))
+    phases, kinks = Phases(tractions.places), tractions.kinks
+    sums = np.concatenate([phases.sums(block, kinks) for block in blocks], axis=1)
+    t_x, t_z = tractions.transform(k, sums)
+    turning = t_x.real * t_z.imag - t_x.imag * t_z.real  # Im(conj(t_x) t_z)
+    return float(xx @ _square(t_x) + zz @ _square(t_z) + xz @ turning)
 
 
 @lru_cache(maxsize=8)
-def _loss_parts(roller: Roller, speed: float | None, geometry: str, half_width: float) -> _Parts:
-    """Return, block by block, the weights of |t_x|^2, |t_z|^2, Im(conj(t_x) t_z) at each wave."""
+def _loss_parts(
+    roller: Roller, speed: float | None, geometry: str, half_width: float
+) -> tuple[list[Block], Array, Array, Array, Array]:
+    """Return all waves, and the weights of |t_x|^2, |t_z|^2 and Im(conj(t_x) t_z) at each."""
     waves = Waves.resolving(2.0 * half_width, Medium(roller, speed, geometry, side="above").slowest)
-    compliance = surface_compliance(roller, speed, geometry)
-    parts = []
-    for block in waves.blocks(_SHORTEST / half_width):
-        weight = block.weights * block.k
-        xx, zz, xz = compliance(block.k)
-        parts.append((block, weight * xx.imag, weight * zz.imag, weight * (2.0 * xz.real)))
-    return tuple(parts)
+    blocks = waves.blocks(_SHORTEST / half_width)
+    k = np.concatenate([block.k for block in blocks])
+    weight = k * np.concatenate([block.weights for block in blocks])
+    xx, zz, xz = surface_compliance(roller, speed, geometry)(k)
+    return blocks, k, weight * xx.imag, weight * zz.imag, weight * (2.0 * xz.real)
 
 
 def loss_below(

@@ -23,7 +23,7 @@ ComplexArray = NDArray[np.complex128]
 
 _HALF_TURN = 20.0
 """Half the width P times the reach: the phase y from the middle to the end of a panel."""
-_NODES_LOW = 16
+_NODES_LOW = 16  # even, as all numbers of nodes here: none lies in the middle of its panel
 _NODES = (24, 38, 66)
 """On panels of at most P/2, and of P, 2P and 4P: (e y/(4 m))^(2m) < 1e-11 for m nodes."""
 _MOST_AT_ONCE = 24
@@ -74,8 +74,9 @@ class Block:
 class Phases:
     """e^{-ikx} at some places x, block after block.
 
-    On panels of one width they are those of the panels' middles times those from a middle to the
-    nodes; the latter are kept for the next block of such panels, for sines take most of the time.
+    They are those of the panels' middles times those from a middle to the nodes. Those to the nodes
+    below it are the conjugates of those to the nodes above, and those on panels of one width are
+    kept for the next block of such panels, for sines take most of the time.
 
     Parameters
     ----------
@@ -84,26 +85,28 @@ class Phases:
 
     def __init__(self, x: Array) -> None:
         self.x = x
-        self._within: dict[tuple[float, int], ComplexArray] = {}
+        self._within: dict[tuple[float, int, int], ComplexArray] = {}
 
     def on(self, block: Block) -> ComplexArray:
         """The phases themselves, (m, n)."""
-        if not block.is_even:
-            return self._at(block.k)
-        middles, within = self._at(block.middles), self._from_middle(block)
-        return np.asarray(middles[:, :, None] * within[:, None, :]).reshape(self.x.size, -1)
+        both = self._at(block.middles)[:, :, None] * self._from_middle(block)
+        return np.asarray(both.reshape(self.x.size, -1))
 
     def sums(self, block: Block, weights: Array) -> ComplexArray:
         """Sums over x of ``weights`` (rows, m) times the phases, (rows, n)."""
         if not block.is_even:
-            return np.asarray(weights @ self._at(block.k))
+            return np.asarray(weights @ self.on(block))
         turned = weights[:, None, :] * self._at(block.middles).T
-        return np.asarray(turned @ self._from_middle(block)).reshape(len(weights), -1)
+        return np.asarray(turned @ self._from_middle(block)[:, 0]).reshape(len(weights), -1)
 
     def _from_middle(self, block: Block) -> ComplexArray:
-        key = float(block.halves[0]), block.nodes
+        """Phases from the middles of panels to their nodes, (m, panels or 1, nodes)."""
+        halves = block.halves[:1] if block.is_even else block.halves
+        key = float(halves[0]), halves.size, block.nodes
         if key not in self._within:
-            self._within[key] = self._at(block.halves[0] * _gauss(block.nodes)[0])
+            above = _gauss(block.nodes)[0][block.nodes // 2 :]
+            beyond = self._at(np.multiply.outer(halves, above))
+            self._within[key] = np.concatenate([beyond[..., ::-1].conj(), beyond], axis=2)
         return self._within[key]
 
     def _at(self, k: Array) -> ComplexArray:

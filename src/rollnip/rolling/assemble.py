@@ -223,8 +223,12 @@ def _stretch_terms(
 
 def creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
     """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval, (n - 1,) [mm]."""
-    dx = x[1:] - x[:-1]
-    upper, lower = stretch_excess(x, nip, geometry, u)
+    return creep_of(x[1:] - x[:-1], geometry, stretch_excess(x, nip, geometry, u), creepage)
+
+
+def creep_of(dx: Array, geometry: Geometry, excess: Array, creepage: float) -> Array:
+    """Return the creep over intervals of lengths ``dx``, from `stretch_excess` (n,) [mm]."""
+    upper, lower = excess
     if geometry in ("linear", "corrected"):
         # Small strains: the product of creepage and strain is left out.
         return np.asarray(creepage * dx + upper - lower)
@@ -252,6 +256,52 @@ def mean_shear(mesh: Mesh, state: ContactState) -> Array:
     return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
 
 
+@dataclass(frozen=True, slots=True)
+class Sheared:
+    """What the shear of a solution works on, over the intervals of the finer nodes but the first.
+
+    Where surfaces slip, their stretch is that of the tractions, with the short waves that a contact
+    cannot follow: the solution without them has the stretch of smoother tractions, which are
+    others.
+
+    Attributes
+    ----------
+    dx : (n,) lengths [mm].
+    shear : (n,) mean shear per ``dx``, along the deformed interface [MPa].
+    excess : (2, n) int (stretch - 1) dx of the upper and the lower surface, as solved [mm].
+    uncut : (2, n) likewise with the short waves that were cut.
+    """
+
+    dx: Array
+    shear: Array
+    excess: Array
+    uncut: Array
+
+    @classmethod
+    def of(
+        cls, nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
+    ) -> Sheared:
+        """Evaluate a solution with the displacements ``u`` at nodes[1:]."""
+        x, fine = mesh.fine.nodes[1:], mesh.finer(u)
+        shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, fine)
+        excess = uncut = stretch_excess(x, nip, geometry, fine)
+        if mesh.kernels.held is not None:
+            uncut = stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))
+        return cls(x[1:] - x[:-1], shear, excess, uncut)
+
+    def pulls(self, slips: Bools) -> tuple[float, float]:
+        """Int q lambda ds of the upper and the lower surface [N/mm].
+
+        This is the power that the shear hands over per speed of that surface; ``slips``: the
+        intervals that do.
+        """
+        excess = (
+            self.excess if self.uncut is self.excess else np.where(slips, self.uncut, self.excess)
+        )
+        upper, lower = (self.dx + excess) @ self.shear
+        return float(upper), float(lower)
+
+
 def slip_intervals(x: Array, zones: tuple[ContactZone, ...]) -> Bools:
     """Return which of the intervals between ``x`` lie in a zone that slips, (n - 1,)."""
     middle = 0.5 * (x[1:] + x[:-1])
@@ -260,31 +310,6 @@ def slip_intervals(x: Array, zones: tuple[ContactZone, ...]) -> Bools:
         if zone.state != State.STICK:
             slips |= (middle > zone.start) & (middle < zone.stop)
     return slips
-
-
-def pulls(
-    nip: Nip,
-    geometry: Geometry,
-    mesh: Mesh,
-    state: ContactState,
-    u: Displacements,
-    zones: tuple[ContactZone, ...],
-) -> tuple[float, float]:
-    """Int q lambda ds of the upper and the lower surface [N/mm].
-
-    This is the power that the shear hands over per speed of that surface; ``u``: at nodes[1:].
-    Where surfaces slip, lambda is that of the tractions, with the short waves that a contact cannot
-    follow: the solution without them has the lambda of smoother tractions, which are others.
-    """
-    x, fine = mesh.fine.nodes[1:], mesh.finer(u)
-    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, fine)
-    excess = stretch_excess(x, nip, geometry, fine)
-    slips = slip_intervals(x, zones)
-    if mesh.kernels.held is not None and slips.any():
-        uncut = stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))
-        excess = np.where(slips, uncut, excess)
-    upper, lower = (x[1:] - x[:-1] + excess) @ shear
-    return float(upper), float(lower)
 
 
 def moment(
@@ -342,8 +367,8 @@ def _traction_for_torque(
     No number where the second-order terms have run away: such a solution is not verified.
     """
     assert isinstance(nip.tangential, Torque)
-    zones = contact_zones(mesh.inner, state, nip.friction)
-    _, pull = pulls(nip, geometry, mesh, state, u, zones)
+    slips = slip_intervals(mesh.fine.nodes[1:], contact_zones(mesh.inner, state, nip.friction))
+    _, pull = Sheared.of(nip, geometry, mesh, state, u).pulls(slips)
     if not isfinite(pull):
         return nan
     lost = loss_inside("lower", nip, geometry, mesh, state)

@@ -25,17 +25,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isnan, nan
 
+import numpy as np
+
 from rollnip.contact import ContactState, ContactZone
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import (
     Bools,
-    arc_ratio,
-    creep,
+    Sheared,
+    creep_of,
     loss_inside,
-    mean_shear,
     moment,
-    pulls,
     slip_intervals,
 )
 from rollnip.rolling.surfaces import Array, Mesh
@@ -53,8 +53,8 @@ class Powers:
         roller per distance of that surface [N/mm].
     cut : change of ``friction`` by the short waves that the solution leaves out [N/mm].
     reversed_slip : the work of slip along its own shear, of which ``friction`` knows none [N/mm].
-    moment_upper, moment_lower : of the tractions about both axles, over the radii [N/mm]; in
-        equilibrium, and so at finite strain, they are what drives the axles.
+    moment_upper, moment_lower : of the tractions about both axles, over the radii [N/mm]; nan but
+        in "finite": in equilibrium, and so at finite strain, they are what drives the axles.
     """
 
     friction: float
@@ -89,16 +89,24 @@ def powers(
 ) -> Powers:
     """Return torques over radii and losses of a solution on a mesh."""
     x, u = mesh.fine.nodes[1:], mesh.displacements(state)
-    uncut = mesh.uncut(u)
-    pull_upper, pull_lower = pulls(nip, geometry, mesh, state, u, zones)
+    sheared = Sheared.of(nip, geometry, mesh, state, u)
+    inside = [slip_intervals(x, (zone,)) for zone in zones]  # none where surfaces stick
+    pull_upper, pull_lower = sheared.pulls(np.any(inside, axis=0))
     friction = cut = reversed_slip = 0.0
     if nip.friction > 0.0 and not isnan(state.creepage):
-        sheared = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, mesh.finer(u))
-        inside = [slip_intervals(x, (zone,)) for zone in zones]  # none where surfaces stick
-        both = (mesh.finer(v) for v in (uncut, u))
-        works = [sheared * creep(x, nip, geometry, v, state.creepage) for v in both]
+        works = [
+            sheared.shear * creep_of(sheared.dx, geometry, excess, state.creepage)
+            for excess in (sheared.uncut, sheared.excess)
+        ]
         (friction, reversed_slip), (smooth, _) = (slip_losses(work, inside) for work in works)
         cut = abs(friction - smooth)
+    moments = nan, nan
+    if geometry == "finite":
+        uncut = mesh.uncut(u)
+        moments = (
+            moment("upper", nip, geometry, mesh, state, uncut),
+            moment("lower", nip, geometry, mesh, state, uncut),
+        )
     return Powers(
         friction=friction,
         lost_upper=loss_inside("upper", nip, geometry, mesh, state),
@@ -107,8 +115,8 @@ def powers(
         pull_lower=pull_lower,
         cut=cut,
         reversed_slip=reversed_slip,
-        moment_upper=moment("upper", nip, geometry, mesh, state, uncut),
-        moment_lower=moment("lower", nip, geometry, mesh, state, uncut),
+        moment_upper=moments[0],
+        moment_lower=moments[1],
     )
 
 

@@ -121,21 +121,25 @@ def carry(before: Subdivision, after: Subdivision) -> tuple[Array, Array] | None
     return _carry(*counts, between=False), _carry(*counts, between=True)
 
 
-@lru_cache(maxsize=128)
 def _carry(before: tuple[int, ...], after: tuple[int, ...], *, between: bool) -> Array:
     out = np.zeros((sum(after) + 1, sum(before) + 1))
     row = column = 0
-    shift = 0.5 if between else 0.0
     for old, new in zip(before, after, strict=True):
-        places = (np.arange(new + 1) + shift) * (old / new) - shift
-        first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
-        columns = column + first[:, None] + np.arange(4)
-        out[row + np.arange(new + 1)[:, None], columns] = _cubic_weights(places - first)
+        # The last row of a zone is the first of the next one.
+        out[row : row + new, column : column + old + 1] = _carry_zone(old, new, between=between)
         row, column = row + new, column + old
-        if row < out.shape[0] - 1:
-            out[row] = 0.0  # shared with the next zone, which writes it
-    if between:
-        out[-1], out[-1, -1] = 0.0, 1.0
+    out[-1, -1] = 1.0
+    return out
+
+
+@lru_cache(maxsize=128)
+def _carry_zone(old: int, new: int, *, between: bool) -> Array:
+    """Return the rows of `_carry` of one zone but the last, (new, old + 1)."""
+    shift = 0.5 if between else 0.0
+    places = (np.arange(new) + shift) * (old / new) - shift
+    first = np.clip(np.floor(places).astype(int) - 1, 0, old - (4 if between else 3))
+    out = np.zeros((new, old + 1))
+    out[np.arange(new)[:, None], first[:, None] + np.arange(4)] = _cubic_weights(places - first)
     out.setflags(write=False)
     return out
 
@@ -160,44 +164,56 @@ def cubic_error(values: Array, nodes: Array, elements: tuple[int, ...]) -> float
     return float(3.0 / 128.0 * fourth @ (0.5 * (nodes[3:-1] - nodes[1:-3])))
 
 
-@lru_cache(maxsize=64)
 def _cubics(
     elements: tuple[int, ...], crowding: tuple[float, ...], pieces: int
 ) -> tuple[Array, Array, Array]:
     """Return the matrices values, acting and means of a `Subdivision`."""
-    ends = np.concatenate([[0], np.cumsum(elements)])
-    interval = np.arange(ends[-1])
-    zone = np.searchsorted(ends, interval, side="right") - 1
-    first = np.minimum(np.maximum(interval - 1, ends[zone]), ends[zone + 1] - 3)
-    parts = np.arange(pieces) / pieces
-    columns = 1 + np.repeat(first[:, None] + np.arange(4), pieces, axis=0)
-    rows = np.arange(columns.shape[0])[:, None]
+    count = sum(elements)
+    values, acting = np.zeros((2, pieces * count + 3, count + 3))
+    means = np.zeros((pieces * count + 1, count + 2))
+    for matrix in (values, acting):
+        matrix[0, 0] = matrix[-1, -1] = 1.0
+    means[-1, -2:] = 0.5
+    row = column = 0
+    for n, crowd in zip(elements, crowding, strict=True):
+        rows = row + pieces * n
+        at_nodes = np.s_[row + 1 : rows + 2, column + 1 : column + n + 2]
+        zone = _zone_cubics(n, crowd, pieces)
+        values[at_nodes], acting[at_nodes], means[row:rows, column : column + n + 1] = zone
+        row, column = rows, column + n
+    return values, acting, means
 
-    values = np.zeros((rows.size + 3, interval.size + 3))
-    values[0, 0] = values[-2, -2] = values[-1, -1] = 1.0
-    values[1 + rows, columns] = _cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
+
+@lru_cache(maxsize=128)
+def _zone_cubics(n: int, crowd: float, pieces: int) -> tuple[Array, Array, Array]:
+    """Return what one zone of ``n`` elements adds to `_cubics`.
+
+    Values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means between
+    these.
+    """
+    interval, parts = np.arange(n), np.arange(pieces) / pieces
+    first = np.minimum(np.maximum(interval - 1, 0), n - 3)
+    rows = np.arange(pieces * n)[:, None]
+    columns = np.repeat(first[:, None] + np.arange(4), pieces, axis=0)
+    values = np.zeros((rows.size + 1, n + 1))
+    values[rows, columns] = _cubic_weights((interval - first)[:, None] + parts).reshape(-1, 4)
+    values[-1, -1] = 1.0
 
     # Means over x, by Gauss points in the number of the node.
     points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
-    number = (interval - ends[zone])[:, None, None] + inside
-    slope = np.empty(number.shape)
-    for i, (n, crowd) in enumerate(zip(elements, crowding, strict=True)):
-        slope[zone == i] = weights * _places(number[zone == i] / n, crowd)[1]
+    slope = weights * _places((interval[:, None, None] + inside) / n, crowd)[1]
     cubics = _cubic_weights((interval - first)[:, None, None] + inside)
     mean = (slope[..., None] * cubics).sum(axis=2) / slope.sum(axis=2)[..., None]
-    means = np.zeros((rows.size + 1, interval.size + 3))
+    means = np.zeros((rows.size, n + 1))
     means[rows, columns] = mean.reshape(-1, 4)
-    means[-1, -2:] = 0.5
 
-    lacking = means[:-1] - 0.5 * (values[1:-2] + values[2:-1])
+    lacking = means - 0.5 * (values[:-1] + values[1:])
     acting = values.copy()
-    added = 0.5 * (lacking[1:] + lacking[:-1])
-    added[pieces * ends[1:-1] - 1] = 0.0
-    acting[2:-2] += added
+    acting[1:-1] += 0.5 * (lacking[1:] + lacking[:-1])  # across a break nothing is smooth
     for matrix in (values, acting, means):
         matrix.setflags(write=False)
-    return values, acting, means[:, 1:]
+    return values, acting, means
 
 
 def _cubic_weights(t: Array) -> Array:

@@ -3,9 +3,9 @@
 The paper (Braat & Kalker 1993, figure 2) transforms a compliance C(w) back to space on a
 non-equidistant mesh of wave numbers: a polynomial through each element, integrated exactly against
 the oscillation e^{iwx}. Here the elements grow in a geometric series and the points x do too, so
-that the weights depend on the product w x alone: they are computed once for every pair of sizes
-and are then the same for all materials, thicknesses and speeds. The degree of the polynomial is
-free; 2 is the paper's.
+that the weights depend on the product w x alone: they are computed once and are then the same for
+all sizes, materials, thicknesses and speeds. Those of a panel are those of the one before, for x
+further on in the series. The degree of the polynomial is free; 2 is the paper's.
 
 Three quantities are wanted at each x, F_r(x) = (1/pi) int_0^inf Re[C(w) m_r(w x)] dw with
 
@@ -18,9 +18,11 @@ F_1 x and F_2 x^2/2 are the first and the second integral of G.
 from __future__ import annotations
 
 from functools import lru_cache
-from math import factorial
+from math import factorial, log, pi
+from typing import NamedTuple
 
 import numpy as np
+from numpy.lib.stride_tricks import as_strided
 from numpy.typing import NDArray
 from scipy.special import sici, spherical_jn
 
@@ -85,7 +87,6 @@ def gauss_legendre(nodes: int) -> tuple[Array, Array, Array]:
     return np.asarray(t), np.asarray(weight), np.asarray(np.linalg.inv(vandermonde))
 
 
-@lru_cache(maxsize=8)
 def unit_panel_weights(
     first: int, last: int, points_per_octave: int, panels_per_octave: int, nodes: int
 ) -> ComplexArray:
@@ -124,14 +125,20 @@ def _lowest_filon_phase(nodes: int) -> float:
     return float((np.finfo(float).eps * factorial(2 * nodes)) ** (0.5 / nodes))
 
 
-@lru_cache(maxsize=8)
-def transform_matrix(
-    octaves: tuple[int, int], points: tuple[int, int], per_octave: tuple[int, int], nodes: int
-) -> tuple[Array, Array]:
-    """Matrices from samples of C to the even and odd parts of F_0, F_1 and F_2.
+def inverse_transform(
+    samples: ComplexArray,
+    octaves: tuple[int, int],
+    points: tuple[int, int],
+    per_octave: tuple[int, int],
+    nodes: int,
+) -> Array:
+    """Return F_0, F_1 and F_2 on either side, (3, points, compliances, 2): at x_j and at -x_j.
 
     Parameters
     ----------
+    samples :
+        (compliances, n): C on the panel from 0 to w_0 less its limit A_c/w, C on all further
+        panels, then A_c and A = w_c C(w_c).
     octaves :
         the panels cover w_0 = 2^octaves[0] ... w_c = 2^octaves[1] [1/mm].
     points :
@@ -140,40 +147,84 @@ def transform_matrix(
         (n, s): points and panels per octave, n a multiple of s.
     nodes :
         samples per panel (Gauss-Legendre).
-
-    Returns
-    -------
-    even, odd : (3 * points, samples) arrays, acting on Re C and on Im C:
-    F_r(+-x) = even @ Re C +- odd @ Im C. The samples are C on the panel from 0 to w_0 less its
-    limit A_c/w, C on all further panels, then A_c and A = w_c C(w_c).
     """
-    n, s = per_octave
-    panels = np.arange(octaves[0] * s, octaves[1] * s)
-    log_x = np.arange(points[0] * n, points[1] * n + 1) / n
-    # The weights of a panel are those of the panel at w = 1, for x further on in the series.
-    first = points[0] * n + (n // s) * panels
-    unit = unit_panel_weights(int(first[0]), int(first[-1]) + log_x.size - 1, n, s, nodes)
-    even, odd = np.empty((2, 3, log_x.size, (1 + panels.size) * nodes + 2))
-
-    def fill(columns: slice, weights: ComplexArray) -> None:
-        even[:, :, columns], odd[:, :, columns] = weights.real / np.pi, -weights.imag / np.pi
-
-    fill(slice(0, nodes), _lowest_panel(octaves[0], log_x, nodes))
-    for number, (panel, start) in enumerate(zip(panels, first - first[0], strict=True), start=1):
-        columns = slice(number * nodes, (number + 1) * nodes)
-        fill(columns, unit[:, start : start + log_x.size] * 2.0 ** (panel / s))
+    relative = points[0] + octaves[0], points[1] - points[0], octaves[1] - octaves[0]
+    weights = _weights(*relative, *per_octave, nodes)
+    growth = 2.0 ** octaves[0] / pi * samples  # 1/pi and the sizes of panels
+    growth[:, nodes:-2].reshape(len(samples), -1, nodes)[...] *= weights.sizes[:, None]
+    growth[:, -2:] = samples[:, -2:] / pi
+    even, odd = weights.even.sums(growth.real), weights.odd.sums(growth.imag)
     # The constant of a half-space counts wave numbers above 1/mm, whatever w_0 is.
-    constant = head(2.0 ** (octaves[0] + log_x)) + octaves[0] * np.log(2.0)
-    fill(slice(-2, -1), constant[:, :, None])
-    fill(slice(-1, None), tail(2.0 ** (octaves[1] + log_x))[:, :, None])
-    return even.reshape(3 * log_x.size, -1), odd.reshape(3 * log_x.size, -1)
+    even += (octaves[0] * log(2.0)) * growth[:, -2, None, None].real
+    return np.stack([even - odd, even + odd], axis=-1).transpose(1, 2, 0, 3)
 
 
-def _lowest_panel(octave: int, log_x: Array, nodes: int) -> ComplexArray:
-    """Weights (3, points, nodes) of the panel [0, w_0], on which w x stays below 1/4."""
+class _Part(NamedTuple):
+    """Weights of the real or the imaginary parts of samples, for the first w_0 of `_weights`.
+
+    Attributes
+    ----------
+    lowest : (nodes, 3 points) on the panel from 0 to w_0.
+    panel : (nodes, 3, more points) on the panel at w_0, for the x of this and of all further ones.
+    ends : (2, 3 points) of A_c and of A.
+    step : points by which panels follow each other.
+    """
+
+    lowest: Array
+    panel: Array
+    ends: Array
+    step: int
+
+    def sums(self, samples: Array) -> Array:
+        """Return sums over the samples (compliances, n), (compliances, 3, points)."""
+        nodes, _, more = self.panel.shape
+        points = self.ends.shape[1] // 3
+        out = np.zeros((len(samples), 3, points))
+        used = np.flatnonzero(samples.any(axis=1))
+        if not used.size:
+            return out
+        rows = samples[used]
+        far = rows[:, nodes:-2].reshape(-1, nodes) @ self.panel.reshape(nodes, -1)
+        far = far.reshape(used.size, -1, 3, more)
+        first, panel, power, point = far.strides
+        shape = (*far.shape[:3], points)
+        shifted = as_strided(far, shape, (first, panel + self.step * point, power, point))
+        near = rows[:, :nodes] @ self.lowest + rows[:, -2:] @ self.ends
+        out[used] = shifted.sum(axis=1) + near.reshape(used.size, 3, points)
+        return out
+
+
+class _Weights(NamedTuple):
+    """Weights of real and of imaginary parts, and the sizes of the panels over w_0."""
+
+    even: _Part
+    odd: _Part
+    sizes: Array
+
+
+@lru_cache(maxsize=16)
+def _weights(first: int, lengths: int, waves: int, n: int, s: int, nodes: int) -> _Weights:
+    """Return the weights of x = 2^(first + j/n) up to so many octaves of lengths, for w_0 = 1."""
+    phases = 2.0 ** (first + np.arange(lengths * n + 1) / n)
     t, gauss, _ = gauss_legendre(nodes)
-    half = 0.5 * 2.0**octave
-    return half * gauss * multipliers(np.multiply.outer(2.0**log_x, half * (1.0 + t)))
+    lowest = 0.5 * gauss * multipliers(np.multiply.outer(phases, 0.5 * (1.0 + t)))
+    panel = unit_panel_weights(first * n, (first + waves + lengths) * n - n // s, n, s, nodes)
+    ends = np.stack([head(phases), tail(2.0**waves * phases)])
+    parts = [
+        _Part(
+            lowest=_contiguous(lowest.transpose(2, 0, 1), part).reshape(nodes, -1),
+            panel=_contiguous(panel.transpose(2, 0, 1), part),
+            ends=_contiguous(ends, part).reshape(2, -1),
+            step=n // s,
+        )
+        for part in ("real", "imag")
+    ]
+    return _Weights(parts[0], parts[1], 2.0 ** (np.arange(waves * s) / s))
+
+
+def _contiguous(values: ComplexArray, part: str) -> Array:
+    """Return the real or the imaginary part of some values."""
+    return np.ascontiguousarray(getattr(values, part))
 
 
 @lru_cache(maxsize=8)

@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from rollnip.influence._weights import (
     ComplexArray,
     gauss_legendre,
+    inverse_transform,
     sample_points,
-    transform_matrix,
 )
 
 Array = NDArray[np.float64]
@@ -319,26 +319,13 @@ def _transform(
     samples: ComplexArray, low_limit: ComplexArray, window: Window, per_octave: int, nodes: int
 ) -> Array:
     """F_r(+-x_j); shape (3, points, compliances, 2 sides)."""
-    n = window.per_octave
-    even, odd = transform_matrix(window.octaves, window.points, (n, per_octave), nodes)
     w = sample_points(window.octaves, per_octave, nodes)
     rows = np.empty((low_limit.size, w.size + 1), dtype=complex)
     rows[:, :-2] = samples[:, :-1]
     rows[:, :nodes] -= low_limit[:, None] / w[:nodes]
     rows[:, -2], rows[:, -1] = low_limit, w[-1] * samples[:, -1]
-    same, opposite = _product(even, rows.real), _product(odd, rows.imag)
-    both = np.stack([same + opposite, same - opposite], axis=-1)
-    return both.reshape(3, -1, low_limit.size, 2)
-
-
-def _product(matrix: Array, rows: Array) -> Array:
-    """Matrix @ rows.T, leaving out rows that are zero throughout."""
-    out = np.zeros((matrix.shape[0], rows.shape[0]))
-    used = np.flatnonzero(rows.any(axis=1))
-    if used.size:
-        # OpenBLAS takes three times as long where the columns are not contiguous.
-        out[:, used] = matrix @ np.ascontiguousarray(rows[used].T)
-    return out
+    octaves, points = window.octaves, window.points
+    return inverse_transform(rows, octaves, points, (window.per_octave, per_octave), nodes)
 
 
 def _hermite(means: Array, per_octave: int) -> Array:

@@ -63,6 +63,24 @@ class Subdivision:
     means: Array | None = None
     edges: tuple[int, ...] = ()
 
+    def integrated(self, values: Array) -> Array:
+        """Return integrals between nodes[1:] of the mesh of functions with ``values`` there."""
+        dx = (self.nodes[2:] - self.nodes[1:-1])[:, None]
+        if self.means is None:
+            return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
+        return np.asarray(self.sums(dx * self.means) @ values)
+
+    def sums(self, pieces: Array) -> Array:
+        """Return sums over the intervals of nodes[1:] of the mesh of values on those of these."""
+        if self.values is None:
+            return pieces
+        # Each interval has as many pieces, but the one beyond the last break has not been cut.
+        parts = (self.nodes.size - 3) // (self.values.shape[1] - 3)
+        out = pieces[::parts].copy()
+        for part in range(1, parts):
+            out[:-1] += pieces[part:-1:parts]
+        return np.asarray(out)
+
 
 def subdivided(
     nodes: Array,

@@ -167,6 +167,8 @@ class Kernel:
     def __mul__(self, factor: float) -> Kernel:
         return replace(self, coefficients=factor * self.coefficients)
 
+    __rmul__ = __mul__
+
     def _jet(self, x: Array, order: int) -> list[Array]:
         """F_2 and its derivatives to ln|x| up to ``order``."""
         jet = _horner(self.coefficients, *self._cells(x), order)

@@ -29,7 +29,7 @@ from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Side
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.largest import largest
-from rollnip.rolling.surfaces import Mesh, hoop_curvature
+from rollnip.rolling.surfaces import Mesh, has_no_second_order, hoop_curvature
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -118,13 +118,6 @@ def first_guess(nip: Nip, mesh: Mesh) -> SecondOrder:
     """Return zero second-order terms, and zero traction where a torque is prescribed."""
     zero = np.zeros(mesh.inner.size)
     return SecondOrder(zero, zero, zero, 0.0 if isinstance(nip.tangential, Torque) else None)
-
-
-def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
-    """Return whether there are no second-order terms at all, as in `first_guess`."""
-    if isinstance(nip.tangential, Torque):
-        return False
-    return geometry == "linear" or (geometry == "curved" and nip.friction == 0.0)
 
 
 def second_order(nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState) -> SecondOrder:

@@ -9,12 +9,12 @@ from typing import Protocol
 from rollnip.contact import ContactProblem, ContactState, ContactZone, States, contact_zones
 from rollnip.model import Model
 from rollnip.nip import Nip
-from rollnip.rolling.assemble import SecondOrder, contact_problem, has_no_second_order, second_order
+from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
-from rollnip.rolling.surfaces import Mesh, PairKernels
+from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
 MOST_ITERATIONS = 40
 # Change of the second-order terms in an iteration, over the tolerance. An iteration reduces their

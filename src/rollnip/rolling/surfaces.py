@@ -23,7 +23,7 @@ from rollnip.influence import (
     load_weights,
 )
 from rollnip.model import Geometry
-from rollnip.nip import Nip
+from rollnip.nip import Nip, Torque
 from rollnip.rollers import Roller
 from rollnip.rolling.displacements import Displacements, Field, SecondFields
 
@@ -41,6 +41,9 @@ class PairKernels:
     held : all displacements beyond the linear ones to use whatever the tractions; None: always
         those of the tractions at hand.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
+    joint : what the gap and the creep of a contact take of both surfaces: zz of both added, xz of
+        the upper less that of the lower, xx of both added; without friction zz alone. None where
+        terms that follow the solution need each surface by itself.
     together : xx, zz and xz of the upper, then of the lower surface, as channels of one kernel;
         without those of a rigid one.
     pressed : u_z of both surfaces together under elliptic pressures on contacts of any width up
@@ -55,11 +58,7 @@ class PairKernels:
     second_lower: SecondResponse | None = None
     held: SecondFields | None = None
     hoops: tuple[float, float] = (0.0, 0.0)
-
-    @property
-    def moving(self) -> slice:
-        """Return the places of the channels of ``together`` among those of both surfaces."""
-        return slice(0 if self.upper else 3, 6 if self.lower else 3)
+    joint: Kernel | None = None
 
     @property
     def heat_beyond(self) -> tuple[float, float]:
@@ -99,7 +98,31 @@ def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None)
     """Tabulate the influence functions of both rollers on one window, or take them from a cache."""
     cache = KernelCache() if cache is None else cache
     make = partial(_pair_kernels, nip, geometry, cache)
-    return cache.pair((nip.upper, nip.lower), nip.speed, geometry, make)
+    kernels = cache.pair((nip.upper, nip.lower), nip.speed, geometry, make)
+    if not has_no_second_order(nip, geometry):
+        return kernels
+    upper, lower = (None if one is None else one.together for one in (kernels.upper, kernels.lower))
+    return replace(kernels, joint=_joint(upper, lower, has_friction=nip.friction > 0.0))
+
+
+def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
+    """Return whether no terms of the contact conditions follow the solution."""
+    if isinstance(nip.tangential, Torque):
+        return False
+    return geometry == "linear" or (geometry == "curved" and nip.friction == 0.0)
+
+
+def _joint(upper: Kernel | None, lower: Kernel | None, *, has_friction: bool) -> Kernel:
+    """Return `PairKernels.joint` from xx, zz and xz of each surface; None: it does not move."""
+    channels = []
+    for number, sign in ((1, 1.0), (2, -1.0), (0, 1.0)) if has_friction else ((1, 1.0),):
+        above, below = (None if one is None else one.channel(number) for one in (upper, lower))
+        if below is not None:
+            below = below if sign > 0.0 else -1.0 * below
+            above = below if above is None else above + below
+        assert above is not None
+        channels.append(above)
+    return Kernel.stacked(tuple(channels))
 
 
 def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKernels:
@@ -135,8 +158,9 @@ class Mesh:
     inner : (N-1,) nodes that carry tractions [mm].
     dx : (N-1,) lengths of the intervals between nodes[1:] [mm].
     weights : (N-1,) load of each nodal traction [mm].
-    per_traction : (6, N, N-1) displacements of both surfaces, see `pair_displacements` [mm/MPa].
-    influence : what a contact problem on these nodes makes of them; empty with a sheet.
+    per_traction : (6, N, N-1) displacements of both surfaces, see `pair_displacements` [mm/MPa];
+        empty where a contact needs no more than `PairKernels.joint`.
+    influence : of a contact problem on these nodes; empty with a sheet.
     kernels : the influence functions they come from.
     held : second-order displacements at nodes[1:] that the kernels hold; None: they hold none.
     """
@@ -157,10 +181,17 @@ class Mesh:
         """Evaluate the influence functions of both surfaces on a mesh."""
         unit = None if fine.acting is None else fine.acting[1:-1, 1:-1]
         weights = load_weights(fine.nodes)
-        per_traction = pair_displacements(kernels, nodes[1:], fine.nodes, unit)
-        influence = np.empty((0, 0))
-        if cls.is_bare:
-            influence = _influence(nodes, fine, per_traction, kernels.hoops)
+        places = nodes[1:], fine.nodes
+        per_traction, influence = np.empty((0, 0, 0)), np.empty((0, 0))
+        if cls.is_bare and kernels.joint is not None:
+            made = surface_displacements(kernels.joint, *places, unit)
+            influence = _influence(fine, made, None)
+        else:
+            per_traction = pair_displacements(kernels, *places, unit)
+            if cls.is_bare:
+                xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = per_traction
+                made = np.array([zz_u + zz_l, xz_u - xz_l, xx_u + xx_l])
+                influence = _influence(fine, made, _shorter(per_traction, kernels.hoops))
         return cls(
             nodes=nodes,
             fine=fine,
@@ -233,13 +264,15 @@ class Mesh:
 
     def sums(self, pieces: Array) -> Array:
         """Return sums over the intervals of nodes[1:] of values on those of the finer nodes."""
-        return _sums(self.nodes, self.fine, pieces)
+        return self.fine.sums(pieces)
 
     def linear_displacements(self, state: ContactState) -> Displacements:
         """Return the displacements at nodes[1:], linear in the tractions."""
-        tractions = np.empty((self.inner.size, 2))
-        tractions[:, 0], tractions[:, 1] = state.pressure, state.shear
-        return Displacements.under(self.per_traction @ tractions)
+        tractions = np.stack([state.pressure, state.shear], axis=1)
+        if self.per_traction.size:
+            return Displacements.under(self.per_traction @ tractions)
+        acting, x = self.acting(tractions), self.nodes[1:]
+        return Displacements.under(pair_displacements(self.kernels, x, self.fine.nodes, acting))
 
     def displacements(self, state: ContactState) -> Displacements:
         """Return the displacements at nodes[1:], to the order of the model."""
@@ -308,60 +341,53 @@ def pair_displacements(
     -------
     (6, m, s) by xx, zz, xz of the upper, then of the lower surface; a rigid one does not move.
     """
-    kernel = kernels.together
-    if tractions is None:
-        made = displacement_matrix(kernel, x, nodes)
-    else:
-        made = displacement_under(kernel, x, nodes, tractions)
-    if kernel.count == 6:
+    made = surface_displacements(kernels.together, x, nodes, tractions)
+    if kernels.together.count == 6:
         return made
     six = np.zeros((6, *made.shape[1:]))
-    six[kernels.moving] = made
+    six[slice(0 if kernels.upper else 3, 6 if kernels.lower else 3)] = made
     return six
 
 
-def _influence(
-    nodes: Array, fine: Subdivision, per_traction: Array, hoops: tuple[float, float]
-) -> Array:
+def surface_displacements(kernel: Kernel, x: Array, nodes: Array, tractions: Array | None) -> Array:
+    """Displacements (channels, m, s) of a kernel with several channels, as `pair_displacements`."""
+    if tractions is None:
+        return displacement_matrix(kernel, x, nodes)
+    return displacement_under(kernel, x, nodes, tractions)
+
+
+def _influence(fine: Subdivision, made: Array, shorter: Array | None) -> Array:
     """Gap and creep per nodal pressure and shear (theory section 5), `ContactProblem.influence`.
 
     The creep of an interval is the upper less the lower int (du_x/dx - u_z/R) dx. The pressure is
-    the same on both surfaces, the shear the opposite.
+    the same on both surfaces, the shear the opposite. Without friction creep and shear do not
+    matter, and are left at zero.
+
+    Parameters
+    ----------
+    made : (1 or 3, N, N-1) of `PairKernels.joint` per traction.
+    shorter : (N, 2 (N-1)) see `_shorter`; None: 0.
     """
-    xx_u, zz_u, xz_u, xx_l, zz_l, xz_l = per_traction
-    n = nodes.size - 2
-    out, ahead = np.empty((2 * n, 2 * n)), np.empty((n + 1, 2 * n))
-    np.add(zz_u[:-1], zz_l[:-1], out=out[:n, :n])
-    np.subtract(xz_l[:-1], xz_u[:-1], out=out[:n, n:])
-    np.subtract(xz_u, xz_l, out=ahead[:, :n])
-    np.add(xx_u, xx_l, out=ahead[:, n:])
-    np.subtract(ahead[1:], ahead[:-1], out=out[n:])
-    if any(hoops):
-        shorter = np.empty(ahead.shape)
-        np.subtract(hoops[0] * zz_u, hoops[1] * zz_l, out=shorter[:, :n])
-        np.subtract(-hoops[0] * xz_u, hoops[1] * xz_l, out=shorter[:, n:])
-        out[n:] -= _integrated(nodes, fine, shorter)
+    n = made.shape[2]
+    out = np.zeros((2 * n, 2 * n))
+    out[:n, :n] = made[0, :-1]
+    if len(made) == 1:
+        return out
+    _, xz, xx = made
+    np.negative(xz[:-1], out=out[:n, n:])
+    np.subtract(xz[1:], xz[:-1], out=out[n:, :n])
+    np.subtract(xx[1:], xx[:-1], out=out[n:, n:])
+    if shorter is not None:
+        out[n:] -= fine.integrated(shorter)
     for leading in fine.edges[1::2]:  # the surfaces may stick up to it
         out[n + leading - 1, n + leading - 1] *= 1.0 - CREEP_TO_EDGE
     return out
 
 
-def _integrated(nodes: Array, fine: Subdivision, values: Array) -> Array:
-    """Return int f dx over each interval of nodes[1:] of functions with ``values`` there."""
-    if fine.means is None:
-        dx = (nodes[2:] - nodes[1:-1])[:, None]
-        return np.asarray(0.5 * dx * (values[1:] + values[:-1]))
-    dx = (fine.nodes[2:] - fine.nodes[1:-1])[:, None]
-    return np.asarray(_sums(nodes, fine, dx * fine.means) @ values)
-
-
-def _sums(nodes: Array, fine: Subdivision, pieces: Array) -> Array:
-    """Return sums over the intervals of nodes[1:] of values on those of the finer nodes."""
-    if fine.values is None:
-        return pieces
-    # Each interval has as many pieces, but the one beyond the last break has not been cut.
-    parts = (fine.nodes.size - 3) // (nodes.size - 3)
-    out = pieces[::parts].copy()
-    for part in range(1, parts):
-        out[:-1] += pieces[part:-1:parts]
-    return np.asarray(out)
+def _shorter(per_traction: Array, hoops: tuple[float, float]) -> Array | None:
+    """Return u_z/R of the upper less the lower surface per pressure and per shear; None: 0."""
+    if not any(hoops):
+        return None
+    _, zz_u, xz_u, _, zz_l, xz_l = per_traction
+    by_pressure = hoops[0] * zz_u - hoops[1] * zz_l
+    return np.concatenate([by_pressure, -hoops[0] * xz_u - hoops[1] * xz_l], axis=1)

@@ -159,7 +159,7 @@ def inverse_transform(
     return np.stack([even - odd, even + odd], axis=-1).transpose(1, 2, 0, 3)
 
 
-class _Part(NamedTuple):
+class _PanelWeights(NamedTuple):
     """Weights of the real or the imaginary parts of samples, for the first w_0 of `_weights`.
 
     Attributes
@@ -194,16 +194,16 @@ class _Part(NamedTuple):
         return out
 
 
-class _Weights(NamedTuple):
+class _TransformWeights(NamedTuple):
     """Weights of real and of imaginary parts, and the sizes of the panels over w_0."""
 
-    even: _Part
-    odd: _Part
+    even: _PanelWeights
+    odd: _PanelWeights
     sizes: Array
 
 
 @lru_cache(maxsize=16)
-def _weights(first: int, lengths: int, waves: int, n: int, s: int, nodes: int) -> _Weights:
+def _weights(first: int, lengths: int, waves: int, n: int, s: int, nodes: int) -> _TransformWeights:
     """Return the weights of x = 2^(first + j/n) up to so many octaves of lengths, for w_0 = 1."""
     phases = 2.0 ** (first + np.arange(lengths * n + 1) / n)
     t, gauss, _ = gauss_legendre(nodes)
@@ -211,7 +211,7 @@ def _weights(first: int, lengths: int, waves: int, n: int, s: int, nodes: int) -
     panel = unit_panel_weights(first * n, (first + waves + lengths) * n - n // s, n, s, nodes)
     ends = np.stack([head(phases), tail(2.0**waves * phases)])
     parts = [
-        _Part(
+        _PanelWeights(
             lowest=_contiguous(lowest.transpose(2, 0, 1), part).reshape(nodes, -1),
             panel=_contiguous(panel.transpose(2, 0, 1), part),
             ends=_contiguous(ends, part).reshape(2, -1),
@@ -219,7 +219,7 @@ def _weights(first: int, lengths: int, waves: int, n: int, s: int, nodes: int) -
         )
         for part in ("real", "imag")
     ]
-    return _Weights(parts[0], parts[1], 2.0 ** (np.arange(waves * s) / s))
+    return _TransformWeights(parts[0], parts[1], 2.0 ** (np.arange(waves * s) / s))
 
 
 def _contiguous(values: ComplexArray, part: str) -> Array:

@@ -43,18 +43,19 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     slopes[2:-1] -= tractions
     slopes[1:-1] /= (nodes[1:] - nodes[:-1])[:, None]
     kinks = slopes[1:] - slopes[:-1]
-    values = kernel.double_integral(x[:, None] - nodes[None, :])
-    if values.ndim == 2:
-        return np.asarray(values @ kinks)
+    values = kernel.double_integral(x[None, :] - nodes[:, None]).reshape(nodes.size, -1)
     # Sets that are each of a few neighbours make a band, which is multiplied block by block.
-    out, block = np.zeros((x.size, values.shape[2], kinks.shape[1])), 32
+    out, block = np.zeros((kinks.shape[1], values.shape[1])), 32
     for start in range(0, nodes.size, block):
         rows = slice(start, start + block)
         sets = np.flatnonzero(np.any(kinks[rows], axis=0))
         if sets.size:
             columns = slice(int(sets[0]), int(sets[-1]) + 1)
-            out[:, :, columns] += values[:, rows].swapaxes(1, 2) @ kinks[rows, columns]
-    return out.swapaxes(0, 1)[: kernel.count]
+            out[columns] += kinks[rows, columns].T @ values[rows]
+    if kernel.coefficients.ndim == 2:
+        return np.ascontiguousarray(out.T)
+    channels = out.reshape(kinks.shape[1], x.size, -1).T[: kernel.count]
+    return np.ascontiguousarray(channels)
 
 
 def load_weights(nodes: Array) -> Array:

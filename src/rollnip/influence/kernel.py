@@ -200,12 +200,13 @@ def _horner(coefficients: Array, cell: Indices, fraction: Array, order: int) -> 
     top = coefficients[5].take(cell, axis=0)
     fraction = _for_channels(fraction, top)
     jet = [top] + [np.zeros(top.shape) for _ in range(order)]
+    coefficient = np.empty(top.shape)
     for n in range(4, -1, -1):
         for m in range(order, 0, -1):
             jet[m] *= fraction
             jet[m] += jet[m - 1]
         jet[0] *= fraction
-        jet[0] += coefficients[n].take(cell, axis=0)
+        jet[0] += coefficients[n].take(cell, axis=0, out=coefficient, mode="clip")
     return jet
 
 

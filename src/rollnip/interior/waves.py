@@ -23,9 +23,14 @@ ComplexArray = NDArray[np.complex128]
 
 _HALF_TURN = 20.0
 """Half the width P times the reach: the phase y from the middle to the end of a panel."""
-_NODES_LOW = 16  # even, as all numbers of nodes here: none lies in the middle of its panel
-_NODES = (24, 38, 66)
-"""On panels of at most P/2, and of P, 2P and 4P: (e y/(4 m))^(2m) < 1e-11 for m nodes."""
+# Numbers of nodes are even: none lies in the middle of its panel.
+_NODES_LOW = 16
+_NODES = 66
+"""On panels of at most P/2, and of P, 2P and 4P: (e y/(4 m))^(2m) < 1e-11 for m nodes on 4P."""
+_OCTAVES = 5
+"""Of panels below P in a block of their own; below these no phase exceeds `SMALL_PHASE`."""
+SMALL_PHASE = _HALF_TURN * 0.5**_OCTAVES
+"""Phase of half the reach at the end of the first block."""
 _MOST_AT_ONCE = 24
 """Panels of 4P dealt with at once."""
 _MOST_OCTAVES = 60
@@ -74,9 +79,9 @@ class Block:
 class Phases:
     """e^{-ikx} at some places x, block after block.
 
-    They are those of the panels' middles times those from a middle to the nodes. Those to the nodes
-    below it are the conjugates of those to the nodes above, and those on panels of one width are
-    kept for the next block of such panels, for sines take most of the time.
+    They are those of the panels' middles times those from a middle to the nodes. Sines take most of
+    the time; so phases to the nodes below a middle are the conjugates of those above, phases on a
+    panel are the squares of those on one of half its width, and both are kept for further blocks.
 
     Parameters
     ----------
@@ -85,11 +90,13 @@ class Phases:
 
     def __init__(self, x: Array) -> None:
         self.x = x
-        self._within: dict[tuple[float, int, int], ComplexArray] = {}
+        self._within: dict[tuple[float, int], ComplexArray] = {}
 
     def on(self, block: Block) -> ComplexArray:
         """The phases themselves, (m, n)."""
-        both = self._at(block.middles)[:, :, None] * self._from_middle(block)
+        if block.start == 0.0:  # of squares of squares over many octaves no digit would be left
+            return self._at(block.k)
+        both = self._at(block.middles)[:, :, None] * self._from_middles(block)
         return np.asarray(both.reshape(self.x.size, -1))
 
     def sums(self, block: Block, weights: Array) -> ComplexArray:
@@ -97,17 +104,23 @@ class Phases:
         if not block.is_even:
             return np.asarray(weights @ self.on(block))
         turned = weights[:, None, :] * self._at(block.middles).T
-        return np.asarray(turned @ self._from_middle(block)[:, 0]).reshape(len(weights), -1)
+        return np.asarray(turned @ self._from_middles(block)[:, 0]).reshape(len(weights), -1)
 
-    def _from_middle(self, block: Block) -> ComplexArray:
-        """Phases from the middles of panels to their nodes, (m, panels or 1, nodes)."""
+    def _from_middles(self, block: Block) -> ComplexArray:
+        """Phases from the middles of panels to their nodes, (m, panels, nodes); 1 if even."""
         halves = block.halves[:1] if block.is_even else block.halves
-        key = float(halves[0]), halves.size, block.nodes
-        if key not in self._within:
-            above = _gauss(block.nodes)[0][block.nodes // 2 :]
-            beyond = self._at(np.multiply.outer(halves, above))
-            self._within[key] = np.concatenate([beyond[..., ::-1].conj(), beyond], axis=2)
-        return self._within[key]
+        return np.stack([self._from_middle(half, block.nodes) for half in halves.tolist()], axis=1)
+
+    def _from_middle(self, half: float, nodes: int) -> ComplexArray:
+        if (half, nodes) not in self._within:
+            narrower = self._within.get((0.5 * half, nodes))
+            if narrower is None:
+                above = self._at(half * _gauss(nodes)[0][nodes // 2 :])
+                made = np.concatenate([above[:, ::-1].conj(), above], axis=1)
+            else:
+                made = narrower * narrower
+            self._within[half, nodes] = made
+        return self._within[half, nodes]
 
     def _at(self, k: Array) -> ComplexArray:
         return np.asarray(np.exp(-1j * np.multiply.outer(self.x, k)))
@@ -130,24 +143,23 @@ class Waves:
     def resolving(cls, reach: float, slowest: float) -> Waves:
         """Panels for distances up to ``reach`` and features as fine as 1/``slowest`` [mm]."""
         width = 2.0 * _HALF_TURN / reach
-        octaves = ceil(log2(max(2.0, width * slowest)))
+        octaves = ceil(log2(max(2.0**_OCTAVES, width * slowest)))
         return cls(width, width * 2.0 ** -min(octaves, _MOST_OCTAVES))
 
     def blocks(self, last: float) -> list[Block]:
-        """Panels from 0 to ``last`` [1/mm] or a little above, blocks growing."""
+        """Panels from 0 to ``last`` [1/mm] or a little above, blocks growing; see `SMALL_PHASE`."""
         octaves = round(log2(self.width / self.lowest))
         edges = np.zeros(octaves + 2)
         edges[1:] = np.ldexp(self.lowest, np.arange(octaves + 1))
-        blocks = [_block(edges, _NODES_LOW)]
-        for octave, nodes in enumerate(_NODES):
-            if last > self.width * 2.0**octave:
-                width = self.width * 2.0**octave
-                blocks.append(_block(width * np.array([1.0, 2.0]), nodes, width))
+        blocks = [_block(edges[:-_OCTAVES], _NODES_LOW), _block(edges[-1 - _OCTAVES :], _NODES_LOW)]
+        for width in self.width * 2.0 ** np.arange(3):
+            if last > width:
+                blocks.append(_block(width * np.array([1.0, 2.0]), _NODES, width))
         wide, done = 4.0 * self.width, 2
         count = ceil(last / wide)
         while done < count:
             size = min(done, _MOST_AT_ONCE, count - done)
-            blocks.append(_block(wide * np.arange(done, done + size + 1), _NODES[-1], wide))
+            blocks.append(_block(wide * np.arange(done, done + size + 1), _NODES, wide))
             done += size
         return blocks
 

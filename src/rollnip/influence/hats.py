@@ -43,19 +43,20 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     slopes[2:-1] -= tractions
     slopes[1:-1] /= (nodes[1:] - nodes[:-1])[:, None]
     kinks = slopes[1:] - slopes[:-1]
-    values = kernel.double_integral(x[None, :] - nodes[:, None]).reshape(nodes.size, -1)
-    # Sets that are each of a few neighbours make a band, which is multiplied block by block.
-    out, block = np.zeros((kinks.shape[1], values.shape[1])), 32
+    # Some nodes at a time: their values stay in the processor's cache, and sets that are each of a
+    # few neighbours make a band.
+    channels = kernel.coefficients[0, 0].size
+    out = np.zeros((kinks.shape[1], x.size * channels))
+    block = max(2**15 // out.shape[1], 1)
     for start in range(0, nodes.size, block):
         rows = slice(start, start + block)
         sets = np.flatnonzero(np.any(kinks[rows], axis=0))
         if sets.size:
             columns = slice(int(sets[0]), int(sets[-1]) + 1)
-            out[columns] += kinks[rows, columns].T @ values[rows]
-    if kernel.coefficients.ndim == 2:
-        return np.ascontiguousarray(out.T)
-    channels = out.reshape(kinks.shape[1], x.size, -1).T[: kernel.count]
-    return np.ascontiguousarray(channels)
+            values = kernel.double_integral(x[None, :] - nodes[rows, None])
+            out[columns] += kinks[rows, columns].T @ values.reshape(-1, out.shape[1])
+    made = out.reshape(-1, x.size, channels).T[: kernel.count]
+    return np.ascontiguousarray(made[0] if kernel.coefficients.ndim == 2 else made)
 
 
 def load_weights(nodes: Array) -> Array:

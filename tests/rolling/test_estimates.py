@@ -11,8 +11,10 @@ from rollnip.rolling.estimates import (
     Size,
     estimated_error,
     lag_within,
+    with_further_errors,
     zone_excess,
 )
+from rollnip.rolling.further import further_sizes
 from rollnip.rolling.round import Figures, Further
 
 
@@ -93,6 +95,28 @@ def test_what_relaxes_within_an_element_lags_behind(length):
     share = np.exp(-length)  # with 100 mm/s the memory is 1 mm long
     expected = 3.0 * (1.0 - share - length * share) / (1.0 + 3.0 * share)
     assert lag_within(length, roller, 100.0) == pytest.approx(expected, rel=1e-4, abs=1e-9)
+
+
+def test_edges_within_a_memory_change_all_figures_in_proportion(one):
+    """A length by one of them at either edge; tractions and losses by as much of themselves."""
+    nip, final = one
+    rubber = rn.StandardLinearSolid(modulus=2.0, stiffening=6.0, relaxation_time=1e-4, poisson=0.5)
+    lagging = rn.Roller(radius=nip.upper.radius, layers=[rn.Layer(2.0, rubber)])
+    lagging = replace(nip, upper=lagging, speed=100.0)
+    further = Further(0.53, 0.55, -0.54, 0.03, 0.0, 0.0, 7.2, 0.1)
+    history = [
+        Size(n, final.figures, np.array([-1.0, 0.0, 1.0]), lambda: further) for n in (20, 30)
+    ]
+    at_once, later = (
+        with_further_errors(of, final, history).further_error for of in (nip, lagging)
+    )
+    edge = 0.5 * (later.contact_length - at_once.contact_length)
+    edges = np.diff(final.mesh.inner)[[0, -1]]
+    assert edge >= max(lag_within(float(h), lagging.upper, 100.0) for h in edges) > 0.0
+    share = 2.0 * edge / final.figures.nip_width
+    assert later.traction - at_once.traction == pytest.approx(0.53 * share)
+    work = further_sizes(lagging, final, further)[3]
+    assert later.friction - at_once.friction == pytest.approx(share * work)
 
 
 def test_what_has_no_memory_does_not_lag():

@@ -17,7 +17,7 @@ from rollnip.contact.coupled import solve_states
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.changes import ROUNDING
-from rollnip.rolling.further import further_figures, further_sizes
+from rollnip.rolling.further import further_of, further_sizes
 from rollnip.rolling.largest import largest
 from rollnip.rolling.power_balance import Powers, rates_of
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
@@ -98,7 +98,7 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
     These figures have no tolerance of their own. ``spent`` is the `powers` of the solution.
     """
     further = final.further_error or Further(*(inf,) * 8)
-    further = _with_model(further, nip, geometry, final)
+    further = _with_model(further, nip, geometry, final, spent)
     speed = nan if nip.speed is None else nip.speed
     load = final.figures.load
     half = 0.0 if isnan(final.state.creepage) else 0.5 * final.state.creepage
@@ -170,11 +170,13 @@ def _power_left(creepage: float, final: Round) -> float:
     return traction * creepage + figures.load * open_gap
 
 
-def _with_model(further: Further, nip: Nip, geometry: Geometry, final: Round) -> Further:
+def _with_model(
+    further: Further, nip: Nip, geometry: Geometry, final: Round, spent: Powers
+) -> Further:
     """Return the errors, none of them less than that of the geometry model."""
     if geometry not in FINITE or final.further_error is None:
         return further
-    figures = further_figures(nip, geometry, final.mesh, final.state, final.zones)
+    figures = further_of(spent, final.mesh, final.state, final.zones)
     left = _FURTHER_SHARE * further_sizes(nip, final, figures)
     left[-1] = _SHARE_OF_PEAK_PLACE * final.figures.nip_width
     return Further(*np.maximum(further.array(), left).tolist())

@@ -14,7 +14,7 @@ from rollnip.model import Model
 from rollnip.nip import Creepage, Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
-from rollnip.rolling.further import further_errors, further_figures
+from rollnip.rolling.further import further_errors, further_figures, further_sizes
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
 from rollnip.rolling.surfaces import Array
 
@@ -75,27 +75,25 @@ def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | No
     does within their elements: two sizes of mesh whose ends are off alike, or whose elements are
     all too long, agree on figures that are wrong.
     """
-    error = estimated_error(nip, latest, history).array() + _unseen_memory(nip, latest)
+    figures, edge = latest.figures, _edge_within_memory(nip, latest)
+    # By that much edges are off. A creepage at a given traction goes as the square of the width, as
+    # the load does. Approach, load and peak pressure do not depend on edges to first order.
+    creepage = 0.0
+    if not isinstance(nip.tangential, Creepage):
+        creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
+    unseen = np.array([0.0, 0.0, creepage, edge, 0.0])
+    error = estimated_error(nip, latest, history).array() + unseen
     if left is not None:
         error += left.array()
     return replace(latest, error=Figures(*error.tolist()))
 
 
-def _unseen_memory(nip: Nip, latest: Round) -> Array:
-    """Return the error of each figure from a memory that is shorter than elements at the ends.
-
-    By that much edges are off. A creepage at a given traction goes as the square of the width, as
-    the load does. Approach, load and peak pressure do not depend on edges to first order.
-    """
+def _edge_within_memory(nip: Nip, latest: Round) -> float:
+    """Return the error of edges from a memory that is shorter than the elements there [mm]."""
     nodes, elements = latest.mesh.inner, np.array(latest.mesh.fine.elements)
     last = np.cumsum(elements) - 1
     longest = float(np.max(np.diff(nodes)[[*last, *(last - elements + 1)]]))
-    rollers, figures = (nip.upper, nip.lower), latest.figures
-    edge = max(lag_within(longest, roller, nip.speed) for roller in rollers)
-    creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
-    if isinstance(nip.tangential, Creepage):
-        creepage = 0.0
-    return np.array([0.0, 0.0, creepage, edge, 0.0])
+    return max(lag_within(longest, roller, nip.speed) for roller in (nip.upper, nip.lower))
 
 
 def lag_within(length: float, roller: Roller, speed: float | None) -> float:
@@ -113,9 +111,18 @@ def lag_within(length: float, roller: Roller, speed: float | None) -> float:
 
 
 def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
-    """Return the round with the estimated errors of the further figures."""
+    """Return the round with the estimated errors of the further figures.
+
+    Edges that are off as in `with_errors` change tractions by twice that over the width, and with
+    them what is handed on and lost, which is quadratic in them; the length by one at either edge.
+    """
     sizes = [(size.count, size.further) for size in history]
-    return replace(latest, further_error=further_errors(nip, latest, sizes))
+    error = further_errors(nip, latest, sizes)
+    if error is not None:
+        share = 2.0 * _edge_within_memory(nip, latest) / latest.figures.nip_width
+        more = share * further_sizes(nip, latest, history[-1].further)
+        error = Further(*(error.array() + more).tolist())
+    return replace(latest, further_error=error)
 
 
 def estimated_error(nip: Nip, latest: Round, history: list[Size]) -> Figures:

@@ -10,7 +10,7 @@ from rollnip.contact import ContactState, ContactZone, contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
 from rollnip.rolling.changes import errors_from_changes, shown_order
-from rollnip.rolling.power_balance import powers
+from rollnip.rolling.power_balance import Powers, powers
 from rollnip.rolling.round import Further, Round, peak_pressure
 from rollnip.rolling.surfaces import Array, Mesh
 
@@ -25,7 +25,13 @@ def further_figures(
     nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...]
 ) -> Further:
     """Return the further figures of a solution on a mesh."""
-    spent = powers(nip, geometry, mesh, state, zones)
+    return further_of(powers(nip, geometry, mesh, state, zones), mesh, state, zones)
+
+
+def further_of(
+    spent: Powers, mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...]
+) -> Further:
+    """Return the further figures of a solution whose powers are known."""
     _, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
     return Further(
         traction=float(mesh.weights @ state.shear),

@@ -16,6 +16,7 @@ from rollnip.influence.surface import (
     covering_window,
     has_stiff_skin,
     is_ring,
+    joint_kernel,
     surface_compliance,
     surface_kernels,
 )
@@ -34,6 +35,7 @@ __all__ = [
     "grid_strains",
     "has_stiff_skin",
     "is_ring",
+    "joint_kernel",
     "load_weights",
     "strain_matrix",
     "surface_compliance",

@@ -60,6 +60,25 @@ class SurfaceKernels:
         return float(self.displacement(np.array([x]), nodes, t_z, t_x)[1][0])
 
 
+def joint_kernel(
+    upper: SurfaceKernels | None, lower: SurfaceKernels | None, *, has_friction: bool
+) -> Kernel:
+    """Return what the gap and the creep of a contact take of both surfaces together.
+
+    Channels are zz of both added, xz of the upper less that of the lower, and xx of both added;
+    without friction zz alone.
+
+    Parameters
+    ----------
+    upper, lower : None: a rigid surface; one at least is none.
+    has_friction : whether creep and shear matter.
+    """
+    sides = (upper, 1.0), (lower, -1.0)
+    parts = [[one.zz, sign * one.xz, one.xx] for one, sign in sides if one is not None]
+    kernels = parts[0] if len(parts) == 1 else [a + b for a, b in zip(*parts, strict=True)]
+    return Kernel.stacked(tuple(kernels[: 3 if has_friction else 1]))
+
+
 def is_ring(roller: Roller, geometry: str) -> bool:
     """Return whether layers count as curved: finite radius, rigid core, a geometry of rings."""
     curved = geometry in RINGS

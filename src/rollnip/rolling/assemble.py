@@ -249,50 +249,33 @@ def mean_shear(mesh: Mesh, state: ContactState) -> Array:
     return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
 
 
-@dataclass(frozen=True, slots=True)
-class Sheared:
-    """What the shear of a solution works on, over the intervals of the finer nodes but the first.
+def stretches(nip: Nip, geometry: Geometry, mesh: Mesh, u: Displacements) -> tuple[Array, Array]:
+    """Return `stretch_excess` as solved, and with the short waves that were cut, (2, n) [mm].
 
-    Where surfaces slip, their stretch is that of the tractions, with the short waves that a contact
-    cannot follow: the solution without them has the stretch of smoother tractions, which are
-    others.
-
-    Attributes
-    ----------
-    dx : (n,) lengths [mm].
-    shear : (n,) mean shear per ``dx``, along the deformed interface [MPa].
-    excess : (2, n) int (stretch - 1) dx of the upper and the lower surface, as solved [mm].
-    uncut : (2, n) likewise with the short waves that were cut.
+    Over the intervals of the finer nodes but the first; ``u``: at nodes[1:].
     """
+    x = mesh.fine.nodes[1:]
+    excess = stretch_excess(x, nip, geometry, mesh.finer(u))
+    if mesh.kernels.held is None:
+        return excess, excess
+    return excess, stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))
 
-    dx: Array
-    shear: Array
-    excess: Array
-    uncut: Array
 
-    @classmethod
-    def of(
-        cls, nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, u: Displacements
-    ) -> Sheared:
-        """Evaluate a solution with the displacements ``u`` at nodes[1:]."""
-        x, fine = mesh.fine.nodes[1:], mesh.finer(u)
-        shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, fine)
-        excess = uncut = stretch_excess(x, nip, geometry, fine)
-        if mesh.kernels.held is not None:
-            uncut = stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))
-        return cls(x[1:] - x[:-1], shear, excess, uncut)
+def pulls(dx: Array, shear: Array, both: tuple[Array, Array], slips: Bools) -> Array:
+    """Int q lambda ds of the upper and the lower surface, (2,) [N/mm].
 
-    def pulls(self, slips: Bools) -> tuple[float, float]:
-        """Int q lambda ds of the upper and the lower surface [N/mm].
+    This is the power that the shear hands over per speed of that surface. Where surfaces slip,
+    lambda is that of the tractions, with the short waves that a contact cannot follow: the solution
+    without them has the lambda of smoother tractions, which are others.
 
-        This is the power that the shear hands over per speed of that surface; ``slips``: the
-        intervals that do.
-        """
-        excess = (
-            self.excess if self.uncut is self.excess else np.where(slips, self.uncut, self.excess)
-        )
-        upper, lower = (self.dx + excess) @ self.shear
-        return float(upper), float(lower)
+    Parameters
+    ----------
+    dx, shear : (n,) lengths of the intervals [mm], and the mean shear in them per ``dx`` [MPa].
+    both : see `stretches`.
+    slips : (n,) whether the surfaces slip there.
+    """
+    excess, uncut = both
+    return np.asarray((dx + np.where(slips, uncut, excess)) @ shear)
 
 
 def slip_intervals(x: Array, zones: tuple[ContactZone, ...]) -> Bools:
@@ -360,8 +343,10 @@ def _traction_for_torque(
     No number where the second-order terms have run away: such a solution is not verified.
     """
     assert isinstance(nip.tangential, Torque)
-    slips = slip_intervals(mesh.fine.nodes[1:], contact_zones(mesh.inner, state, nip.friction))
-    _, pull = Sheared.of(nip, geometry, mesh, state, u).pulls(slips)
+    x = mesh.fine.nodes[1:]
+    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, mesh.finer(u))
+    slips = slip_intervals(x, contact_zones(mesh.inner, state, nip.friction))
+    pull = float(pulls(x[1:] - x[:-1], shear, stretches(nip, geometry, mesh, u), slips)[1])
     if not isfinite(pull):
         return nan
     lost = loss_inside("lower", nip, geometry, mesh, state)

@@ -30,13 +30,17 @@ import numpy as np
 from rollnip.contact import ContactState, ContactZone
 from rollnip.model import Geometry
 from rollnip.nip import Nip
+from rollnip.rollers import SIDES
 from rollnip.rolling.assemble import (
     Bools,
-    Sheared,
+    arc_ratio,
     creep_of,
     loss_inside,
+    mean_shear,
     moment,
+    pulls,
     slip_intervals,
+    stretches,
 )
 from rollnip.rolling.surfaces import Array, Mesh
 
@@ -89,24 +93,19 @@ def powers(
 ) -> Powers:
     """Return torques over radii and losses of a solution on a mesh."""
     x, u = mesh.fine.nodes[1:], mesh.displacements(state)
-    sheared = Sheared.of(nip, geometry, mesh, state, u)
+    dx, both = x[1:] - x[:-1], stretches(nip, geometry, mesh, u)
+    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, mesh.finer(u))
     inside = [slip_intervals(x, (zone,)) for zone in zones]  # none where surfaces stick
-    pull_upper, pull_lower = sheared.pulls(np.any(inside, axis=0))
+    pull_upper, pull_lower = pulls(dx, shear, both, np.any(inside, axis=0)).tolist()
     friction = cut = reversed_slip = 0.0
     if nip.friction > 0.0 and not isnan(state.creepage):
-        works = [
-            sheared.shear * creep_of(sheared.dx, geometry, excess, state.creepage)
-            for excess in (sheared.uncut, sheared.excess)
-        ]
-        (friction, reversed_slip), (smooth, _) = (slip_losses(work, inside) for work in works)
+        works = [shear * creep_of(dx, geometry, excess, state.creepage) for excess in both]
+        (smooth, _), (friction, reversed_slip) = (slip_losses(work, inside) for work in works)
         cut = abs(friction - smooth)
-    moments = nan, nan
+    moments = [nan, nan]
     if geometry == "finite":
         uncut = mesh.uncut(u)
-        moments = (
-            moment("upper", nip, geometry, mesh, state, uncut),
-            moment("lower", nip, geometry, mesh, state, uncut),
-        )
+        moments = [moment(side, nip, geometry, mesh, state, uncut) for side in SIDES]
     return Powers(
         friction=friction,
         lost_upper=loss_inside("upper", nip, geometry, mesh, state),

@@ -20,6 +20,7 @@ from rollnip.influence import (
     displacement_matrix,
     displacement_under,
     is_ring,
+    joint_kernel,
     load_weights,
 )
 from rollnip.model import Geometry
@@ -41,9 +42,8 @@ class PairKernels:
     held : all displacements beyond the linear ones to use whatever the tractions; None: always
         those of the tractions at hand.
     hoops : 1/R of the upper and the lower roller where its layers are rings, else 0 [1/mm].
-    joint : what the gap and the creep of a contact take of both surfaces: zz of both added, xz of
-        the upper less that of the lower, xx of both added; without friction zz alone. None where
-        terms that follow the solution need each surface by itself.
+    joint : see `joint_kernel`; None where terms that follow the solution need each surface by
+        itself.
     together : xx, zz and xz of the upper, then of the lower surface, as channels of one kernel;
         without those of a rigid one.
     pressed : u_z of both surfaces together under elliptic pressures on contacts of any width up
@@ -101,8 +101,8 @@ def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None)
     kernels = cache.pair((nip.upper, nip.lower), nip.speed, geometry, make)
     if not has_no_second_order(nip, geometry):
         return kernels
-    upper, lower = (None if one is None else one.together for one in (kernels.upper, kernels.lower))
-    return replace(kernels, joint=_joint(upper, lower, has_friction=nip.friction > 0.0))
+    joint = joint_kernel(kernels.upper, kernels.lower, has_friction=nip.friction > 0.0)
+    return replace(kernels, joint=joint)
 
 
 def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
@@ -110,19 +110,6 @@ def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
     if isinstance(nip.tangential, Torque):
         return False
     return geometry == "linear" or (geometry == "curved" and nip.friction == 0.0)
-
-
-def _joint(upper: Kernel | None, lower: Kernel | None, *, has_friction: bool) -> Kernel:
-    """Return `PairKernels.joint` from xx, zz and xz of each surface; None: it does not move."""
-    channels = []
-    for number, sign in ((1, 1.0), (2, -1.0), (0, 1.0)) if has_friction else ((1, 1.0),):
-        above, below = (None if one is None else one.channel(number) for one in (upper, lower))
-        if below is not None:
-            below = below if sign > 0.0 else -1.0 * below
-            above = below if above is None else above + below
-        assert above is not None
-        channels.append(above)
-    return Kernel.stacked(tuple(channels))
 
 
 def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKernels:

@@ -105,7 +105,8 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
     lost = _lost(further, spent, nip, geometry, final)
     first, cut = claims(nip, geometry, final), SHARE_OF_CUT * spent.cut
     if geometry in FINITE and isfinite(first["creepage"]):
-        cut = largest(cut, _power_left(first["creepage"], final))
+        passed = abs(float(final.problem.weights @ final.state.shear))
+        cut = largest(cut, power_left(first["creepage"], passed, final))
     # In equilibrium a torque is the moment of the tractions; it is at finite strain alone.
     off_upper = off_lower = 0.0
     if geometry == "finite":
@@ -158,13 +159,12 @@ def traction_slope(final: Round) -> float:
     return abs(tractions[1] - tractions[0])
 
 
-def _power_left(creepage: float, final: Round) -> float:
+def power_left(creepage: float, traction: float, final: Round) -> float:
     """Return what the error of the creepage and open or overlapping surfaces spend, over V [N/mm].
 
     The traction passes the creepage's power on, and the pressure that of a gap which grows by a
     share of the approach over the width.
     """
-    traction = abs(float(final.problem.weights @ final.state.shear))
     figures = final.figures
     open_gap = final.residual * abs(figures.approach) / figures.nip_width
     return traction * creepage + figures.load * open_gap

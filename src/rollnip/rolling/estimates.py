@@ -16,7 +16,7 @@ from rollnip.rollers import Roller
 from rollnip.rolling.changes import errors_from_changes, share_left, shown_order
 from rollnip.rolling.further import further_errors, further_figures, further_sizes
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
-from rollnip.rolling.surfaces import Array
+from rollnip.rolling.surfaces import Array, Mesh
 
 # Order of the errors, from two sizes.
 _ORDER_FROM_TWO_SIZES = np.array([2.0, 2.0, 1.0, 2.0, 2.0])
@@ -75,7 +75,7 @@ def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | No
     does within their elements: two sizes of mesh whose ends are off alike, or whose elements are
     all too long, agree on figures that are wrong.
     """
-    figures, edge = latest.figures, _edge_within_memory(nip, latest)
+    figures, edge = latest.figures, edge_within_memory(nip, latest.mesh)
     # By that much edges are off. A creepage at a given traction goes as the square of the width, as
     # the load does. Approach, load and peak pressure do not depend on edges to first order.
     creepage = 0.0
@@ -88,9 +88,9 @@ def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | No
     return replace(latest, error=Figures(*error.tolist()))
 
 
-def _edge_within_memory(nip: Nip, latest: Round) -> float:
+def edge_within_memory(nip: Nip, mesh: Mesh) -> float:
     """Return the error of edges from a memory that is shorter than the elements there [mm]."""
-    nodes, elements = latest.mesh.inner, np.array(latest.mesh.fine.elements)
+    nodes, elements = mesh.inner, np.array(mesh.fine.elements)
     last = np.cumsum(elements) - 1
     longest = float(np.max(np.diff(nodes)[[*last, *(last - elements + 1)]]))
     return max(lag_within(longest, roller, nip.speed) for roller in (nip.upper, nip.lower))
@@ -119,7 +119,7 @@ def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
     sizes = [(size.count, size.further) for size in history]
     error = further_errors(nip, latest, sizes)
     if error is not None:
-        share = 2.0 * _edge_within_memory(nip, latest) / latest.figures.nip_width
+        share = 2.0 * edge_within_memory(nip, latest.mesh) / latest.figures.nip_width
         more = share * further_sizes(nip, latest, history[-1].further)
         error = Further(*(error.array() + more).tolist())
     return replace(latest, further_error=error)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from math import sqrt
 
 import numpy as np
@@ -180,13 +179,8 @@ def pulls_of(
     x, fine = mesh.fine.nodes[1:], mesh.finer(u)
     excess = stretch_excess(x, problem.nip, geometry, fine)
     lengths = (x[1:] - x[:-1] + excess) * arc_ratio(x, problem.nip, geometry, fine)
-    upper, lower = (mean_shear(mesh, side_state(state, side)) for side in (0, 1))
+    upper, lower = (mean_shear(mesh, state.side(number)) for number in (0, 1))
     return float(lengths[0] @ upper), float(lengths[1] @ lower)
-
-
-def side_state(state: SheetState, side: int) -> SheetState:
-    """Return a solution whose ``shear`` is that of one interface, 0 the upper, 1 the lower."""
-    return state if side == 0 else replace(state, shear=state.shear_lower)
 
 
 def _traction_for_torque(
@@ -196,6 +190,6 @@ def _traction_for_torque(
     nip, mesh = problem.nip, problem.mesh
     assert isinstance(nip.tangential, Torque)
     _, pull = pulls_of(problem, geometry, state, mesh.uncut(u))
-    lost = loss_inside("lower", nip, geometry, mesh, side_state(state, 1))
+    lost = loss_inside("lower", nip, geometry, mesh, state.side(1))
     wanted = nip.tangential.torque_lower * nip.lower.curvature
     return lost - wanted - (pull - float(mesh.weights @ state.shear_lower))

@@ -18,7 +18,7 @@ from rollnip.contact import State, States
 from rollnip.model import Geometry
 from rollnip.rolling.assemble import loss_inside, moment
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
-from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate, side_state
+from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
@@ -68,7 +68,7 @@ def sheet_powers(
     pulls = pulls_of(problem, geometry, state, mesh.uncut(mesh.displacements(state)))
     lost = [
         loss_inside("upper", nip, geometry, mesh, state),
-        loss_inside("lower", nip, geometry, mesh, side_state(state, 1)),
+        loss_inside("lower", nip, geometry, mesh, state.side(1)),
     ]
     friction = [lost for lost, _ in slip_works(problem, geometry, state, lagged, pulls)]
     return SheetPowers(
@@ -129,7 +129,7 @@ def off_the_moments(
     u = mesh.uncut(mesh.displacements(state))
     driving = np.array([bare.driving_upper, bare.driving_lower])
     upper = moment("upper", problem.nip, geometry, mesh, state, u)
-    lower = moment("lower", problem.nip, geometry, mesh, side_state(state, 1), u)
+    lower = moment("lower", problem.nip, geometry, mesh, state.side(1), u)
     return np.asarray(np.abs(driving - [upper, lower]))
 
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from rollnip.model import Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import PairKernels
+from rollnip.rolling.estimates import edge_within_memory
 from rollnip.sheet.figures import ALIKE, NAMES, SheetFigures, ratio, scales
 from rollnip.sheet.powers import off_the_moments, slip_works
 from rollnip.sheet.search import (
@@ -35,8 +36,7 @@ MOST_COUNT = 260
 _SAFETY, _SAFETY_OF_FIRST = 3.0, 1.5  # on estimates by the second and by the first order
 _ORDER_OF_TWO = 1.5  # of errors, where only two sizes are there
 ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and with others
-# Sizes of mesh before an error is believed, and one more with memory, as without a sheet.
-FEWEST = 2
+FEWEST = 2  # sizes of mesh before an error is believed
 FEWEST_WITH_SLIP = 3
 _MOST_FAILURES = 3  # sizes of mesh whose zones do not settle
 _ROUGHLY, LAST_CLOSELY = 1.0, 0.03  # of the tolerance: allowed error of ends on first, last sizes
@@ -76,6 +76,8 @@ class SheetRefined:
     cut_losses: tuple[float, float] = (0.0, 0.0)
 
 
+_WIDTH = NAMES.index("nip_width")
+_CREEPAGES = [NAMES.index(name) for name in ("creepage", "creepage_upper", "creepage_lower")]
 _Size = tuple[float, SheetFigures, Zones]  # elements, figures and zones of a size of mesh
 
 
@@ -103,9 +105,9 @@ def refine_sheet(
     stand = search.begun(half_width, FIRST_COUNT) if before is None else before
     history: list[_Size] = []
     best: SheetRefined | None = None
-    failures, fewest, last_count = 0, FEWEST + nip.is_viscoelastic, 0
+    failures, last_count = 0, 0
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
-        may_be_last = len(history) + 1 >= fewest
+        may_be_last = len(history) + 1 >= FEWEST
         closely = _closely(count) if may_be_last else _ROUGHLY
         try:
             stand = search.placed(stand.zones, round(count), stand, closely)
@@ -114,11 +116,11 @@ def refine_sheet(
             continue
         here = _size_of(stand, model.geometry)
         figures = here[1]
-        errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
+        errors = _errors(nip, stand, [*history, here])
         is_near = stand.settled and may_be_last
         if is_near and ratio(nip, figures, errors) > model.tolerance:
             history = _with_zones_of(stand, history, search, last_count)
-            errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
+            errors = _errors(nip, stand, [*history, here])
         latest = SheetRefined(stand, figures, errors, violation(stand), round(count))
         if stand.settled:
             history.append(here)
@@ -140,6 +142,21 @@ def _size_of(stand: SheetAttempt, geometry: Geometry) -> _Size:
     """Return what the estimates of errors ask of a size of mesh."""
     elements = stand.problem.mesh.inner.size - 1
     return float(elements), SheetFigures.of(stand, geometry), stand.zones
+
+
+def _errors(nip: Nip, stand: SheetAttempt, history: list[_Size]) -> SheetFigures:
+    """Return the estimated errors of a solution, the last of some sizes of mesh.
+
+    They are those of the mesh, and what a memory does that is shorter than its elements, on which
+    all sizes agree: to the width, and twice its share to a creepage that follows from a traction,
+    as without a sheet.
+    """
+    errors, figures = errors_between(nip, history, ORDERS), history[-1][1]
+    lag = edge_within_memory(nip, stand.problem.mesh)
+    errors[_WIDTH] += lag
+    creepages = _CREEPAGES[isinstance(nip.tangential, Creepage) :]
+    errors[creepages] += 2.0 * lag / figures.nip_width * scales(nip, figures)[creepages]
+    return SheetFigures(errors)
 
 
 def _with_zones_of(

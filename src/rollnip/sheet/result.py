@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from rollnip._sealed import Sealed
 from rollnip.contact import ContactZone, Layout, State
 from rollnip.rollers import Side
-from rollnip.rolling import Zone
+from rollnip.rolling import Round, Zone
 
 Array = NDArray[np.float64]
 _KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
@@ -145,6 +145,12 @@ def slip_share_of(zones: tuple[Zone, ...]) -> float:
     """Return the share of the nip width that slips."""
     slipping = sum(zone.stop - zone.start for zone in zones if zone.state == "slip")
     return slipping / (zones[-1].stop - zones[0].start)
+
+
+def pull_in_slip(one: Round) -> float:
+    """Return int |q| dx of an interface where it slips [N/mm]."""
+    slips = one.state.states > State.STICK
+    return float(one.mesh.weights[slips] @ np.abs(one.state.shear[slips]))
 
 
 def inside_zone(x: Array, zone: ContactZone) -> NDArray[np.bool_]:

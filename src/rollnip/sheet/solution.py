@@ -13,6 +13,7 @@ from rollnip.contact import State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
+from rollnip.rollers import SIDES
 from rollnip.rolling import (
     DeformedSurfaces,
     Displacements,
@@ -26,7 +27,7 @@ from rollnip.rolling import (
     surface_depths,
     surface_strain,
 )
-from rollnip.rolling.claimed_errors import SHARE_OF_CUT
+from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.common import not_prescribed
@@ -36,7 +37,14 @@ from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.powers import SheetPowers, rates
 from rollnip.sheet.refine import SheetRefined, traction_slope
-from rollnip.sheet.result import SheetProfiles, SheetResult, inside_zone, slip_share_of, zones_of
+from rollnip.sheet.result import (
+    SheetProfiles,
+    SheetResult,
+    inside_zone,
+    pull_in_slip,
+    slip_share_of,
+    zones_of,
+)
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
 from rollnip.smooth import SmoothSolution
@@ -266,9 +274,13 @@ class SheetSolution(SmoothSolution):
         out = dict(zip(NAMES, np.maximum(errors.values, least).tolist(), strict=True))
         if self.model.geometry not in FINITE:
             return out
-        for side, loss in zip(("upper", "lower"), self.refined.cut_losses, strict=True):
-            # a traction passes on the power of its creepage, and of the creepage's error
-            passed = abs(getattr(figures, f"traction_{side}")) * out[f"creepage_{side}"]
+        for number, (side, loss) in enumerate(zip(SIDES, self.refined.cut_losses, strict=True)):
+            # What slips is faster by the creepage's error, under shears that may cancel in the
+            # traction, which passes on the power of that error, too.
+            pull = max(
+                abs(getattr(figures, f"traction_{side}")), pull_in_slip(self._of_side(number))
+            )
+            passed = power_left(out[f"creepage_{side}"], pull, self.final)
             for name in (f"friction_{side}", f"pull_{side}"):
                 out[name] = max(out[name], SHARE_OF_CUT * loss, passed)
         return out
@@ -303,19 +315,15 @@ class SheetSolution(SmoothSolution):
         return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 
     def _of_side(self, side: int) -> Round:
-        """Return the last round with the shear of one interface."""
-        state = self._state
-        shear = state.shear if side == 0 else state.shear_lower
-        return replace(self.final, state=replace(state, shear=shear))
+        """Return the last round as that of one interface."""
+        return replace(self.final, state=self._state.side(side))
 
     def _at(self, x: Array, traction: Array) -> Array:
         return np.interp(x, self.final.x, traction, left=0.0, right=0.0)
 
     def _strain(self, x: Array, side: int) -> Array:
-        name = ("upper", "lower")[side]
-        return surface_strain(
-            x, self.nip, self.model.geometry, self.kernels, self._of_side(side), side=name
-        )
+        geometry, one = self.model.geometry, self._of_side(side)
+        return surface_strain(x, self.nip, geometry, self.kernels, one, side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
         """Return the tension of the sheet, exact at the nodes between which shears are linear."""

@@ -67,6 +67,12 @@ class SheetState(ContactState):
         """Return the states of both interfaces, (2, n)."""
         return np.array((self.states, self.states_lower))
 
+    def side(self, number: int) -> SheetState:
+        """Return one interface, 0 the upper, 1 the lower, as if it were all of the contact."""
+        if number == 0:
+            return self
+        return replace(self, states=self.states_lower, shear=self.shear_lower)
+
 
 class SheetMesh(Mesh):
     """A mesh on which the lower roller has a shear of its own.

@@ -8,7 +8,7 @@ from typing import Protocol, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import ContactState, Layout, States, contact_zones
+from rollnip.contact import Layout, States, contact_zones
 from rollnip.sheet.system import SheetProblem, SheetState
 
 Array = NDArray[np.float64]
@@ -140,7 +140,7 @@ class Zones(SideZones):
         """
         x = problem.mesh.inner
         asked = [
-            side.moved(x, _as_contact(state, number), friction).breaks
+            side.moved(x, state.side(number), friction).breaks
             for number, (side, friction) in enumerate(
                 zip(self.sides, problem.frictions, strict=True)
             )
@@ -174,7 +174,7 @@ class Zones(SideZones):
         One zone of stick where the contact or its zones are in pieces.
         """
         whole = [
-            contact_zones(x, _as_contact(state, number), friction)
+            contact_zones(x, state.side(number), friction)
             for number, friction in enumerate(frictions)
         ]
         edges = whole[0][0].start, whole[0][-1].stop
@@ -194,24 +194,11 @@ class Zones(SideZones):
     ) -> Zones | None:
         """Return the zones of nodal states in a contact with known edges; None if unclear."""
         sides = [
-            Layout.found(x, _as_contact(state, number), friction, edges)
+            Layout.found(x, state.side(number), friction, edges)
             for number, friction in enumerate(frictions)
         ]
         upper, lower = sides
         return None if upper is None or lower is None else cls(upper, lower)
-
-
-def _as_contact(state: SheetState, side: int) -> ContactState:
-    """Return one interface of a solution as if it were all of it."""
-    return ContactState(
-        states=state.states_lower if side else state.states,
-        pressure=state.pressure,
-        shear=state.shear_lower if side else state.shear,
-        approach=state.approach,
-        creepage=state.creepage,
-        steps=state.steps,
-        settled=state.settled,
-    )
 
 
 def held(breaks: Array, asked: Array, edges: tuple[float, float]) -> Array:

@@ -23,14 +23,13 @@ from rollnip.sheet.plate.sides import side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
 
-_ELEMENTS = 40  # of a mesh that reaches beyond the contact
+_ELEMENTS = 30  # of a mesh that reaches beyond the contacts
 _MOST_ELEMENTS = 100
 _REACH = 1.6  # half of the first mesh over the half-width of a sheet that bends freely
 _WIDER = 1.5  # times the reach, where the contact does not fit in
 _MOST_REACHES = 4
 _MARGIN = 0.15  # of the width, beyond edges that are about known
-_NEAR = 0.05  # the same, beyond edges that are nearly known
-_NEARER = 0.25  # times the margin before
+_NEARER = 0.25  # times the margin before, where that held the edges
 _INSIDE = 0.9  # of the margin, where an edge is away from the end of the mesh
 _BESIDE = 8  # elements beyond each edge that is nearly known
 
@@ -56,46 +55,30 @@ class FirstZones:
             if all(one[0] == one[-1] == State.FREE for one in state.states):
                 break
             reach *= _WIDER
-        zones = PlateZones.around(problem, state)
-        for _ in range(_MOST_REACHES):
-            closer = self._closer(zones, None, _ELEMENTS)
-            if closer.edges_off(zones) < _MARGIN:
-                break
-            zones = closer
-        return self._closest(closer, None, count)
+        return self.closer(PlateZones.around(problem, state), None, count)
 
-    def again(self, zones: PlateZones, lagged: LaggedPlate, count: int) -> PlateZones:
-        """Return zones from some that did not settle, with terms of their solution."""
-        elements = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS))
-        return self._closest(self._closer(zones, lagged, elements), lagged, count)
+    def closer(self, zones: PlateZones, lagged: LaggedPlate | None, count: int) -> PlateZones:
+        """Return zones from some whose edges are about right, on meshes that crowd there.
 
-    def _closest(self, zones: PlateZones, lagged: LaggedPlate | None, count: int) -> PlateZones:
-        """Return zones from some whose edges are nearly right, on meshes that crowd there."""
-        assert self.nip.sheet is not None
-        elements = int(np.clip(2 * count, _ELEMENTS, _MOST_ELEMENTS))
-        margin = _NEAR
-        while True:
-            try:
-                closer = self._closer(zones, lagged, elements, margin)
-            except np.linalg.LinAlgError:
-                return zones
-            if not closer.edges_off(zones) < _INSIDE * margin:
-                return zones
-            zones, margin = closer, _NEARER * margin
-            if margin * zones.width < self.nip.sheet.thickness:
-                return zones
-
-    def _closer(
-        self,
-        zones: PlateZones,
-        lagged: LaggedPlate | None,
-        elements: int,
-        margin: float = _MARGIN,
-    ) -> PlateZones:
-        """Return zones from some whose edges are about right, on meshes that end beyond these.
-
-        ``lagged`` : whose traction and load are taken; None: none that depend on a solution.
+        Each mesh ends nearer to the edges that the one before found; where edges moved to the end
+        of a mesh, the next one has as much room. ``lagged``: terms of a solution with about these
+        zones, whose traction and load are taken; None: none is known.
         """
+        assert self.nip.sheet is not None
+        elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
+        for _ in range(_MOST_REACHES):
+            found = self._beyond(zones, lagged, elements, margin)
+            if found.edges_off(zones) < _INSIDE * margin:
+                margin *= _NEARER
+            zones = found
+            if margin * zones.width < self.nip.sheet.thickness:
+                break
+        return zones
+
+    def _beyond(
+        self, zones: PlateZones, lagged: LaggedPlate | None, elements: int, margin: float
+    ) -> PlateZones:
+        """Return zones on meshes that end a share of the width beyond the edges of others."""
         problem = self._problem(zones, margin, elements)
         first = first_lagged(problem)
         if lagged is not None:
@@ -136,7 +119,7 @@ def _breaks(
     """Return where nodes of one interface crowd, and how many elements lie between."""
     side, (trailing, leading) = zones.sides[number], zones.sides[number].edges
     beyond = margin * side.width
-    if not 0.0 < margin < _MARGIN:
+    if not margin > 0.0:
         return np.array([trailing - beyond, leading + beyond]), np.array([count])
     opposite = zones.sides[1 - number].edges
     within = [x for x in opposite if trailing + beyond < x < leading - beyond]

@@ -125,8 +125,7 @@ def refine_plate(
     stand = search.begun(half_width, round(count)) if before is None else before
     failed = 0
     while count <= _MOST_COUNT:
-        if history or failed or model.geometry != "linear":
-            stand = search.placed(stand.zones, round(count), stand)
+        stand = search.placed(stand.zones, round(count), stand)
         figures = plate_figures(stand, model.geometry)
         here = (count, figures, stand.zones)
         lower = of_lower(figures, stand)

@@ -53,7 +53,6 @@ _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 2e-3  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
 _CLOSELY = 0.03  # of the tolerance: allowed error of an end, over the width
-_ROUGHLY = 1.0  # the same where a solution only begins another one
 _OF_THICKNESS = 0.25  # of the sheet: the boundary layer of the pressure on a rigid roller
 # Of all elements, in each zone. The strip between the edges of both contacts decides as much as
 # long zones: where it had six elements on all sizes of mesh, these agreed on wrong figures.
@@ -80,13 +79,13 @@ class PlateSearch:
     moves: Moves[PlateZones] = field(default_factory=Moves)
 
     def begun(self, half_width: float, count: int) -> PlateAttempt:
-        """Find a first solution, without terms that depend on it but a traction for a torque."""
+        """Return a solution on a first mesh, in linear geometry, whose ends are about right."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
-        closely = _CLOSELY if self.model.geometry == "linear" else _ROUGHLY
-        zones = plain._first.around(half_width, count)
-        stand = plain.placed(zones, count, None, closely)
+        zones = self._first.around(half_width, count).without_slivers()
+        stand, _ = plain._on_mesh(zones, (count, _Shapes()), (1.0, inf), None)
+        moved = zones.moved(stand.problem, stand.state)
         lagged = lagged_terms(stand.problem, self.model.geometry, stand.state)
-        return replace(stand, lagged=lagged)
+        return replace(stand, zones=moved, lagged=lagged, off=moved.distance(zones))
 
     @property
     def _first(self) -> FirstZones:
@@ -96,32 +95,29 @@ class PlateSearch:
         self,
         zones: PlateZones,
         count: int,
-        before: PlateAttempt | None,
-        closely: float = _CLOSELY,
+        before: PlateAttempt,
     ) -> PlateAttempt:
-        """Find the solution on meshes of some size with nodes at the ends of its zones.
+        """Return the solution on meshes of some size with nodes at the ends of its zones.
 
-        ``closely``: allowed error of an end, of the tolerance times the width.
+        ``before``: a solution with about these zones.
         """
-        placed = closely * self.model.tolerance
+        placed = _CLOSELY * self.model.tolerance
         try:
             stand = self._moved_until(zones, count, before, placed)
         except np.linalg.LinAlgError:
-            if before is None:
-                raise
             return replace(before, settled=False)
         if stand.settled:
             return stand
         start = stand.zones if stand.zones.is_proper else zones
         try:
-            found = self._first.again(start, stand.lagged, count)
+            found = self._first.closer(start, stand.lagged, count)
             again = self._moved_until(found, count, stand, placed)
         except np.linalg.LinAlgError:
             return stand
         return again if again.settled or again.off < stand.off else stand
 
     def _moved_until(
-        self, zones: PlateZones, count: int, before: PlateAttempt | None, placed: float
+        self, zones: PlateZones, count: int, before: PlateAttempt, placed: float
     ) -> PlateAttempt:
         """Move the ends of zones until they settle, and change zones that are wrong.
 
@@ -131,7 +127,7 @@ class PlateSearch:
         self.moves.refined()
         shapes = _Shapes()
         changes = rough_ones = 0
-        known = 1.0 if before is None else min(before.off, 1.0)
+        known = min(before.off, 1.0)
         stand, off = before, inf
         fair: PlateAttempt | None = None
         for _ in range(_MOST_MESHES):
@@ -305,9 +301,7 @@ class PlateSearch:
         return None if found is None else found.without_slivers()
 
 
-def _unplaced(zones: PlateZones, stand: PlateAttempt | None, off: float) -> PlateAttempt:
+def _unplaced(zones: PlateZones, stand: PlateAttempt, off: float) -> PlateAttempt:
     """Return the last solution, whose ends have not settled."""
-    if stand is None:
-        raise np.linalg.LinAlgError("zones without length")
     proper = zones if zones.is_proper else stand.zones
     return replace(stand, zones=proper, settled=False, off=off)

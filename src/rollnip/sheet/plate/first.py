@@ -61,18 +61,22 @@ class FirstZones:
         """Return zones from some whose edges are about right, on meshes that crowd there.
 
         Each mesh ends nearer to the edges that the one before found; where edges moved to the end
-        of a mesh, the next one has as much room. ``lagged``: terms of a solution with about these
+        of a mesh, the next one has as much room. Where a mesh has no solution, those before are
+        returned. ``lagged``: terms of a solution with about these
         zones, whose traction and load are taken; None: none is known.
         """
         assert self.nip.sheet is not None
         elements, margin = int(np.clip(count, _ELEMENTS, _MOST_ELEMENTS)), _MARGIN
         for _ in range(_MOST_REACHES):
-            found = self._beyond(zones, lagged, elements, margin)
-            if found.edges_off(zones) < _INSIDE * margin:
-                margin *= _NEARER
-            zones = found
-            if margin * zones.width < self.nip.sheet.thickness:
+            try:
+                found = self._beyond(zones, lagged, elements, margin)
+            except np.linalg.LinAlgError:
                 break
+            are_inside, zones = found.edges_off(zones) < _INSIDE * margin, found
+            if are_inside:
+                margin *= _NEARER
+                if margin * zones.width < self.nip.sheet.thickness:
+                    break
         return zones
 
     def _beyond(

@@ -71,13 +71,16 @@ def _inequalities(
     a, b, c, d, end = problem.starts
     matrix, right = equations(problem), given(problem, lagged)
     curvature = problem.nip.curvature
-    half_width = 0.5 * max(leading - trailing for trailing, leading in edges)
+    half_widths = [0.5 * (leading - trailing) for trailing, leading in edges]
+    half_width = max(half_widths)
     depth, slope = 0.5 * curvature * half_width**2, curvature * half_width
     guess, force = _guessed(problem, edges, depth)
     scales, start = np.empty(end + FURTHER), np.zeros(end + FURTHER)
     sizes = np.empty(end + FURTHER)
     for side, (first, middle, last) in enumerate(((a, b, c), (c, d, end))):
-        scales[first:middle], scales[middle:last] = depth, slope * problem.meshes[side].dx
+        # a narrow contact is as deep as it is wide, squared
+        scales[first:middle] = 0.5 * curvature * half_widths[side] ** 2
+        scales[middle:last] = curvature * half_widths[side] * problem.meshes[side].dx
         start[first:middle], sizes[first:last] = guess[side], float(guess[side].max())
     scales[end:] = force, force, force * half_width, force, force
     sizes[end:] = depth, slope, slope, depth, slope

@@ -28,7 +28,9 @@ from rollnip.sheet.refine import (
     FEWEST,
     FEWEST_WITH_SLIP,
     FIRST_COUNT,
+    LAST_CLOSELY,
     ORDERS,
+    ROUGHLY,
     claimed_of_powers,
     errors_between,
     next_count,
@@ -125,7 +127,8 @@ def refine_plate(
     stand = search.begun(half_width, round(count)) if before is None else before
     failed = 0
     while count <= _MOST_COUNT:
-        stand = search.placed(stand.zones, round(count), stand)
+        closely = LAST_CLOSELY if history else ROUGHLY
+        stand = search.placed(stand.zones, round(count), stand, closely)
         figures = plate_figures(stand, model.geometry)
         here = (count, figures, stand.zones)
         lower = of_lower(figures, stand)

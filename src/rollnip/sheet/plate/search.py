@@ -45,14 +45,14 @@ from rollnip.sheet.plate.node_by_node import solve_node_by_node
 from rollnip.sheet.plate.sides import path_ratio, side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem
 from rollnip.sheet.plate.zones import PlateZones
+from rollnip.sheet.refine import LAST_CLOSELY
 from rollnip.sheet.search import SHORTEST_LAYER
 
 Array = NDArray[np.float64]
 
-_SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
+_SLACK = 0.1  # of the tolerance: shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 2e-3  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
-_CLOSELY = 0.03  # of the tolerance: allowed error of an end, over the width
 _OF_THICKNESS = 0.25  # of the sheet: the boundary layer of the pressure on a rigid roller
 # Of all elements, in each zone. The strip between the edges of both contacts decides as much as
 # long zones: where it had six elements on all sizes of mesh, these agreed on wrong figures.
@@ -96,12 +96,14 @@ class PlateSearch:
         zones: PlateZones,
         count: int,
         before: PlateAttempt,
+        closely: float = LAST_CLOSELY,
     ) -> PlateAttempt:
         """Return the solution on meshes of some size with nodes at the ends of its zones.
 
-        ``before``: a solution with about these zones.
+        ``before``: a solution with about these zones; ``closely``: allowed error of an end, of the
+        tolerance times the width.
         """
-        placed = _CLOSELY * self.model.tolerance
+        placed = closely * self.model.tolerance
         try:
             stand = self._moved_until(zones, count, before, placed)
         except np.linalg.LinAlgError:
@@ -139,8 +141,9 @@ class PlateSearch:
             asked = zones.moved(problem, stand.state)
             off = asked.distance(zones)
             known = min(known, off)
-            is_fair = violation(stand) <= self._slack
-            is_met = is_fair and shear_over(stand) <= self._slack
+            violated = violation(stand)
+            is_fair = violated <= self.model.tolerance
+            is_met = max(violated, shear_over(stand)) <= self._slack
             is_placed = off <= placed and stand.settled and is_fine
             is_placed = is_placed and not pulls_at_edges(stand)
             is_placed = is_placed and added_to_peaks(stand, asked) <= self.model.tolerance
@@ -287,7 +290,7 @@ class PlateSearch:
 
     @property
     def _slack(self) -> float:
-        return min(self.model.tolerance, _SLACK)
+        return _SLACK * self.model.tolerance
 
     def _found(self, stand: PlateAttempt, edges: PlateZones) -> PlateZones | None:
         """Return the zones between known edges that suit a solution; None where there are none."""

@@ -4,12 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import factorial, nan, sqrt
+from math import copysign, factorial, nan, sqrt
 from typing import ClassVar
 
 import numpy as np
-from numpy.polynomial import Polynomial
-from numpy.polynomial.polynomial import polyfit
 from numpy.typing import NDArray
 
 from rollnip.contact import Subdivision
@@ -32,6 +30,8 @@ _PIECES = tuple(
 )
 """Integrals of s^k/k! over a piece of length 1, times 1 - s and s."""
 _WITHIN = 0.25  # of the mesh: length over which Gauss points would not do
+_CUBIC = np.linalg.inv(np.vander(np.arange(4.0), increasing=True))
+"""Coefficients of a cubic, from the constant on, by its values at 0, 1, 2 and 3."""
 _GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # points of a piece, over its length
 
 
@@ -310,15 +310,23 @@ def _highest_about(mesh: Mesh, pressure: Array, top: int) -> tuple[float, float]
             continue
         rises = top == first or (top < last and pressure[top + 1] > pressure[top - 1])
         start = max(min(top - (1 if rises else 2), last - 3), first)
-        number, near = np.arange(start, start + 4) - top, slice(start, start + 4)
-        height, place = (
-            Polynomial(polyfit(number, values[near], 3)) for values in (pressure, mesh.inner)
-        )
-        turns = height.deriv().roots()
-        within = (turns.real >= max(first - top, -1)) & (turns.real <= min(last - top, 1))
-        for turn in turns.real[within & (turns.imag == 0.0)].tolist():
-            best = max(best, (float(height(turn)), float(place(turn))))
+        both = np.stack([pressure[start : start + 4], mesh.inner[start : start + 4]])
+        heights, places = both @ _CUBIC.T
+        for turn in _turns(heights.tolist()):
+            if max(first, top - 1) <= start + turn <= min(last, top + 1):
+                powers = turn ** np.arange(4)
+                best = max(best, (float(heights @ powers), float(places @ powers)))
     return best
+
+
+def _turns(cubic: list[float]) -> list[float]:
+    """Return where a cubic, given by its coefficients from the constant on, turns."""
+    _, slope, half_bend, third = cubic
+    inside = half_bend**2 - 3.0 * third * slope
+    if inside < 0.0:
+        return []
+    far = -half_bend - copysign(sqrt(inside), half_bend)
+    return [top / bottom for top, bottom in ((far, 3.0 * third), (slope, far)) if bottom]
 
 
 def curvatures(nip: Nip) -> tuple[float, float]:

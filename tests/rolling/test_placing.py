@@ -125,4 +125,4 @@ def test_edges_under_a_stiff_skin_take_few_meshes(share, stiffness):
     without = replace(nip, upper=rn.Roller(radius=40.0, layers=(covering,)))
     solution, plain = (rn.solve(each, rn.Model(geometry="curved")) for each in (nip, without))
     assert solution.converged
-    assert solution.solver.iterations <= plain.solver.iterations + 6
+    assert solution.solver.iterations <= plain.solver.iterations + 9

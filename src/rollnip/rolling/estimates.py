@@ -165,8 +165,12 @@ def zone_excess(history: list[Size], tolerance: float) -> float:
     if len(history) < 2 or history[-1].breaks.size != history[-2].breaks.size:
         return 0.0
     coarse, fine = history[-2:]
-    lengths = np.diff(fine.breaks)
     share = share_left(np.array([coarse.count, fine.count]), np.array(2.0))
-    change = share * np.abs(lengths - np.diff(coarse.breaks))
+    return float(share) * length_excess(coarse.breaks, fine.breaks, tolerance)
+
+
+def length_excess(before: Array, after: Array, tolerance: float) -> float:
+    """Return the largest change of a zone's length, over what `zone_excess` allows."""
+    lengths = np.diff(after)
     allowed = 3.0 * tolerance * np.maximum(lengths, 0.05 * lengths.sum())
-    return float(np.max(change / allowed))
+    return float(np.max(np.abs(lengths - np.diff(before)) / allowed))

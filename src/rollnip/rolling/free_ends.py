@@ -62,8 +62,7 @@ def with_free_ends(
     layout : the zones to start with, and about where they are.
     before : the solution that the layout comes from.
     off : how far its zones may be off, over the width of the contact.
-    fewest : elements of the first mesh, at least, where the zones are those of so fine a mesh; 0:
-        they may well be others.
+    fewest : elements of the first mesh, at least: those of the mesh that the zones come from.
 
     Returns
     -------
@@ -85,13 +84,14 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
     most = max(most, _MOST_TIMES_FIRST * count)
     best: Round | None = None
+    is_repeated = False  # on a mesh of the same size
     while count <= most:
         closely = bool(history)  # the error may be small enough
         placed = placing.placed(stand, count, known=known or closely, closely=closely)
         if placed is None:
             break
         stand, latest = placed, placed.before
-        count = as_cosines(latest)
+        wanted, count = count, as_cosines(latest)
         if history and history[-1].breaks.size != stand.layout.breaks.size:
             history.clear()  # figures of other zones tell nothing of the errors with these
         roughness = _roughness(nip, model, latest)
@@ -110,10 +110,15 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
                 return with_further_errors(nip, final, history)
             ratio = final.residual / model.tolerance
             slipping = placing.search.slipping_at_edge(final, stand.layout)
+            if slipping is None and not is_repeated:
+                is_repeated, count = True, wanted  # with ends at their next places
+                history.pop()
+                continue
             if slipping is not None:
                 ratio = 1.0
             stand = SearchState(slipping or stand.layout, latest)
         finer = _next_count(count, largest(ratio, roughness), model.tolerance)
+        is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer
     return None if best is None or len(history) < 2 else with_further_errors(nip, best, history)
 

@@ -31,6 +31,7 @@ from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.assemble import SecondOrder, second_order
 from rollnip.rolling.changes import to_come_after
+from rollnip.rolling.estimates import length_excess
 from rollnip.rolling.iterations import (
     MOST_ITERATIONS,
     STILL,
@@ -79,7 +80,8 @@ class Placing:
         start : where the search stands.
         count : elements, about.
         known : whether the zones are right.
-        closely : whether ends must not change the figures any more; two meshes tell.
+        closely : whether ends must not change the figures any more. Two meshes tell, or one where
+            those of the size before have shown what ends do to figures.
 
         Returns
         -------
@@ -91,6 +93,7 @@ class Placing:
         shape: Shape | None = None
         ends, meshes = Secants(), 0
         last: tuple[Layout, Figures] | None = None
+        effect = start.effect
         tried: set[bytes] = set()
         most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
         while meshes < most_meshes and _can_be_placed(stand.layout):
@@ -112,7 +115,11 @@ class Placing:
             is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_still = latest.settled and is_quiet
             there = ends.next(layout, asked, self._singular(latest, layout), is_still=is_still)
-            left = None if last is None else _left_to_change(last, (layout, latest.figures), there)
+            if last is not None:
+                effect = _effect_of_ends(last, (layout, latest.figures))
+            elif length_excess(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
+                effect = None  # zones change too much to tell from those of another size
+            left = None if effect is None else effect.times(there.distance(layout))
             last = layout, latest.figures
             by_figures = closely and self._rests_by_figures
             is_placed = (
@@ -130,15 +137,18 @@ class Placing:
             if other is not None and not moves_on and other.layout.key not in tried:
                 tried.add(other.layout.key)
                 stand, shape, ends = self._renewed(other), None, Secants()
+                effect = None
                 meshes = meshes if known else 0
             elif is_placed and not moves_on:
                 if not self.search.pulls(latest):
-                    return replace(_standing_at(there, latest, stand, off), left=left)
+                    placed = _standing_at(there, latest, stand, off)
+                    return replace(placed, left=left, effect=effect)
                 parted = self.search.parted(latest, layout)
                 if parted is None or parted.key in tried:
                     return None
                 tried.add(parted.key)
                 stand, shape, ends = self._renewed(SearchState(parted, latest)), None, Secants()
+                effect = None
             else:
                 stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
         return None
@@ -295,13 +305,10 @@ class Placing:
         return solve_on_mesh(self.nip, model, mesh, start, self.given, self.still, zones, most)
 
 
-def _left_to_change(
-    before: tuple[Layout, Figures], now: tuple[Layout, Figures], there: Layout
-) -> Figures:
-    """Return what the next move of the ends would change, as the last one did in proportion."""
+def _effect_of_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures]) -> Figures:
+    """Return what the last move of the ends changed of the figures, over its length."""
     step = now[0].distance(before[0])
-    share = there.distance(now[0]) / step if step > 0.0 else 0.0
-    return Figures(*(share * np.abs(now[1].array() - before[1].array())).tolist())
+    return now[1].change_from(before[1]).times(1.0 / step if step > 0.0 else 0.0)
 
 
 def _can_be_placed(layout: Layout) -> bool:

@@ -34,6 +34,14 @@ class Figures:
             [self.approach, self.load, self.creepage, self.nip_width, self.peak_pressure]
         )
 
+    def change_from(self, other: Figures) -> Figures:
+        """Return by how much each figure differs from another one."""
+        return Figures(*np.abs(self.array() - other.array()).tolist())
+
+    def times(self, factor: float) -> Figures:
+        """Return all figures times a factor."""
+        return Figures(*(factor * self.array()).tolist())
+
 
 @dataclass(frozen=True, slots=True)
 class Further:

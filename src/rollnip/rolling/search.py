@@ -41,7 +41,8 @@ class SearchState:
         the tolerance.
     expected : the change that all further evaluations would add up to, over the tolerance.
     off : how far the ends of zones may be off, over the width of the contact.
-    left : what that may still change of each figure; None: one mesh does not tell.
+    left : what that may still change of each figure; None: not known.
+    effect : what ends that are off by the width would change of each figure; None: not known.
     """
 
     layout: Layout
@@ -50,6 +51,7 @@ class SearchState:
     expected: float = inf
     off: float = NEAR_ENOUGH_FOR_SLIP
     left: Figures | None = None
+    effect: Figures | None = None
 
     @property
     def is_quiet(self) -> bool:

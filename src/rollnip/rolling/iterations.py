@@ -58,16 +58,15 @@ def solve_on_mesh(
     method: Method,
     still: float,
     zones: tuple[ContactZone, ...] | None = None,
-    most: int = MOST_ITERATIONS,
 ) -> Round:
     """Solve on one mesh by iteration, until the second-order terms change by so many tolerances.
 
     ``start`` holds states, second-order terms and the steps taken before; ``zones`` those of the
-    solution where they are known; ``most`` iterations at most.
+    solution where they are known.
     """
     states, second, steps = start
     change = 0.0
-    for _ in range(most):
+    for _ in range(MOST_ITERATIONS):
         problem = contact_problem(nip, mesh, second)
         state = method.solve(problem, states)
         steps += state.steps

@@ -13,10 +13,8 @@ from math import inf, log10
 import numpy as np
 
 from rollnip.contact import (
-    ContactZone,
     GivenStates,
     Layout,
-    States,
     cosine_nodes,
     crowding_of,
     elements_of_zones,
@@ -29,11 +27,10 @@ from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.assemble import SecondOrder, second_order
+from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.estimates import length_excess
 from rollnip.rolling.iterations import (
-    MOST_ITERATIONS,
     STILL,
     STILL_UNDER_SKIN,
     change_of,
@@ -50,7 +47,6 @@ _MOST_MESHES = 8
 # Meshes more for the edges of a single sticking zone with boundary layers: outside of these a
 # solution says only which way an edge should go, and the way between the last two is halved.
 _MOST_HALVINGS = 6
-_NEARLY_PLACED = 0.008  # over the width of the contact
 _HARDLY_MOVED = 0.001  # likewise
 _WEAKEST_CONTRACTION = 0.7  # of the error of ends, from mesh to mesh
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
@@ -89,7 +85,6 @@ class Placing:
         """
         # The second order held so far is that of a coarser mesh: each size evaluates its own.
         stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
-        loosely = self.kernels.is_fixed and not known
         shape: Shape | None = None
         ends, meshes = Secants(), 0
         last: tuple[Layout, Figures] | None = None
@@ -105,10 +100,7 @@ class Placing:
                 shape = elements_of_zones(layout.breaks, count, crowd), crowd
                 ends.forget()
                 off, last = inf, None
-            # Transitions that come from a guess will move again, whatever the second order.
-            hasty = loosely and off > _NEARLY_PLACED and layout.states.size > 1
-            most = 1 if hasty else MOST_ITERATIONS
-            latest, asked = self._solved_on(stand, shape, most)
+            latest, asked = self._solved_on(stand, shape)
             off = asked.distance(layout)
             known_to = min(known_to, off)
             is_quiet = self.kernels.is_fixed or stand.is_quiet
@@ -166,7 +158,7 @@ class Placing:
         shape, off = (np.array(fine.elements), fine.crowding), inf
         for _ in range(2):
             layout, before = stand.layout, off
-            latest, asked = self._solved_on(stand, shape, MOST_ITERATIONS)
+            latest, asked = self._solved_on(stand, shape)
             off = asked.distance(layout)
             is_placed = self._is_placed(layout, asked, known=True)
             if (
@@ -274,35 +266,15 @@ class Placing:
             stand.layout, replace(before, mesh=mesh, second=second), change, expected
         )
 
-    def _solved_on(self, stand: SearchState, shape: Shape, most: int) -> tuple[Round, Layout]:
-        """Solve on one mesh; return the solution, and where it puts the ends of zones.
-
-        At ``most`` so many iterations of the second-order terms while ends are not placed; then as
-        many as these need.
-        """
+    def _solved_on(self, stand: SearchState, shape: Shape) -> tuple[Round, Layout]:
+        """Solve on one mesh; return the solution, and where it puts the ends of zones."""
         layout, before = stand.layout, stand.before
         mesh = _mesh(layout, shape, self.thinnest, before.mesh.kernels)
-        states, zones = layout.states_on(mesh.inner), layout.zones
-        start = states, before.second.carried(before.mesh, mesh), before.steps
-        latest = self._solve_on_mesh(self.model, mesh, start, zones, most)
-        asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        is_hasty = most < MOST_ITERATIONS and not latest.settled
-        if is_hasty and self._is_placed(layout, asked, known=False):
-            start = states, latest.second, latest.steps
-            latest = self._solve_on_mesh(self.model, mesh, start, zones)
-            asked = layout.moved(mesh.inner, latest.state, self.nip.friction)
-        return latest, asked
-
-    def _solve_on_mesh(
-        self,
-        model: Model,
-        mesh: Mesh,
-        start: tuple[States, SecondOrder, int],
-        zones: tuple[ContactZone, ...],
-        most: int = MOST_ITERATIONS,
-    ) -> Round:
-        most = MOST_ITERATIONS if self.still < STILL else most
-        return solve_on_mesh(self.nip, model, mesh, start, self.given, self.still, zones, most)
+        start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
+        latest = solve_on_mesh(
+            self.nip, self.model, mesh, start, self.given, self.still, layout.zones
+        )
+        return latest, layout.moved(mesh.inner, latest.state, self.nip.friction)
 
 
 def _effect_of_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures]) -> Figures:

@@ -128,9 +128,7 @@ def _on_one(placing: Placing, half_width: float, count: int, before: Round | Non
     if before is not None:
         second, steps = before.second.carried(before.mesh, mesh), before.steps
     start = around.states_on(mesh.inner), second, steps
-    # Terms that move an end by a tenth of an element need not be known for that.
-    still = STILL / (count * model.tolerance)
-    return solve_on_mesh(nip, model, mesh, start, BY_NODES, still)
+    return solve_on_mesh(nip, model, mesh, start, BY_NODES, STILL)
 
 
 def _are_known(placing: Placing, latest: Round, before: Round | None) -> bool:

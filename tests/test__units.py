@@ -93,7 +93,7 @@ def test_reads_exactly(text, dimension, expected):
         ("1.000,5 mm", "length", "clear way"),
         ("1,000.5 mm", "length", "clear way"),
         ("1,000,000 mm", "length", "clear way"),
-        ("1 000 mm", "length", "not a known unit"),
+        ("1 000 mm", "length", "space within the number"),
         ("1'000 mm", "length", "not a known unit"),
         ("4 mm 3", "length", "not a known unit"),
         ("4 mm;", "length", "not a known unit"),

@@ -366,6 +366,8 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
     if not unit:
         why = f"the unit is missing (a number without quotes in a file is in {kind.base})"
         raise _refusal(dimension, value, why)
+    if unit[:3].isdigit():  # "1 780 N/m", and no "1/s"
+        raise _refusal(dimension, value, "there is a space within the number")
     if unit in _REFUSED:
         raise _refusal(dimension, value, f'"{written}" {_REFUSED[unit]}')
     for other in _KINDS.values():

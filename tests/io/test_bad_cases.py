@@ -69,7 +69,11 @@ BAD = [
     (("upper", "core"), "rgid", 'did you mean "rigid"?'),
     ((*LAYER, "material"), "rigid", "upper.layers[0].material"),
     (("materials", "rigid"), MATERIAL, "materials.rigid: must have another name"),
-    ((*BLACK, "model"), "maxwell", "with `model` one of elastic, standard-linear-solid"),
+    ((*BLACK, "model"), "maxwell", "model: must be one of elastic, standard-linear-solid, prony,"),
+    ((*BLACK, "model"), "elastik", 'got "elastik"; did you mean "elastic"?'),
+    (("nip", "tolerance"), 1e-3, "nip.tolerance: is not a known key here; it belongs to [solver]."),
+    (("nip", "load"), "1 780 N/m", "there is a space within the number."),
+    (("upper", "core"), "steel", "or leave it out: a core is rigid then."),
     (
         ("model", "geometry"),
         "curvy",

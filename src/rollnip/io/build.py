@@ -234,8 +234,10 @@ class Builder:
         known = self.table.materials
         if material in known:
             return self._material(f"materials.{material}", known[material])
-        names = [*known, "rigid"] if path.endswith("core") else list(known)
-        self.errors.append(unknown_name(path, material, names, "[materials]"))
+        names, instead = list(known), "; add a table [materials.NAME] for it"
+        if path.endswith("core"):
+            names, instead = [*names, "rigid"], f"{instead}, or leave it out: a core is rigid then"
+        self.errors.append(unknown_name(path, material, names, "[materials]", instead=instead))
         return None
 
     def _material(self, path: str, table: AnyMaterial) -> Material | None:

@@ -107,10 +107,19 @@ def form_error(
         return f"{path}: is not a known key{_suggestion(details['loc'], tables, root)}"
     if kind == "quantity":
         return f"{path}: {details['msg']}"
+    if kind == "model" and isinstance(details["input"], dict) and "model" in details["input"]:
+        choices = details["msg"].partition(" one of ")[2].split(", ")
+        return _unknown_model(path, details["input"]["model"], choices)
     if kind == "model":
         return f"{path}: {details['msg']}, got {got}."
     wanted = _WORDS.get(kind, context.get("expected", "a table"))
     return f"{path}: must be {wanted}, got {got}."
+
+
+def _unknown_model(path: str, model: object, choices: Sequence[str]) -> str:
+    near = get_close_matches(str(model), choices, n=1, cutoff=0.7)
+    hint = f'; did you mean "{near[0]}"?' if near else "."
+    return f"{path}.model: must be one of {', '.join(choices)}, got {shown(model)}{hint}"
 
 
 def placed(path: str, message: str, elsewhere: Mapping[str, str] | None = None) -> str:
@@ -129,10 +138,13 @@ def placed(path: str, message: str, elsewhere: Mapping[str, str] | None = None) 
     return f"{path}.{name}{index}: {rest}"
 
 
-def unknown_name(path: str, name: str, known: Sequence[str], where: str) -> str:
-    """Line about a name that is not among the known ones."""
+def unknown_name(
+    path: str, name: str, known: Sequence[str], where: str, *, instead: str = ""
+) -> str:
+    """Line about a name that is not among the known ones; ``instead``: what else to do."""
     near = get_close_matches(name, known, n=1, cutoff=0.5)
-    hint = f'; did you mean "{near[0]}"?' if near else f" (there: {', '.join(known) or 'none'})."
+    there = f" (there: {', '.join(known) or 'none'}){instead}."
+    hint = f'; did you mean "{near[0]}"?' if near else there
     return f"{path}: {shown(name)} is not in {where}{hint}"
 
 
@@ -164,4 +176,9 @@ def _suggestion(
     table = above[-1] if above else root
     names = list(table.model_fields)
     near = get_close_matches(str(loc[-1]), names, n=1, cutoff=0.7)
-    return f'; did you mean "{near[0]}"?' if near else f" here (known: {', '.join(names)})."
+    if near:
+        return f'; did you mean "{near[0]}"?'
+    for name, other in tables.items():
+        if name in root.model_fields and loc[-1] in other.model_fields:
+            return f" here; it belongs to [{name}]."
+    return f" here (known: {', '.join(names)})."

@@ -5,6 +5,7 @@ export const SOLVER_DE = {
   "solver.thick-compared": "Der Bezug der {side} Walze ist {ratio} ihres Radius dick; mit finiten Elementen verglichen wurde bis {limit}.",
   "solver.angle": "Der Spalt reicht über {angle} Grad der kleineren Walze; über {limit} wurde das Modell nicht mit finiten Elementen verglichen.",
   "solver.surface": "Irgendwo im Spalt ist eine Oberfläche um {strain} % gedehnt, meist neben einem gleitenden Rand: Für eine solche Dehnung gilt diese Geometrie nicht; lesen Sie die Dehnung dort nicht ab. Das Modell „Endliche Dehnung“ hat alle Ordnungen, auf starren Kernen.",
+  "solver.surface-finite": "Irgendwo im Spalt ist eine Oberfläche um {strain} % gedehnt, meist neben einem gleitenden Rand: Lesen Sie die Dehnung dort nicht ab, sie hängt von den Elementen ab.",
   "solver.second": "Die endliche Dehnung ändert die Eindrückung um {share} % der Annäherung; über {limit} % zählen Terme dritter Ordnung, die fehlen: Annäherung, Spaltbreite und Spitzendruck können um etwa {further} % falsch sein. Nehmen Sie das Modell „Endliche Dehnung“, wenn die Kerne starr sind.",
   "solver.half-space": "Der Kern der {side} Walze ist ein Halbraum: Ihre Schichten gelten als flach, ihre Umfangsdehnung bleibt weg.",
   "solver.thin-layer": "Die oberste Schicht der {side} Walze ({thickness} mm) ist dünner als ein halbes Element ({element} mm); Spannungen darin ändern sich schneller, als die Lösung zeigt.",

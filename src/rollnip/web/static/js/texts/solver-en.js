@@ -5,6 +5,7 @@ export const SOLVER_EN = {
   "solver.thick-compared": "The covering of the {side} roller is {ratio} of its radius; compared with finite elements was up to {limit}.",
   "solver.angle": "The nip spans {angle} degrees of the smaller roller; beyond {limit} the model was not compared with finite elements.",
   "solver.surface": `Somewhere in the nip a surface is strained by {strain} %, beside a slipping edge as a rule: this geometry does not hold for such a strain; do not rely on the strain there. Geometry "finite" has all orders, on rigid cores.`,
+  "solver.surface-finite": "Somewhere in the nip a surface is strained by {strain} %, beside a slipping edge as a rule: do not rely on the strain there, which depends on the elements.",
   "solver.second": `Finite strain changes the indentation by {share} % of the approach; beyond {limit} % terms of third order count, which are left out: approach, nip width and peak pressure may be off by some {further} %. Take geometry "finite" where the cores are rigid.`,
   "solver.half-space": "The {side} roller has a half-space core: its layers are taken as flat and its hoop strain is left out.",
   "solver.thin-layer": "The top layer of the {side} roller ({thickness} mm) is thinner than half an element ({element} mm); stresses within it vary faster than the solution shows.",

@@ -389,8 +389,7 @@ def _nearest(unit: str, kind: _DimensionUnits) -> str:
 def _checked(number: float, value: object, infinite: bool) -> float:
     if isfinite(number) or (infinite and number == inf):
         return number
-    shown = str(value)
-    shown = shown if len(shown) <= _LONGEST else shown[:20] + "..."
+    shown = text if len(text := str(value)) <= _LONGEST else f"{text[:20]}..."
     raise InvalidInputError(f"must be a finite number, got {shown}.")
 
 

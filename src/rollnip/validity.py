@@ -83,7 +83,7 @@ def validity_reservations(
         _nip_strain(nip, final),
         *(_thickness_ratio(side, roller, model) for side, roller in rollers),
         _contact_angle(nip, final),
-        _surface_strain(strains.surface, model),
+        _surface_strain(strains.surface),
         _second_order(strains.second),
         _stiff_skin(strains.skin, final.figures.creepage),
         *(_flat_half_space(side, roller, model) for side, roller in rollers),
@@ -176,24 +176,15 @@ def _contact_angle(nip: Nip, final: Round) -> Reservation | None:
     )
 
 
-def _surface_strain(largest: float, model: Model) -> Reservation | None:
+def _surface_strain(largest: float) -> Reservation | None:
     if largest <= SURFACE_STRAIN:
         return None
-    figures = {"strain": 100.0 * largest}
-    if model.geometry == "finite":
-        return Reservation(
-            "surface_strain",
-            "Somewhere in the nip a surface is strained by {strain:.0f} %, beside a slipping edge "
-            "as a rule: do not rely on the strain there, which depends on the elements.",
-            figures,
-            excess=largest / SURFACE_STRAIN,
-        )
     return Reservation(
         "surface_strain",
         "Somewhere in the nip a surface is strained by {strain:.0f} %, beside a slipping edge as a "
-        "rule: this geometry does not hold for such a strain; do not rely on the strain there. "
-        'Geometry "finite" has all orders, on rigid cores.',
-        figures,
+        "rule: do not rely on the strain there. For other figures at such strains only geometry "
+        '"finite" holds, on rigid cores.',
+        {"strain": 100.0 * largest},
         excess=largest / SURFACE_STRAIN,
     )
 

@@ -254,3 +254,17 @@ def test_the_tree_of_a_face_is_made_once(monkeypatch, quick, case, tmp_path):
     assert (
         json.loads(printed.stdout)["face"] == json.loads(out.read_text())["face"] == {"load": 1.0}
     )
+
+
+@pytest.mark.parametrize(
+    ("layers", "geometry", "said"),
+    [(300, "finite", True), (300, "curved", False), (20, "finite", False)],
+)
+def test_what_takes_minutes_is_said_first(quick, tmp_path, layers, geometry, said):
+    material = '{ model = "elastic", modulus = 1, poisson = 0.5 }'
+    layer = f"[[upper.layers]]\nthickness = 0.005\nmaterial = {material}\n"
+    head = "[nip]\nload = 1.78\nfriction = 2.8\n[lower]\nradius = 25\n[upper]\nradius = 50\n"
+    path = tmp_path / "many.toml"
+    path.write_text(head + layers * layer)
+    result = run("solve", str(path), "--geometry", geometry, "-q")
+    assert ("300 layers take long" in result.stderr) == said

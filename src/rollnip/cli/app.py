@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
     from rollnip.io import Case
     from rollnip.model import Model
     from rollnip.solution import Solution
+
+_MANY_LAYERS = 100  # finite elements take time with the cube of their number
 
 app = typer.Typer(
     name="rollnip",
@@ -137,6 +140,7 @@ def _answer(problem: Case, model: Model, wanted: Wanted) -> bool:
         check_fields_target(wanted.stresses)
     from rollnip.solver import solve as solve_nip
 
+    _say_what_takes_long(problem, model)
     with named(problem.source):
         solution = solve_nip(problem.nip, model, on_failure="return")
     along, warm = _along_the_face(problem, model), _warm(problem, model)
@@ -155,6 +159,16 @@ def _answer(problem: Case, model: Model, wanted: Wanted) -> bool:
         print_summary(solution, units=wanted.units)
         _print_more(solution, along, warm, wanted.units)
     return all(one.converged for one in (solution, along, warm) if one is not None)
+
+
+def _say_what_takes_long(problem: Case, model: Model) -> None:
+    """Write a line to the standard error where finite elements will take ten seconds or more."""
+    most = max(len(one.layers) for one in (problem.nip.upper, problem.nip.lower))
+    if model.geometry == "finite" and most >= _MANY_LAYERS:
+        sys.stderr.write(
+            f'rollnip: {most} layers take long in geometry "finite": 100 some ten seconds, 300 '
+            "minutes. With --geometry curved they take less than a second.\n"
+        )
 
 
 def _along_the_face(problem: Case, model: Model) -> FaceSolution | None:

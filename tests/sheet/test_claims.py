@@ -35,7 +35,9 @@ def _errors(number, geometry=None):
     refined, model = solution.refined, replace(solution.model, tolerance=5e-4)
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
     search = SheetSearch(case.nip, model, solution.kernels)
-    fine = search.placed(refined.stand.zones, round(2.2 * solution.solver.elements), refined.stand)
+    fine = search.placed(
+        refined.attempt.zones, round(2.2 * solution.solver.elements), refined.attempt
+    )
     if not fine.settled:
         return None
     truth = SheetFigures.of(fine, model.geometry)
@@ -105,7 +107,7 @@ def test_slip_ends_where_its_creep_first_comes_to_zero():
     2 % of the width, and the largest tension 3.5 times its claim off.
     """
     solution = rn.solve(random_case(104039).nip, rn.Model(geometry="curved"))
-    attempt = solution.refined.stand
+    attempt = solution.refined.attempt
     signs = SIGNS.take(attempt.state.states_lower)
     slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
     back = slips & (signs * attempt.creeps[1] < 0.0)[:-1]
@@ -121,10 +123,10 @@ def _errors_below(number):
     if not solution.converged:
         return None
     # a twentieth of the tolerance; not where refinement stops, but matrices are shared
-    stand, model = solution.refined.stand, replace(solution.model, tolerance=5e-5)
+    attempt, model = solution.refined.attempt, replace(solution.model, tolerance=5e-5)
     count = min(round(2.2 * solution.solver.elements), 240)
     search = PlateSearch(case.nip, model, solution.kernels)
-    fine = search.placed(stand.zones, count, stand)
+    fine = search.placed(attempt.zones, count, attempt)
     if not fine.settled:
         return None
     mesh, sheet = fine.problem.meshes[1], solution.sheet

@@ -40,16 +40,16 @@ def test_a_peak_beside_a_misplaced_edge_is_not_taken():
     # edge that lay inwards by delta, less than the tolerance allows.
     solution = rn.solve(nip_with(paper(bending=True), lower=RIGID), rn.Model(geometry="linear"))
     assert solution.converged
-    stand = solution.refined.stand
-    zones = stand.zones
-    assert added_to_peaks(stand, zones) == 0.0
-    mesh, lower = stand.problem.meshes[1], zones.lower
+    attempt = solution.refined.attempt
+    zones = attempt.zones
+    assert added_to_peaks(attempt, zones) == 0.0
+    mesh, lower = attempt.problem.meshes[1], zones.lower
     away = mesh.inner[-1] - mesh.inner[:-1]
-    wrong = stand.state.pressure[1].copy()
+    wrong = attempt.state.pressure[1].copy()
     wrong[:-1] += 2.0 * wrong.max() * np.sqrt(away[-1] / away)
-    state = replace(stand.state, pressure=(stand.state.pressure[0], wrong))
+    state = replace(attempt.state, pressure=(attempt.state.pressure[0], wrong))
     moved = lower.breaks + np.append(np.zeros(lower.breaks.size - 1), away[-1])
     asked = PlateZones(zones.upper, Layout(moved, lower.states))
-    added = added_to_peaks(replace(stand, state=state), asked)
+    added = added_to_peaks(replace(attempt, state=state), asked)
     # sqrt(y) + delta/(2 sqrt(y)) at y = delta, but for how far the edge is off already
     assert added == pytest.approx(1.0 / 3.0, rel=0.05)

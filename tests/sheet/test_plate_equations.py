@@ -105,7 +105,7 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
     # phi that vanishes far away, and of couple and force of its curved path; psi is the rotation of
     # the sections
     assert pulled.converged
-    attempt = pulled.refined.stand
+    attempt = pulled.refined.attempt
     problem, state = attempt.problem, attempt.state
     x = np.linspace(-12.0, 12.0, 12001)
     curved = attempt.lagged.curved
@@ -140,7 +140,7 @@ def test_virtual_work_of_the_plate_is_that_of_its_loads(pulled):
 
 
 def test_forces_on_the_sheet_and_their_moment_balance(pulled):
-    attempt = pulled.refined.stand
+    attempt = pulled.refined.attempt
     problem, state = attempt.problem, attempt.state
     force = moment = 0.0
     for side, sign in ((0, -1.0), (1, 1.0)):

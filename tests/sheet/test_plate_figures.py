@@ -12,7 +12,7 @@ NARROW = 19020  # on a bare roller, where its contact is a quarter as wide as th
 
 
 @pytest.fixture(scope="module")
-def stand():
+def attempt():
     """A search, and the solution on meshes of a size that places ends closely."""
     case = random_case(NARROW, bending=True)
     assert case.geometry == "linear"
@@ -21,17 +21,17 @@ def stand():
     assert found.nip_width < 0.25 * case.nip.sheet.thickness
     search = PlateSearch(case.nip, model, found.kernels)
     return lambda count: search.placed(
-        found.refined.stand.zones, count, found.refined.stand, 0.01
+        found.refined.attempt.zones, count, found.refined.attempt, 0.01
     ), search
 
 
-def figures(stand):
-    return plate_figures(stand, "linear")
+def figures(attempt):
+    return plate_figures(attempt, "linear")
 
 
-def test_the_loss_of_friction_hardly_feels_where_slip_begins(stand):
+def test_the_loss_of_friction_hardly_feels_where_slip_begins(attempt):
     """Before, the slip beside a misplaced transition was lost: 1 % for .1 % of the width."""
-    solved, search = stand
+    solved, search = attempt
     right = solved(51)
     loss = figures(right).friction_upper
     for off in (-3e-3, -1e-3, 1e-3, 3e-3):
@@ -41,17 +41,17 @@ def test_the_loss_of_friction_hardly_feels_where_slip_begins(stand):
         assert figures(moved).friction_upper == pytest.approx(loss, rel=2e-3)
 
 
-def test_a_contact_narrower_than_the_sheet_is_felt_at_both_of_its_edges(stand):
+def test_a_contact_narrower_than_the_sheet_is_felt_at_both_of_its_edges(attempt):
     """With nodes of the wide contact at one edge alone the creepage kept an error of 1e-3."""
-    solved, _ = stand
+    solved, _ = attempt
     coarse, middle, fine = (figures(solved(count)).creepage_upper for count in (20, 51, 131))
     assert coarse == pytest.approx(fine, rel=5e-4)
     assert middle == pytest.approx(fine, rel=1e-4)
 
 
-def test_the_largest_tension_is_found_between_nodes(stand):
+def test_the_largest_tension_is_found_between_nodes(attempt):
     """At the nodes alone .1 % is left of it on twenty elements."""
-    solved, _ = stand
+    solved, _ = attempt
     found = solved(20)
     here = figures(found)
     lower, upper = (np.array(found.zones.edges).min(), np.array(found.zones.edges).max())

@@ -136,14 +136,14 @@ def test_slip_along_its_own_shear_is_an_error_of_the_loss():
     refined = solution.refined
     claimed = refined.errors.friction_upper
     assert refined.figures.friction_upper > 10.0 * claimed
-    stand = refined.stand
-    ahead = replace(stand.state, creepage=-stand.state.creepage - 0.1)
+    attempt = refined.attempt
+    ahead = replace(attempt.state, creepage=-attempt.state.creepage - 0.1)
     turned = with_errors_of_powers(
-        replace(refined, stand=replace(stand, state=ahead)), "linear"
+        replace(refined, attempt=replace(attempt, state=ahead)), "linear"
     ).errors
-    other = replace(stand.state, creepage=-stand.state.creepage + 0.1)
+    other = replace(attempt.state, creepage=-attempt.state.creepage + 0.1)
     back = with_errors_of_powers(
-        replace(refined, stand=replace(stand, state=other)), "linear"
+        replace(refined, attempt=replace(attempt, state=other)), "linear"
     ).errors
     assert max(turned.friction_upper, back.friction_upper) > 10.0 * claimed
     assert turned.friction_lower == refined.errors.friction_lower

@@ -39,7 +39,7 @@ COARSE = 20
 """Elements of the contact while its corrections still change."""
 
 
-class Stand(Protocol):
+class Iterated(Protocol):
     """A solution between ends of zones, as far as the iterations need it."""
 
     @property
@@ -53,7 +53,7 @@ class Stand(Protocol):
         ...
 
 
-S = TypeVar("S", bound=Stand)
+S = TypeVar("S", bound=Iterated)
 R = TypeVar("R")
 
 
@@ -72,32 +72,32 @@ class Sheeted(Protocol[S, R]):
         """Return the refined solution, and its last mesh and size."""
         ...
 
-    def holding(self, stand: S, kernels: PairKernels) -> S:
+    def holding(self, attempt: S, kernels: PairKernels) -> S:
         """Return a solution whose terms are those with other corrections; ``change`` says how."""
         ...
 
-    def sides(self, stand: S) -> tuple[Acting, Acting]:
+    def sides(self, attempt: S) -> tuple[Acting, Acting]:
         """Return the tractions of the upper and of the lower roller."""
         ...
 
-    def creepage(self, stand: S) -> float:
+    def creepage(self, attempt: S) -> float:
         """Return the creepage of the upper roller against the lower one."""
         ...
 
-    def edges(self, stand: S) -> tuple[float, float]:
+    def edges(self, attempt: S) -> tuple[float, float]:
         """Return the ends of the contact [mm]."""
         ...
 
-    def strain(self, stand: S) -> float:
+    def strain(self, attempt: S) -> float:
         """Return the largest strain of either surface."""
         ...
 
-    def missed(self, stand: S, other: S) -> float:
+    def missed(self, attempt: S, other: S) -> float:
         """Return how badly a solution violates its conditions with the terms of the other one."""
         ...
 
     def with_residual(
-        self, refined: R, stand: S, kernels: PairKernels, left: float
+        self, refined: R, attempt: S, kernels: PairKernels, left: float
     ) -> tuple[R, float]:
         """Return a refined solution on its last mesh, and how badly it violates its conditions.
 
@@ -129,13 +129,13 @@ def solve_by_iteration(
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
     try:
-        stand = sheeted.begun(coarsely(model), kernels, half_width)
+        attempt = sheeted.begun(coarsely(model), kernels, half_width)
     except np.linalg.LinAlgError:
         return None
     for share in SHARES_KEPT:
-        orders = AllOrders.of(nip, kernels, half_width, sheeted.strain(stand), share)
+        orders = AllOrders.of(nip, kernels, half_width, sheeted.strain(attempt), share)
         try:
-            found = _iterate_until_settled(kernels, _Contact(sheeted, model, stand), orders)
+            found = _iterate_until_settled(kernels, _Contact(sheeted, model, attempt), orders)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -150,7 +150,7 @@ class _Contact(Generic[S, R]):
     Attributes
     ----------
     sheeted, model : what solves it, and how accurately once it is refined.
-    stand : the last solution.
+    attempt : the last solution.
     refined : the refined one; None: the mesh is coarse still.
     count : size of its mesh.
     restarts : how often it was restarted.
@@ -158,7 +158,7 @@ class _Contact(Generic[S, R]):
 
     sheeted: Sheeted[S, R]
     model: Model
-    stand: S
+    attempt: S
     refined: R | None = None
     count: int = COARSE
     restarts: int = 0
@@ -168,23 +168,23 @@ class _Contact(Generic[S, R]):
 
         Where zones do not settle, from none. ``refine``: on finer and finer meshes.
         """
-        found = self.sheeted.holding(self.stand, kernels)
+        found = self.sheeted.holding(self.attempt, kernels)
         if refine:
             self._refine(kernels, found)
             return
         model = coarsely(self.model) if self.refined is None else self.model
         found = self.sheeted.placed(model, kernels, found, self.count)
         if not found.settled and self.restarts < _MOST_RESTARTS:
-            start, stop = self.sheeted.edges(self.stand)
+            start, stop = self.sheeted.edges(self.attempt)
             found = self.sheeted.begun(model, kernels, 0.5 * (stop - start))
             self.restarts += 1
             if self.refined is not None:
                 self._refine(kernels, found)
                 return
-        self.stand = found
+        self.attempt = found
 
     def _refine(self, kernels: PairKernels, before: S) -> None:
-        self.refined, self.stand, self.count = self.sheeted.refined(self.model, kernels, before)
+        self.refined, self.attempt, self.count = self.sheeted.refined(self.model, kernels, before)
 
 
 def _iterate_until_settled(
@@ -192,18 +192,18 @@ def _iterate_until_settled(
 ) -> tuple[PairKernels, R] | None:
     """Iterate, see `solve_by_iteration`."""
     sheeted, tolerance, change = contact.sheeted, contact.model.tolerance, inf
-    past = Past(even_places(sheeted.edges(contact.stand)))
+    past = Past(even_places(sheeted.edges(contact.attempt)))
     least = Least[tuple[PairKernels, R, S]]()
     for _ in range(MOST_CORRECTIONS):
-        stand, refined = contact.stand, contact.refined
-        sides, creepage = sheeted.sides(stand), sheeted.creepage(stand)
+        attempt, refined = contact.attempt, contact.refined
+        sides, creepage = sheeted.sides(attempt), sheeted.creepage(attempt)
         made, is_whole = orders.under(sides, creepage, roughly=refined is None)
         smooth = replace(kernels, held=made)
-        own = sheeted.holding(stand, smooth)
+        own = sheeted.holding(attempt, smooth)
         before, change = change, own.change
         to_come = to_come_after(change, before) / tolerance
         if refined is not None and change < SMALL and is_whole:
-            missed = sheeted.missed(stand, own)
+            missed = sheeted.missed(attempt, own)
             found, left = sheeted.with_residual(refined, own, smooth, missed)
             if least.is_enough((smooth, found, own), left / tolerance, to_come):
                 break
@@ -211,9 +211,9 @@ def _iterate_until_settled(
         near = min(to_come, change / tolerance)
         refine = refined is None and is_whole and near <= NEARLY
         if refine:
-            past = Past(places_by_the_edges(sheeted.edges(stand)))
+            past = Past(places_by_the_edges(sheeted.edges(attempt)))
         contact.solve(kernels, refine=refine)
-        if not contact.stand.settled and contact.refined is not None:
+        if not contact.attempt.settled and contact.refined is not None:
             break
     if least.found is None:
         return None

@@ -31,7 +31,7 @@ class Attempt(Generic[ZonesT, ProblemT, StateT, TermsT]):
     zones : where it puts the zones.
     problem, state, lagged : the solved problem.
     change : last change of the lagged terms, relative.
-    off : how far ends were off, over the width.
+    misplacement : how far ends were off, over the width.
     steps : linear systems solved so far.
     settled : whether zones and terms have settled.
     """
@@ -41,7 +41,7 @@ class Attempt(Generic[ZonesT, ProblemT, StateT, TermsT]):
     state: StateT
     lagged: TermsT
     change: float
-    off: float
+    misplacement: float
     steps: int
     settled: bool
 

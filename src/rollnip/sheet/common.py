@@ -42,7 +42,7 @@ class Refined(Protocol):
     """A last solution, as far as its verdict asks."""
 
     @property
-    def stand(self) -> FoundSolution:
+    def attempt(self) -> FoundSolution:
         """The solution on the finest mesh."""
         ...
 
@@ -101,7 +101,7 @@ def require_grip(nip: Nip, refined: Refined) -> None:
     """Raise where an interface is asked to carry more than friction can."""
     sheet, load = nip.sheet, refined.figures.load
     assert sheet is not None
-    wanted = refined.stand.wanted_traction
+    wanted = refined.attempt.wanted_traction
     if wanted is None or not load > 0.0:
         return
     pulls = wanted + sheet.tension_in - sheet.tension_out, wanted
@@ -109,7 +109,7 @@ def require_grip(nip: Nip, refined: Refined) -> None:
     sides = zip(("upper", "lower"), pulls, frictions_of(nip), strict=True)
     for side, pull, friction in sides:
         if abs(pull) >= friction * load and (
-            refined.stand.settled or isinstance(nip.tangential, Traction)
+            refined.attempt.settled or isinstance(nip.tangential, Traction)
         ):
             raise InvalidInputError(_slips_through(name, side, pull, friction * load))
 
@@ -142,7 +142,7 @@ def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
 
 def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:
     """Return whether the solution is valid, and what to do; if it is, the words up to it."""
-    if not refined.stand.settled:
+    if not refined.attempt.settled:
         if not isfinite(refined.residual):
             return False, (
                 "Stick and slip on both sides of the sheet did not settle (no pressure was found "

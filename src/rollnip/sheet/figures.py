@@ -1,4 +1,4 @@
-"""Figures of a nip with a sheet, their sizes, and what the model leaves open of each."""
+"""Figures of a nip with a sheet, their sizes, and what the model leaves uncertain of each."""
 
 from __future__ import annotations
 
@@ -38,20 +38,20 @@ class SheetFigures:
     values: Array
 
     @classmethod
-    def of(cls, stand: SheetAttempt, geometry: str) -> SheetFigures:
+    def of(cls, attempt: SheetAttempt, geometry: str) -> SheetFigures:
         """Return the figures of a solution."""
-        problem, state = stand.problem, stand.state
+        problem, state = attempt.problem, attempt.state
         mesh = problem.mesh
         peak, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
         tension = problem.tension_at(state)
-        strain = strain_at(stand)
-        spent = sheet_powers(problem, geometry, state, stand.lagged)  # type: ignore[arg-type]
+        strain = strain_at(attempt)
+        spent = sheet_powers(problem, geometry, state, attempt.lagged)  # type: ignore[arg-type]
         weights = mesh.weights
         first = [
             state.approach,
-            float(weights @ state.pressure) - stand.lagged.lean,
+            float(weights @ state.pressure) - attempt.lagged.lean,
             state.creepage + state.creepage_lower,
-            stand.zones.width,
+            attempt.zones.width,
             peak,
             state.creepage,
             state.creepage_lower,
@@ -108,9 +108,9 @@ def largest_of(mesh: SheetMesh, values: Array) -> float:
     return peak_pressure(mesh.fine.nodes[1:-1], mesh.between(values))[0]
 
 
-def strain_at(stand: SheetAttempt) -> Array:
+def strain_at(attempt: SheetAttempt) -> Array:
     """Return the strain of the sheet at the nodes, (n,)."""
-    problem, state = stand.problem, stand.state
+    problem, state = attempt.problem, attempt.state
     sheet = problem.sheet
     tension = sheet.stretch_by_tension * problem.tension_at(state)
     return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
@@ -175,7 +175,7 @@ _PLATE_CREEPAGES = 2.0
 
 
 def shares_of_model(geometry: Geometry, bends: bool) -> Array:
-    """Return what the model's own order leaves open of each figure, over its scale, (n,)."""
+    """Return what the model's own order leaves uncertain of each figure, over its scale, (n,)."""
     shares = SHARES_OF_MODEL.get(geometry, np.zeros(len(NAMES))).copy()
     if bends:
         at = [n for n, name in enumerate(NAMES) if name.startswith("creepage")]

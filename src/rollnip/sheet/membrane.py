@@ -36,8 +36,8 @@ class Membrane:
     def begun(self, model: Model, kernels: PairKernels, half_width: float) -> SheetAttempt:
         """Return a solution of a coarse contact, from no other one."""
         search = SheetSearch(self.nip, model, kernels)
-        stand = search.begun(half_width, COARSE)
-        return search.placed(stand.zones, COARSE, stand)
+        attempt = search.begun(half_width, COARSE)
+        return search.placed(attempt.zones, COARSE, attempt)
 
     def placed(
         self, model: Model, kernels: PairKernels, before: SheetAttempt, count: int
@@ -51,57 +51,57 @@ class Membrane:
     ) -> tuple[SheetRefined, SheetAttempt, int]:
         """Return the refined solution, and its last mesh and size."""
         found = refine_sheet(self.nip, model, kernels, 0.5 * before.zones.width, before)
-        return found, found.stand, found.count
+        return found, found.attempt, found.count
 
-    def holding(self, stand: SheetAttempt, kernels: PairKernels) -> SheetAttempt:
+    def holding(self, attempt: SheetAttempt, kernels: PairKernels) -> SheetAttempt:
         """Return a solution whose terms are those with other corrections; ``change`` says how."""
-        problem = replace(stand.problem, mesh=stand.problem.mesh.holding(kernels))
-        lagged = lagged_terms(problem, "finite", stand.state)
-        change = change_of(lagged, stand.lagged, problem, stand.state)
-        return replace(stand, problem=problem, lagged=lagged, change=change)
+        problem = replace(attempt.problem, mesh=attempt.problem.mesh.holding(kernels))
+        lagged = lagged_terms(problem, "finite", attempt.state)
+        change = change_of(lagged, attempt.lagged, problem, attempt.state)
+        return replace(attempt, problem=problem, lagged=lagged, change=change)
 
-    def sides(self, stand: SheetAttempt) -> tuple[Acting, Acting]:
+    def sides(self, attempt: SheetAttempt) -> tuple[Acting, Acting]:
         """Return the tractions of the upper and of the lower roller."""
-        mesh, state = stand.problem.mesh, stand.state
+        mesh, state = attempt.problem.mesh, attempt.state
         nodes, pressure = mesh.fine.nodes, mesh.acting(state.pressure)
         above, below = (mesh.acting(shear) for shear in state.shears)
         return (nodes, pressure, above), (nodes, pressure, -below)
 
-    def creepage(self, stand: SheetAttempt) -> float:
+    def creepage(self, attempt: SheetAttempt) -> float:
         """Return the creepage of the upper roller against the lower one."""
-        return stand.state.creepage + stand.state.creepage_lower
+        return attempt.state.creepage + attempt.state.creepage_lower
 
-    def edges(self, stand: SheetAttempt) -> tuple[float, float]:
+    def edges(self, attempt: SheetAttempt) -> tuple[float, float]:
         """Return the edges of the contact [mm]."""
-        return stand.zones.edges
+        return attempt.zones.edges
 
-    def strain(self, stand: SheetAttempt) -> float:
+    def strain(self, attempt: SheetAttempt) -> float:
         """Return the largest strain of either surface in the contact, mean over an element."""
-        mesh = stand.problem.mesh
-        x, u = mesh.fine.nodes[1:], mesh.finer(mesh.displacements(stand.state))
-        touching = mesh.acting(stand.state.pressure) > 0.0
+        mesh = attempt.problem.mesh
+        x, u = mesh.fine.nodes[1:], mesh.finer(mesh.displacements(attempt.state))
+        touching = mesh.acting(attempt.state.pressure) > 0.0
         strains = np.abs(stretch_excess(x, self.nip, "finite", u) / np.diff(x))
         return float(strains[:, touching].max(initial=0.0))
 
-    def missed(self, stand: SheetAttempt, other: SheetAttempt) -> float:
+    def missed(self, attempt: SheetAttempt, other: SheetAttempt) -> float:
         """Return how badly a solution violates its conditions with the terms of the other one."""
-        return missed(other.lagged, stand.lagged, stand.problem, stand.state)
+        return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
 
     def with_residual(
-        self, refined: SheetRefined, stand: SheetAttempt, kernels: PairKernels, left: float
+        self, refined: SheetRefined, attempt: SheetAttempt, kernels: PairKernels, left: float
     ) -> tuple[SheetRefined, float]:
         """Return a refined solution on its last mesh, and how badly it violates its conditions.
 
         ``left``: how badly those of gap and creep.
         """
-        left = max(left, residual_of(stand, kernels, "finite"))
-        figures = SheetFigures.of(stand, "finite")
-        found = replace(refined, stand=stand, figures=figures, residual=left)
+        left = max(left, residual_of(attempt, kernels, "finite"))
+        figures = SheetFigures.of(attempt, "finite")
+        found = replace(refined, attempt=attempt, figures=figures, residual=left)
         return with_errors_of_powers(found, "finite"), left
 
     def with_cut(self, refined: SheetRefined, cut: float) -> SheetRefined:
         """Return a refined solution with what the correction leaves out."""
-        stand, figures = refined.stand, refined.figures
-        (upper, _), (lower, _) = smooth_works(stand.problem, stand.state, stand.lagged)
+        attempt, figures = refined.attempt, refined.figures
+        (upper, _), (lower, _) = smooth_works(attempt.problem, attempt.state, attempt.lagged)
         losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
         return replace(refined, cut=cut, cut_losses=losses)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Bounds of the move that a solution asks for over the error of an end.
+# Bounds of the proposed move over the error of an end.
 _SLOPES = 0.4, 2.5
 
 
@@ -41,13 +41,13 @@ Z = TypeVar("Z", bound=Ends)
 
 @dataclass(slots=True)
 class Moves(Generic[Z]):
-    """Ends of like zones on the last mesh, and what the moves that were asked for are worth.
+    """Ends of like zones on the last mesh, and what the moves that were proposed are worth.
 
     Attributes
     ----------
     zones : on the last mesh of this size; None: on none yet.
     step : (m,) how far its solution moved their ends [mm].
-    slopes : (m,) by how much less a solution asks for, per move of each end. It is 1 where a
+    slopes : (m,) by how much the proposed move is less, per move of each end. It is 1 where a
         surface responds as a half-plane does over the first elements. The next size of mesh
         begins with these slopes.
     """
@@ -60,20 +60,20 @@ class Moves(Generic[Z]):
         """Note that the next zones lie on a mesh of another size."""
         self.step = None
 
-    def next(self, zones: Z, asked: Z) -> Z:
+    def next(self, zones: Z, proposed: Z) -> Z:
         """Return where to put the ends next, each by the secant through its last two moves.
 
         Parameters
         ----------
         zones : as they were on the last mesh.
-        asked : where its solution puts them.
+        proposed : where its solution puts them.
         """
-        here, step = zones.ends, asked.ends - zones.ends
+        here, step = zones.ends, proposed.ends - zones.ends
         before, step_before = self.zones, self.step
         self.zones, self.step = zones, step
         if before is None or not zones.is_like(before):
             self.slopes = None
-            return asked
+            return proposed
         if step_before is not None:
             moved = here - before.ends
             # between two places that ask for opposite ways the secant needs no bound
@@ -83,6 +83,6 @@ class Moves(Generic[Z]):
             known = np.ones(step.size) if self.slopes is None else self.slopes
             self.slopes = np.where(np.isfinite(slopes), slopes, known)
         if self.slopes is None:
-            return asked
+            return proposed
         found = zones.with_ends(here + step / self.slopes)
-        return found if found.is_proper else asked
+        return found if found.is_proper else proposed

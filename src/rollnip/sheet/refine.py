@@ -59,7 +59,7 @@ class SheetRefined:
 
     Attributes
     ----------
-    stand : the solution on the finest mesh.
+    attempt : the solution on the finest mesh.
     figures, errors : see `SheetFigures`; errors inf where unknown.
     residual : how badly it violates the conditions, see `violation` and `overlap`.
     count : about how many elements the mesh was to have.
@@ -67,7 +67,7 @@ class SheetRefined:
     cut_losses : how much that changes the friction loss of either side [N/mm].
     """
 
-    stand: SheetAttempt
+    attempt: SheetAttempt
     figures: SheetFigures
     errors: SheetFigures
     residual: float
@@ -102,7 +102,7 @@ def refine_sheet(
         where no size of mesh has a solution.
     """
     search, count = SheetSearch(nip, model, kernels), float(FIRST_SIZE)
-    stand = search.begun(half_width, FIRST_COUNT) if before is None else before
+    attempt = search.begun(half_width, FIRST_COUNT) if before is None else before
     history: list[_Size] = []
     best: SheetRefined | None = None
     failures, last_count = 0, 0
@@ -110,19 +110,19 @@ def refine_sheet(
         may_be_last = len(history) + 1 >= FEWEST
         closely = _closely(count) if may_be_last else ROUGHLY
         try:
-            stand = search.placed(stand.zones, round(count), stand, closely)
+            attempt = search.placed(attempt.zones, round(count), attempt, closely)
         except np.linalg.LinAlgError:
             failures, count = failures + 1, next_count(count, inf)
             continue
-        here = _size_of(stand, model.geometry)
+        here = _size_of(attempt, model.geometry)
         figures = here[1]
-        errors = _errors(nip, stand, [*history, here])
-        is_near = stand.settled and may_be_last
+        errors = _errors(nip, attempt, [*history, here])
+        is_near = attempt.settled and may_be_last
         if is_near and ratio(nip, figures, errors) > model.tolerance:
-            history = _with_zones_of(stand, history, search, last_count)
-            errors = _errors(nip, stand, [*history, here])
-        latest = SheetRefined(stand, figures, errors, violation(stand), round(count))
-        if stand.settled:
+            history = _with_zones_of(attempt, history, search, last_count)
+            errors = _errors(nip, attempt, [*history, here])
+        latest = SheetRefined(attempt, figures, errors, violation(attempt), round(count))
+        if attempt.settled:
             history.append(here)
             best, last_count = latest, round(count)
             if may_be_last and ratio(nip, figures, errors) <= model.tolerance:
@@ -138,13 +138,13 @@ def refine_sheet(
     return _with_overlap(best, kernels, model.geometry)
 
 
-def _size_of(stand: SheetAttempt, geometry: Geometry) -> _Size:
+def _size_of(attempt: SheetAttempt, geometry: Geometry) -> _Size:
     """Return what the estimates of errors ask of a size of mesh."""
-    elements = stand.problem.mesh.inner.size - 1
-    return float(elements), SheetFigures.of(stand, geometry), stand.zones
+    elements = attempt.problem.mesh.inner.size - 1
+    return float(elements), SheetFigures.of(attempt, geometry), attempt.zones
 
 
-def _errors(nip: Nip, stand: SheetAttempt, history: list[_Size]) -> SheetFigures:
+def _errors(nip: Nip, attempt: SheetAttempt, history: list[_Size]) -> SheetFigures:
     """Return the estimated errors of a solution, the last of some sizes of mesh.
 
     They are those of the mesh, and what a memory does that is shorter than its elements, on which
@@ -152,7 +152,7 @@ def _errors(nip: Nip, stand: SheetAttempt, history: list[_Size]) -> SheetFigures
     as without a sheet.
     """
     errors, figures = errors_between(nip, history, ORDERS), history[-1][1]
-    lag = edge_within_memory(nip, stand.problem.mesh)
+    lag = edge_within_memory(nip, attempt.problem.mesh)
     errors[_WIDTH] += lag
     creepages = _CREEPAGES[isinstance(nip.tangential, Creepage) :]
     errors[creepages] += 2.0 * lag / figures.nip_width * scales(nip, figures)[creepages]
@@ -160,7 +160,7 @@ def _errors(nip: Nip, stand: SheetAttempt, history: list[_Size]) -> SheetFigures
 
 
 def _with_zones_of(
-    stand: SheetAttempt, history: list[_Size], search: SheetSearch, count: int
+    attempt: SheetAttempt, history: list[_Size], search: SheetSearch, count: int
 ) -> list[_Size]:
     """Return the sizes of mesh before a solution, the last of them with its zones.
 
@@ -168,13 +168,13 @@ def _with_zones_of(
     nothing of its own errors. The last size before, of ``count`` elements, is solved again,
     with nodes at the ends of these zones.
     """
-    if not history or history[-1][2].is_like(stand.zones):
+    if not history or history[-1][2].is_like(attempt.zones):
         return history
     try:
-        again = search.placed(stand.zones, count, stand, ROUGHLY)
+        again = search.placed(attempt.zones, count, attempt, ROUGHLY)
     except np.linalg.LinAlgError:
         return history
-    if not (again.settled and again.zones.is_like(stand.zones)):
+    if not (again.settled and again.zones.is_like(attempt.zones)):
         return history
     return [_size_of(again, search.model.geometry)]
 
@@ -196,7 +196,7 @@ def _closely(count: float) -> float:
 
 def _with_overlap(refined: SheetRefined, kernels: PairKernels, geometry: Geometry) -> SheetRefined:
     """Return a solution with what it overlaps outside the contact, too."""
-    checked = replace(refined, residual=residual_of(refined.stand, kernels, geometry))
+    checked = replace(refined, residual=residual_of(refined.attempt, kernels, geometry))
     return with_errors_of_powers(checked, geometry)
 
 
@@ -205,11 +205,11 @@ def with_errors_of_powers(refined: SheetRefined, geometry: Geometry) -> SheetRef
 
     The former has no place in its losses. Only at finite strain are moments as exact as torques.
     """
-    stand = refined.stand
-    problem, state = stand.problem, stand.state
+    attempt = refined.attempt
+    problem, state = attempt.problem, attempt.state
     spent = refined.figures.powers
     pulls = spent.pull_upper, spent.pull_lower
-    works = slip_works(problem, geometry, state, stand.lagged, pulls)
+    works = slip_works(problem, geometry, state, attempt.lagged, pulls)
     off = np.zeros(2)
     if geometry == "finite":
         off = off_the_moments(problem, geometry, state, spent)
@@ -231,9 +231,9 @@ def claimed_of_powers(
     return SheetFigures(values)
 
 
-def residual_of(stand: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+def residual_of(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how badly a solution violates its conditions, relative."""
-    return max(violation(stand), overlap(stand, kernels, geometry))
+    return max(violation(attempt), overlap(attempt, kernels, geometry))
 
 
 class _Alike(Protocol):
@@ -288,7 +288,7 @@ def errors_between(
     return np.asarray(error)
 
 
-def traction_slope(stand: SheetAttempt) -> float:
+def traction_slope(attempt: SheetAttempt) -> float:
     """Return how fast both tractions grow with the creepage, where the same nodes stick [N/mm].
 
     An error of the creepage at a given traction is one of the traction at a given creepage, as
@@ -296,7 +296,7 @@ def traction_slope(stand: SheetAttempt) -> float:
     """
     tractions = []
     for creepage in (0.0, 1.0):  # the tractions are linear in it
-        nip = replace(stand.problem.nip, tangential=Creepage(creepage))
-        found = replace(stand.problem, nip=nip).solve(stand.state.both_states, stand.lagged)
-        tractions.append(float(stand.problem.mesh.weights @ found.shear_lower))
+        nip = replace(attempt.problem.nip, tangential=Creepage(creepage))
+        found = replace(attempt.problem, nip=nip).solve(attempt.state.both_states, attempt.lagged)
+        tractions.append(float(attempt.problem.mesh.weights @ found.shear_lower))
     return abs(tractions[1] - tractions[0])

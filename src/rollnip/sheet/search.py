@@ -116,56 +116,60 @@ class SheetSearch:
         ``closely``: allowed error of an end, of the tolerance times the width.
         """
         placed = closely * self.model.tolerance
-        steps, changes, off = (0, 0, inf) if before is None else (before.steps, 0, before.off)
-        known = min(off, 1.0)
-        near = min(off, _NEARLY_PLACED)  # on the first mesh, whose terms are those of a solution
+        steps, misplacement = (0, inf) if before is None else (before.steps, before.misplacement)
+        changes = 0
+        known = min(misplacement, 1.0)
+        # Ends count as near on the first mesh, whose terms are those of a solution.
+        near = min(misplacement, _NEARLY_PLACED)
         elements: NDArray[np.intp] | None = None
         crowding: tuple[float, ...] = ()
-        stand = before
+        attempt = before
         self.moves.refined()
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers().aligned()
             if not zones.is_proper:
                 break
             breaks = zones.breaks
-            crowd = self._crowding(breaks, known)
-            is_fine = crowd == self._crowding(breaks, 0.0)
-            if elements is None or crowd != crowding or elements.size != breaks.size - 1:
-                elements = elements_of_zones(breaks, count, crowd, _LEAST_SHARE)
-                crowding = crowd
-            problem = self._problem(zones, (elements, crowding), stand)
-            start = first_lagged(problem) if stand is None else carried(stand, problem)
-            stand = self._solved(problem, zones, start, steps, (near, off))
-            steps = stand.steps
-            called = _ZonesCalledFor(stand, self._slack)
+            wanted_crowding = self._crowding(breaks, known)
+            is_fine = wanted_crowding == self._crowding(breaks, 0.0)
+            if elements is None or wanted_crowding != crowding or elements.size != breaks.size - 1:
+                elements = elements_of_zones(breaks, count, wanted_crowding, _LEAST_SHARE)
+                crowding = wanted_crowding
+            problem = self._problem(zones, (elements, crowding), attempt)
+            start = first_lagged(problem) if attempt is None else carried(attempt, problem)
+            attempt = self._solved(problem, zones, start, steps, (near, misplacement))
+            steps = attempt.steps
+            called = _ZonesCalledFor(attempt, self._slack)
             is_near = known <= _NEARLY_PLACED
-            asked, are_clear = zones.moved(problem, stand.state, called, is_near=is_near)
-            off = asked.distance(zones)
-            near = known = min(known, off)
-            is_met = violation(stand) <= self._slack
-            stay = off > _FAIRLY_PLACED and not changes
+            proposed, are_clear = zones.moved(problem, attempt.state, called, is_near=is_near)
+            misplacement = proposed.distance(zones)
+            near = known = min(known, misplacement)
+            is_met = violation(attempt) <= self._slack
+            stay = misplacement > _FAIRLY_PLACED and not changes
             # With a violation zones are doubted at once where nodes call for zones unlike them;
             # without one, as soon as no end moves, and once.
-            moves = off > placed
+            moves = misplacement > placed
             if is_met:
                 stay = stay or moves or changes > 0 or called.are_like
             else:
                 stay = stay or (moves and called.are_like)
             if stay and are_clear:
-                if off <= placed and stand.settled and is_fine and is_met:
-                    return replace(stand, zones=asked, off=off)
-                zones = asked if off > _NEARLY_PLACED else self.moves.next(zones, asked)
+                if misplacement <= placed and attempt.settled and is_fine and is_met:
+                    return replace(attempt, zones=proposed, misplacement=misplacement)
+                zones = (
+                    proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)
+                )
                 continue
             changes += 1
             if changes > _MOST_CHANGES:
                 break
-            other = self._other(stand, asked, near=are_clear)
-            stand, zones = (stand, asked) if other is None else other
-            steps, elements = stand.steps, None
-        if stand is None:
+            other = self._other(attempt, proposed, near=are_clear)
+            attempt, zones = (attempt, proposed) if other is None else other
+            steps, elements = attempt.steps, None
+        if attempt is None:
             raise np.linalg.LinAlgError("zones without length")
-        proper = zones if zones.is_proper else stand.zones
-        return replace(stand, zones=proper, settled=False, off=off)
+        proper = zones if zones.is_proper else attempt.zones
+        return replace(attempt, zones=proper, settled=False, misplacement=misplacement)
 
     def _crowding(self, breaks: Array, known: float) -> tuple[float, ...]:
         """Return how nodes crowd at ends that are known to some share of the width."""
@@ -216,22 +220,22 @@ class SheetSearch:
         zones: Zones,
         lagged: Lagged,
         steps: int,
-        off: tuple[float, float],
+        misplacement: tuple[float, float],
     ) -> SheetAttempt:
         """Solve on one mesh with given zones, in iterations of the lagged terms.
 
-        ``off``: how far ends were off, the least and on the last mesh of this size. Ends that are
-        far off leave singular tractions, under which new terms mean nothing.
+        ``misplacement``: how far ends were off, the least and on the last mesh of this size. Ends
+        that are far off leave singular tractions, under which new terms mean nothing.
         """
         system = Factorised.of(problem, zones.states_on(problem.mesh.inner))
         change, still = 0.0, _STILL * self.model.tolerance
-        most = _MOST_ITERATIONS if off[1] < _NEARLY_PLACED else 2
+        most = _MOST_ITERATIONS if misplacement[1] < _NEARLY_PLACED else 2
         for _ in range(most):
             state = system.solved(lagged)
             steps += 1
             if has_none(problem, self.model.geometry):
                 break
-            if off[0] > _NEARLY_PLACED:
+            if misplacement[0] > _NEARLY_PLACED:
                 change = 1.0
                 break
             updated = lagged_terms(problem, self.model.geometry, state)
@@ -249,21 +253,21 @@ class SheetSearch:
         return min(self.model.tolerance, _SLACK)
 
     def _other(
-        self, stand: SheetAttempt, edges: Zones, *, near: bool
+        self, attempt: SheetAttempt, edges: Zones, *, near: bool
     ) -> tuple[SheetAttempt, Zones] | None:
         """Find other zones between known edges, node by node; None where there are none.
 
         ``near``: whether a few nodes at most may have other states.
         """
-        problem, state = stand.problem, None
+        problem, state = attempt.problem, None
         if near:
-            state = slipping(problem, stand.state, stand.lagged, self._slack)
+            state = slipping(problem, attempt.state, attempt.lagged, self._slack)
         if state is None:
-            state = solve_node_by_node(problem, stand.lagged, 0.5 * stand.zones.width)
+            state = solve_node_by_node(problem, attempt.lagged, 0.5 * attempt.zones.width)
         zones = Zones.found(problem.mesh.inner, state, problem.frictions, edges.edges)
         if zones is None:
             return None
-        return replace(stand, state=state, steps=stand.steps + state.steps), zones
+        return replace(attempt, state=state, steps=attempt.steps + state.steps), zones
 
 
 @dataclass(frozen=True)
@@ -272,32 +276,32 @@ class _ZonesCalledFor:
 
     Attributes
     ----------
-    stand : the solution.
+    attempt : the solution.
     slack : see `next_slip`.
     """
 
-    stand: SheetAttempt
+    attempt: SheetAttempt
     slack: float
 
     @cached_property
     def _wanted(self) -> States:
-        stand = self.stand
-        return next_slip(stand.problem, stand.state, stand.creeps, self.slack)
+        attempt = self.attempt
+        return next_slip(attempt.problem, attempt.state, attempt.creeps, self.slack)
 
     @cached_property
     def _found(self) -> Zones | None:
         """Return their zones, if these are like those of the solution."""
-        stand, wanted = self.stand, self._wanted
-        state = replace(stand.state, states=wanted[0], states_lower=wanted[1])
-        frictions, x = stand.problem.frictions, stand.problem.mesh.inner
-        found = Zones.found(x, state, frictions, stand.zones.edges)
+        attempt, wanted = self.attempt, self._wanted
+        state = replace(attempt.state, states=wanted[0], states_lower=wanted[1])
+        frictions, x = attempt.problem.frictions, attempt.problem.mesh.inner
+        found = Zones.found(x, state, frictions, attempt.zones.edges)
         found = None if found is None else found.without_slivers()
-        return found if found is not None and found.is_like(stand.zones) else None
+        return found if found is not None and found.is_like(attempt.zones) else None
 
     @cached_property
     def are_like(self) -> bool:
         """Return whether they make zones like those of the solution."""
-        same = np.array_equal(self._wanted, self.stand.state.both_states)
+        same = np.array_equal(self._wanted, self.attempt.state.both_states)
         return same or self._found is not None
 
     def creeps_back(self, number: int) -> Mask:
@@ -306,8 +310,8 @@ class _ZonesCalledFor:
         That is where it creeps against its own shear, at the node of the transition and at the next
         one: the shear comes to its bound there as at the end of a zone, but not for the first time.
         """
-        side = self.stand.zones.sides[number]
-        ends = side.ends(self.stand.problem.mesh.inner)[1:-1]
+        side = self.attempt.zones.sides[number]
+        ends = side.ends(self.attempt.problem.mesh.inner)[1:-1]
         sticks = self._wanted[number] == State.STICK
         into_slip = np.where(side.states[:-1] == State.STICK, 1, -1)
         return np.asarray(sticks[ends] & sticks[ends + into_slip])
@@ -315,18 +319,18 @@ class _ZonesCalledFor:
     @property
     def sides(self) -> tuple[Layout, Layout]:
         """Return the zones of both interfaces that they make; its own where these are others."""
-        return (self._found or self.stand.zones).sides
+        return (self._found or self.attempt.zones).sides
 
 
-def violation(stand: SheetAttempt) -> float:
+def violation(attempt: SheetAttempt) -> float:
     """Return how badly a solution violates the conditions of friction, relative.
 
     The parts are the traction that a piece in stick carries beyond the traction bound, over what
     friction carries at most; and slip with its own shear: the distance slipped so in a piece, over
     a twentieth of the nip's slope times its width or the larger creepage times it.
     """
-    state, problem = stand.state, stand.problem
-    creeps = stand.creeps
+    state, problem = attempt.state, attempt.problem
+    creeps = attempt.creeps
     weights, width = problem.mesh.weights, float(np.ptp(problem.mesh.inner))
     load = float(weights @ state.pressure)
     if not load > 0.0:
@@ -345,14 +349,14 @@ def violation(stand: SheetAttempt) -> float:
     return max(parts)
 
 
-def overlap(stand: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how far surfaces and sheet overlap outside the contact, and tension, relative.
 
     Over the approach, or the depth of the gap at the edge; over the highest pressure.
     """
-    problem, state = stand.problem, stand.state
+    problem, state = attempt.problem, attempt.state
     nip, mesh = problem.nip, problem.mesh
-    width = stand.zones.width
+    width = attempt.zones.width
     away = width * _OUTSIDE
     x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
     acting = [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)]
@@ -380,9 +384,9 @@ def longest_run(values: Array) -> float:
     return float(np.max(total - np.concatenate([[0.0], rest[:-1]])))
 
 
-def carried(stand: SheetAttempt, problem: SheetProblem) -> Lagged:
+def carried(attempt: SheetAttempt, problem: SheetProblem) -> Lagged:
     """Return the lagged terms of a solution on another mesh."""
-    old, new, lagged = stand.problem.mesh, problem.mesh, stand.lagged
+    old, new, lagged = attempt.problem.mesh, problem.mesh, attempt.lagged
     middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
     offsets = [new.dx * np.interp(places, middles, row / old.dx) for row in lagged.offsets]
     clearance = np.interp(new.inner, old.inner, lagged.clearance)

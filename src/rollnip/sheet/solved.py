@@ -115,10 +115,10 @@ def _bending_freely(
         + tension_of_curved(nip, model)
         + validity_reservations(nip, model, final, strains),
         solver=SolverInfo(
-            elements=int(refined.stand.problem.mesh.nodes.size - 1),
-            iterations=refined.stand.steps,
+            elements=int(refined.attempt.problem.mesh.nodes.size - 1),
+            iterations=refined.attempt.steps,
             residual=refined.residual,
-            geometry_change=refined.stand.change,
+            geometry_change=refined.attempt.change,
             seconds=perf_counter() - start,
             version=version,
         ),
@@ -138,7 +138,7 @@ def _refined(
     while True:
         found = _attempt(nip, model, cache)
         simpler = SIMPLER.get(model.geometry)
-        if found is not None and (simpler is None or found[1].stand.settled):
+        if found is not None and (simpler is None or found[1].attempt.settled):
             return model, *found, solved_instead(left, model.geometry)
         if simpler is None:
             require_torque(nip, 1.0)
@@ -180,32 +180,35 @@ def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, S
 
 def as_round(nip: Nip, refined: SheetRefined) -> Round:
     """Return a solution as the round of a bare nip, with the shear of the upper side."""
-    stand, figures = refined.stand, refined.figures
-    mesh, n = stand.problem.mesh, stand.problem.mesh.inner.size
-    total = stand.state.creepage + stand.state.creepage_lower
+    attempt, figures = refined.attempt, refined.figures
+    mesh, n = attempt.problem.mesh, attempt.problem.mesh.inner.size
+    total = attempt.state.creepage + attempt.state.creepage_lower
     problem = ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
-        clearance=0.5 * nip.curvature * mesh.inner**2 + stand.lagged.clearance,
+        clearance=0.5 * nip.curvature * mesh.inner**2 + attempt.lagged.clearance,
         influence=mesh.influence,
         creep_length=mesh.dx,
         creep_offset=np.zeros(n),
         friction=nip.friction,
-        control=Control(load=None, approach=stand.state.approach, traction=None, creepage=total),
+        control=Control(load=None, approach=attempt.state.approach, traction=None, creepage=total),
     )
     return Round(
         mesh=mesh,
         problem=problem,
-        state=stand.state,
+        state=attempt.state,
         second=SecondOrder(
-            stand.lagged.clearance, np.zeros(n), stand.lagged.offsets[0], stand.lagged.traction
+            attempt.lagged.clearance,
+            np.zeros(n),
+            attempt.lagged.offsets[0],
+            attempt.lagged.traction,
         ),
-        zones=stand.zones.upper.zones,
+        zones=attempt.zones.upper.zones,
         figures=figures.watched,
         error=refined.errors.watched,
-        steps=stand.steps,
-        settled=stand.settled,
-        geometry_change=stand.change,
+        steps=attempt.steps,
+        settled=attempt.settled,
+        geometry_change=attempt.change,
         residual=refined.residual,
         cut=refined.cut,
     )

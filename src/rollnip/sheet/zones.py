@@ -139,19 +139,19 @@ class Zones(SideZones):
         they do not.
         """
         x = problem.mesh.inner
-        asked = [
+        proposed = [
             side.moved(x, state.side(number), friction).breaks
             for number, (side, friction) in enumerate(
                 zip(self.sides, problem.frictions, strict=True)
             )
         ]
         most = LONGEST_MOVE * self.width
-        edges, wanted_edges = np.array(self.edges), asked[0][[0, -1]]
-        are_clear = np.isfinite(wanted_edges)
-        moves = np.clip(wanted_edges - edges, -most, most)
+        edges, proposed_edges = np.array(self.edges), proposed[0][[0, -1]]
+        are_clear = np.isfinite(proposed_edges)
+        moves = np.clip(proposed_edges - edges, -most, most)
         trailing, leading = np.where(are_clear, edges + moves, edges).tolist()
         sides = []
-        for number, (side, wanted) in enumerate(zip(self.sides, asked, strict=True)):
+        for number, (side, wanted) in enumerate(zip(self.sides, proposed, strict=True)):
             middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])
             inner = wanted[1:-1]
             clear = (inner > middles[:-1]) & (inner < middles[1:])
@@ -201,11 +201,11 @@ class Zones(SideZones):
         return None if upper is None or lower is None else cls(upper, lower)
 
 
-def held(breaks: Array, asked: Array, edges: tuple[float, float]) -> Array:
+def held(breaks: Array, proposed: Array, edges: tuple[float, float]) -> Array:
     """Return the wanted breaks, each transition held between the middles of its zones."""
     out = breaks.copy()
     middles = 0.5 * (breaks[1:] + breaks[:-1])
-    wanted = np.where(np.isfinite(asked), asked, breaks)
+    wanted = np.where(np.isfinite(proposed), proposed, breaks)
     out[1:-1] = np.clip(wanted[1:-1], middles[:-1], middles[1:])
     out[0], out[-1] = edges
     if not np.all(np.diff(out) > 0.0):  # an edge moved across a transition: keep the shares

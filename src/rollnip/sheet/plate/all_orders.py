@@ -35,8 +35,8 @@ class Bending:
     def begun(self, model: Model, kernels: PairKernels, half_width: float) -> PlateAttempt:
         """Return a solution of a coarse contact, from no other one."""
         search, count = PlateSearch(self.nip, model, kernels), self._count(half_width, COARSE)
-        stand = search.begun(half_width, count)
-        return search.placed(stand.zones, count, stand)
+        attempt = search.begun(half_width, count)
+        return search.placed(attempt.zones, count, attempt)
 
     def placed(
         self, model: Model, kernels: PairKernels, before: PlateAttempt, count: int
@@ -54,69 +54,69 @@ class Bending:
     ) -> tuple[PlateRefined, PlateAttempt, int]:
         """Return the refined solution, and its last meshes and their size."""
         found = refine_plate(self.nip, model, kernels, 0.5 * before.zones.width, before)
-        return found, found.stand, found.count
+        return found, found.attempt, found.count
 
-    def holding(self, stand: PlateAttempt, kernels: PairKernels) -> PlateAttempt:
+    def holding(self, attempt: PlateAttempt, kernels: PairKernels) -> PlateAttempt:
         """Return a solution whose terms are those with other corrections; ``change`` says how."""
-        meshes = list(stand.problem.meshes)
+        meshes = list(attempt.problem.meshes)
         for side, roller in enumerate((self.nip.upper, self.nip.lower)):
             if not roller.is_rigid and kernels.held is not None:
                 held = kernels.held.of_side(side)
                 meshes[side] = meshes[side].holding(replace(meshes[side].kernels, held=held))
-        problem = replace(stand.problem, meshes=(meshes[0], meshes[1]))
-        lagged = lagged_terms(problem, "finite", stand.state, stand.lagged)
-        change = change_of(lagged, stand.lagged, problem, stand.state)
-        return replace(stand, problem=problem, lagged=lagged, change=change)
+        problem = replace(attempt.problem, meshes=(meshes[0], meshes[1]))
+        lagged = lagged_terms(problem, "finite", attempt.state, attempt.lagged)
+        change = change_of(lagged, attempt.lagged, problem, attempt.state)
+        return replace(attempt, problem=problem, lagged=lagged, change=change)
 
-    def sides(self, stand: PlateAttempt) -> tuple[Acting, Acting]:
+    def sides(self, attempt: PlateAttempt) -> tuple[Acting, Acting]:
         """Return the tractions of the upper and of the lower roller."""
         out = []
-        for side, mesh in enumerate(stand.problem.meshes):
-            shear = SIGNS[side] * mesh.acting(stand.state.shear[side])
-            out.append((mesh.fine.nodes, mesh.acting(stand.state.pressure[side]), shear))
+        for side, mesh in enumerate(attempt.problem.meshes):
+            shear = SIGNS[side] * mesh.acting(attempt.state.shear[side])
+            out.append((mesh.fine.nodes, mesh.acting(attempt.state.pressure[side]), shear))
         return out[0], out[1]
 
-    def creepage(self, stand: PlateAttempt) -> float:
+    def creepage(self, attempt: PlateAttempt) -> float:
         """Return the creepage of the upper roller against the lower one."""
-        return stand.state.creepage
+        return attempt.state.creepage
 
-    def edges(self, stand: PlateAttempt) -> tuple[float, float]:
+    def edges(self, attempt: PlateAttempt) -> tuple[float, float]:
         """Return the ends of both contacts together [mm]."""
-        upper, lower = stand.zones.edges
+        upper, lower = attempt.zones.edges
         return min(upper[0], lower[0]), max(upper[1], lower[1])
 
-    def strain(self, stand: PlateAttempt) -> float:
+    def strain(self, attempt: PlateAttempt) -> float:
         """Return the largest strain of either surface in its contact, mean over an element."""
         largest = 0.0
-        for side, mesh in enumerate(stand.problem.meshes):
+        for side, mesh in enumerate(attempt.problem.meshes):
             x, u = (
                 mesh.fine.nodes[1:],
-                mesh.finer(displacements_of(stand.problem, stand.state, side)),
+                mesh.finer(displacements_of(attempt.problem, attempt.state, side)),
             )
             strains = np.abs(stretch_excess(x, self.nip, "finite", u)[side] / np.diff(x))
-            touching = mesh.acting(stand.state.pressure[side]) > 0.0
+            touching = mesh.acting(attempt.state.pressure[side]) > 0.0
             largest = max(largest, float(strains[touching].max(initial=0.0)))
         return largest
 
-    def missed(self, stand: PlateAttempt, other: PlateAttempt) -> float:
+    def missed(self, attempt: PlateAttempt, other: PlateAttempt) -> float:
         """Return how badly a solution violates its conditions with the terms of the other one."""
-        return missed(other.lagged, stand.lagged, stand.problem, stand.state)
+        return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
 
     def with_residual(
-        self, refined: PlateRefined, stand: PlateAttempt, kernels: PairKernels, left: float
+        self, refined: PlateRefined, attempt: PlateAttempt, kernels: PairKernels, left: float
     ) -> tuple[PlateRefined, float]:
         """Return a refined solution on its last meshes, and how badly it violates conditions.
 
         ``left``: how badly those of gap and creep.
         """
-        left = max(left, violation(stand), overlap(stand, kernels, "finite"))
-        figures = plate_figures(stand, "finite")
-        lower = of_lower(figures, stand)
-        found = replace(refined, stand=stand, figures=figures, lower=lower, residual=left)
+        left = max(left, violation(attempt), overlap(attempt, kernels, "finite"))
+        figures = plate_figures(attempt, "finite")
+        lower = of_lower(figures, attempt)
+        found = replace(refined, attempt=attempt, figures=figures, lower=lower, residual=left)
         return with_errors_of_powers(found, "finite"), left
 
     def with_cut(self, refined: PlateRefined, cut: float) -> PlateRefined:
         """Return a refined solution with what the correction leaves out."""
-        figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.stand)
+        figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.attempt)
         losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
         return replace(refined, cut=cut, cut_losses=losses)

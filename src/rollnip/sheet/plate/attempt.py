@@ -28,18 +28,18 @@ _OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where over
 PlateAttempt = Attempt[PlateZones, PlateProblem, PlateState, LaggedPlate]
 
 
-def violation(stand: PlateAttempt) -> float:
+def violation(attempt: PlateAttempt) -> float:
     """Return how badly a solution violates the conditions of friction, relative.
 
     As without bending: the traction that a piece in stick carries beyond the traction bound, over
     what friction carries at most; and slip with its own shear: the distance slipped so in a piece,
     over a twentieth of the nip's slope times the width or the creepage times it.
     """
-    state, problem = stand.state, stand.problem
-    slope = 0.5 * stand.zones.width * problem.nip.curvature
+    state, problem = attempt.state, attempt.problem
+    slope = 0.5 * attempt.zones.width * problem.nip.curvature
     parts = [0.0]
     for side, friction in enumerate(problem.frictions):
-        creep = problem.gaps_and_creeps(state, stand.lagged)[side][1]
+        creep = problem.gaps_and_creeps(state, attempt.lagged)[side][1]
         pressure, states = state.pressure[side], state.states[side]
         width = float(np.ptp(problem.meshes[side].inner))
         weights = problem.meshes[side].weights
@@ -58,55 +58,55 @@ def violation(stand: PlateAttempt) -> float:
     return max(parts)
 
 
-def shear_over(stand: PlateAttempt) -> float:
+def shear_over(attempt: PlateAttempt) -> float:
     """Return by how much a sticking node's shear is beyond its bound, over the largest bound."""
-    state, most = stand.state, 0.0
-    for side, friction in enumerate(stand.problem.frictions):
+    state, most = attempt.state, 0.0
+    for side, friction in enumerate(attempt.problem.frictions):
         bound = friction * np.maximum(state.pressure[side], 0.0)
         over = (np.abs(state.shear[side]) - bound)[state.states[side] == State.STICK]
         most = max(most, float(np.max(over, initial=0.0)) / float(bound.max()))
     return most
 
 
-def pulls_at_edges(stand: PlateAttempt) -> bool:
+def pulls_at_edges(attempt: PlateAttempt) -> bool:
     """Return whether sheet and surfaces pull at each other beside an edge; see `Mesh`."""
-    sides = zip(stand.problem.meshes, stand.state.pressure, strict=True)
+    sides = zip(attempt.problem.meshes, attempt.state.pressure, strict=True)
     return any(mesh.pulls_at_edge(pressure) for mesh, pressure in sides)
 
 
-def added_to_peaks(stand: PlateAttempt, asked: PlateZones) -> float:
+def added_to_peaks(attempt: PlateAttempt, proposed: PlateZones) -> float:
     """Return what misplaced edges add to highest pressures at the nodes beside them, over these.
 
     An edge that lies inwards by delta of where it should leaves p ~ sqrt(y) + delta/(2 sqrt(y))
     beside it, which on short elements exceeds all other pressures.
 
-    ``asked``: zones whose edges are where they should be.
+    ``proposed``: zones whose edges are where they should be.
     """
     most = 0.0
-    for side, mesh in enumerate(stand.problem.meshes):
-        x, top = mesh.inner, int(np.argmax(stand.state.pressure[side]))
-        for node, edge, place in zip((1, x.size - 2), (0, -1), asked.edges[side], strict=True):
+    for side, mesh in enumerate(attempt.problem.meshes):
+        x, top = mesh.inner, int(np.argmax(attempt.state.pressure[side]))
+        for node, edge, place in zip((1, x.size - 2), (0, -1), proposed.edges[side], strict=True):
             if top == node:
                 off, away = abs(place - x[edge]), abs(x[node] - x[edge])
                 most = max(most, float(off / (2.0 * away + off)))
     return most
 
 
-def overlap(stand: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+def overlap(attempt: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how far surfaces and sheet overlap outside the contacts, and tension, relative.
 
     Over the approach, or the depth of the gap at the edge; over the highest pressure.
     """
-    problem, state, nip = stand.problem, stand.state, stand.problem.nip
-    width = stand.zones.width
+    problem, state, nip = attempt.problem, attempt.state, attempt.problem.nip
+    width = attempt.zones.width
     depth = 0.125 * nip.curvature * width**2
     if not nip.has_half_space:
         depth = max(depth, abs(state.approach))
     parts = [0.0]
     for side, mesh in enumerate(problem.meshes):
-        away = stand.zones.sides[side].width * _OUTSIDE
+        away = attempt.zones.sides[side].width * _OUTSIDE
         x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
-        gap = gap_at(stand, (kernels, geometry), side, x)
+        gap = gap_at(attempt, (kernels, geometry), side, x)
         parts.append(float(np.max(-gap)) / depth)
         pressure = state.pressure[side]
         peak = float(pressure.max())
@@ -115,13 +115,13 @@ def overlap(stand: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> fl
 
 
 def gap_at(
-    stand: PlateAttempt,
+    attempt: PlateAttempt,
     model: tuple[PairKernels, Geometry],
     side: int,
     x: Array,
 ) -> Array:
     """Return the gap between one roller and the sheet at some places, (m,) [mm]."""
-    problem, state, curved = stand.problem, stand.state, stand.lagged.curved
+    problem, state, curved = attempt.problem, attempt.state, attempt.lagged.curved
     u = _displacements_at(problem.meshes[side], state, model[0], side, x)
     gap = surface_depths(x, problem.nip, model[1], u)[side] + problem.thinned_at(state, x)[side]
     gap -= SIGNS[side] * problem.height_at(state, x, curved)
@@ -146,10 +146,10 @@ def _displacements_at(
     return flat if mesh.kernels.is_linear else flat + mesh.second(state.side(side), x)
 
 
-def carried(stand: PlateAttempt, problem: PlateProblem) -> LaggedPlate:
+def carried(attempt: PlateAttempt, problem: PlateProblem) -> LaggedPlate:
     """Return the lagged terms of a solution on other meshes."""
-    clearance, offsets, lagged = [], [], stand.lagged
-    for side, (old, new) in enumerate(zip(stand.problem.meshes, problem.meshes, strict=True)):
+    clearance, offsets, lagged = [], [], attempt.lagged
+    for side, (old, new) in enumerate(zip(attempt.problem.meshes, problem.meshes, strict=True)):
         clearance.append(np.interp(new.inner, old.inner, lagged.clearance[side]))
         middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
         rate = lagged.offsets[side] / old.dx

@@ -50,7 +50,7 @@ class PlateRefined:
 
     Attributes
     ----------
-    stand : the solution on the finest meshes.
+    attempt : the solution on the finest meshes.
     figures, errors : see `SheetFigures`; nip width and pressure are those of the upper interface;
         errors inf where unknown.
     residual : how badly it violates the conditions.
@@ -60,7 +60,7 @@ class PlateRefined:
     cut_losses : how much that changes the friction loss of either side [N/mm].
     """
 
-    stand: PlateAttempt
+    attempt: PlateAttempt
     figures: SheetFigures
     errors: SheetFigures
     residual: float
@@ -124,24 +124,24 @@ def refine_plate(
     history: list[tuple[float, SheetFigures, PlateZones]] = []
     below: list[tuple[float, SheetFigures, PlateZones]] = []
     best: PlateRefined | None = None
-    stand = search.begun(half_width, round(count)) if before is None else before
+    attempt = search.begun(half_width, round(count)) if before is None else before
     failed = 0
     while count <= _MOST_COUNT:
         closely = LAST_CLOSELY if history else ROUGHLY
-        stand = search.placed(stand.zones, round(count), stand, closely)
-        figures = plate_figures(stand, model.geometry)
-        here = (count, figures, stand.zones)
-        lower = of_lower(figures, stand)
-        here_below = (count, lower, stand.zones)
+        attempt = search.placed(attempt.zones, round(count), attempt, closely)
+        figures = plate_figures(attempt, model.geometry)
+        here = (count, figures, attempt.zones)
+        lower = of_lower(figures, attempt)
+        here_below = (count, lower, attempt.zones)
         errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
         lower_errors = SheetFigures(errors_between(nip, [*below, here_below], ORDERS))
-        left = violation(stand)
-        latest = PlateRefined(stand, figures, errors, left, lower, lower_errors, round(count))
-        if stand.settled:
+        left = violation(attempt)
+        latest = PlateRefined(attempt, figures, errors, left, lower, lower_errors, round(count))
+        if attempt.settled:
             history.append(here)
             below.append(here_below)
             best = latest
-            slips = any(side.states.size > 1 for side in stand.zones.sides)
+            slips = any(side.states.size > 1 for side in attempt.zones.sides)
             fewest = FEWEST_WITH_SLIP if slips else FEWEST + nip.is_viscoelastic
             if len(history) >= fewest and max(left, latest.ratio(nip, model)) <= model.tolerance:
                 best = _with_overlap(latest, kernels, model.geometry)
@@ -159,22 +159,24 @@ def refine_plate(
 
 def _with_overlap(refined: PlateRefined, kernels: PairKernels, geometry: Geometry) -> PlateRefined:
     """Return a solution with what it overlaps outside the contacts, too."""
-    left = max(refined.residual, overlap(refined.stand, kernels, geometry))
+    left = max(refined.residual, overlap(refined.attempt, kernels, geometry))
     return with_errors_of_powers(replace(refined, residual=left), geometry)
 
 
 def with_errors_of_powers(refined: PlateRefined, geometry: Geometry) -> PlateRefined:
     """Return a solution that claims slip along its own shear, and errors of torques."""
-    stand = refined.stand
-    works = _slip_works(stand, geometry, _pulls_of(stand, geometry))
-    off = _error_of_torques(stand, refined.figures.powers) if geometry == "finite" else np.zeros(2)
+    attempt = refined.attempt
+    works = _slip_works(attempt, geometry, _pulls_of(attempt, geometry))
+    off = (
+        _error_of_torques(attempt, refined.figures.powers) if geometry == "finite" else np.zeros(2)
+    )
     errors = claimed_of_powers(refined.errors, works, off)
     return replace(refined, errors=errors)
 
 
-def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
+def plate_figures(attempt: PlateAttempt, geometry: Geometry) -> SheetFigures:
     """Return the figures of a solution."""
-    problem, state, meshes = stand.problem, stand.state, stand.problem.meshes
+    problem, state, meshes = attempt.problem, attempt.state, attempt.problem.meshes
     upper = meshes[0]
     peak, place = highest(upper, state.pressure[0])
     x = _turning_places(problem, state)
@@ -182,16 +184,16 @@ def plate_figures(stand: PlateAttempt, geometry: Geometry) -> SheetFigures:
     pulls = [float(mesh.weights @ q) for mesh, q in zip(meshes, state.shear, strict=True)]
     first = [
         state.approach,
-        float(upper.weights @ state.pressure[0]) - stand.lagged.lean,
+        float(upper.weights @ state.pressure[0]) - attempt.lagged.lean,
         state.creepage,
-        stand.zones.width,
+        attempt.zones.width,
         peak,
         *state.creepages,
         *pulls,
         float(tension.max()),
         float(tension.min()),
     ]
-    spent = plate_powers(stand, geometry)
+    spent = plate_powers(attempt, geometry)
     last = [place, float(strain[np.argmax(np.abs(strain))])]
     return SheetFigures(np.array([*first, *spent.array().tolist(), *last]))
 
@@ -212,23 +214,23 @@ def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
     return np.unique(np.append(x, x[turns] + share * np.diff(x)[turns]))
 
 
-def of_lower(figures: SheetFigures, stand: PlateAttempt) -> SheetFigures:
+def of_lower(figures: SheetFigures, attempt: PlateAttempt) -> SheetFigures:
     """Return figures with width, highest pressure and its place on the lower interface."""
-    mesh = stand.problem.meshes[1]
-    peak, place = highest(mesh, stand.state.pressure[1])
+    mesh = attempt.problem.meshes[1]
+    peak, place = highest(mesh, attempt.state.pressure[1])
     values = figures.values.copy()
     values[[NAMES.index(name) for name in ("nip_width", "peak_pressure", "peak_pressure_x")]] = (
-        stand.zones.lower.width,
+        attempt.zones.lower.width,
         peak,
         place,
     )
     return SheetFigures(values)
 
 
-def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
+def plate_powers(attempt: PlateAttempt, geometry: Geometry) -> SheetPowers:
     """Return torques over radii and losses of a solution."""
-    problem, state, pulls = stand.problem, stand.state, _pulls_of(stand, geometry)
-    friction = [lost for lost, _ in _slip_works(stand, geometry, pulls)]
+    problem, state, pulls = attempt.problem, attempt.state, _pulls_of(attempt, geometry)
+    friction = [lost for lost, _ in _slip_works(attempt, geometry, pulls)]
     return SheetPowers(
         friction_upper=friction[0],
         friction_lower=friction[1],
@@ -236,13 +238,13 @@ def plate_powers(stand: PlateAttempt, geometry: Geometry) -> SheetPowers:
         lost_lower=lost_inside(problem, geometry, state, 1),
         pull_upper=pulls[0][0],
         pull_lower=pulls[1][0],
-        into_sheet=_into_sheet(stand),
+        into_sheet=_into_sheet(attempt),
     )
 
 
-def _pulls_of(stand: PlateAttempt, geometry: Geometry) -> list[tuple[float, float]]:
+def _pulls_of(attempt: PlateAttempt, geometry: Geometry) -> list[tuple[float, float]]:
     """Return int q lambda ds of each roller, with all short waves and without those cut [N/mm]."""
-    problem, state, out = stand.problem, stand.state, []
+    problem, state, out = attempt.problem, attempt.state, []
     for side, mesh in enumerate(problem.meshes):
         u = displacements_of(problem, state, side)
         smooth = pull_of(problem, geometry, state, side, u)
@@ -252,62 +254,64 @@ def _pulls_of(stand: PlateAttempt, geometry: Geometry) -> list[tuple[float, floa
     return out
 
 
-def _error_of_torques(stand: PlateAttempt, spent: SheetPowers) -> Array:
+def _error_of_torques(attempt: PlateAttempt, spent: SheetPowers) -> Array:
     """Return by how much torques differ from moments of the tractions, over the radii, (2,) [N/mm].
 
     See `rollnip.sheet.powers.off_the_moments`.
     """
-    nip, off = stand.problem.nip, np.zeros(2)
+    nip, off = attempt.problem.nip, np.zeros(2)
     driving = spent.as_bare.driving_upper, spent.as_bare.driving_lower
-    for side, mesh in enumerate(stand.problem.meshes):
-        u = mesh.uncut(displacements_of(stand.problem, stand.state, side))
-        state = stand.state.side(side)
+    for side, mesh in enumerate(attempt.problem.meshes):
+        u = mesh.uncut(displacements_of(attempt.problem, attempt.state, side))
+        state = attempt.state.side(side)
         off[side] = abs(driving[side] - moment(SIDES[side], nip, "finite", mesh, state, u))
     return off
 
 
-def _pushed(stand: PlateAttempt, side: int) -> Array:
+def _pushed(attempt: PlateAttempt, side: int) -> Array:
     """Return int q ds over the intervals of one interface but the last, (n - 1,) [N/mm]."""
-    mesh, one = stand.problem.meshes[side], stand.problem.pulls[side]
-    return -np.diff(one.of(stand.state.shear[side]).beyond(mesh.inner)[0, :, 0])
+    mesh, one = attempt.problem.meshes[side], attempt.problem.pulls[side]
+    return -np.diff(one.of(attempt.state.shear[side]).beyond(mesh.inner)[0, :, 0])
 
 
 def _slip_works(
-    stand: PlateAttempt, geometry: Geometry, pulls: list[tuple[float, float]]
+    attempt: PlateAttempt, geometry: Geometry, pulls: list[tuple[float, float]]
 ) -> list[tuple[float, float]]:
     """Return what slip on either interface loses, and its work along its own shear [N/mm].
 
     See `rollnip.sheet.powers.slip_works`. ``pulls``: see `_pulls_of`.
     """
-    rates, out = rates_of(geometry, stand.state.creepage), []
-    for side, (lost, reversed_slip) in enumerate(smooth_works(stand)):
+    rates, out = rates_of(geometry, attempt.state.creepage), []
+    for side, (lost, reversed_slip) in enumerate(smooth_works(attempt)):
         whole, smooth = pulls[side]
         lost += SIGNS[side] * rates[side] * (whole - smooth)
         out.append((max(lost, 0.0), reversed_slip + max(-lost, 0.0)))
     return out
 
 
-def smooth_works(stand: PlateAttempt) -> list[tuple[float, float]]:
+def smooth_works(attempt: PlateAttempt) -> list[tuple[float, float]]:
     """Return the same of the creep that the contacts follow [N/mm]."""
-    creeps, out = stand.problem.gaps_and_creeps(stand.state, stand.lagged), []
-    for side, mesh in enumerate(stand.problem.meshes):
+    creeps, out = attempt.problem.gaps_and_creeps(attempt.state, attempt.lagged), []
+    for side, mesh in enumerate(attempt.problem.meshes):
         rate = creeps[side][1][:-1] / mesh.dx[:-1]
-        out.append(slip_losses(_pushed(stand, side) * rate, slip_zones(stand.state.states[side])))
+        out.append(
+            slip_losses(_pushed(attempt, side) * rate, slip_zones(attempt.state.states[side]))
+        )
     return out
 
 
-def _into_sheet(stand: PlateAttempt) -> float:
+def _into_sheet(attempt: PlateAttempt) -> float:
     """Return the power of the shears on the faces of the sheet over V [N/mm].
 
     Its faces run at V_s (1 + e -+ h y''/2); "linear" keeps the products with the strains, which
     are of second order.
     """
-    problem, state = stand.problem, stand.state
+    problem, state = attempt.problem, attempt.state
     rate, taken = sheet_rate(*state.creepages), 0.0
     x = np.concatenate([mesh.inner for mesh in problem.meshes])
-    directions = problem.direction_at(state, x, stand.lagged.curved)
+    directions = problem.direction_at(state, x, attempt.lagged.curved)
     for side, mesh in enumerate(problem.meshes):
-        pushed, sign = _pushed(stand, side), SIGNS[side]
+        pushed, sign = _pushed(attempt, side), SIGNS[side]
         strained = problem.strain_over(state, side)[:-1]
         turned = np.diff(np.split(directions, [problem.meshes[0].inner.size])[side])
         face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]

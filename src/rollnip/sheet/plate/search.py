@@ -82,10 +82,10 @@ class PlateSearch:
         """Return a solution on a first mesh, in linear geometry, whose ends are about right."""
         plain = replace(self, model=replace(self.model, geometry="linear"))
         zones = self._first.around(half_width, count).without_slivers()
-        stand, _ = plain._on_mesh(zones, (count, _Shapes()), (1.0, inf), None)
-        moved = zones.moved(stand.problem, stand.state)
-        lagged = lagged_terms(stand.problem, self.model.geometry, stand.state)
-        return replace(stand, zones=moved, lagged=lagged, off=moved.distance(zones))
+        attempt, _ = plain._on_mesh(zones, (count, _Shapes()), (1.0, inf), None)
+        moved = zones.moved(attempt.problem, attempt.state)
+        lagged = lagged_terms(attempt.problem, self.model.geometry, attempt.state)
+        return replace(attempt, zones=moved, lagged=lagged, misplacement=moved.distance(zones))
 
     @property
     def _first(self) -> FirstZones:
@@ -105,18 +105,18 @@ class PlateSearch:
         """
         placed = closely * self.model.tolerance
         try:
-            stand = self._moved_until(zones, count, before, placed)
+            attempt = self._moved_until(zones, count, before, placed)
         except np.linalg.LinAlgError:
             return replace(before, settled=False)
-        if stand.settled:
-            return stand
-        start = stand.zones if stand.zones.is_proper else zones
+        if attempt.settled:
+            return attempt
+        start = attempt.zones if attempt.zones.is_proper else zones
         try:
-            found = self._first.closer(start, stand.lagged, count)
-            again = self._moved_until(found, count, stand, placed)
+            found = self._first.closer(start, attempt.lagged, count)
+            again = self._moved_until(found, count, attempt, placed)
         except np.linalg.LinAlgError:
-            return stand
-        return again if again.settled or again.off < stand.off else stand
+            return attempt
+        return again if again.settled or again.misplacement < attempt.misplacement else attempt
 
     def _moved_until(
         self, zones: PlateZones, count: int, before: PlateAttempt, placed: float
@@ -129,32 +129,32 @@ class PlateSearch:
         self.moves.refined()
         shapes = _Shapes()
         changes = rough_ones = 0
-        known = min(before.off, 1.0)
-        stand, off = before, inf
+        known = min(before.misplacement, 1.0)
+        attempt, misplacement = before, inf
         fair: PlateAttempt | None = None
         for _ in range(_MOST_MESHES):
             zones = zones.without_slivers()
             if not zones.is_proper:
                 break
-            stand, is_fine = self._on_mesh(zones, (count, shapes), (known, off), stand)
-            problem = stand.problem
-            asked = zones.moved(problem, stand.state)
-            off = asked.distance(zones)
-            known = min(known, off)
-            violated = violation(stand)
+            attempt, is_fine = self._on_mesh(zones, (count, shapes), (known, misplacement), attempt)
+            problem = attempt.problem
+            proposed = zones.moved(problem, attempt.state)
+            misplacement = proposed.distance(zones)
+            known = min(known, misplacement)
+            violated = violation(attempt)
             is_fair = violated <= self.model.tolerance
-            is_met = max(violated, shear_over(stand)) <= self._slack
-            is_placed = off <= placed and stand.settled and is_fine
-            is_placed = is_placed and not pulls_at_edges(stand)
-            is_placed = is_placed and added_to_peaks(stand, asked) <= self.model.tolerance
+            is_met = max(violated, shear_over(attempt)) <= self._slack
+            is_placed = misplacement <= placed and attempt.settled and is_fine
+            is_placed = is_placed and not pulls_at_edges(attempt)
+            is_placed = is_placed and added_to_peaks(attempt, proposed) <= self.model.tolerance
             if is_met and is_placed:
-                return replace(stand, zones=asked, off=off)
+                return replace(attempt, zones=proposed, misplacement=misplacement)
             if is_fair and is_placed and fair is None:
-                fair = replace(stand, zones=asked, off=off)
-            rough = off > _FAIRLY_PLACED and rough_ones < _MOST_ROUGH
+                fair = replace(attempt, zones=proposed, misplacement=misplacement)
+            rough = misplacement > _FAIRLY_PLACED and rough_ones < _MOST_ROUGH
             rough_ones = rough_ones + 1 if rough else 0
             if not (rough or is_met or (is_fair and not is_placed)):
-                found = self._found(stand, asked)
+                found = self._found(attempt, proposed)
                 if found is None:
                     break
                 if not found.is_like(zones):
@@ -164,27 +164,27 @@ class PlateSearch:
                     zones = found
                     shapes.clear()
                     continue
-                asked = zones.moved(problem, stand.state, found)
-                if is_placed and asked.distance(zones) <= placed:
+                proposed = zones.moved(problem, attempt.state, found)
+                if is_placed and proposed.distance(zones) <= placed:
                     break
-            zones = asked if off > _NEARLY_PLACED else self.moves.next(zones, asked)
-        return _unplaced(zones, stand, off) if fair is None else fair
+            zones = proposed if misplacement > _NEARLY_PLACED else self.moves.next(zones, proposed)
+        return _unplaced(zones, attempt, misplacement) if fair is None else fair
 
     def _on_mesh(
         self,
         zones: PlateZones,
         sizes: tuple[int, _Shapes],
-        off: tuple[float, float],
+        misplacement: tuple[float, float],
         before: PlateAttempt | None,
     ) -> tuple[PlateAttempt, bool]:
         """Solve between given ends of zones; ``sizes`` and what is returned: see `_problem`.
 
-        ``off``: how far ends were off, the least and on the last mesh of this size.
+        ``misplacement``: how far ends were off, the least and on the last mesh of this size.
         """
-        problem, is_fine = self._problem(zones, sizes, off[0], before)
+        problem, is_fine = self._problem(zones, sizes, misplacement[0], before)
         start = first_lagged(problem) if before is None else carried(before, problem)
         steps = 0 if before is None else before.steps
-        return self._solved(problem, zones, start, steps, off[1]), is_fine
+        return self._solved(problem, zones, start, steps, misplacement[1]), is_fine
 
     @cached_property
     def boundary(self) -> float:
@@ -268,13 +268,13 @@ class PlateSearch:
         zones: PlateZones,
         lagged: LaggedPlate,
         steps: int,
-        off: float,
+        misplacement: float,
     ) -> PlateAttempt:
         """Solve on two meshes with given zones, in iterations of the lagged terms."""
         nodes = problem.meshes[0].inner, problem.meshes[1].inner
         system = FactorisedPlate.of(problem, zones.states_on(nodes))
         change, still = 0.0, _STILL * self.model.tolerance
-        for _ in range(2 if off > _FAIRLY_PLACED else _MOST_ITERATIONS):
+        for _ in range(2 if misplacement > _FAIRLY_PLACED else _MOST_ITERATIONS):
             state = system.solved(lagged)
             steps += 1
             if has_none(problem, self.model.geometry):
@@ -292,19 +292,19 @@ class PlateSearch:
     def _slack(self) -> float:
         return _SLACK * self.model.tolerance
 
-    def _found(self, stand: PlateAttempt, edges: PlateZones) -> PlateZones | None:
+    def _found(self, attempt: PlateAttempt, edges: PlateZones) -> PlateZones | None:
         """Return the zones between known edges that suit a solution; None where there are none."""
-        if max(mesh.inner.size for mesh in stand.problem.meshes) > _MOST_NODES:
+        if max(mesh.inner.size for mesh in attempt.problem.meshes) > _MOST_NODES:
             return None
         try:
-            state, _ = solve_node_by_node(stand.problem, stand.lagged, stand.zones.edges)
+            state, _ = solve_node_by_node(attempt.problem, attempt.lagged, attempt.zones.edges)
         except np.linalg.LinAlgError:
             return None
-        found = edges.found(stand.problem, state)
+        found = edges.found(attempt.problem, state)
         return None if found is None else found.without_slivers()
 
 
-def _unplaced(zones: PlateZones, stand: PlateAttempt, off: float) -> PlateAttempt:
+def _unplaced(zones: PlateZones, attempt: PlateAttempt, misplacement: float) -> PlateAttempt:
     """Return the last solution, whose ends have not settled."""
-    proper = zones if zones.is_proper else stand.zones
-    return replace(stand, zones=proper, settled=False, off=off)
+    proper = zones if zones.is_proper else attempt.zones
+    return replace(attempt, zones=proper, settled=False, misplacement=misplacement)

@@ -92,21 +92,21 @@ class PlateSolution(SheetSolution):
         return out
 
     def _traction_slope(self) -> float:
-        stand, tractions = self._standing, []
+        attempt, tractions = self._standing, []
         for creepage in (0.0, 1.0):  # the tractions are linear in it
             nip = replace(self.nip, tangential=Creepage(creepage))
-            system = FactorisedPlate.of(replace(stand.problem, nip=nip), stand.state.states)
-            shear = system.solved(stand.lagged).shear[1]
-            tractions.append(float(stand.problem.meshes[1].weights @ shear))
+            system = FactorisedPlate.of(replace(attempt.problem, nip=nip), attempt.state.states)
+            shear = system.solved(attempt.lagged).shear[1]
+            tractions.append(float(attempt.problem.meshes[1].weights @ shear))
         return abs(tractions[1] - tractions[0])
 
     @cached_property
     def _path(self) -> tuple[float, float]:
         """Return the largest square of the path's slope in the contacts, and its curvature."""
-        stand, slope, curvature = self._standing, 0.0, 0.0
-        for mesh in stand.problem.meshes:
+        attempt, slope, curvature = self._standing, 0.0, 0.0
+        for mesh in attempt.problem.meshes:
             x = mesh.inner
-            turned = stand.problem.rotation_at(stand.state, x, stand.lagged.curved)
+            turned = attempt.problem.rotation_at(attempt.state, x, attempt.lagged.curved)
             slope = max(slope, float(np.max(turned**2, initial=0.0)))
             bent = np.abs(np.diff(turned) / np.diff(x))
             curvature = max(curvature, float(np.max(bent, initial=0.0)))
@@ -114,13 +114,13 @@ class PlateSolution(SheetSolution):
 
     def _sheet_profiles(self) -> SheetProfiles:
         x, _ = self._points
-        stand = self._standing
+        attempt = self._standing
         lower = self._lower_round
         return SheetProfiles(
             x,
             self._on_lower(x, lower.shear),
             self._tension(x),
-            stand.problem.strain_at(stand.state, x),
+            attempt.problem.strain_at(attempt.state, x),
             self._slip(1),
             self._on_lower(x, lower.pressure),
             self._height,
@@ -132,7 +132,7 @@ class PlateSolution(SheetSolution):
 
     @property
     def _standing(self) -> PlateAttempt:
-        return self._plate_refined.stand
+        return self._plate_refined.attempt
 
     @property
     def _plate_refined(self) -> PlateRefined:
@@ -160,41 +160,41 @@ class PlateSolution(SheetSolution):
         return surface_strain(x, self.nip, geometry, self.kernels, one, side=SIDES[side])
 
     def _tension(self, x: Array) -> Array:
-        stand = self._standing
-        return stand.problem.tension_at(stand.state, x)
+        attempt = self._standing
+        return attempt.problem.tension_at(attempt.state, x)
 
     @cached_property
     def _height(self) -> Array:
         """Height of the sheet at ``_points``, its thickness left out [mm]."""
-        stand = self._standing
-        return stand.problem.height_at(stand.state, self._points[0], stand.lagged.curved)
+        attempt = self._standing
+        return attempt.problem.height_at(attempt.state, self._points[0], attempt.lagged.curved)
 
     @cached_property
     def _thinned_faces(self) -> Array:
-        stand = self._standing
-        return stand.problem.thinned_at(stand.state, self._points[0])
+        attempt = self._standing
+        return attempt.problem.thinned_at(attempt.state, self._points[0])
 
     @cached_property
     def _points(self) -> tuple[Array, Displacements]:
-        stand, four = self._standing, []
+        attempt, four = self._standing, []
         x = np.unique(np.concatenate([fine_points(self.final), fine_points(self._lower_round)]))
         for side in (0, 1):
-            one, mesh = self._of_side(side), stand.problem.meshes[side]
+            one, mesh = self._of_side(side), attempt.problem.meshes[side]
             acting = np.stack([one.pressure, one.shear * SIGNS[side]], axis=1)
             made = pair_displacements(self.kernels, x, one.nodes, acting)
             xx, zz, xz = made[3 * side : 3 * side + 3]
             rows = np.stack([xz[:, 0] + xx[:, 1], zz[:, 0] - xz[:, 1]])
             if not mesh.kernels.is_linear:
-                rows += mesh.second(stand.state.side(side), x).four[2 * side : 2 * side + 2]
+                rows += mesh.second(attempt.state.side(side), x).four[2 * side : 2 * side + 2]
             four.append(rows)
         return x, Displacements(np.concatenate(four))
 
     def _sliding(self) -> tuple[Array, Array]:
-        stand, state = self._standing, self._standing.state
-        (mu_u, mu_l), (above, below) = stand.problem.frictions, state.pressure
+        attempt, state = self._standing, self._standing.state
+        (mu_u, mu_l), (above, below) = attempt.problem.frictions, state.pressure
         slid = replace(state, shear=(mu_u * above, -mu_l * below), creepages=(0.0, 0.0))
-        (_, upper), (_, lower) = stand.problem.gaps_and_creeps(slid, stand.lagged)
-        first, second = (mesh.dx[:-1] for mesh in stand.problem.meshes)
+        (_, upper), (_, lower) = attempt.problem.gaps_and_creeps(slid, attempt.lagged)
+        first, second = (mesh.dx[:-1] for mesh in attempt.problem.meshes)
         return upper[:-1] / first, lower[:-1] / second
 
     def _slip(self, side: int) -> Array | None:
@@ -202,8 +202,8 @@ class PlateSolution(SheetSolution):
         if speed is None:
             return None
         x, u = self._points
-        stand = self._standing
-        dx, problem, state = np.diff(x), stand.problem, stand.state
+        attempt = self._standing
+        dx, problem, state = np.diff(x), attempt.problem, attempt.state
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = problem.strain_at(state, x)
         face = 0.5 * (strain[1:] + strain[:-1])
@@ -211,13 +211,13 @@ class PlateSolution(SheetSolution):
             SIGNS[side]
             * 0.5
             * problem.sheet.thickness
-            * np.diff(problem.direction_at(state, x, stand.lagged.curved))
+            * np.diff(problem.direction_at(state, x, attempt.lagged.curved))
             / dx
         )
         rate = state.creepages[side] + SIGNS[side] * (stretch - face)
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])
-        for zone in stand.zones.sides[side].zones:
+        for zone in attempt.zones.sides[side].zones:
             within = inside_zone(x, zone)
             out[within] = 0.0
             if zone.state != State.STICK:
@@ -227,8 +227,8 @@ class PlateSolution(SheetSolution):
 
 def plate_round(refined: PlateRefined) -> Round:
     """Return a solution as the round of a bare nip, with the tractions of the upper interface."""
-    stand = refined.stand
-    state, problem = stand.state, stand.problem
+    attempt = refined.attempt
+    state, problem = attempt.state, attempt.problem
     upper, lower = problem.meshes
     shear_lower = values_at(lower, upper.inner) @ state.shear[1]
     one = state.side(0)
@@ -238,7 +238,7 @@ def plate_round(refined: PlateRefined) -> Round:
         shear=one.shear,
         approach=one.approach,
         creepage=state.creepages[0],
-        steps=stand.steps,
+        steps=attempt.steps,
         settled=True,
         states_lower=state.states[1],
         shear_lower=shear_lower,
@@ -247,17 +247,20 @@ def plate_round(refined: PlateRefined) -> Round:
     n = upper.inner.size
     return Round(
         mesh=upper,
-        problem=_as_problem(stand, 0),
+        problem=_as_problem(attempt, 0),
         state=both,
         second=SecondOrder(
-            stand.lagged.clearance[0], np.zeros(n), stand.lagged.offsets[0], stand.lagged.traction
+            attempt.lagged.clearance[0],
+            np.zeros(n),
+            attempt.lagged.offsets[0],
+            attempt.lagged.traction,
         ),
-        zones=stand.zones.upper.zones,
+        zones=attempt.zones.upper.zones,
         figures=refined.figures.watched,
         error=refined.errors.watched,
-        steps=stand.steps,
-        settled=stand.settled,
-        geometry_change=stand.change,
+        steps=attempt.steps,
+        settled=attempt.settled,
+        geometry_change=attempt.change,
         residual=refined.residual,
         cut=refined.cut,
     )
@@ -265,33 +268,33 @@ def plate_round(refined: PlateRefined) -> Round:
 
 def lower_round(refined: PlateRefined, upper: Round) -> Round:
     """Return the round of the lower interface beside that of the upper one."""
-    stand = refined.stand
-    mesh, lagged = stand.problem.meshes[1], stand.lagged
+    attempt = refined.attempt
+    mesh, lagged = attempt.problem.meshes[1], attempt.lagged
     return replace(
         upper,
         mesh=mesh,
-        problem=_as_problem(stand, 1),
-        state=stand.state.side(1, creepage=stand.state.creepage),
+        problem=_as_problem(attempt, 1),
+        state=attempt.state.side(1, creepage=attempt.state.creepage),
         second=SecondOrder(
             lagged.clearance[1], np.zeros(mesh.inner.size), lagged.offsets[1], lagged.traction
         ),
-        zones=stand.zones.lower.zones,
+        zones=attempt.zones.lower.zones,
         figures=refined.lower.watched,
         error=refined.lower_errors.watched,
     )
 
 
-def _as_problem(stand: PlateAttempt, side: int) -> ContactProblem:
+def _as_problem(attempt: PlateAttempt, side: int) -> ContactProblem:
     """Return what a bare nip on the mesh of one interface would be."""
-    problem, mesh = stand.problem, stand.problem.meshes[side]
+    problem, mesh = attempt.problem, attempt.problem.meshes[side]
     curvature = (problem.nip.upper.curvature, problem.nip.lower.curvature)[side]
     control = Control(
-        load=None, approach=stand.state.approach, traction=None, creepage=stand.state.creepage
+        load=None, approach=attempt.state.approach, traction=None, creepage=attempt.state.creepage
     )
     return ContactProblem(
         x=mesh.inner,
         weights=mesh.weights,
-        clearance=0.5 * curvature * mesh.inner**2 + stand.lagged.clearance[side],
+        clearance=0.5 * curvature * mesh.inner**2 + attempt.lagged.clearance[side],
         influence=mesh.influence,
         creep_length=mesh.dx,
         creep_offset=np.zeros(mesh.inner.size),

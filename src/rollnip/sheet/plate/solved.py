@@ -76,7 +76,7 @@ def solve_plate(
                 "tensions, or `bending = false`."
             )
         return None
-    if not asked and not refined.stand.settled:
+    if not asked and not refined.attempt.settled:
         return None
     require_grip(nip, refined)
     found = _solution(nip, model, kernels, refined, (said, perf_counter() - start, version))
@@ -90,7 +90,7 @@ def longest_freely(nip: Nip, model: Model, cache: KernelCache) -> float:
 
 
 def _rests(refined: PlateRefined | None) -> bool:
-    return refined is not None and refined.stand.settled
+    return refined is not None and refined.attempt.settled
 
 
 def _refined(
@@ -136,7 +136,7 @@ def _solution(
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     said, seconds, version = record
-    final, stand = plate_round(refined), refined.stand
+    final, attempt = plate_round(refined), refined.attempt
     both = final, lower_round(refined, final)
     converged, status = _verdict(nip, model, refined, both)
     strains = _strains(nip, model, both)
@@ -150,10 +150,10 @@ def _solution(
         status=status,
         reservations=said,
         solver=SolverInfo(
-            elements=int(max(mesh.nodes.size for mesh in stand.problem.meshes) - 1),
-            iterations=stand.steps,
+            elements=int(max(mesh.nodes.size for mesh in attempt.problem.meshes) - 1),
+            iterations=attempt.steps,
             residual=refined.residual,
-            geometry_change=stand.change,
+            geometry_change=attempt.change,
             seconds=seconds,
             version=version,
         ),
@@ -169,14 +169,14 @@ def _verdict(
     nip: Nip, model: Model, refined: PlateRefined, rounds: tuple[Round, Round]
 ) -> tuple[bool, str]:
     """Return whether the solution is valid on both sides, and a sentence that says why."""
-    stand = refined.stand
-    if not stand.settled and refined.residual <= _HARDLY:
+    attempt = refined.attempt
+    if not attempt.settled and refined.residual <= _HARDLY:
         return False, (
             "Edges, or ends of stick and slip, on the sides of the sheet did not settle "
-            f"(they still moved by {100.0 * stand.off:.1g} % of the width); try another tolerance, "
-            "another load or other tensions, or `bending = false`."
+            f"(they still moved by {100.0 * attempt.misplacement:.1g} % of the width); try another "
+            "tolerance, another load or other tensions, or `bending = false`."
         )
-    if stand.settled and not np.isfinite(refined.errors.values).all():
+    if attempt.settled and not np.isfinite(refined.errors.values).all():
         return False, (
             "Contact, stick and slip settled on one size of mesh only, so no error can be "
             "estimated; try another tolerance, another load or other tensions, or "

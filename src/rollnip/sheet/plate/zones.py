@@ -103,12 +103,12 @@ class PlateZones(SideZones):
         sides = []
         for number, side in enumerate(self.sides):
             x, friction = problem.meshes[number].inner, problem.frictions[number]
-            asked = side.moved(x, state.side(number), friction).breaks
+            proposed = side.moved(x, state.side(number), friction).breaks
             if called is not None:
-                asked = np.where(np.isfinite(asked), asked, called.sides[number].breaks)
+                proposed = np.where(np.isfinite(proposed), proposed, called.sides[number].breaks)
             trailing, leading = side.edges
             most = LONGEST_MOVE * side.width
-            first, last = float(asked[0]), float(asked[-1])
+            first, last = float(proposed[0]), float(proposed[-1])
             # an edge without pressure that rises from it lies in tension: it goes where that ends
             pressed = x[state.pressure[number] > 0.0]
             if pressed.size:
@@ -120,7 +120,7 @@ class PlateZones(SideZones):
                 float(np.clip(first, trailing - most, trailing + most)),
                 float(np.clip(last, leading - most, leading + most)),
             )
-            sides.append(Layout(held(side.breaks, asked, edges), side.states))
+            sides.append(Layout(held(side.breaks, proposed, edges), side.states))
         return PlateZones(sides[0], sides[1])
 
     def without_slivers(self) -> PlateZones:

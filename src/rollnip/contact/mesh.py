@@ -182,6 +182,7 @@ def cubic_error(values: Array, nodes: Array, elements: tuple[int, ...]) -> float
     return float(3.0 / 128.0 * fourth @ (0.5 * (nodes[3:-1] - nodes[1:-3])))
 
 
+@lru_cache(maxsize=8)  # as meshes of one size that differ in the places of their ends
 def _cubics(
     elements: tuple[int, ...], crowding: tuple[float, ...], pieces: int
 ) -> tuple[Array, Array, Array]:
@@ -199,6 +200,8 @@ def _cubics(
         zone = _zone_cubics(n, crowd, pieces)
         values[at_nodes], acting[at_nodes], means[row:rows, column : column + n + 1] = zone
         row, column = rows, column + n
+    for matrix in (values, acting, means):
+        matrix.setflags(write=False)
     return values, acting, means
 
 

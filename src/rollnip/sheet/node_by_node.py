@@ -33,7 +33,8 @@ def solve_node_by_node(problem: SheetProblem, lagged: Lagged, half_width: float)
     approach, creepage, lower = found.unknowns[3 * n :].tolist()
     states = found.states.reshape(2, n).copy()
     states[:, ~found.touches] = State.FREE
-    _part(states, np.stack([above, below]))
+    for one, shear in zip(states, (above, below), strict=True):
+        parted(one, shear)
     return SheetState(
         states=states[0],
         pressure=np.where(found.touches, p, 0.0),
@@ -147,9 +148,13 @@ def _guessed(problem: SheetProblem, half_width: float, depth: float) -> tuple[Ar
     return highest * np.maximum(ellipse, _LEAST), highest
 
 
-def _part(states: States, shears: Array) -> None:
-    """Let the node of less shear stick where slip turns from one sign to the other."""
-    for row, shear in zip(states, np.abs(shears), strict=True):
-        for i in np.flatnonzero((row[:-1] > State.STICK) & (row[1:] > State.STICK)):
-            if row[i] != row[i + 1] and row[i] > State.STICK:
-                row[i + int(shear[i + 1] < shear[i])] = State.STICK
+def parted(states: States, shear: Array) -> States:
+    """Return states of one interface with a node of stick where slip turns its sign.
+
+    It is the one of less shear. ``states`` are changed.
+    """
+    size = np.abs(shear)
+    for i in np.flatnonzero((states[:-1] > State.STICK) & (states[1:] > State.STICK)):
+        if states[i] != states[i + 1] and states[i] > State.STICK:
+            states[i + int(size[i + 1] < size[i])] = State.STICK
+    return states

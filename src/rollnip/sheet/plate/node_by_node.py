@@ -7,8 +7,9 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.contact import Inequalities, State, States, interior_point
+from rollnip.contact import Inequalities, State, interior_point
 from rollnip.nip import LineLoad
+from rollnip.sheet.node_by_node import parted
 from rollnip.sheet.plate.factorised import FURTHER, equations, given
 from rollnip.sheet.plate.system import LaggedPlate, Pair, PlateProblem, PlateState
 
@@ -43,7 +44,7 @@ def solve_node_by_node(
     p_u, q_u, p_l, q_l = np.split(found.unknowns[:end], problem.starts[1:-1])
     approach, upper, lower, height, rotation = found.unknowns[end:].tolist()
     states = [
-        _parted(np.where(touches, slips, State.FREE).astype(np.int8), shear)
+        parted(np.where(touches, slips, State.FREE).astype(np.int8), shear)
         for touches, slips, shear in (
             (found.touches[:n], found.states[:n], q_u),
             (found.touches[n:], found.states[n:], q_l),
@@ -134,12 +135,3 @@ def _ellipse(x: Array, trailing: float, leading: float) -> Array:
     """Return pressures between two edges whose force is 1 N/mm [MPa]."""
     middle, half = 0.5 * (leading + trailing), 0.5 * (leading - trailing)
     return 2.0 / (pi * half) * np.sqrt(np.maximum(1.0 - ((x - middle) / half) ** 2, 0.0))
-
-
-def _parted(states: States, shear: Array) -> States:
-    """Let the node of less shear stick where slip turns from one sign to the other."""
-    size = np.abs(shear)
-    for i in np.flatnonzero((states[:-1] > State.STICK) & (states[1:] > State.STICK)):
-        if states[i] != states[i + 1] and states[i] > State.STICK:
-            states[i + int(size[i + 1] < size[i])] = State.STICK
-    return states

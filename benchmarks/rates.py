@@ -68,6 +68,11 @@ def nip_of(name):
     return rn.read_case(EXAMPLES / f"{name}.toml").nip
 
 
+def without_sheet(name):
+    """The nip of an example, but of its rollers alone."""
+    return replace(nip_of(name), sheet=None)
+
+
 def thicker(nip, number):
     """Another thickness in each call: nothing tabulated before can be used again."""
     first, *others = nip.upper.layers
@@ -190,6 +195,12 @@ SINGLE = {
     "memory_one_elastic": lambda: _afresh(elastic(figure_5_viscoelastic()), FINITE),
     "memory_two": lambda: _afresh(two_on_two(), FINITE),
     "memory_two_elastic": lambda: _afresh(elastic(two_on_two()), FINITE),
+    "sheet_feed": lambda: _again(nip_of("sheet-feed-nip"), FINITE),
+    "sheet_feed_without": lambda: _again(without_sheet("sheet-feed-nip"), FINITE),
+    "sheet_laminator": lambda: _again(nip_of("sheet-laminator"), FINITE),
+    "sheet_laminator_without": lambda: _again(without_sheet("sheet-laminator"), FINITE),
+    "sheet_pull": lambda: _again(nip_of("sheet-web-pull"), FINITE),
+    "sheet_pull_without": lambda: _again(without_sheet("sheet-web-pull"), FINITE),
     "skin_0.2": lambda: _afresh(nip_of("figure-4-top-layer-0.2mm"), CURVED),
     "skin_0.1": lambda: _afresh(nip_of("figure-4-top-layer-0.1mm"), CURVED),
     "skin_0.025": lambda: _afresh(nip_of("figure-4-top-layer-0.025mm"), CURVED),

@@ -49,6 +49,12 @@ def substitutions() -> dict[str, str]:
         "times": _times(units, unit),
         "rates": _rates(rates),
         "near_saves": _span([100.0 * (1.0 - share) for share in near]) + " %",
+        "sheet_takes": _span(
+            [
+                units[f"sheet_{name}"] / units[f"sheet_{name}_without"]
+                for name in ("feed", "laminator", "pull")
+            ]
+        ),
         "memory_takes": _span(
             [units[name] / units[f"{name}_elastic"] for name in ("memory_one", "memory_two")]
         ),

@@ -49,7 +49,8 @@ class FeedChange:
     per_turn : d ln(sheet fed in a turn of the upper roller)/d ln(quantity): what a diameter feeds
         in addition, and otherwise the change of ``upper`` over 1 + feed.
     error : of ``upper`` and ``lower``, the larger: errors of both solutions over the difference of
-        the quantity, and how far the feed bends between them.
+        the quantity, and how far the feed bends between them; one that bends both ways, as where
+        a zone of slip appears, may be further off.
     converged : whether all solutions behind it were verified.
     """
 

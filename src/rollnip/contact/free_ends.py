@@ -41,8 +41,8 @@ _RESPONSE = (-0.6831, -0.1132, -0.0597)
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
 _STICK_BETWEEN = 0.1
-_MOVE_WITHOUT_PLACE = 0.1  # likewise, where no place is asked for
-_LONGEST_MOVE = 0.4  # of an end into a zone, over its length, where ends are asked to cross
+_MOVE_WITHOUT_PLACE = 0.1  # likewise, where none is proposed
+_LONGEST_MOVE = 0.4  # of an end into a zone, over its length, where proposed ends cross
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,8 +174,8 @@ class Layout:
         moves[~self.is_edge] *= 0.1
         return float(np.max(moves)) / other.width
 
-    def towards(self, asked: Layout) -> Layout:
-        """Return this layout with its breaks moved towards those asked for, without crossing.
+    def towards(self, proposed: Layout) -> Layout:
+        """Return this layout with its breaks moved towards proposed ones, without crossing.
 
         No zone becomes more than twice as long, and no break goes further than `_LONGEST_MOVE` of
         the zone that it moves into.
@@ -183,17 +183,17 @@ class Layout:
         lengths = np.diff(self.breaks)
         back = np.concatenate([[self.width], lengths])
         ahead = np.concatenate([lengths, [self.width]])
-        moves = asked.breaks - self.breaks
+        moves = proposed.breaks - self.breaks
         little = np.where(np.isfinite(moves), np.inf, _MOVE_WITHOUT_PLACE * np.minimum(back, ahead))
         furthest_back = np.minimum(np.minimum(_LONGEST_MOVE * back, ahead), little)
         furthest_ahead = np.minimum(np.minimum(_LONGEST_MOVE * ahead, back), little)
         bounded = np.clip(moves, -furthest_back, furthest_ahead)
         return Layout(self.breaks + bounded, self.states)
 
-    def vanishing(self, asked: Layout) -> Mask:
-        """Return which zones would have no length left with the breaks asked for, (m,)."""
+    def vanishing(self, proposed: Layout) -> Mask:
+        """Return which zones would have no length left with the proposed breaks, (m,)."""
         with np.errstate(invalid="ignore"):
-            return np.asarray(~(np.diff(asked.breaks) > 0.0))
+            return np.asarray(~(np.diff(proposed.breaks) > 0.0))
 
     def without(self, number: int, *, keeps_stick: bool) -> Layout | None:
         """Return the layout without one zone; None where slip both ways would be side by side.
@@ -290,14 +290,14 @@ class Layout:
             # At a smooth end nothing is singular: where the first nodes tell no place, for values
             # there are as small as their errors, nodes further inside do.
             furthest = (end - ends[number - 1]) // 3 if smooth else 1
-            off, reach, apart = inf, 0.0, 1
-            while abs(off) > reach and apart <= furthest:
+            step, reach, apart = inf, 0.0, 1
+            while abs(step) > reach and apart <= furthest:
                 beside = [end + inwards * apart * i for i in (1, 2, 3)]
                 distance = [abs(nodes[i] - place) for i in beside]
                 values = [bound * pressure[i] - sign * shear[i] for i in beside]
-                off, apart = _outwards(distance, values, smooth=smooth), 2 * apart
+                step, apart = _outwards(distance, values, smooth=smooth), 2 * apart
                 reach = distance[-1]
-            breaks.append(place - inwards * off)
+            breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)
 
     def singular(self, x: Array, state: ContactState) -> Array:

@@ -9,30 +9,30 @@ import numpy as np
 from rollnip.contact.free_ends import Layout
 from rollnip.contact.problem import Array, Mask
 
-_LONGEST_STEP = 3.0  # of an end, over the longest move asked for, or the last step
+_LONGEST_STEP = 3.0  # of an end, over the longest proposed move, or the last step
 _TINY = float(np.finfo(float).tiny)
 
 
 @dataclass(slots=True)
 class Secants:
-    """Places of the ends of zones, by Broyden's method from what the last meshes asked for.
+    """Places of the ends of zones, by Broyden's method from what the last meshes proposed.
 
-    A solution asks each end to move by its error where the surfaces respond as
-    half-planes and no end moves another. So the slope of the moves asked for is taken as -1 on the
+    A solution proposes to move each end by its error where the surfaces respond as
+    half-planes and no end moves another. So the slope of the proposed moves is taken as -1 on the
     diagonal, and each mesh adds what it shows of the rest. Where a solution says only which way an
-    end should go, it goes half-way to the last place that asked for the other.
+    end should go, it goes half-way to the last place with a proposal for the other.
 
-    A move asked for is the ratio of an inverse square root and a square root in the pressure. Under
+    A proposed move is the ratio of an inverse square root and a square root in the pressure. Under
     a skin that is misplaced by more than its thickness both grow alike: the ratio tells no more
     than the thickness. The inverse square root alone goes on as the edge does, for the solution is
     linear in the gap that the contact closes too much or too little. So the edges of a single zone
     are placed by it where nothing else enters the pressure there, in units in which it is the first
-    move asked for.
+    proposed move.
 
     Attributes
     ----------
-    slope : (m, m) of the moves asked for by the places of the ends; None: not known yet.
-    last : (m,) places of the ends on the last mesh, and the moves asked for there [mm].
+    slope : (m, m) of the proposed moves by the places of the ends; None: not known yet.
+    last : (m,) places of the ends on the last mesh, and the moves proposed there [mm].
     """
 
     slope: Array | None = None
@@ -47,23 +47,23 @@ class Secants:
         self.last = self._within = None
 
     def next(
-        self, layout: Layout, asked: Layout, singular: Array | None, *, is_still: bool
+        self, layout: Layout, proposed: Layout, singular: Array | None, *, is_still: bool
     ) -> Layout:
         """Return the zones with their ends at the next places to try.
 
-        Ends that are asked to go nowhere in particular go part of the way.
+        Ends for which no place is proposed go part of the way.
 
         Parameters
         ----------
         layout : the zones of the last mesh.
-        asked : the same zones with the ends where its solution puts them.
+        proposed : the same zones with the ends where its solution puts them.
         singular : (2,) inverse square roots at the edges of a single zone, see `Layout.singular`;
             None: it is the ratio that counts.
         is_still : whether nothing but the ends will change from this mesh to the next.
         """
-        moves = self._moves(layout, asked, singular)
+        moves = self._moves(layout, proposed, singular)
         given = ~np.isfinite(moves)
-        steps = np.where(given, layout.towards(asked).breaks - layout.breaks, 0.0)
+        steps = np.where(given, layout.towards(proposed).breaks - layout.breaks, 0.0)
         slope = self._learnt(layout.breaks, moves)
         free = ~given
         if free.any():
@@ -83,9 +83,9 @@ class Secants:
         self._longest = float(np.max(np.abs(places - layout.breaks)[free], initial=0.0))
         return Layout(places, layout.states)
 
-    def _moves(self, layout: Layout, asked: Layout, singular: Array | None) -> Array:
-        """Return the moves asked for, by the inverse square roots where these are given."""
-        moves = asked.breaks - layout.breaks
+    def _moves(self, layout: Layout, proposed: Layout, singular: Array | None) -> Array:
+        """Return the proposed moves, by the inverse square roots where these are given."""
+        moves = proposed.breaks - layout.breaks
         if singular is None:
             return moves
         if self._unit is None and np.isfinite(moves).all() and np.all(moves * singular > 0.0):
@@ -93,7 +93,7 @@ class Secants:
         return moves if self._unit is None else self._unit * singular
 
     def _learnt(self, breaks: Array, moves: Array) -> Array:
-        """Return the slope of the moves asked for, with what the last two meshes show of it."""
+        """Return the slope of the proposed moves, with what the last two meshes show of it."""
         if self.slope is None:
             self.slope = -np.eye(moves.size)
         if self.last is not None:
@@ -104,30 +104,30 @@ class Secants:
             self.slope = self.slope + np.outer(missed, step) / max(float(step @ step), _TINY)
         return self.slope
 
-    def _half_way(self, breaks: Array, asked: Array, there: Array) -> Array:
+    def _half_way(self, breaks: Array, proposed: Array, there: Array) -> Array:
         """Return the next places, half-way back for ends that have gone too far to have one.
 
-        The edges of a single zone stay between the last places that asked for either way.
+        The edges of a single zone stay between the last places with a proposal for either way.
         """
         if self._within is None:
             self._within = np.full(breaks.size, -np.inf), np.full(breaks.size, np.inf)
         low, high = self._within
-        low = np.where(asked > breaks, breaks, np.where(low < breaks, low, -np.inf))
-        high = np.where(asked < breaks, breaks, np.where(high > breaks, high, np.inf))
+        low = np.where(proposed > breaks, breaks, np.where(low < breaks, low, -np.inf))
+        high = np.where(proposed < breaks, breaks, np.where(high > breaks, high, np.inf))
         self._within = low, high
         # No transition moves such ends.
         is_alone = breaks.size == 2 and self._unit is None
-        lost = np.isinf(asked) | ((there <= low) | (there >= high) if is_alone else False)
+        lost = np.isinf(proposed) | ((there <= low) | (there >= high) if is_alone else False)
         out = there.copy()
         between = lost & np.isfinite(low) & np.isfinite(high)
         out[between] = 0.5 * (low[between] + high[between])
-        away = lost & ~between & np.isfinite(asked)
-        out[away] = asked[away]
+        away = lost & ~between & np.isfinite(proposed)
+        out[away] = proposed[away]
         return out
 
-    def vanishing(self, layout: Layout, asked: Layout) -> Mask:
+    def vanishing(self, layout: Layout, proposed: Layout) -> Mask:
         """Return the zones of which two solutions in succession leave no length, (m,)."""
-        now = layout.vanishing(asked)
+        now = layout.vanishing(proposed)
         again = np.zeros_like(now) if self._vanishing is None else now & self._vanishing
         self._vanishing = now
         return again

@@ -52,7 +52,7 @@ def with_free_ends(
     kernels: PairKernels,
     layout: Layout,
     before: Round,
-    off: float,
+    misplacement: float,
     fewest: int = 0,
 ) -> Round | None:
     """Solve with zones whose ends are free, on ever finer meshes until the error is small enough.
@@ -61,7 +61,7 @@ def with_free_ends(
     ----------
     layout : the zones to start with, and about where they are.
     before : the solution that the layout comes from.
-    off : how far its zones may be off, over the width of the contact.
+    misplacement : of the ends of its zones at most, over the width of the contact.
     fewest : elements of the first mesh, at least: those of the mesh that the zones come from.
 
     Returns
@@ -71,14 +71,14 @@ def with_free_ends(
     """
     placing = Placing(nip, model, kernels)
     count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
-    start = SearchState(layout, before, off=off)
+    start = SearchState(layout, before, misplacement=misplacement)
     try:
         return _refined(placing, start, count, known=fewest > _ENOUGH_FOR_ZONES)
     except np.linalg.LinAlgError:
         return None
 
 
-def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -> Round | None:
+def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -> Round | None:
     nip, model = placing.nip, placing.model
     history: list[Size] = []
     most = _MOST_ELEMENTS * max(1e-3 / model.tolerance, 1.0) ** (1.0 / 3.0)
@@ -87,36 +87,36 @@ def _refined(placing: Placing, stand: SearchState, count: int, *, known: bool) -
     is_repeated = False  # on a mesh of the same size
     while count <= most:
         closely = bool(history)  # the error may be small enough
-        placed = placing.placed(stand, count, known=known or closely, closely=closely)
+        placed = placing.placed(state, count, known=known or closely, closely=closely)
         if placed is None:
             break
-        stand, latest = placed, placed.before
+        state, latest = placed, placed.before
         wanted, count = count, as_cosines(latest)
-        if history and history[-1].breaks.size != stand.layout.breaks.size:
+        if history and history[-1].breaks.size != state.layout.breaks.size:
             history.clear()  # figures of other zones tell nothing of the errors with these
         roughness = _roughness(nip, model, latest)
         if roughness > 1.0 and not history and nip.friction == 0.0:
             # Without friction zones stay as they are: how rough tractions are says all.
             count, known = _next_count(count, roughness, model.tolerance), True
             continue
-        history.append(sized(nip, model, latest, count, stand.layout.breaks))
-        best = latest = with_errors(nip, latest, history, stand.left)
+        history.append(sized(nip, model, latest, count, state.layout.breaks))
+        best = latest = with_errors(nip, latest, history, state.left)
         ratio = excess(nip, latest, model.tolerance)
-        stand_still = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
-        if largest(ratio, roughness) <= 1.0 and stand_still:
+        zones_rest = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
+        if largest(ratio, roughness) <= 1.0 and zones_rest:
             final = converge(nip, model, latest, placing.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
             if final.residual <= model.tolerance:
                 return with_further_errors(nip, final, history)
             ratio = final.residual / model.tolerance
-            slipping = placing.search.slipping_at_edge(final, stand.layout)
+            slipping = placing.search.slipping_at_edge(final, state.layout)
             if slipping is None and not is_repeated:
                 is_repeated, count = True, wanted  # with ends at their next places
                 history.pop()
                 continue
             if slipping is not None:
                 ratio = 1.0
-            stand = SearchState(slipping or stand.layout, latest)
+            state = SearchState(slipping or state.layout, latest)
         finer = _next_count(count, largest(ratio, roughness), model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer

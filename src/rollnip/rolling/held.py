@@ -77,7 +77,7 @@ def begin(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> tu
     for located in by_nodes(nip, asked, kernels, half_width, SIZES[:ENOUGH_FOR_ZONES]):
         layout = Layout.of(located.zones) if located.settled else None
         if layout is not None:
-            start = SearchState(layout, located, off=1.0 / located.mesh.inner.size)
+            start = SearchState(layout, located, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
                 found = Placing(nip, asked, kernels).placed(start, _COARSE, known=False)
                 if found is not None:
@@ -188,7 +188,7 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
     if layout is not None:
         placing = Placing(nip, model, kernels)
         second = second_order(nip, model.geometry, latest.mesh, latest.state)
-        search = SearchState(layout, replace(latest, second=second), off=_OFF)
+        search = SearchState(layout, replace(latest, second=second), misplacement=_OFF)
         is_crowded = min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.solved_at_moved_ends(search)

@@ -53,7 +53,7 @@ _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
 
 
-# Elements in each zone and how they crowd there.
+# Elements in each zone and their crowding.
 Shape = tuple[Indices, tuple[float, ...]]
 
 
@@ -84,29 +84,29 @@ class Placing:
         None where there is no such solution.
         """
         # The second order held so far is that of a coarser mesh: each size evaluates its own.
-        stand, off, known_to = self._renewed(replace(start, expected=inf)), inf, start.off
+        state, known_to = self._renewed(replace(start, expected=inf)), start.misplacement
         shape: Shape | None = None
         ends, meshes = Secants(), 0
         last: tuple[Layout, Figures] | None = None
         effect = start.effect
         tried: set[bytes] = set()
         most_meshes = self._most_meshes(crowding_of(start.layout.breaks, self.boundary))
-        while meshes < most_meshes and _can_be_placed(stand.layout):
+        while meshes < most_meshes and _can_be_placed(state.layout):
             meshes += 1
-            layout = stand.layout
-            crowd = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
-            if shape is None or _crowds_more(crowd, shape[1]):
+            layout = state.layout
+            crowding = crowding_of(layout.breaks, max(self.boundary, known_to * layout.width))
+            if shape is None or _crowds_more(crowding, shape[1]):
                 # Elements stay as they are while edges are sought: other ones would move the edges.
-                shape = elements_of_zones(layout.breaks, count, crowd), crowd
+                shape = elements_of_zones(layout.breaks, count, crowding), crowding
                 ends.forget()
-                off, last = inf, None
-            latest, asked = self._solved_on(stand, shape)
-            off = asked.distance(layout)
-            known_to = min(known_to, off)
-            is_quiet = self.kernels.is_fixed or stand.is_quiet
-            is_near = not known and off < NEAR_ENOUGH_FOR_SLIP and is_quiet
+                last = None
+            latest, proposed = self._solved_on(state, shape)
+            misplacement = proposed.distance(layout)
+            known_to = min(known_to, misplacement)
+            is_quiet = self.kernels.is_fixed or state.is_quiet
+            is_near = not known and misplacement < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_still = latest.settled and is_quiet
-            there = ends.next(layout, asked, self._singular(latest, layout), is_still=is_still)
+            there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
             if last is not None:
                 effect = _effect_of_ends(last, (layout, latest.figures))
             elif length_excess(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
@@ -115,37 +115,37 @@ class Placing:
             last = layout, latest.figures
             by_figures = closely and self._rests_by_figures
             is_placed = (
-                self._is_placed(layout, asked, known=known, by_figures=by_figures)
-                and (asked.is_proper and is_still)
+                self._is_placed(layout, proposed, known=known, by_figures=by_figures)
+                and (proposed.is_proper and is_still)
                 and not (by_figures and self._changes(latest, left))
                 and not latest.mesh.pulls_at_edge(latest.state.pressure)
                 and not latest.mesh.peaks_at_edge(latest.state.pressure)
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
             )
             other = self.search.other_zones(
-                latest, (layout, asked), ends, is_placed=is_placed, is_near=is_near
+                latest, (layout, proposed), ends, is_placed=is_placed, is_near=is_near
             )
             moves_on = other is not None and other.layout.is_like(layout)
             if other is not None and not moves_on and other.layout.key not in tried:
                 tried.add(other.layout.key)
-                stand, shape, ends = self._renewed(other), None, Secants()
+                state, shape, ends = self._renewed(other), None, Secants()
                 effect = None
                 meshes = meshes if known else 0
             elif is_placed and not moves_on:
                 if not self.search.pulls(latest):
-                    placed = _standing_at(there, latest, stand, off)
+                    placed = _state_at(there, latest, state, misplacement)
                     return replace(placed, left=left, effect=effect)
                 parted = self.search.parted(latest, layout)
                 if parted is None or parted.key in tried:
                     return None
                 tried.add(parted.key)
-                stand, shape, ends = self._renewed(SearchState(parted, latest)), None, Secants()
+                state, shape, ends = self._renewed(SearchState(parted, latest)), None, Secants()
                 effect = None
             else:
-                stand = self._renewed(SearchState(there, latest, stand.change, stand.expected))
+                state = self._renewed(SearchState(there, latest, state.change, state.expected))
         return None
 
-    def solved_at_moved_ends(self, stand: SearchState) -> SearchState | None:
+    def solved_at_moved_ends(self, state: SearchState) -> SearchState | None:
         """Solve on meshes like the last one, with the ends of zones where the last one put them.
 
         Once where ends hardly move, else twice; they need not be placed.
@@ -154,24 +154,24 @@ class Placing:
         -------
         None where the solution calls for other zones.
         """
-        fine = stand.before.mesh.fine
-        shape, off = (np.array(fine.elements), fine.crowding), inf
+        fine = state.before.mesh.fine
+        shape, misplacement = (np.array(fine.elements), fine.crowding), inf
         for _ in range(2):
-            layout, before = stand.layout, off
-            latest, asked = self._solved_on(stand, shape)
-            off = asked.distance(layout)
-            is_placed = self._is_placed(layout, asked, known=True)
+            layout, before = state.layout, misplacement
+            latest, proposed = self._solved_on(state, shape)
+            misplacement = proposed.distance(layout)
+            is_placed = self._is_placed(layout, proposed, known=True)
             if (
-                not asked.is_proper
+                not proposed.is_proper
                 or self.search.wanted(latest, layout, whole=is_placed) is not None
             ):
                 return None
-            if off > max(_HARDLY_MOVED, _WEAKEST_CONTRACTION * before):
+            if misplacement > max(_HARDLY_MOVED, _WEAKEST_CONTRACTION * before):
                 return None
-            stand = _standing_at(asked, latest, stand, off)
-            if off <= _HARDLY_MOVED:
+            state = _state_at(proposed, latest, state, misplacement)
+            if misplacement <= _HARDLY_MOVED:
                 break
-        return stand
+        return state
 
     def mesh_around(self, zones: Layout, count: int, kernels: PairKernels) -> Mesh:
         """Return a mesh on zones that are only known roughly: no solution has them as its own."""
@@ -215,7 +215,7 @@ class Placing:
         return self.nip.friction > 0.0 and self.model.geometry not in FINITE
 
     def _is_placed(
-        self, layout: Layout, asked: Layout, *, known: bool, by_figures: bool = False
+        self, layout: Layout, proposed: Layout, *, known: bool, by_figures: bool = False
     ) -> bool:
         """Return whether the errors of ends of zones are small over the width of the contact.
 
@@ -227,7 +227,7 @@ class Placing:
         length = layout.width
         if known and self.nip.friction == 0.0:
             length = min(length, self.boundary)
-        return asked.distance(layout) * layout.width <= most * length
+        return proposed.distance(layout) * layout.width <= most * length
 
     def _changes(self, latest: Round, left: Figures | None) -> bool:
         """Return whether the figures still change with the ends, by more than iterations may."""
@@ -252,23 +252,23 @@ class Placing:
             most += _MOST_HALVINGS
         return most
 
-    def _renewed(self, stand: SearchState) -> SearchState:
+    def _renewed(self, state: SearchState) -> SearchState:
         """Evaluate the second order of the last solution and what follows, if it still moves."""
-        before = stand.before
-        if self.kernels.is_fixed or stand.is_quiet:
-            return stand
+        before = state.before
+        if self.kernels.is_fixed or state.is_quiet:
+            return state
         mesh = before.mesh.holding(held_from(self.kernels, before))
         second = second_order(self.nip, self.model.geometry, mesh, before.state)
         change = change_of(second, before.second, mesh, self.nip, before.state)
         change /= self.model.tolerance
-        expected = to_come_after(change, stand.change)
+        expected = to_come_after(change, state.change)
         return SearchState(
-            stand.layout, replace(before, mesh=mesh, second=second), change, expected
+            state.layout, replace(before, mesh=mesh, second=second), change, expected
         )
 
-    def _solved_on(self, stand: SearchState, shape: Shape) -> tuple[Round, Layout]:
+    def _solved_on(self, state: SearchState, shape: Shape) -> tuple[Round, Layout]:
         """Solve on one mesh; return the solution, and where it puts the ends of zones."""
-        layout, before = stand.layout, stand.before
+        layout, before = state.layout, state.before
         mesh = _mesh(layout, shape, self.thinnest, before.mesh.kernels)
         start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
         latest = solve_on_mesh(
@@ -334,8 +334,10 @@ def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -
     return mesh_on(nodes, kernels, fine)
 
 
-def _standing_at(asked: Layout, latest: Round, stand: SearchState, off: float) -> SearchState:
+def _state_at(
+    proposed: Layout, latest: Round, state: SearchState, misplacement: float
+) -> SearchState:
     """Return the state of a search that has come to its end."""
-    figures = replace(latest.figures, nip_width=asked.width)
-    latest = replace(latest, zones=asked.zones, figures=figures)
-    return SearchState(asked, latest, stand.change, stand.expected, off)
+    figures = replace(latest.figures, nip_width=proposed.width)
+    latest = replace(latest, zones=proposed.zones, figures=figures)
+    return SearchState(proposed, latest, state.change, state.expected, misplacement)

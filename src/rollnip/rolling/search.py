@@ -40,16 +40,16 @@ class SearchState:
     change : of the second-order terms when the second order of "second" was last evaluated, over
         the tolerance.
     expected : the change that all further evaluations would add up to, over the tolerance.
-    off : how far the ends of zones may be off, over the width of the contact.
+    misplacement : of the ends of zones at most, over the width of the contact.
     left : what that may still change of each figure; None: not known.
-    effect : what ends that are off by the width would change of each figure; None: not known.
+    effect : what ends misplaced by the width would change of each figure; None: not known.
     """
 
     layout: Layout
     before: Round
     change: float = inf
     expected: float = inf
-    off: float = NEAR_ENOUGH_FOR_SLIP
+    misplacement: float = NEAR_ENOUGH_FOR_SLIP
     left: Figures | None = None
     effect: Figures | None = None
 
@@ -85,9 +85,9 @@ class ZoneSearch:
         ends : what meshes with the same zones have shown.
         is_placed, is_near : whether the ends lie where they should, or nearly.
         """
-        layout, asked = zones
+        layout, proposed = zones
         keeps_stick = latest.problem.control.traction is not None
-        for number in np.flatnonzero(ends.vanishing(layout, asked)):
+        for number in np.flatnonzero(ends.vanishing(layout, proposed)):
             fewer = layout.without(int(number), keeps_stick=keeps_stick)
             if fewer is not None:
                 return SearchState(fewer, latest)
@@ -95,7 +95,7 @@ class ZoneSearch:
             return None
         wanted = self.wanted(latest, layout, whole=is_placed)
         if wanted is not None:
-            edges = asked if asked.is_proper else layout.towards(asked)
+            edges = proposed if proposed.is_proper else layout.towards(proposed)
             found = self.between_edges(latest, wanted, edges, self.model.geometry)
             if found is None or is_placed or not found.layout.is_like(layout):
                 return found

@@ -89,9 +89,10 @@ def test_a_peak_at_a_misplaced_edge_is_no_peak(nip, friction):
     breaks[[0, -1]] += inwards, -inwards
     narrow = SearchState(Layout(breaks, layout.states), right)
     placing = Placing(nip, solution.model, solution.kernels)
-    found = placing.solved_at_moved_ends(narrow)
-    assert found is not None
-    false = replace(found.before, error=right.error)
+    # Rounding decides whether other zones are called for: a node of a short one hardly sticks.
+    shape = np.array(right.mesh.fine.elements), right.mesh.fine.crowding
+    found, _ = placing._solved_on(narrow, shape)
+    false = replace(found, error=right.error)
     pressure = false.state.pressure
     assert pressure[1] > pressure[2]
     assert pressure[-2] > pressure[-3]

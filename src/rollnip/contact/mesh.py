@@ -194,10 +194,10 @@ def _cubics(
         matrix[0, 0] = matrix[-1, -1] = 1.0
     means[-1, -2:] = 0.5
     row = column = 0
-    for n, crowd in zip(elements, crowding, strict=True):
+    for n, ratio in zip(elements, crowding, strict=True):
         rows = row + pieces * n
         at_nodes = np.s_[row + 1 : rows + 2, column + 1 : column + n + 2]
-        zone = _zone_cubics(n, crowd, pieces)
+        zone = _zone_cubics(n, ratio, pieces)
         values[at_nodes], acting[at_nodes], means[row:rows, column : column + n + 1] = zone
         row, column = rows, column + n
     for matrix in (values, acting, means):
@@ -206,7 +206,7 @@ def _cubics(
 
 
 @lru_cache(maxsize=128)
-def _zone_cubics(n: int, crowd: float, pieces: int) -> tuple[Array, Array, Array]:
+def _zone_cubics(n: int, ratio: float, pieces: int) -> tuple[Array, Array, Array]:
     """Return what one zone of ``n`` elements adds to `_cubics`.
 
     Values and acting tractions at its finer nodes, (pieces n + 1, n + 1) each, and means between
@@ -223,7 +223,7 @@ def _zone_cubics(n: int, crowd: float, pieces: int) -> tuple[Array, Array, Array
     # Means over x, by Gauss points in the number of the node.
     points, weights = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
     inside = parts[:, None] + 0.5 * (1.0 + points) / pieces
-    slope = weights * _places((interval[:, None, None] + inside) / n, crowd)[1]
+    slope = weights * _places((interval[:, None, None] + inside) / n, ratio)[1]
     cubics = _cubic_weights((interval - first)[:, None, None] + inside)
     mean = (slope[..., None] * cubics).sum(axis=2) / slope.sum(axis=2)[..., None]
     means = np.zeros((rows.size, n + 1))
@@ -275,7 +275,7 @@ def elements_of_zones(
     shares = [sqrt(stop - start) for start, stop in pairwise(breaks.tolist())]
     total = sum(shares)
     fewest = max(FEWEST_ELEMENTS_OF_A_ZONE, round(least_share * count))
-    more = [1.0] * len(shares) if crowding is None else [more_elements(crowd) for crowd in crowding]
+    more = [1.0] * len(shares) if crowding is None else [more_elements(ratio) for ratio in crowding]
     return np.array(
         [
             max(round(count * share / total), fewest) * longer
@@ -284,9 +284,9 @@ def elements_of_zones(
     ).astype(int)
 
 
-def more_elements(crowd: float) -> float:
+def more_elements(ratio: float) -> float:
     """Return the factor by which crowding nodes raises the number of elements of a zone."""
-    return sqrt(float(ellipkm1(crowd * crowd)) / (0.5 * pi))
+    return sqrt(float(ellipkm1(ratio * ratio)) / (0.5 * pi))
 
 
 def cosine_nodes(
@@ -313,14 +313,14 @@ def cosine_nodes(
     return np.asarray(_cosine_values(tuple(elements.tolist()), crowding) @ breaks)
 
 
-def _places(share: Array, crowd: float) -> tuple[Array, Array]:
+def _places(share: Array, ratio: float) -> tuple[Array, Array]:
     """Return the place in a zone of length 1 for a share of its elements, and its derivative."""
-    if crowd == 1.0:
+    if ratio == 1.0:
         return 0.5 * (1.0 - np.cos(pi * share)), 0.5 * pi * np.sin(pi * share)
-    quarter = float(ellipkm1(crowd * crowd))
-    sn, cn, dn, _ = ellipj(quarter * np.minimum(share, 1.0 - share), 1.0 - crowd * crowd)
-    below = crowd * sn * sn / (cn * cn + crowd * sn * sn)
-    slope = 2.0 * quarter * crowd * sn * cn * dn / (cn * cn + crowd * sn * sn) ** 2
+    quarter = float(ellipkm1(ratio * ratio))
+    sn, cn, dn, _ = ellipj(quarter * np.minimum(share, 1.0 - share), 1.0 - ratio * ratio)
+    below = ratio * sn * sn / (cn * cn + ratio * sn * sn)
+    slope = 2.0 * quarter * ratio * sn * cn * dn / (cn * cn + ratio * sn * sn) ** 2
     return np.where(share > 0.5, 1.0 - below, below), slope
 
 
@@ -329,8 +329,8 @@ def _cosine_values(elements: tuple[int, ...], crowding: tuple[float, ...]) -> Ar
     """Return the derivative of `cosine_nodes` by the place of each break."""
     values = np.zeros((sum(elements) + 3, len(elements) + 1))
     first = 1
-    for zone, (n, crowd) in enumerate(zip(elements, crowding, strict=True)):
-        cosine = _places(np.arange(n + 1) / n, crowd)[0]
+    for zone, (n, ratio) in enumerate(zip(elements, crowding, strict=True)):
+        cosine = _places(np.arange(n + 1) / n, ratio)[0]
         cosine[-1] = 1.0
         values[first : first + n + 1, zone] = 1.0 - cosine
         values[first : first + n + 1, zone + 1] = cosine

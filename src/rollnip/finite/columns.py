@@ -86,7 +86,11 @@ class Columns:
         return places, slice(before.size, before.size + under.size)
 
     def under(self, nodes: Array) -> Array:
-        """Return columns as dense as nodes, and denser where the skin asks for it."""
+        """Return columns as dense as nodes; under a skin as its length and both edges ask for.
+
+        There the error of each mesh of columns would show as a change of the correction, which
+        must not come from zones that move a little.
+        """
         places = nodes
         if self.skin < inf:
             near = self.skin * _FROM_EDGE
@@ -97,6 +101,8 @@ class Columns:
         longest = np.minimum(_BESIDE_EDGE * self.skin + _SLOPE * to_edge, _INSIDE * self.skin)
         longest = np.minimum(longest, _OVER_SQUEEZED * self.squeezed)
         even = np.interp(places, nodes, np.linspace(0.0, _COLUMNS, nodes.size))
+        if self.skin < inf:
+            even = _COLUMNS * _crowded(places, self.skin)
         wanted = np.maximum(np.diff(even), lengths / longest)
         number = np.append(0.0, np.cumsum(wanted))
         count = min(int(np.ceil(number[-1] - 1e-6)), _MOST_COLUMNS)
@@ -110,6 +116,19 @@ class Columns:
             bent = _BESIDE_EDGE * self.skin + _SLOPE_BESIDE * ends[-1]
             step = min(_GROWTH * step, self.longest, bent)
         return np.array(ends[1:]) * (self.reach / ends[-1])
+
+
+def _crowded(places: Array, length: float) -> Array:
+    """Return the share of columns before each place, from 0 to 1.
+
+    At either end places go as the square of the share up to that length, as cosines do, and from
+    there to the middle their logarithm goes evenly (`contact.cosine_nodes`).
+    """
+    middle = 0.5 * (places[0] + places[-1])
+    to_end = np.minimum(places - places[0], places[-1] - places)
+    share = np.arcsinh(np.sqrt(to_end / length))
+    share *= 0.5 / np.arcsinh(np.sqrt((middle - places[0]) / length))
+    return np.asarray(np.where(places > middle, 1.0 - share, share))
 
 
 def _skin(roller: Roller) -> float:

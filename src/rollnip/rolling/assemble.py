@@ -209,18 +209,18 @@ def _stretch_terms(
         excess = linear_stretch(dx, hoops, *u.rows) + beyond
     else:
         flat = u if is_flat else mesh.finer(flat)
-        excess = stretch_excess(x, nip, geometry, u)
-        beyond = excess - linear_stretch(dx, hoops, *flat.rows)
+        linear = linear_stretch(dx, hoops, *flat.rows)
+        held = mesh.kernels.held_stretch(x)
+        beyond = stretch_excess(x, nip, geometry, u) - linear if held is None else held
+        excess = linear + beyond
     return mesh.sums(0.5 * (excess[0] + excess[1])), mesh.sums(beyond[0] - beyond[1])
 
 
-def creep(x: Array, nip: Nip, geometry: Geometry, u: Displacements, creepage: float) -> Array:
-    """Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx over each interval, (n - 1,) [mm]."""
-    return creep_of(x[1:] - x[:-1], geometry, stretch_excess(x, nip, geometry, u), creepage)
-
-
 def creep_of(dx: Array, geometry: Geometry, excess: Array, creepage: float) -> Array:
-    """Return the creep over intervals of lengths ``dx``, from `stretch_excess` (n,) [mm]."""
+    """Return the creep over intervals of lengths ``dx``, from `stretch_excess` (n,) [mm].
+
+    Int (1 + xi/2) stretch_u - (1 - xi/2) stretch_l dx.
+    """
     upper, lower = excess
     if geometry in ("linear", "corrected"):
         # Small strains: the product of creepage and strain is left out.

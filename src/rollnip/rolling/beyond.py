@@ -25,8 +25,8 @@ from rollnip.rollers import Roller
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.check import surface_strain_in_nip
-from rollnip.rolling.claimed_errors import skin_thickness
-from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, WeightedSum
+from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
+from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
 from rollnip.rolling.held import Asked, Stage, begin, restarted, solved_next
 from rollnip.rolling.iterations import change_of, with_residual
@@ -81,6 +81,8 @@ def refine_all_orders(
     """
     if skin_thickness(nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
+    if grips_skin(nip):
+        kernels = replace(kernels, held=replace(NO_SECOND_ORDER, stretch=(Stretch(), Stretch())))
     latest, stage = begin(nip, model, kernels, half_width)
     ended: Ended | None = None
     if latest.settled and latest.figures.peak_pressure > 0.0:
@@ -137,7 +139,21 @@ def _mean(shares: Array, fields: Sequence[SecondFields]) -> SecondFields:
         rough.append(WeightedSum(tuple(shares.tolist()), given) if given else None)
     lost = shares @ np.array([one.lost for one in fields])
     both = float(lost[0]), float(lost[1])
-    return SecondFields(tuple(functions), EVERYWHERE, lost=both, rough=tuple(rough))
+    stretch = _mean_stretch(shares, fields)
+    return SecondFields(
+        tuple(functions), EVERYWHERE, lost=both, rough=tuple(rough), stretch=stretch
+    )
+
+
+def _mean_stretch(shares: Array, fields: Sequence[SecondFields]) -> tuple[Stretch, Stretch] | None:
+    upper: list[tuple[float, Spline]] = []
+    lower: list[tuple[float, Spline]] = []
+    for share, one in zip(shares.tolist(), fields, strict=True):
+        if one.stretch is None:
+            return None
+        for parts, surface in zip((upper, lower), one.stretch, strict=True):
+            parts += [(share * weight, f) for weight, f in surface.parts]
+    return Stretch(tuple(upper)), Stretch(tuple(lower))
 
 
 Found = TypeVar("Found")
@@ -189,8 +205,8 @@ def _turns(
     cause: Literal["balance", "contact", "iterations"] = "iterations"
     for iteration in range(MOST_CORRECTIONS):
         try:
-            roughly = stage is Stage.COARSE and latest.is_placed
-            made, is_whole = orders.beyond(latest, roughly=roughly)
+            roughly = stage is Stage.COARSE and latest.is_placed and not grips_skin(nip)
+            made, is_whole = orders.beyond(latest, kernels, roughly=roughly)
         except NoEquilibriumError:
             cause, iterations = "balance", iteration
             break
@@ -245,14 +261,17 @@ def places_by_the_edges(edges: tuple[float, float]) -> Array:
 def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float) -> Round:
     """Return a solution with its violation of the contact conditions under its own correction.
 
-    Where they are met also with the violation by what was cut from that.
+    With the stretch of the displacements themselves, and where the conditions are met also with the
+    violation by what was cut from the correction.
     """
-    checked = with_residual(nip, model, kernels, _with(latest, kernels))
+    assert kernels.held is not None
+    own = replace(kernels, held=replace(kernels.held, stretch=None))
+    checked = with_residual(nip, model, own, _with(latest, own))
     change = largest(change, latest.geometry_change)
     checked = replace(checked, geometry_change=change, settled=True)
-    if not checked.residual <= model.tolerance or kernels.held is None:
+    if not checked.residual <= model.tolerance:
         return checked
-    uncut = replace(kernels, held=kernels.held.uncut)
+    uncut = replace(own, held=replace(kernels.held.uncut, stretch=None))
     cut = with_residual(nip, model, uncut, _with(checked, uncut)).residual
     return replace(checked, cut=cut)
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from rollnip.contact import ContactZone, State
+from rollnip.geometry import linear_stretch
 from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import RINGS, Geometry
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import creep, stretch_excess, surface_depths
+from rollnip.rolling.assemble import creep_of, stretch_excess, surface_depths
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Round, creepage_scale
@@ -47,7 +48,7 @@ def fields_at(
     x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round
 ) -> PairFields:
     """Evaluate a solution at points ``x`` from nothing but its tractions, delta and xi."""
-    return _fields(x, nip, geometry, final, _displacements(x, kernels, final))
+    return _fields(x, nip, geometry, kernels, final, _displacements(x, kernels, final))
 
 
 def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round) -> PairFields:
@@ -59,7 +60,8 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     x = np.concatenate([new, nodes[1:]])
     order = np.argsort(x)
     four = np.concatenate([part.four for part in parts], axis=1)
-    return _fields(x[order], nip, geometry, final, Displacements(four.take(order, axis=1)))
+    u = Displacements(four.take(order, axis=1))
+    return _fields(x[order], nip, geometry, kernels, final, u)
 
 
 def places_outside(nodes: Array, width: float) -> Array:
@@ -84,15 +86,29 @@ def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacement
     return linear + held.at(x)
 
 
-def _fields(x: Array, nip: Nip, geometry: Geometry, final: Round, u: Displacements) -> PairFields:
-    state = final.state
+def _fields(
+    x: Array,
+    nip: Nip,
+    geometry: Geometry,
+    kernels: PairKernels,
+    final: Round,
+    u: Displacements,
+) -> PairFields:
+    state, beyond = final.state, kernels.held_stretch(x)
+    if beyond is None:
+        stretch = stretch_excess(x, nip, geometry, u)
+    else:
+        assert kernels.held is not None
+        flat = Displacements(u.four - kernels.held.at(x).four)
+        hoops = np.array(kernels.hoops)[:, None]
+        stretch = linear_stretch(x[1:] - x[:-1], hoops, *flat.rows) + beyond
     return PairFields(
         x=x,
         pressure=np.interp(x, final.x, final.pressure, left=0.0, right=0.0),
         shear=np.interp(x, final.x, final.shear, left=0.0, right=0.0),
         displacements=u,
         gap=_gap(x, nip, geometry, u) - state.approach,
-        creep=creep(x, nip, geometry, u, state.creepage),
+        creep=creep_of(x[1:] - x[:-1], geometry, stretch, state.creepage),
     )
 
 

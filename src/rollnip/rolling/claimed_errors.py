@@ -14,6 +14,7 @@ import numpy as np
 
 from rollnip.contact import contact_intervals
 from rollnip.contact.coupled import solve_states
+from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.changes import ROUNDING
@@ -245,6 +246,11 @@ def skin_thickness(nip: Nip) -> float:
         and roller.layers[0].material.glassy_modulus > roller.layers[1].material.relaxed_modulus
     ]
     return max(tops, default=0.0)
+
+
+def grips_skin(nip: Nip) -> bool:
+    """Return whether surfaces with friction have a stiff skin, which answers stretch with shear."""
+    return nip.friction > 0.0 and has_stiff_skin((nip.upper, nip.lower))
 
 
 def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:

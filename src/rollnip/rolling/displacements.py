@@ -8,7 +8,7 @@ from typing import Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.finite import Equilibrium
+from rollnip.finite import Equilibrium, Spline
 
 Array = NDArray[np.float64]
 
@@ -94,6 +94,26 @@ class Displacements:
 
 
 @dataclass(frozen=True, slots=True)
+class Stretch:
+    """Stretch of a surface beyond the linear one, integrated along the place x.
+
+    Attributes
+    ----------
+    parts : weights and splines whose sum it is [mm]; beyond their points these go on straight.
+    """
+
+    parts: tuple[tuple[float, Spline], ...] = ()
+
+    def over(self, x: Array) -> Array:
+        """Return the integral over each interval between ``x`` (n,) [mm], (n - 1,)."""
+        total = np.zeros(x.size)
+        for weight, f in self.parts:
+            near = np.clip(x, f.x[0], f.x[-1])
+            total += weight * (f(near) + (x - near) * f(near, 1))
+        return np.diff(total)
+
+
+@dataclass(frozen=True, slots=True)
 class SecondFields:
     """Second-order displacements of both surfaces under given tractions, as functions of x.
 
@@ -106,6 +126,8 @@ class SecondFields:
     rough : the functions before waves were cut that no contact follows; empty: none were.
     bodies : equilibria of the upper and the lower roller; None where there are none.
     share : of the wave numbers that are kept as a rule.
+    stretch : of the upper and the lower surface beyond the linear one, to use whatever the
+        tractions; None: that of the displacements.
     """
 
     functions: tuple[Field | None, ...]
@@ -114,6 +136,7 @@ class SecondFields:
     rough: tuple[Field | None, ...] = ()
     bodies: tuple[Equilibrium | None, Equilibrium | None] = (None, None)
     share: float = 1.0
+    stretch: tuple[Stretch, Stretch] | None = None
 
     @property
     def uncut(self) -> SecondFields:

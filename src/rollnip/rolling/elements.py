@@ -2,21 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.finite import CUT, Equilibrium, FiniteResponse, NoEquilibriumError
+from rollnip.finite import CUT, Equilibrium, FiniteResponse, NoEquilibriumError, Spline
+from rollnip.geometry import linear_stretch
 from rollnip.influence import SurfaceKernels
 from rollnip.interior import SurfaceTractions, loss_per_distance
 from rollnip.nip import Nip
 from rollnip.rollers import Roller
-from rollnip.rolling.displacements import Field, SecondFields
+from rollnip.rolling.assemble import stretch_excess
+from rollnip.rolling.claimed_errors import grips_skin
+from rollnip.rolling.displacements import Displacements, Field, SecondFields, Stretch
 from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.round import Round
-from rollnip.rolling.surfaces import PairKernels
+from rollnip.rolling.surfaces import PairKernels, pair_displacements
 
 Array = NDArray[np.float64]
 Acting = tuple[Array, Array, Array]
@@ -66,11 +69,22 @@ class AllOrders:
         upper = response(nip.upper, kernels.upper, bodies[0])
         return cls(nip, upper, response(nip.lower, kernels.lower, bodies[1]), share)
 
-    def beyond(self, latest: Round, *, roughly: bool) -> tuple[SecondFields, bool]:
-        """Return what all orders add to the linear displacements of a bare nip, see `under`."""
+    def beyond(
+        self, latest: Round, kernels: PairKernels, *, roughly: bool
+    ) -> tuple[SecondFields, bool]:
+        """Return what all orders add to the linear displacements of a bare nip, see `under`.
+
+        With the stretch that belongs to it where friction holds a skin, for the correction of u_x
+        alone is that of a surface turned as those tractions turn it: others would turn it
+        otherwise, and a stiff skin answers the difference with a shear.
+        """
         nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
         sides = (nodes, pressure, shear), (nodes, pressure, -shear)
-        return self.under(sides, latest.state.creepage, roughly=roughly)
+        made, is_whole = self.under(sides, latest.state.creepage, roughly=roughly)
+        if not grips_skin(self.nip):
+            return made, is_whole
+        upper, lower = (_stretch_beyond(self.nip, kernels, side, made, latest) for side in (0, 1))
+        return replace(made, stretch=(upper, lower)), is_whole
 
     def under(
         self, sides: tuple[Acting, Acting], creepage: float, *, roughly: bool
@@ -117,6 +131,27 @@ class AllOrders:
             share=self.share,
         )
         return smooth, is_whole
+
+
+def _stretch_beyond(
+    nip: Nip, kernels: PairKernels, side: int, made: SecondFields, latest: Round
+) -> Stretch:
+    """Return the stretch of a surface beyond the linear one under the tractions of a contact.
+
+    It is that of both the linear displacements and the correction, integrated from node to node,
+    and smooth from column to column.
+    """
+    columns = made.rough[2 * side]
+    if not isinstance(columns, Spline):
+        return Stretch()
+    x = np.union1d(columns.x, latest.nodes)
+    tractions = np.stack([latest.pressure, latest.shear], axis=1)
+    flat = Displacements.under(pair_displacements(kernels, x, latest.nodes, tractions))
+    hoops = np.array(kernels.hoops)[:, None]
+    beyond = stretch_excess(x, nip, "finite", flat + made.at(x))
+    beyond -= linear_stretch(x[1:] - x[:-1], hoops, *flat.rows)
+    total = np.append(0.0, np.cumsum(beyond[side]))[np.searchsorted(x, columns.x)]
+    return Stretch(((1.0, Spline.through(columns.x, total)),))
 
 
 def _equilibrium(response: FiniteResponse | None) -> Equilibrium | None:

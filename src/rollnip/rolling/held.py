@@ -18,7 +18,7 @@ from rollnip.contact import Layout
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
-from rollnip.rolling.claimed_errors import skin_thickness
+from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.iterations import STILL, solve_on_mesh
 from rollnip.rolling.placing import Placing
@@ -106,6 +106,8 @@ def _enough_for_better(nip: Nip, latest: Round, stage: Stage) -> float:
         return _AT_REST
     if not latest.is_placed:
         return NEARLY
+    if grips_skin(nip):
+        return 1.0  # zones need a correction that fits
     waits = nip.is_viscoelastic or skin_thickness(nip) > 0.0
     return _REFINED_LATER_FROM if waits else _REFINED_FROM
 
@@ -182,14 +184,14 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
     """Solve with another correction, which moves free ends of zones.
 
     These move to where the last solution put them; nodes that crowd at a boundary layer need ends
-    that are placed.
+    that are placed, but where friction holds a skin: there the correction moves them more.
     """
     layout, found = Layout.of(latest.zones), None
     if layout is not None:
         placing = Placing(nip, model, kernels)
         second = second_order(nip, model.geometry, latest.mesh, latest.state)
         search = SearchState(layout, replace(latest, second=second), misplacement=_OFF)
-        is_crowded = min(latest.mesh.fine.crowding) < 1.0
+        is_crowded = not grips_skin(nip) and min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.solved_at_moved_ends(search)
             found = found or placing.placed(search, as_cosines(latest), known=True)

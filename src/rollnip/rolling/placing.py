@@ -120,6 +120,7 @@ class Placing:
                 and not (by_figures and self._changes(latest, left))
                 and not latest.mesh.pulls_at_edge(latest.state.pressure)
                 and not latest.mesh.peaks_at_edge(latest.state.pressure)
+                and not (closely and self._exceeds_bound(latest))
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
             )
             other = self.search.other_zones(
@@ -194,11 +195,9 @@ class Placing:
     def still(self) -> float:
         """Change of second-order terms in an iteration that is small enough, over the tolerance.
 
-        Under a stiff skin without friction the pressure beside an edge follows each small change of
-        the gap.
+        Under a stiff skin the pressure beside an edge follows each small change of the gap.
         """
-        sensitive = self.nip.friction == 0.0 and has_stiff_skin((self.nip.upper, self.nip.lower))
-        return STILL_UNDER_SKIN if sensitive else STILL
+        return STILL_UNDER_SKIN if has_stiff_skin((self.nip.upper, self.nip.lower)) else STILL
 
     @cached_property
     def thinnest(self) -> float:
@@ -234,6 +233,20 @@ class Placing:
         if left is None:
             return True
         return excess(self.nip, replace(latest, error=left), self.model.tolerance) > STILL
+
+    def _exceeds_bound(self, latest: Round) -> bool:
+        """Return whether shear beside a transition exceeds its bound by more than a result may.
+
+        A zone of stick that is too long by delta leaves a shear over its bound in its last element,
+        under a stiff skin a large one, for it answers the slightest stretch with shear.
+        """
+        breaks = np.cumsum((0, *latest.mesh.fine.elements))[1:-1]
+        x = latest.mesh.inner
+        over = np.abs(latest.shear) - self.nip.friction * np.maximum(latest.pressure, 0.0)
+        least = self.model.tolerance * self.nip.friction * latest.figures.peak_pressure
+        places = latest.x[over > least]
+        cell = np.searchsorted(x, places)
+        return bool(np.isin(cell, (breaks, breaks + 1)).any())
 
     def _singular(self, latest: Round, layout: Layout) -> Array | None:
         """Return `Layout.singular`; None with friction, or with several zones.

@@ -75,6 +75,12 @@ class PairKernels:
         """Return whether no displacement beyond the linear ones follows the tractions."""
         return self.second_upper is None and self.second_lower is None
 
+    def held_stretch(self, x: Array) -> Array | None:
+        """Stretch of both surfaces beyond the linear one, integrated between ``x`` (n,) if held."""
+        if self.held is None or self.held.stretch is None:
+            return None
+        return np.stack([one.over(x) for one in self.held.stretch])
+
     def second_fields(self, nodes: Array, pressure: Array, shear: Array) -> SecondFields:
         """Displacements beyond the linear ones under tractions at nodes[1:-1], as functions."""
         functions: list[Field | None] = []

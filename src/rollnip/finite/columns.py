@@ -73,24 +73,27 @@ class Columns:
         longest = max(_LONGEST * thick, _LAG * lag)
         return cls(longest, max(reach, far), _skin(roller), _cut(roller), _squeezed(roller))
 
-    def places(self, nodes: Array, pressure: Array) -> tuple[Array, slice]:
+    def places(
+        self, nodes: Array, pressure: Array, *, sheared: bool = False
+    ) -> tuple[Array, slice]:
         """Return where the columns are to be when deformed, and which of them are loaded.
 
-        ``nodes`` (N+1,) and ``pressure`` (N-1,) at nodes[1:-1] are those of a contact.
+        ``nodes`` (N+1,) and ``pressure`` (N-1,) at nodes[1:-1] are those of a contact. Where a
+        stiff skin is ``sheared`` they depend on its edges only: zones of stick and slip move while
+        the correction is sought, and the errors of other columns would move them on.
         """
         on = np.flatnonzero(pressure > 0.0)
-        under = self.under(nodes[on[0] : on[-1] + 3])
+        near = nodes[on[0] : on[-1] + 3]
+        if sheared and self.cut * self.skin >= 0.5 * _WAVES:
+            near = _crowded(near[0], near[-1], _INSIDE * self.skin)
+        under = self.under(near)
         before = self._beside(under[1] - under[0])[::-1]
         after = self._beside(under[-1] - under[-2])
         places = np.concatenate([under[0] - before, under, under[-1] + after])
         return places, slice(before.size, before.size + under.size)
 
     def under(self, nodes: Array) -> Array:
-        """Return columns as dense as nodes; under a skin as its length and both edges ask for.
-
-        There the error of each mesh of columns would show as a change of the correction, which
-        must not come from zones that move a little.
-        """
+        """Return columns as dense as nodes, and denser where the skin asks for it."""
         places = nodes
         if self.skin < inf:
             near = self.skin * _FROM_EDGE
@@ -101,8 +104,6 @@ class Columns:
         longest = np.minimum(_BESIDE_EDGE * self.skin + _SLOPE * to_edge, _INSIDE * self.skin)
         longest = np.minimum(longest, _OVER_SQUEEZED * self.squeezed)
         even = np.interp(places, nodes, np.linspace(0.0, _COLUMNS, nodes.size))
-        if self.skin < inf:
-            even = _COLUMNS * _crowded(places, self.skin)
         wanted = np.maximum(np.diff(even), lengths / longest)
         number = np.append(0.0, np.cumsum(wanted))
         count = min(int(np.ceil(number[-1] - 1e-6)), _MOST_COLUMNS)
@@ -118,17 +119,15 @@ class Columns:
         return np.array(ends[1:]) * (self.reach / ends[-1])
 
 
-def _crowded(places: Array, length: float) -> Array:
-    """Return the share of columns before each place, from 0 to 1.
+def _crowded(start: float, stop: float, length: float) -> Array:
+    """Return nodes at places that go as squares over some length from either edge, as cosines do.
 
-    At either end places go as the square of the share up to that length, as cosines do, and from
-    there to the middle their logarithm goes evenly (`contact.cosine_nodes`).
+    From there to the middle their logarithm goes evenly, see `contact.cosine_nodes`.
     """
-    middle = 0.5 * (places[0] + places[-1])
-    to_end = np.minimum(places - places[0], places[-1] - places)
-    share = np.arcsinh(np.sqrt(to_end / length))
-    share *= 0.5 / np.arcsinh(np.sqrt((middle - places[0]) / length))
-    return np.asarray(np.where(places > middle, 1.0 - share, share))
+    half = 0.5 * (stop - start)
+    even = np.linspace(-1.0, 1.0, _COLUMNS + 1)
+    to_edge = length * np.sinh((1.0 - np.abs(even)) * np.arcsinh(np.sqrt(half / length))) ** 2
+    return np.asarray(np.where(even < 0.0, start + to_edge, stop - to_edge))
 
 
 def _skin(roller: Roller) -> float:

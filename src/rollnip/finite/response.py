@@ -220,7 +220,7 @@ class FiniteResponse:
         if not np.any(pressure > 0.0):
             self.rough, self.lost, self.moved = _nothing(nodes), 0.0, None
             return self.rough
-        places, loaded = self._columns.places(nodes, pressure)
+        places, loaded = self._columns.places(nodes, pressure, sheared=bool(np.any(shear)))
         acting = Acting.on(nodes, pressure, shear)
         try:
             self.share = 1.0

@@ -118,9 +118,7 @@ class Placing:
                 self._is_placed(layout, proposed, known=known, by_figures=by_figures)
                 and (proposed.is_proper and is_still)
                 and not (by_figures and self._changes(latest, left))
-                and not latest.mesh.pulls_at_edge(latest.state.pressure)
-                and not latest.mesh.peaks_at_edge(latest.state.pressure)
-                and not (closely and self._exceeds_bound(latest))
+                and not (_is_false_at_edge(latest) or (closely and self._exceeds_bound(latest)))
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
             )
             other = self.search.other_zones(
@@ -294,6 +292,12 @@ def _effect_of_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures])
     """Return what the last move of the ends changed of the figures, over its length."""
     step = now[0].distance(before[0])
     return now[1].change_from(before[1]).times(1.0 / step if step > 0.0 else 0.0)
+
+
+def _is_false_at_edge(latest: Round) -> bool:
+    """Return whether the pressure at an edge is that of a misplaced one."""
+    pressure = latest.state.pressure
+    return latest.mesh.pulls_at_edge(pressure) or latest.mesh.peaks_at_edge(pressure)
 
 
 def _can_be_placed(layout: Layout) -> bool:

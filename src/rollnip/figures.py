@@ -184,7 +184,7 @@ _SCALARS: tuple[Figure, ...] = (
         label="largest surface strain",
         dimension="share",
         sentence="Most that either surface is stretched or compressed along the nip, as a mean "
-        "over one element.",
+        "over one element; beside a slipping edge it depends on the length of that element.",
         undefined="not looked for",
     ),
 )

@@ -83,7 +83,7 @@ def validity_reservations(
         _nip_strain(nip, final),
         *(_thickness_ratio(side, roller, model) for side, roller in rollers),
         _contact_angle(nip, final),
-        _surface_strain(strains.surface),
+        None if model.geometry == "finite" else _surface_strain(strains.surface),
         _second_order(strains.second),
         _stiff_skin(strains.skin, final.figures.creepage),
         *(_flat_half_space(side, roller, model) for side, roller in rollers),

@@ -365,7 +365,7 @@ def test_random_plates_that_were_not_verified(number):
 
 
 def test_a_plate_that_is_not_verified_says_why():
-    attempt = SimpleNamespace(settled=False, off=2e-3)
+    attempt = SimpleNamespace(settled=False, misplacement=2e-3)
     refined = SimpleNamespace(attempt=attempt, residual=1e-3)
     is_met, said = _verdict(nip_with(BOARD), LINEAR, refined, (None, None))
     assert not is_met

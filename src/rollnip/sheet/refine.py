@@ -39,7 +39,7 @@ ORDERS = 5.0, 3.0  # by which earlier changes count: with the same zones, and wi
 FEWEST = 2  # sizes of mesh before an error is believed
 FEWEST_WITH_SLIP = 3
 _MOST_FAILURES = 3  # sizes of mesh whose zones do not settle
-ROUGHLY, LAST_CLOSELY = 1.0, 0.03  # of the tolerance: allowed error of ends on first, last sizes
+_ROUGHLY, LAST_CLOSELY = 1.0, 0.03  # of the tolerance: allowed error of ends on first, last sizes
 _LAST_COUNT = 60  # elements beyond which ends are placed better
 _ROUNDING = 1e-12
 # Least error of each figure over its scale, times the square of the number of elements; measured
@@ -108,7 +108,7 @@ def refine_sheet(
     failures, last_count = 0, 0
     while count <= MOST_COUNT and failures < _MOST_FAILURES:
         may_be_last = len(history) + 1 >= FEWEST
-        closely = _closely(count) if may_be_last else ROUGHLY
+        closely = _closely(count) if may_be_last else _ROUGHLY
         try:
             attempt = search.placed(attempt.zones, round(count), attempt, closely)
         except np.linalg.LinAlgError:
@@ -171,7 +171,7 @@ def _with_zones_of(
     if not history or history[-1][2].is_like(attempt.zones):
         return history
     try:
-        again = search.placed(attempt.zones, count, attempt, ROUGHLY)
+        again = search.placed(attempt.zones, count, attempt, _ROUGHLY)
     except np.linalg.LinAlgError:
         return history
     if not (again.settled and again.zones.is_like(attempt.zones)):

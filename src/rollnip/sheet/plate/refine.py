@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,9 +29,7 @@ from rollnip.sheet.refine import (
     FEWEST,
     FEWEST_WITH_SLIP,
     FIRST_COUNT,
-    LAST_CLOSELY,
     ORDERS,
-    ROUGHLY,
     claimed_of_powers,
     errors_between,
     next_count,
@@ -127,8 +126,7 @@ def refine_plate(
     attempt = search.begun(half_width, round(count)) if before is None else before
     failed = 0
     while count <= _MOST_COUNT:
-        closely = LAST_CLOSELY if history else ROUGHLY
-        attempt = search.placed(attempt.zones, round(count), attempt, closely)
+        attempt = search.placed(attempt.zones, round(count), attempt)
         figures = plate_figures(attempt, model.geometry)
         here = (count, figures, attempt.zones)
         lower = of_lower(figures, attempt)
@@ -137,12 +135,12 @@ def refine_plate(
         lower_errors = SheetFigures(errors_between(nip, [*below, here_below], ORDERS))
         left = violation(attempt)
         latest = PlateRefined(attempt, figures, errors, left, lower, lower_errors, round(count))
+        slips = any(side.states.size > 1 for side in attempt.zones.sides)
+        fewest = FEWEST_WITH_SLIP if slips else FEWEST + nip.is_viscoelastic
         if attempt.settled:
             history.append(here)
             below.append(here_below)
             best = latest
-            slips = any(side.states.size > 1 for side in attempt.zones.sides)
-            fewest = FEWEST_WITH_SLIP if slips else FEWEST + nip.is_viscoelastic
             if len(history) >= fewest and max(left, latest.ratio(nip, model)) <= model.tolerance:
                 best = _with_overlap(latest, kernels, model.geometry)
                 if best.residual <= model.tolerance:
@@ -152,7 +150,8 @@ def refine_plate(
             best, failed = best or latest, failed + 1
         if failed == _MOST_FAILED:
             break
-        count = next_count(count, latest.ratio(nip, model) / model.tolerance, _MOST_COUNT)
+        left = latest.ratio(nip, model) / model.tolerance if len(history) >= fewest else inf
+        count = next_count(count, left, _MOST_COUNT)
     assert best is not None
     return _with_overlap(best, kernels, model.geometry)
 

@@ -182,8 +182,9 @@ def test_losses_beside_a_slipping_edge_count_the_waves_that_are_cut(monkeypatch,
             # the elements over the depth are few for such stretches: they leave 1 %, and say so
             assert off < 1.1 * claims[name], name
     cuts = [one.refined.cut_losses[0] / one.traction for _, one in solved]
-    # a stiff sheet keeps half of the stretch away, and more at some loads
-    assert max(cuts) > 1.5e-3 if bending else min(cuts) > 2e-3
+    # Without them the power would be off by more than is allowed above: at some loads only where a
+    # stiff sheet keeps half of the stretch away.
+    assert max(cuts) > 1e-3 if bending else min(cuts) > 2e-3
 
 
 @pytest.mark.slow

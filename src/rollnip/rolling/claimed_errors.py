@@ -198,7 +198,7 @@ def model_shares(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]
 
     Of a violation of the contact conditions a part goes into the approach and the peak; twice as
     much into a load at a given approach, which goes as its square, about; and up to all of it into
-    the width and the creepage.
+    the width and the creepage: what is cut, and what the last correction leaves.
     """
     if geometry not in FINITE:
         return dict.fromkeys(_NAMES, 0.0)
@@ -206,7 +206,8 @@ def model_shares(nip: Nip, geometry: Geometry, final: Round) -> dict[str, float]
     left = dict(zip(_NAMES, (approach, 2.0 * approach, rest, rest, approach), strict=True))
     if geometry == "finite" and isfinite(final.residual):
         approach = largest(approach, _SHARE_OF_RESIDUAL * final.residual)
-        left |= {"approach": approach, "load": 2.0 * approach}
+        rest = final.cut + final.residual
+        left |= {"approach": approach, "load": 2.0 * approach, "creepage": rest, "nip_width": rest}
     shares = {name: max(share, left[name]) for name, share in MODEL_SHARES[geometry].items()}
     if _peaks_at_edge(nip, final):
         shares["peak_pressure"] = max(shares["peak_pressure"], SHARE_OF_EDGE_PEAK[geometry])

@@ -74,17 +74,18 @@ class Columns:
         return cls(longest, max(reach, far), _skin(roller), _cut(roller), _squeezed(roller))
 
     def places(
-        self, nodes: Array, pressure: Array, *, sheared: bool = False
+        self, nodes: Array, pressure: Array, *, is_parted: bool = False
     ) -> tuple[Array, slice]:
         """Return where the columns are to be when deformed, and which of them are loaded.
 
-        ``nodes`` (N+1,) and ``pressure`` (N-1,) at nodes[1:-1] are those of a contact. Where a
-        stiff skin is ``sheared`` they depend on its edges only: zones of stick and slip move while
-        the correction is sought, and the errors of other columns would move them on.
+        ``nodes`` (N+1,) and ``pressure`` (N-1,) at nodes[1:-1] are those of a contact. Where it
+        ``is_parted`` into zones of stick and slip, columns of a stiff skin depend on its edges
+        only: zones move while the correction is sought, and the errors of other columns would move
+        them on.
         """
         on = np.flatnonzero(pressure > 0.0)
         near = nodes[on[0] : on[-1] + 3]
-        if sheared and self.cut * self.skin >= 0.5 * _WAVES:
+        if is_parted and self.cut * self.skin >= 0.5 * _WAVES:
             near = _crowded(near[0], near[-1], _INSIDE * self.skin)
         under = self.under(near)
         before = self._beside(under[1] - under[0])[::-1]

@@ -202,6 +202,7 @@ class FiniteResponse:
         rate: float = 1.0,
         *,
         roughly: bool = False,
+        is_parted: bool = False,
     ) -> tuple[Spline, ...]:
         """Return u_x and u_z beyond the linear ones as functions of the present place x.
 
@@ -212,6 +213,7 @@ class FiniteResponse:
         rate : speed of the undeformed surface over that of linear theory.
         roughly : whether less is good enough while tractions are far from their solution: a mesh
             of before if the contact has not moved far, its errors as they were, and half the waves.
+        is_parted : whether stick and slip meet within the contact, see `Columns.places`.
         """
         self._left = _COARSE_RESIDUAL if roughly else LEFT
         self._share_kept = _COARSE_WAVE_SHARE if roughly else 1.0
@@ -220,7 +222,7 @@ class FiniteResponse:
         if not np.any(pressure > 0.0):
             self.rough, self.lost, self.moved = _nothing(nodes), 0.0, None
             return self.rough
-        places, loaded = self._columns.places(nodes, pressure, sheared=bool(np.any(shear)))
+        places, loaded = self._columns.places(nodes, pressure, is_parted=is_parted)
         acting = Acting.on(nodes, pressure, shear)
         try:
             self.share = 1.0

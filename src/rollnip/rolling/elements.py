@@ -80,14 +80,22 @@ class AllOrders:
         """
         nodes, pressure, shear = latest.nodes, latest.pressure, latest.shear
         sides = (nodes, pressure, shear), (nodes, pressure, -shear)
-        made, is_whole = self.under(sides, latest.state.creepage, roughly=roughly)
+        is_parted = len(latest.zones) > 1
+        made, is_whole = self.under(
+            sides, latest.state.creepage, roughly=roughly, is_parted=is_parted
+        )
         if not grips_skin(self.nip):
             return made, is_whole
         upper, lower = (_stretch_beyond(self.nip, kernels, side, made, latest) for side in (0, 1))
         return replace(made, stretch=(upper, lower)), is_whole
 
     def under(
-        self, sides: tuple[Acting, Acting], creepage: float, *, roughly: bool
+        self,
+        sides: tuple[Acting, Acting],
+        creepage: float,
+        *,
+        roughly: bool,
+        is_parted: bool = False,
     ) -> tuple[SecondFields, bool]:
         """Return what all orders add to the linear displacements under tractions of both rollers.
 
@@ -99,6 +107,7 @@ class AllOrders:
             nodes[1:-1] as they act on that roller, (N-1,) [MPa].
         creepage : of the upper roller against the lower one.
         roughly : on a mesh of before as long as the contact has not moved far.
+        is_parted : whether stick and slip meet within the contact.
 
         Returns
         -------
@@ -114,7 +123,9 @@ class AllOrders:
                 functions += [None, None]
                 rough += [None, None]
                 continue
-            functions += response.displacement(*sides[side], rates[side], roughly=roughly)
+            functions += response.displacement(
+                *sides[side], rates[side], roughly=roughly, is_parted=is_parted
+            )
             rough += response.rough
             lost[side] = response.lost
             if not roughly:

@@ -86,7 +86,7 @@ def test_a_point_of_the_table_is_a_path(tree):
 @pytest.mark.parametrize(
     ("change", "said"),
     [
-        ({"model": "tables"}, "shift: must be a table with `model` one of wlf, arrhenius, table"),
+        ({"model": "tables"}, "shift.model: must be one of wlf, arrhenius, table"),
         ({"points": []}, "materials.black.shift.points: must hold two or more pairs"),
         ({"reference": "70 degC"}, "materials.black.shift.reference: must lie within the table"),
         ({"level": []}, 'shift.level: is not a known key; did you mean "levels"?'),
@@ -222,7 +222,7 @@ def test_a_sweep_may_change_a_constant_of_an_energy(tree):
 @pytest.mark.parametrize(
     ("energy", "said"),
     [
-        ({"model": "mooney"}, "energy: must be a table with `model` one of neo-hookean, yeoh,"),
+        ({"model": "mooney"}, "energy.model: must be one of neo-hookean, yeoh,"),
         ({"model": "gent"}, "materials.black.energy.limit: is missing"),
         ({"model": "gent", "limit": -1}, "materials.black.energy.limit: must be positive"),
         ({"model": "gent", "limits": 1}, 'energy.limits: is not a known key; did you mean "limit"'),

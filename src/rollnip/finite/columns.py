@@ -85,7 +85,7 @@ class Columns:
         """
         on = np.flatnonzero(pressure > 0.0)
         near = nodes[on[0] : on[-1] + 3]
-        if is_parted and self.cut * self.skin >= 0.5 * _WAVES:
+        if is_parted and self.cut > 0.0 and self.cut * self.skin >= 0.5 * _WAVES:
             near = _crowded(near[0], near[-1], _INSIDE * self.skin)
         under = self.under(near)
         before = self._beside(under[1] - under[0])[::-1]

@@ -70,7 +70,7 @@ def joint_kernel(
 
     Parameters
     ----------
-    upper, lower : None: a rigid surface; one at least is none.
+    upper, lower : None for a rigid surface; not both.
     has_friction : whether creep and shear matter.
     """
     sides = (upper, 1.0), (lower, -1.0)

@@ -61,7 +61,7 @@ def loss_per_distance(
         return 0.0
     blocks, k, xx, zz, xz = _loss_parts(roller, speed, geometry, _shared_size(tractions))
     phases, kinks = Phases(tractions.places), tractions.kinks
-    # On the first block phases are small.
+    # The first block takes moments (`SMALL_PHASE`), not these sums.
     sums = [np.zeros((2, blocks[0].k.size)), *(phases.sums(block, kinks) for block in blocks[1:])]
     t_x, t_z = tractions.transform(k, np.concatenate(sums, axis=1))
     turning = t_x.real * t_z.imag - t_x.imag * t_z.real  # Im(conj(t_x) t_z)

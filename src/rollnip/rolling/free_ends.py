@@ -62,7 +62,8 @@ def with_free_ends(
     layout : the zones to start with, and about where they are.
     before : the solution that the layout comes from.
     misplacement : of the ends of its zones at most, over the width of the contact.
-    fewest : elements of the first mesh, at least: those of the mesh that the zones come from.
+    fewest : elements of the first mesh, at least: those of the mesh that the zones come from; above
+        `_ENOUGH_FOR_ZONES` zones count as known. 0: no lower bound.
 
     Returns
     -------
@@ -99,6 +100,8 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
             # Without friction zones stay as they are: how rough tractions are says all.
             count, known = _next_count(count, roughness, model.tolerance), True
             continue
+        if is_repeated and history:
+            history.pop()
         history.append(sized(nip, model, latest, count, state.layout.breaks))
         best = latest = with_errors(nip, latest, history, state.left)
         ratio = excess(nip, latest, model.tolerance)
@@ -112,7 +115,6 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
             slipping = placing.search.slipping_at_edge(final, state.layout)
             if slipping is None and not is_repeated:
                 is_repeated, count = True, wanted  # with ends at their next places
-                history.pop()
                 continue
             if slipping is not None:
                 ratio = 1.0

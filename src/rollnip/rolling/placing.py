@@ -354,7 +354,7 @@ def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -
 def _state_at(
     proposed: Layout, latest: Round, state: SearchState, misplacement: float
 ) -> SearchState:
-    """Return the state of a search that has come to its end."""
+    """Return the search with the ends of zones at their proposed places."""
     figures = replace(latest.figures, nip_width=proposed.width)
     latest = replace(latest, zones=proposed.zones, figures=figures)
     return SearchState(proposed, latest, state.change, state.expected, misplacement)

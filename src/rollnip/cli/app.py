@@ -167,7 +167,7 @@ def _say_what_takes_long(problem: Case, model: Model) -> None:
     if model.geometry == "finite" and most >= _MANY_LAYERS:
         sys.stderr.write(
             f'rollnip: {most} layers take long in geometry "finite": 100 some ten seconds, 300 '
-            "minutes. With --geometry curved they take less than a second.\n"
+            "several minutes. With --geometry curved they take less than a second.\n"
         )
 
 

@@ -178,7 +178,7 @@ def _suggestion(
     near = get_close_matches(str(loc[-1]), names, n=1, cutoff=0.7)
     if near:
         return f'; did you mean "{near[0]}"?'
-    for name, other in tables.items():
-        if name in root.model_fields and loc[-1] in other.model_fields:
-            return f" here; it belongs to [{name}]."
+    owners = [name for name, other in tables.items() if loc[-1] in other.model_fields]
+    if len(owners) == 1 and owners[0] in root.model_fields:
+        return f" here; it belongs to [{owners[0]}]."
     return f" here (known: {', '.join(names)})."

@@ -485,7 +485,7 @@ export const DE = {
   "figure.dissipation_viscous": "Viskoser Verlust",
   "figure.dissipation_viscous.hint": "Wärme im Inneren viskoelastischer Schichten, je Breite.",
   "figure.max_surface_strain": "Größte Oberflächendehnung",
-  "figure.max_surface_strain.hint": "Stärkste Dehnung oder Stauchung einer Oberfläche längs des Spalts, als Mittel über ein Element.",
+  "figure.max_surface_strain.hint": "Stärkste Dehnung oder Stauchung einer Oberfläche längs des Spalts, als Mittel über ein Element; neben einem gleitenden Rand hängt sie von der Länge dieses Elements ab.",
   "app.nip": "Spaltbreite",
   "app.page": "Walzenspalt-Rechner · rollnip",
   "hint.skew": "Gekreuzte Achsen öffnen den Spalt an den Enden wie eine Bombierung.",

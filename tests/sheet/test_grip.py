@@ -5,8 +5,9 @@ The load is not given but the approach, so that nothing is known of friction bef
 
 from dataclasses import replace
 
+import numpy as np
 import pytest
-from sheet_nips import HARD, RIGID, nip_with, paper
+from sheet_nips import HARD, RIGID, judge, nip_with, paper
 
 import rollnip as rn
 
@@ -112,10 +113,42 @@ def test_of_equal_sides_the_upper_one_is_named():
         assert pulled(nip, 0.1).sheet.grip.first == "upper"
 
 
+def sliding(creepage):
+    tangential = rn.Creepage(creepage)
+    return nip_with(paper(tension_in=0.2), normal=rn.LineLoad(3.0), tangential=tangential)
+
+
+def strain_at_the_inlet(solution):
+    """du_x/dx + u_z/R of the upper surface at the leading edge, from the tractions alone."""
+    layer = judge("sheet").Covering(2.0, 0.91, 0.5)
+    profiles, edge, period = solution.profiles, solution.zones[-1].stop, 400.0
+    x = np.linspace(-0.5 * period, 0.5 * period, 1 << 14, endpoint=False)
+    k = 2.0 * np.pi * np.fft.rfftfreq(x.size, x[1] - x[0])[1:]
+    p, q = (np.interp(x, profiles.x, y) for y in (profiles.pressure, profiles.shear))
+    p, q = np.fft.rfft(p)[1:], np.fft.rfft(q)[1:]
+    xx, zz, xz = judge("sheet").compliance(k, layer)
+    wave = 1j * k * (xx * q + 1j * xz * p) + (zz * p - 1j * xz * q) / 50.0
+    return np.interp(edge, x, np.fft.irfft(np.append(0.0, wave), x.size))
+
+
+@pytest.mark.parametrize(
+    ("geometry", "sticks", "slides"), [("curved", 0.4, 0.41), ("linear", 0.37, 0.385)]
+)
+def test_the_inlet_sticks_until_the_creepage_exceeds_the_strain_there(geometry, sticks, slides):
+    # Where all slips, shear, and so strain e, do not depend on the creepage xi of the upper side.
+    # It slips at rate xi + (1 + xi/2) e, for the rotation is that of the sheet, too; in "linear" at
+    # xi + e. Below the xi at which that is 0 the surface would creep back: it sticks.
+    before, after = (rn.solve(sliding(xi), rn.Model(geometry=geometry)) for xi in (sticks, slides))
+    strain = -strain_at_the_inlet(after)
+    least = strain / (1.0 - 0.5 * strain) if geometry == "curved" else strain
+    assert before.zones[-1].state == "stick"
+    assert [zone.state for zone in after.zones] == ["slip"]
+    assert before.sheet.creepage_upper < least < after.sheet.creepage_upper
+
+
 def test_an_interface_that_slides_all_over_uses_all_of_its_friction():
     # At finite strain int p dx is 2.4 % more than the load, and so is the traction over friction.
-    # At a creepage of 0.4 some 4 % of the contact stick at the inlet in "curved".
-    nip = nip_with(paper(tension_in=0.2), normal=rn.LineLoad(3.0), tangential=rn.Creepage(0.5))
+    nip = sliding(0.5)
     for geometry in ("curved", "second"):
         solution = rn.solve(nip, rn.Model(geometry=geometry))
         assert [zone.state for zone in solution.zones] == ["slip"]

@@ -175,8 +175,7 @@ class SmoothSolution(Solution):
 
     @cached_property
     def _powers(self) -> Powers:
-        final = self.final
-        return powers(self.nip, self.model.geometry, final.mesh, final.state, final.zones)
+        return powers(self.nip, self.model.geometry, self.final)
 
     @property
     def _heat_beyond(self) -> tuple[float, float]:

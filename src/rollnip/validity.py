@@ -234,7 +234,7 @@ def _skin_stretch(nip: Nip, final: Round) -> float:
     mesh, state = final.mesh, final.state
     if mesh.kernels.is_linear:
         return 0.0
-    linear, present = mesh.linear_displacements(state), mesh.displacements(state)
+    linear, present = mesh.linear_displacements(state), final.displacements
     dx = mesh.dx
     touching = state.pressure > 0.0
     total = 0.0

@@ -51,6 +51,11 @@ class Fine:
     zones: tuple
     figures: Figures
 
+    @property
+    def displacements(self):
+        """At nodes[1:] of the mesh."""
+        return self.mesh.displacements(self.state)
+
 
 @dataclass(frozen=True)
 class Judged:

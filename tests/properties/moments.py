@@ -13,7 +13,7 @@ def moments(solution):
     """
     of, mesh = solution.nip, solution.final.mesh
     x = mesh.fine.nodes[1:]
-    u = mesh.finer(mesh.displacements(solution.final.state))
+    u = mesh.finer(solution.final.displacements)
     depths = surface_depths(x, of, solution.model.geometry, u)
     slopes = 0.5 * np.diff(depths[0] - depths[1]) / np.diff(x)
     p, q = (middle(np.append(t, 0.0)) for t in (solution.pressure, solution.shear))

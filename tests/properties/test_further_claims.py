@@ -17,10 +17,10 @@ from rollnip.rolling.power_balance import rates_of
 MOST = 800  # elements of a reference, for time
 
 
-def public(solution, mesh, state, zones, figures):
+def public(solution, found):
     """The figures of a solution on any mesh, under the names and in the units of the result."""
     nip, geometry = solution.nip, solution.model.geometry
-    of = further_figures(nip, geometry, mesh, state, zones)
+    of, state, figures = further_figures(nip, geometry, found), found.state, found.figures
     rates = rates_of(geometry, state.creepage)
     lost = rates[0] * of.lost_upper + rates[1] * of.lost_lower
     return {
@@ -45,7 +45,7 @@ def check(number, geometry=None):
     pair = reference(solution, most=MOST)
     if pair is None:
         return None
-    rough, fine = (public(solution, f.mesh, f.state, f.zones, f.figures) for f in pair)
+    rough, fine = (public(solution, f) for f in pair)
     ratios = {}
     for name, truth in fine.items():
         value, claimed = getattr(solution, name), solution.error[name]
@@ -99,10 +99,7 @@ def test_claims_are_worth_something():
         solution = solved(random_case(number))
         if isinstance(solution, str) or not solution.converged:
             continue
-        state = solution.final.state
-        of = further_figures(
-            solution.nip, solution.model.geometry, solution.final.mesh, state, solution.final.zones
-        )
+        of = further_figures(solution.nip, solution.model.geometry, solution.final)
         sizes = further_sizes(solution.nip, solution.final, of)
         with np.errstate(divide="ignore", invalid="ignore"):
             shares.append(solution.final.further_error.array() / sizes)

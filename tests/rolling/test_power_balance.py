@@ -220,6 +220,5 @@ def test_the_error_of_a_loss_counts_reversed_slip():
 
 
 def spent_by(solution, **other):
-    final = solution.final
-    state = replace(final.state, **other)
-    return powers(solution.nip, solution.model.geometry, final.mesh, state, final.zones)
+    state = replace(solution.final.state, **other)
+    return powers(solution.nip, solution.model.geometry, replace(solution.final, state=state))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from functools import partial
 from typing import TypeVar, cast
 
@@ -88,18 +88,18 @@ class KernelCache:
         self,
         rollers: tuple[Roller, Roller],
         speed: float | None,
-        geometry: str,
+        kind: Hashable,
         make: Callable[[], _Table],
     ) -> _Table:
         """Return what ``make`` computes for two rollers, from the cache where it is kept.
 
-        ``make`` must compute the same for the same rollers, speed and geometry.
+        ``make`` must compute the same for the same rollers, speed and ``kind``.
         """
         upper, lower = rollers
         key: _Key = (
             (upper.layers, upper.core, upper.radius, _speed_that_counts(upper, speed)),
             (lower.layers, lower.core, lower.radius, _speed_that_counts(lower, speed)),
-            geometry,
+            kind,
         )
         # The value of a key always comes from the same function.
         return cast(_Table, _kept(self._pairs, key, make, self.most))

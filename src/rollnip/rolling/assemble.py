@@ -29,7 +29,7 @@ from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Side
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.largest import largest
-from rollnip.rolling.surfaces import Mesh, has_no_second_order, hoop_curvature
+from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order, hoop_curvature
 
 Array = NDArray[np.float64]
 Bools = NDArray[np.bool_]
@@ -201,19 +201,32 @@ def _stretch_terms(
     first term is the factor of xi less the length of the interval; the second is the part without
     xi less its linear part.
     """
-    x, is_flat = mesh.fine.nodes[1:], flat is u
-    dx, hoops = x[1:] - x[:-1], np.array(mesh.kernels.hoops)[:, None]
-    u = mesh.finer(u)
-    if geometry == "curved":
-        beyond = rotation_stretch(dx, hoops, *u.rows)
-        excess = linear_stretch(dx, hoops, *u.rows) + beyond
-    else:
-        flat = u if is_flat else mesh.finer(flat)
-        linear = linear_stretch(dx, hoops, *flat.rows)
-        held = mesh.kernels.held_stretch(x)
-        beyond = stretch_excess(x, nip, geometry, u) - linear if held is None else held
-        excess = linear + beyond
+    finer = mesh.finer(u)
+    flat = finer if flat is u else mesh.finer(flat)
+    linear, beyond = stretch_parts(mesh.fine.nodes[1:], nip, geometry, mesh.kernels, flat, finer)
+    excess = linear + beyond
     return mesh.sums(0.5 * (excess[0] + excess[1])), mesh.sums(beyond[0] - beyond[1])
+
+
+def stretch_parts(
+    x: Array,
+    nip: Nip,
+    geometry: Geometry,
+    kernels: PairKernels,
+    flat: Displacements,
+    u: Displacements,
+) -> tuple[Array, Array]:
+    """Return `stretch_excess` in two parts: the linear one, and the one beyond that is held if any.
+
+    ``flat``: the linear part of the displacements ``u``.
+    """
+    dx, hoops = x[1:] - x[:-1], np.array(kernels.hoops)[:, None]
+    linear, beyond = linear_stretch(dx, hoops, *flat.rows), kernels.held_stretch(x)
+    if beyond is not None:
+        return linear, beyond
+    if geometry == "curved":
+        return linear, rotation_stretch(dx, hoops, *u.rows)
+    return linear, stretch_excess(x, nip, geometry, u) - linear
 
 
 def creep_of(dx: Array, geometry: Geometry, excess: Array, creepage: float) -> Array:
@@ -249,16 +262,23 @@ def mean_shear(mesh: Mesh, state: ContactState) -> Array:
     return np.asarray(0.5 * (shear + np.append(shear[1:], 0.0)))
 
 
-def stretches(nip: Nip, geometry: Geometry, mesh: Mesh, u: Displacements) -> tuple[Array, Array]:
+def stretches(
+    nip: Nip, geometry: Geometry, mesh: Mesh, u: Displacements, finer: Displacements, slips: Bools
+) -> tuple[Array, Array]:
     """Return `stretch_excess` as solved, and with the short waves that were cut, (2, n) [mm].
 
-    Over the intervals of the finer nodes but the first; ``u``: at nodes[1:].
+    Over the intervals of the finer nodes but the first. Only slip asks for the latter.
+
+    Parameters
+    ----------
+    u, finer : displacements at nodes[1:], and at the finer nodes but the first.
+    slips : (n,) whether the surfaces slip there.
     """
     x = mesh.fine.nodes[1:]
-    excess = stretch_excess(x, nip, geometry, mesh.finer(u))
-    if mesh.kernels.held is None:
+    excess, uncut = stretch_excess(x, nip, geometry, finer), mesh.uncut(u)
+    if uncut is u or not slips.any():
         return excess, excess
-    return excess, stretch_excess(x, nip, geometry, mesh.finer(mesh.uncut(u)))
+    return excess, stretch_excess(x, nip, geometry, mesh.finer(uncut))
 
 
 def pulls(dx: Array, shear: Array, both: tuple[Array, Array], slips: Bools) -> Array:
@@ -343,10 +363,11 @@ def _traction_for_torque(
     No number where the second-order terms have run away: such a solution is not verified.
     """
     assert isinstance(nip.tangential, Torque)
-    x = mesh.fine.nodes[1:]
-    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, mesh.finer(u))
+    x, finer = mesh.fine.nodes[1:], mesh.finer(u)
+    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, finer)
     slips = slip_intervals(x, contact_zones(mesh.inner, state, nip.friction))
-    pull = float(pulls(x[1:] - x[:-1], shear, stretches(nip, geometry, mesh, u), slips)[1])
+    both = stretches(nip, geometry, mesh, u, finer, slips)
+    pull = float(pulls(x[1:] - x[:-1], shear, both, slips)[1])
     if not isfinite(pull):
         return nan
     lost = loss_inside("lower", nip, geometry, mesh, state)

@@ -7,11 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from rollnip.contact import ContactZone, State
-from rollnip.geometry import linear_stretch
 from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import RINGS, Geometry
 from rollnip.nip import LineLoad, Nip
-from rollnip.rolling.assemble import creep_of, stretch_excess, surface_depths
+from rollnip.rolling.assemble import creep_of, stretch_excess, stretch_parts, surface_depths
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Round, creepage_scale
@@ -56,7 +55,7 @@ def fields_between(nip: Nip, geometry: Geometry, kernels: PairKernels, final: Ro
     nodes = final.mesh.nodes
     away = places_outside(nodes, final.figures.nip_width)
     new = np.concatenate([nodes[0] - away, 0.5 * (nodes[1:-1] + nodes[2:]), nodes[-1] + away])
-    parts = _displacements(new, kernels, final), final.mesh.displacements(final.state)
+    parts = _displacements(new, kernels, final), final.displacements
     x = np.concatenate([new, nodes[1:]])
     order = np.argsort(x)
     four = np.concatenate([part.four for part in parts], axis=1)
@@ -94,21 +93,17 @@ def _fields(
     final: Round,
     u: Displacements,
 ) -> PairFields:
-    state, beyond = final.state, kernels.held_stretch(x)
-    if beyond is None:
-        stretch = stretch_excess(x, nip, geometry, u)
-    else:
-        assert kernels.held is not None
-        flat = Displacements(u.four - kernels.held.at(x).four)
-        hoops = np.array(kernels.hoops)[:, None]
-        stretch = linear_stretch(x[1:] - x[:-1], hoops, *flat.rows) + beyond
+    state, flat, held = final.state, u, kernels.held
+    if held is not None and held.stretch is not None:
+        flat = Displacements(u.four - held.at(x).four)
+    linear, beyond = stretch_parts(x, nip, geometry, kernels, flat, u)
     return PairFields(
         x=x,
         pressure=np.interp(x, final.x, final.pressure, left=0.0, right=0.0),
         shear=np.interp(x, final.x, final.shear, left=0.0, right=0.0),
         displacements=u,
         gap=_gap(x, nip, geometry, u) - state.approach,
-        creep=creep_of(x[1:] - x[:-1], geometry, stretch, state.creepage),
+        creep=creep_of(x[1:] - x[:-1], geometry, linear + beyond, state.creepage),
     )
 
 
@@ -207,7 +202,7 @@ def slip_velocity(fields: PairFields, zones: tuple[ContactZone, ...], speed: flo
 def surface_strain_in_nip(nip: Nip, geometry: Geometry, final: Round) -> float:
     """Return the largest strain of either surface in the contact, as a mean over an element."""
     x = final.nodes[1:]
-    u = final.mesh.finer(final.mesh.displacements(final.state))
+    u = final.mesh.finer(final.displacements)
     touching = final.pressure > 0.0
     strains = np.abs(stretch_excess(x, nip, geometry, u) / (x[1:] - x[:-1]))
     return float(strains[:, touching].max(initial=0.0))

@@ -177,7 +177,7 @@ def _with_model(
     """Return the errors, none of them less than that of the geometry model."""
     if geometry not in FINITE or final.further_error is None:
         return further
-    figures = further_of(spent, final.mesh, final.state, final.zones)
+    figures = further_of(spent, final)
     left = _FURTHER_SHARE * further_sizes(nip, final, figures)
     left[-1] = _SHARE_OF_PEAK_PLACE * final.figures.nip_width
     return Further(*np.maximum(further.array(), left).tolist())

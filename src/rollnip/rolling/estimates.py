@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property, partial
 from math import inf
@@ -62,10 +62,8 @@ class Size:
 
 def sized(nip: Nip, model: Model, latest: Round, count: int, breaks: Array) -> Size:
     """Return the results of a round on a mesh of ``count`` elements."""
-    found = latest.mesh, latest.state, latest.zones
-    return Size(
-        count, latest.figures, breaks, partial(further_figures, nip, model.geometry, *found)
-    )
+    further = partial(further_figures, nip, model.geometry, latest)
+    return Size(count, latest.figures, breaks, further)
 
 
 def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | None) -> Round:
@@ -111,18 +109,24 @@ def lag_within(length: float, roller: Roller, speed: float | None) -> float:
 
 
 def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
-    """Return the round with the estimated errors of the further figures.
+    """Return the round with the estimated errors of the further figures, made when asked for."""
+    make = partial(_further_error, nip, latest, tuple(history))
+    return replace(latest, make_further_error=make)
+
+
+def _further_error(nip: Nip, latest: Round, history: Sequence[Size]) -> Further | None:
+    """Return the estimated errors of the further figures; None where there is a single mesh.
 
     Edges that are off as in `with_errors` change tractions by twice that over the width, and with
     them what is handed on and lost, which is quadratic in them; the length by one at either edge.
     """
     sizes = [(size.count, size.further) for size in history]
     error = further_errors(nip, latest, sizes)
-    if error is not None:
-        share = 2.0 * edge_within_memory(nip, latest.mesh) / latest.figures.nip_width
-        more = share * further_sizes(nip, latest, history[-1].further)
-        error = Further(*(error.array() + more).tolist())
-    return replace(latest, further_error=error)
+    if error is None:
+        return None
+    share = 2.0 * edge_within_memory(nip, latest.mesh) / latest.figures.nip_width
+    more = share * further_sizes(nip, latest, history[-1].further)
+    return Further(*(error.array() + more).tolist())
 
 
 def estimated_error(nip: Nip, latest: Round, history: list[Size]) -> Figures:

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from rollnip.contact import ContactState, ContactZone, contact_intervals
+from rollnip.contact import contact_intervals
 from rollnip.model import Geometry
 from rollnip.nip import Nip, Traction
 from rollnip.rolling.changes import errors_from_changes, shown_order
 from rollnip.rolling.power_balance import Powers, powers
 from rollnip.rolling.round import Further, Round, peak_pressure
-from rollnip.rolling.surfaces import Array, Mesh
+from rollnip.rolling.surfaces import Array
 
 _LEAST_SIZE = 0.05  # of what a figure may be at most: the least size that its error counts against
 # Least error over the size, times the square of the number of elements: measured on random nips
@@ -21,17 +21,14 @@ _LEAST_SIZE = 0.05  # of what a figure may be at most: the least size that its e
 _LEAST_ERROR = np.array([0.6, 0.45, 0.45, 1.0, 0.07, 0.07, 2.0, 8.0])
 
 
-def further_figures(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...]
-) -> Further:
-    """Return the further figures of a solution on a mesh."""
-    return further_of(powers(nip, geometry, mesh, state, zones), mesh, state, zones)
+def further_figures(nip: Nip, geometry: Geometry, found: Round) -> Further:
+    """Return the further figures of a solution."""
+    return further_of(powers(nip, geometry, found), found)
 
 
-def further_of(
-    spent: Powers, mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...]
-) -> Further:
+def further_of(spent: Powers, found: Round) -> Further:
     """Return the further figures of a solution whose powers are known."""
+    mesh, state = found.mesh, found.state
     _, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
     return Further(
         traction=float(mesh.weights @ state.shear),
@@ -40,7 +37,7 @@ def further_of(
         friction=spent.friction,
         lost_upper=spent.lost_upper,
         lost_lower=spent.lost_lower,
-        contact_length=sum(stop - start for start, stop in contact_intervals(zones)),
+        contact_length=sum(stop - start for start, stop in contact_intervals(found.zones)),
         peak_pressure_x=place,
     )
 

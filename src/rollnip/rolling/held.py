@@ -177,7 +177,7 @@ def _solved_again(
     else:
         asked = coarsely(model) if stage is Stage.COARSE else model
         found = _placed_again(nip, asked, kernels, latest)
-    return replace(found, error=latest.error, further_error=latest.further_error)
+    return replace(found, error=latest.error, make_further_error=latest.make_further_error)
 
 
 def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:

@@ -64,7 +64,7 @@ def _pressed_in(side: str, roller: Roller, nip: Nip, geometry: Geometry, final: 
     soft = [one.thickness for one in roller.layers if peak >= most * one.material.relaxed_modulus]
     if not soft:
         return np.zeros(0)
-    u = final.mesh.displacements(final.state)
+    u = final.displacements
     inward, sign = (u.z_upper, 1.0) if side == "upper" else (u.z_lower, -1.0)
     deepest = int(np.argmax(np.where(final.state.pressure > 0.0, inward[:-1], -np.inf)))
     if len(roller.layers) == 1 and roller.core is None:

@@ -27,7 +27,6 @@ from math import isnan, nan
 
 import numpy as np
 
-from rollnip.contact import ContactState, ContactZone
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rollers import SIDES
@@ -42,7 +41,8 @@ from rollnip.rolling.assemble import (
     slip_intervals,
     stretches,
 )
-from rollnip.rolling.surfaces import Array, Mesh
+from rollnip.rolling.round import Round
+from rollnip.rolling.surfaces import Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,15 +88,16 @@ def rates_of(geometry: Geometry, creepage: float) -> tuple[float, float]:
     return (1.0, 1.0) if geometry in ("linear", "corrected") else (1.0 + half, 1.0 - half)
 
 
-def powers(
-    nip: Nip, geometry: Geometry, mesh: Mesh, state: ContactState, zones: tuple[ContactZone, ...]
-) -> Powers:
-    """Return torques over radii and losses of a solution on a mesh."""
-    x, u = mesh.fine.nodes[1:], mesh.displacements(state)
-    dx, both = x[1:] - x[:-1], stretches(nip, geometry, mesh, u)
-    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, mesh.finer(u))
-    inside = [slip_intervals(x, (zone,)) for zone in zones]  # none where surfaces stick
-    pull_upper, pull_lower = pulls(dx, shear, both, np.any(inside, axis=0)).tolist()
+def powers(nip: Nip, geometry: Geometry, found: Round) -> Powers:
+    """Return torques over radii and losses of a solution."""
+    mesh, state = found.mesh, found.state
+    x, u = mesh.fine.nodes[1:], found.displacements
+    finer, dx = mesh.finer(u), x[1:] - x[:-1]
+    shear = mean_shear(mesh, state) * arc_ratio(x, nip, geometry, finer)
+    inside = [slip_intervals(x, (zone,)) for zone in found.zones]  # none where surfaces stick
+    slips = np.any(inside, axis=0)
+    both = stretches(nip, geometry, mesh, u, finer, slips)
+    pull_upper, pull_lower = pulls(dx, shear, both, slips).tolist()
     friction = cut = reversed_slip = 0.0
     if nip.friction > 0.0 and not isnan(state.creepage):
         works = [shear * creep_of(dx, geometry, excess, state.creepage) for excess in both]

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import astuple, dataclass
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
 from math import inf, isfinite
 from typing import Literal
 
@@ -12,6 +14,7 @@ from rollnip.contact import ContactProblem, ContactState, ContactZone
 from rollnip.influence import load_weights
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import SecondOrder
+from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Array, Mesh
 
@@ -68,7 +71,7 @@ class Further:
 
     def array(self) -> Array:
         """Return all figures in order, (8,)."""
-        return np.array(astuple(self))
+        return np.array([getattr(self, name) for name in self.__dataclass_fields__])
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +92,7 @@ class Ended:
     change: float
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Round:
     """The solution on one mesh.
 
@@ -106,7 +109,7 @@ class Round:
         "curved", the traction for a torque), relative to approach and creepage.
     residual : largest relative violation of the contact conditions, evaluated again; inf where
         it was not evaluated.
-    further_error : estimated discretisation error of the further figures; None where unknown.
+    make_further_error : evaluates `further_error`, which few ask for; None where unknown.
     cut : largest relative violation of the contact conditions by what "finite" leaves out, because
         it is too short for the contact.
     ended : how far the iterations of "finite" got where they found no solution; None where they
@@ -124,9 +127,19 @@ class Round:
     settled: bool
     geometry_change: float
     residual: float = inf
-    further_error: Further | None = None
+    make_further_error: Callable[[], Further | None] | None = None
     cut: float = 0.0
     ended: Ended | None = None
+
+    @cached_property
+    def displacements(self) -> Displacements:
+        """Displacements at nodes[1:] of the mesh, to the order of the model."""
+        return self.mesh.displacements(self.state)
+
+    @cached_property
+    def further_error(self) -> Further | None:
+        """Estimated discretisation error of the further figures; None where unknown."""
+        return None if self.make_further_error is None else self.make_further_error()
 
     @property
     def is_placed(self) -> bool:

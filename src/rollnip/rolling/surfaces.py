@@ -104,11 +104,8 @@ def pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache | None = None)
     """Tabulate the influence functions of both rollers on one window, or take them from a cache."""
     cache = KernelCache() if cache is None else cache
     make = partial(_pair_kernels, nip, geometry, cache)
-    kernels = cache.pair((nip.upper, nip.lower), nip.speed, geometry, make)
-    if not has_no_second_order(nip, geometry):
-        return kernels
-    joint = joint_kernel(kernels.upper, kernels.lower, has_friction=nip.friction > 0.0)
-    return replace(kernels, joint=joint)
+    kind = geometry, has_no_second_order(nip, geometry), nip.friction > 0.0
+    return cache.pair((nip.upper, nip.lower), nip.speed, kind, make)
 
 
 def has_no_second_order(nip: Nip, geometry: Geometry) -> bool:
@@ -132,7 +129,10 @@ def _pair_kernels(nip: Nip, geometry: Geometry, cache: KernelCache) -> PairKerne
         together = Kernel.stacked((parts[0].together, parts[1].together))
         normal = parts[0].zz + parts[1].zz
     pressed = Ellipses.under(normal, min(nip.upper.radius, nip.lower.radius))
-    return PairKernels(upper, lower, together, pressed, hoops=hoops)
+    joint = None
+    if has_no_second_order(nip, geometry):
+        joint = joint_kernel(upper, lower, has_friction=nip.friction > 0.0)
+    return PairKernels(upper, lower, together, pressed, hoops=hoops, joint=joint)
 
 
 def hoop_curvature(roller: Roller, geometry: Geometry) -> float:
@@ -281,7 +281,7 @@ class Mesh:
     def uncut(self, u: Displacements) -> Displacements:
         """Return displacements at nodes[1:] with the short waves that were cut from those held."""
         held = self.kernels.held
-        if held is None or self.held is None:
+        if held is None or self.held is None or not held.rough:
             return u
         four = held.uncut.at(self.nodes[1:]).four - self.held.four
         return Displacements(u.four + four)

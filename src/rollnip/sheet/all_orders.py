@@ -117,7 +117,8 @@ def solve_by_iteration(
 
     First on a coarse mesh, from the linear displacements, until the changes to come are small. Then
     the mesh is refined, and iterations go on until the contact conditions are met with the
-    corrections that belong to the solution itself.
+    corrections that belong to the solution itself. Only the first correction, under tractions that
+    are far off, may be a rough one: what it lacks would be met again on the finest mesh.
 
     Where they do not settle, with fewer of the short waves.
 
@@ -197,7 +198,7 @@ def _iterate_until_settled(
     for _ in range(MOST_CORRECTIONS):
         attempt, refined = contact.attempt, contact.refined
         sides, creepage = sheeted.sides(attempt), sheeted.creepage(attempt)
-        made, is_whole = orders.under(sides, creepage, roughly=refined is None)
+        made, is_whole = orders.under(sides, creepage, roughly=change == inf)
         smooth = replace(kernels, held=made)
         own = sheeted.holding(attempt, smooth)
         before, change = change, own.change

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from itertools import accumulate, pairwise
@@ -87,6 +88,7 @@ def subdivided(
     elements: Indices,
     crowding: tuple[float, ...] | None = None,
     shortest: float = inf,
+    edges: Sequence[int] = (),
 ) -> Subdivision:
     """Cut every element into equal steps of the node's number, but not those beyond both ends.
 
@@ -99,17 +101,19 @@ def subdivided(
         largest length of the pieces [mm], unless they become too many. The surface of a thin
         incompressible layer moves as the second derivative of the pressure, which straight lines
         longer than the thickness of the layer do not have.
+    edges :
+        numbers of nodes[1:-1] as in `Subdivision`; by default the first and the last.
     """
     counts = tuple(elements.tolist())
     crowding = (1.0,) * len(counts) if crowding is None else crowding
-    longest = float(np.max(np.diff(nodes)))
+    longest = float((nodes[1:] - nodes[:-1]).max())
     most = _MOST_NODE_VALUES // nodes.size**2
     parts = max(min(ceil(longest / shortest), most), _PIECES_PER_ELEMENT)
     values, acting, means = _cubics(counts, crowding, parts)
     finer = _cosine_values(tuple(parts * n for n in counts), crowding)
     finer = finer @ nodes[[1, *_ends(counts)]]
     finer[0], finer[-1] = nodes[0], nodes[-1]
-    edges = 0, nodes.size - 3
+    edges = tuple(edges) or (0, nodes.size - 3)
     return Subdivision(finer, counts, crowding, values, acting, means, edges)
 
 
@@ -284,6 +288,7 @@ def elements_of_zones(
     ).astype(int)
 
 
+@lru_cache(maxsize=128)
 def more_elements(ratio: float) -> float:
     """Return the factor by which crowding nodes raises the number of elements of a zone."""
     return sqrt(float(ellipkm1(ratio * ratio)) / (0.5 * pi))

@@ -103,8 +103,9 @@ class Kernel:
     points_per_octave, first :
         the grid is |x| = 2^((first + j)/points_per_octave).
     coefficients :
-        (6, 2 cells) or (6, 2 cells, channels): polynomials in the fraction of a cell, counted
-        from its end nearer to 0; cells in the order of x, those of x < 0 before those of x > 0.
+        (6, 2 cells) or (6, 2 cells, channels), in tables of half-spaces 2 for 6: polynomials in
+        the fraction of a cell, counted from its end nearer to 0; cells in the order of x, those
+        of x < 0 before those of x > 0.
         On either side the first and the last cell go on linearly in ln|x|, below and beyond the
         grid.
     count :
@@ -121,12 +122,13 @@ class Kernel:
         """Return one kernel with the channels of several kernels on the same grid, in order."""
         count = sum(kernel.count for kernel in kernels)
         first = kernels[0]
-        out = np.zeros((*first.coefficients.shape[:2], _filled_up(count)))
+        terms, cells = max(kernel.coefficients.shape[:2] for kernel in kernels)
+        out = np.zeros((terms, cells, _filled_up(count)))
         start = 0
         for kernel in kernels:
             stop = start + kernel.count
-            part = kernel.coefficients.reshape(*out.shape[:2], -1)
-            out[:, :, start:stop] = part[:, :, : kernel.count]
+            part = kernel.coefficients.reshape(-1, cells, kernel.coefficients[0, 0].size)
+            out[: len(part), :, start:stop] = part[:, :, : kernel.count]
             start = stop
         return cls(first.points_per_octave, first.first, out, count)
 
@@ -159,10 +161,13 @@ class Kernel:
         return value + 1.5 * slope + 0.5 * bend
 
     def __add__(self, other: Kernel) -> Kernel:
-        return replace(self, coefficients=self.coefficients + other.coefficients)
+        fewer, more = sorted((self.coefficients, other.coefficients), key=len)
+        total = more.copy()
+        total[: len(fewer)] += fewer
+        return replace(self, coefficients=total)
 
     def __sub__(self, other: Kernel) -> Kernel:
-        return replace(self, coefficients=self.coefficients - other.coefficients)
+        return self + -1.0 * other
 
     def __mul__(self, factor: float) -> Kernel:
         return replace(self, coefficients=factor * self.coefficients)
@@ -197,16 +202,17 @@ class Kernel:
 
 def _horner(coefficients: Array, cell: Indices, fraction: Array, order: int) -> list[Array]:
     """Polynomials of some cells with their first two derivatives (the second halved)."""
-    top = coefficients[5].take(cell, axis=0)
+    *lower, highest = coefficients
+    top = highest.take(cell, axis=0)
     fraction = _for_channels(fraction, top)
     jet = [top] + [np.zeros(top.shape) for _ in range(order)]
-    coefficient = np.empty(top.shape)
-    for n in range(4, -1, -1):
+    value = np.empty(top.shape)
+    for coefficient in reversed(lower):
         for m in range(order, 0, -1):
             jet[m] *= fraction
             jet[m] += jet[m - 1]
         jet[0] *= fraction
-        jet[0] += coefficients[n].take(cell, axis=0, out=coefficient, mode="clip")
+        jet[0] += coefficient.take(cell, axis=0, out=value, mode="clip")
     return jet
 
 
@@ -293,7 +299,7 @@ def half_space_kernel(window: Window, even: Array, odd: Array) -> Kernel:
     points = np.arange(window.points[0] * n, window.points[1] * n + 1)
     step = log(2.0) / n
     cells = points.size + 1
-    out = np.zeros((6, 2 * cells, _filled_up(even.size)))
+    out = np.zeros((2, 2 * cells, _filled_up(even.size)))
     # F_2 of ln|x| is ln|x| - 3/2, of the sign the sign; the outer cells go on beyond the grid.
     start = step * (points[0] - 1 + np.arange(cells)) + np.euler_gamma - 1.5
     level, slope = np.multiply.outer(start, -even / np.pi), -step * even / np.pi

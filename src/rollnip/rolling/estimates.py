@@ -88,10 +88,11 @@ def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | No
 
 def edge_within_memory(nip: Nip, mesh: Mesh) -> float:
     """Return the error of edges from a memory that is shorter than the elements there [mm]."""
-    nodes, elements = mesh.inner, np.array(mesh.fine.elements)
-    last = np.cumsum(elements) - 1
-    longest = float(np.max(np.diff(nodes)[[*last, *(last - elements + 1)]]))
-    return max(lag_within(longest, roller, nip.speed) for roller in (nip.upper, nip.lower))
+    if not nip.is_viscoelastic:
+        return 0.0
+    last = np.cumsum(mesh.fine.elements) - 1
+    longest = mesh.dx[[*last, *(last - mesh.fine.elements + 1)]].max()
+    return max(lag_within(float(longest), roller, nip.speed) for roller in (nip.upper, nip.lower))
 
 
 def lag_within(length: float, roller: Roller, speed: float | None) -> float:

@@ -347,8 +347,7 @@ def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -
     """Make a mesh whose nodes lie at the ends of zones; ``shortest``: see `subdivided`."""
     nodes = cosine_nodes(layout.breaks, *shape)
     edges = np.cumsum([0, *shape[0]])[layout.is_edge].tolist()
-    fine = replace(subdivided(nodes, *shape, shortest), edges=tuple(edges))
-    return mesh_on(nodes, kernels, fine)
+    return mesh_on(nodes, kernels, subdivided(nodes, *shape, shortest, edges))
 
 
 def _state_at(

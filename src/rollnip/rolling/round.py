@@ -181,11 +181,13 @@ def peaks_alike(pressure: Array) -> list[int]:
     They count as equal where they agree to the four digits that are shown: beside both edges of a
     stiff skin the rounding of a mesh would decide which one is higher.
     """
+    (high,) = (pressure >= (1.0 - _ALIKE) * pressure.max()).nonzero()
+    if high.size < 2:
+        return [int(pressure.argmax())]
     fence = np.concatenate([[-np.inf], pressure, [-np.inf]])
-    peaks = (pressure >= fence[:-2]) & (pressure > fence[2:])
-    high = pressure >= (1.0 - _ALIKE) * np.max(pressure)
-    found = np.flatnonzero(peaks & high)
-    return found.tolist() if found.size else [int(np.argmax(pressure))]
+    is_peak = (pressure[high] >= fence[high]) & (pressure[high] > fence[high + 2])
+    peaks: list[int] = high[is_peak].tolist()
+    return peaks
 
 
 def peak_pressure(x: Array, pressure: Array) -> tuple[float, float]:

@@ -78,6 +78,7 @@ class SheetRefined:
 
 _WIDTH = NAMES.index("nip_width")
 _CREEPAGES = [NAMES.index(name) for name in ("creepage", "creepage_upper", "creepage_lower")]
+_BY_TRACTIONS = range(NAMES.index("traction_upper"), len(NAMES))
 _Size = tuple[float, SheetFigures, Zones]  # elements, figures and zones of a size of mesh
 
 
@@ -148,14 +149,14 @@ def _errors(nip: Nip, attempt: SheetAttempt, history: list[_Size]) -> SheetFigur
     """Return the estimated errors of a solution, the last of some sizes of mesh.
 
     They are those of the mesh, and what a memory does that is shorter than its elements, on which
-    all sizes agree: to the width, and twice its share to a creepage that follows from a traction,
-    as without a sheet.
+    all sizes agree: to the width, and twice its share to a creepage that follows from a traction
+    and to all that tractions make, as without a sheet.
     """
     errors, figures = errors_between(nip, history, ORDERS), history[-1][1]
     lag = edge_within_memory(nip, attempt.problem.mesh)
     errors[_WIDTH] += lag
-    creepages = _CREEPAGES[isinstance(nip.tangential, Creepage) :]
-    errors[creepages] += 2.0 * lag / figures.nip_width * scales(nip, figures)[creepages]
+    by_edges = [*_CREEPAGES[isinstance(nip.tangential, Creepage) :], *_BY_TRACTIONS]
+    errors[by_edges] += 2.0 * lag / figures.nip_width * scales(nip, figures)[by_edges]
     return SheetFigures(errors)
 
 

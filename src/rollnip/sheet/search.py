@@ -141,7 +141,7 @@ class SheetSearch:
             steps = attempt.steps
             called = _ZonesCalledFor(attempt, self._slack)
             is_near = known <= _NEARLY_PLACED
-            proposed, are_clear = zones.moved(problem, attempt.state, called, is_near=is_near)
+            proposed = zones.moved(problem, attempt.state, called, is_near=is_near)
             misplacement = proposed.distance(zones)
             near = known = min(known, misplacement)
             is_met = violation(attempt) <= self._slack
@@ -153,7 +153,7 @@ class SheetSearch:
                 stay = stay or moves or changes > 0 or called.are_like
             else:
                 stay = stay or (moves and called.are_like)
-            if stay and are_clear:
+            if stay:
                 if misplacement <= placed and attempt.settled and is_fine and is_met:
                     return replace(attempt, zones=proposed, misplacement=misplacement)
                 zones = (
@@ -163,7 +163,7 @@ class SheetSearch:
             changes += 1
             if changes > _MOST_CHANGES:
                 break
-            other = self._other(attempt, proposed, near=are_clear)
+            other = self._other(attempt, proposed)
             attempt, zones = (attempt, proposed) if other is None else other
             steps, elements = attempt.steps, None
         if attempt is None:
@@ -252,16 +252,10 @@ class SheetSearch:
     def _slack(self) -> float:
         return min(self.model.tolerance, _SLACK)
 
-    def _other(
-        self, attempt: SheetAttempt, edges: Zones, *, near: bool
-    ) -> tuple[SheetAttempt, Zones] | None:
-        """Find other zones between known edges, node by node; None where there are none.
-
-        ``near``: whether a few nodes at most may have other states.
-        """
-        problem, state = attempt.problem, None
-        if near:
-            state = slipping(problem, attempt.state, attempt.lagged, self._slack)
+    def _other(self, attempt: SheetAttempt, edges: Zones) -> tuple[SheetAttempt, Zones] | None:
+        """Find other zones between known edges, node by node; None where there are none."""
+        problem = attempt.problem
+        state = slipping(problem, attempt.state, attempt.lagged, self._slack)
         if state is None:
             state = solve_node_by_node(problem, attempt.lagged, 0.5 * attempt.zones.width)
         zones = Zones.found(problem.mesh.inner, state, problem.frictions, edges.edges)

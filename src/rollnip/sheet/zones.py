@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol, Self
 
@@ -129,38 +130,42 @@ class Zones(SideZones):
 
     def moved(
         self, problem: SheetProblem, state: SheetState, called: LazyZones, *, is_near: bool
-    ) -> tuple[Zones, bool]:
+    ) -> Zones:
         """Return the zones with their breaks moved to where a solution with them puts them.
 
         ``called``: like zones, of the states that the solution calls for. They say where a
         transition belongs whose nearest shears do not, or would move it beyond the middle of a
         zone; and, where ends ``is_near`` their places, also where slip beside it creeps back.
-        Return also whether the nearest pressures say where the edges belong, which stay where
-        they do not.
         """
         x = problem.mesh.inner
         proposed = [
-            side.moved(x, state.side(number), friction).breaks
+            side.moved(x, state.side(number), friction)
             for number, (side, friction) in enumerate(
                 zip(self.sides, problem.frictions, strict=True)
             )
         ]
-        most = LONGEST_MOVE * self.width
-        edges, proposed_edges = np.array(self.edges), proposed[0][[0, -1]]
-        are_clear = np.isfinite(proposed_edges)
-        moves = np.clip(proposed_edges - edges, -most, most)
-        trailing, leading = np.where(are_clear, edges + moves, edges).tolist()
-        sides = []
+        edges, sides = self._edges_towards(proposed), []
         for number, (side, wanted) in enumerate(zip(self.sides, proposed, strict=True)):
             middles = 0.5 * (side.breaks[1:] + side.breaks[:-1])
-            inner = wanted[1:-1]
+            inner = wanted.breaks[1:-1]
             clear = (inner > middles[:-1]) & (inner < middles[1:])
             if is_near and inner.size:
                 clear &= ~called.creeps_back(number)
             if not clear.all():
                 inner[~clear] = called.sides[number].breaks[1:-1][~clear]
-            sides.append(Layout(held(side.breaks, wanted, (trailing, leading)), side.states))
-        return Zones(sides[0], sides[1]), bool(are_clear.all())
+            sides.append(Layout(held(side.breaks, wanted.breaks, edges), side.states))
+        return Zones(sides[0], sides[1])
+
+    def _edges_towards(self, proposed: Sequence[Layout]) -> tuple[float, float]:
+        """Return the edges, moved towards proposed ones as far as the zones of both sides allow."""
+        most, edges = LONGEST_MOVE * self.width, np.array(self.edges)
+        upper, lower = (
+            side.towards(wanted).breaks[[0, -1]] - edges
+            for side, wanted in zip(self.sides, proposed, strict=True)
+        )
+        moves = np.where(np.abs(upper) < np.abs(lower), upper, lower)
+        trailing, leading = (edges + np.clip(moves, -most, most)).tolist()
+        return trailing, leading
 
     def without_slivers(self) -> Zones:
         """Return the zones without those too short to matter."""

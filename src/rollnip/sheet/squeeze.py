@@ -45,7 +45,7 @@ _PLACES = 400  # of the table, crowded at 0
 _ROOTS = 1000
 _SUMMED = 0.01, 0.2  # over the thickness: so many roots are enough there, and a series still is
 _OF_SERIES = 6  # its terms
-_AT_ONCE = 32  # nodes: what these need stays in a fast memory
+_AT_ONCE = 64  # nodes: what these need stays in a fast memory
 _BENT = 81.0 / 175.0  # share of the springs' compliance under pressures that differ, long waves
 
 
@@ -55,6 +55,7 @@ def squeezed(
     nodes: Array,
     tractions: Array,
     shares: tuple[float, float] = (1.0, 0.0),
+    opposite: NDArray[np.bool_] | None = None,
 ) -> Array:
     """Return by how much pressures make the sheet thinner at some places, (m, s) [mm].
 
@@ -67,11 +68,17 @@ def squeezed(
     shares :
         of the loss of thickness under equal pressures on both faces, and of how far both faces move
         against opposite pressures beside what a plate moves.
+    opposite : (m,) places where the latter counts with the other sign; None: nowhere.
     """
     padded = np.zeros((nodes.size, tractions.shape[1]))
     padded[1:-1] = tractions
     made = _straight(x, nodes, padded)
-    made *= shares[0] + _BENT * shares[1]
+    signs = np.ones(x.size) if opposite is None else np.where(opposite, -1.0, 1.0)
+    made *= (shares[0] + _BENT * shares[1] * signs)[:, None]
+    cubic = _table(shares)
+    if opposite is not None:
+        cubic = np.concatenate([cubic, _table((shares[0], -shares[1]))], axis=1)
+    starts = np.where(signs > 0.0, 0, _PLACES - 1)
     # A straight line turns at its nodes: each turn acts by the double integral, as far as that is.
     slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
     np.subtract(padded[1:], padded[:-1], out=slopes[1:-1])
@@ -86,7 +93,8 @@ def squeezed(
         if near.size and sets.size:
             columns = slice(int(sets[0]), int(sets[-1]) + 1)
             away = np.abs(x[near, None] - ends) / sheet.thickness
-            made[near, columns] += _spread(away, shares) @ turns[some, columns]
+            spread = _spread(away, cubic, starts[near, None])
+            made[near, columns] += spread @ turns[some, columns]
     made *= sheet.squeeze
     return made
 
@@ -101,16 +109,17 @@ def _straight(x: Array, nodes: Array, values: Array) -> Array:
     return np.asarray(weights[0] * values[at] + weights[1] * values[at + 1])
 
 
-def _spread(away: Array, shares: tuple[float, float]) -> Array:
+def _spread(away: Array, cubic: Array, starts: NDArray[np.intp]) -> Array:
     """Return the double integral of the shares in space, less half of the distance, over h.
 
-    ``away``: distances over h; beyond `_FAR` it is 0.
+    ``away``: distances over h; beyond `_FAR` it is 0. ``cubic``, ``starts``: see `_table`, one
+    after the other, and where that of each place starts.
     """
     place = np.cbrt(np.minimum(away, _FAR) / _FAR)
     place *= _PLACES - 1
     piece = np.minimum(place.astype(np.intp), _PLACES - 2)
     place -= piece
-    cubic = _table(shares)
+    piece += starts
     out = cubic[0].take(piece)
     for row in cubic[1:]:
         out *= place

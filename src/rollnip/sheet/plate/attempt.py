@@ -14,6 +14,7 @@ from rollnip.model import Geometry
 from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.attempt import Attempt
+from rollnip.sheet.plate.curved import CurvedLoad, places_along
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
@@ -154,4 +155,10 @@ def carried(attempt: PlateAttempt, problem: PlateProblem) -> LaggedPlate:
         middles, places = (mesh.inner + 0.5 * mesh.dx for mesh in (old, new))
         rate = lagged.offsets[side] / old.dx
         offsets.append(new.dx * np.interp(places, middles, rate))
-    return replace(lagged, clearance=(clearance[0], clearance[1]), offsets=(offsets[0], offsets[1]))
+    curved = lagged.curved
+    return replace(
+        lagged,
+        clearance=(clearance[0], clearance[1]),
+        offsets=(offsets[0], offsets[1]),
+        curved=curved and CurvedLoad.of(curved.couple, curved.force, places_along(problem)),
+    )

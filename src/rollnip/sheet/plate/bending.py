@@ -32,6 +32,7 @@ Array = NDArray[np.float64]
 
 _SHORT = 0.03  # below, what exponentials leave is summed as series
 _TERMS = 4
+_SERIES = 0.1  # of the length: pieces below are integrated by series of exponentials
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +88,19 @@ class Plate:
             yielding * length**2 * np.copysign(third, x),
             yielding * length * second,
         )
+
+
+def exponential_weights(pieces: Array, length: float) -> Array:
+    """Return int exp(-s/length) t ds over pieces per value of straight lines at either end.
+
+    They are as many as ``pieces``, lengths from s = 0 on, by the near and by the far end.
+    """
+    t = np.maximum(pieces / length, np.finfo(float).tiny)
+    once, series = -np.expm1(-t) / t, np.zeros(t.shape)
+    for n in range(8, 1, -1):
+        series = series * -t + 1.0 / factorial(n)
+    near = np.where(t < _SERIES, series, (1.0 - once) / t)
+    return np.asarray(pieces * np.stack([near, once - near]))
 
 
 def _remainders(t: Array) -> tuple[Array, Array, Array]:

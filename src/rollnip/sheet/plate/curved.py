@@ -24,7 +24,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.sheet.bending import COUNTED, bending_length
-from rollnip.sheet.plate.sides import SIGNS, Spread, values_at
+from rollnip.sheet.plate.sides import SIGNS, values_at
+from rollnip.sheet.plate.spread import Spread
 
 if TYPE_CHECKING:
     from rollnip.sheet.plate.system import PlateProblem, PlateState
@@ -39,18 +40,20 @@ class CurvedLoad:
     Attributes
     ----------
     couple, force : c [N/mm] and f [MPa], each of one set, at the same nodes.
-    height, turned : height [mm] and rotation of the plate under them at the nodes, each (M + 1,).
+    places : (m,) where it is asked what they do to the plate, in ascending order [mm].
+    height, turned : height [mm] and rotation of the plate under them there, each (m,).
     """
 
     couple: Spread
     force: Spread
+    places: Array
     height: Array
     turned: Array
 
     @classmethod
-    def of(cls, couple: Spread, force: Spread) -> CurvedLoad:
-        """Return the load with what it does at its nodes."""
-        return cls(couple, force, *_bent(couple, force, couple.nodes))
+    def of(cls, couple: Spread, force: Spread, places: Array) -> CurvedLoad:
+        """Return the load with what it does at some places."""
+        return cls(couple, force, places, *_bent(couple, force, places))
 
     @property
     def whole(self) -> float:
@@ -64,9 +67,8 @@ class CurvedLoad:
 
     def bent_at(self, x: Array) -> tuple[Array, Array]:
         """Return height [mm] and rotation of the plate under them at some places, each (m,)."""
-        nodes = self.couple.nodes
-        at = np.minimum(np.searchsorted(nodes, x), nodes.size - 1)
-        if np.array_equal(nodes[at], x):
+        at = np.minimum(np.searchsorted(self.places, x), self.places.size - 1)
+        if np.array_equal(self.places[at], x):
             return self.height[at], self.turned[at]
         return _bent(self.couple, self.force, x)
 
@@ -81,8 +83,19 @@ class CurvedLoad:
 
 
 def _bent(couple: Spread, force: Spread, x: Array) -> tuple[Array, Array]:
-    turned, pushed = couple.bent(x, couple.beyond(x)), force.bent(x, force.beyond(x))
+    turned, pushed = (
+        couple.bent(x, couple.moments_beyond(x)),
+        force.bent(x, force.moments_beyond(x)),
+    )
     return (turned[1] + pushed[0])[:, 0], (turned[2] + pushed[1])[:, 0]
+
+
+def direction_of(turned: Array, curved: CurvedLoad | None) -> Array:
+    """Return what stretches the faces as it changes: the sine of the path's direction, (m,).
+
+    Where the path counts as straight, ``curved`` None, that is its rotation ``turned``.
+    """
+    return turned if curved is None else np.asarray(turned / np.sqrt(1.0 + turned**2))
 
 
 def is_stiff(problem: PlateProblem, state: PlateState, x: Array) -> bool:
@@ -102,8 +115,8 @@ def is_stiff(problem: PlateProblem, state: PlateState, x: Array) -> bool:
 
 
 def places_along(problem: PlateProblem) -> Array:
-    """Return the nodes of both interfaces, (m,) [mm]."""
-    return np.unique(np.concatenate([mesh.nodes for mesh in problem.meshes]))
+    """Return nodes[1:] of both interfaces in ascending order, (m,) [mm]."""
+    return np.unique(problem.places)
 
 
 def curved_load(problem: PlateProblem, state: PlateState, x: Array, slope: Array) -> CurvedLoad:
@@ -116,7 +129,7 @@ def curved_load(problem: PlateProblem, state: PlateState, x: Array, slope: Array
     couple = slope * _tension_left_out(problem, state, x)
     parts = couple[:, None], (-slope * (sheared - rise))[:, None]
     first, second = (Spread.of_lines(x, part, sheet, plate) for part in parts)
-    return CurvedLoad.of(first, second)
+    return CurvedLoad.of(first, second, x)
 
 
 def _tension_left_out(problem: PlateProblem, state: PlateState, x: Array) -> Array:

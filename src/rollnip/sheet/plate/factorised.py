@@ -10,7 +10,8 @@ from scipy.linalg import lapack
 
 from rollnip.contact import State, States
 from rollnip.nip import Creepage, LineLoad
-from rollnip.sheet.plate.system import LaggedPlate, Pair, PlateProblem, PlateState
+from rollnip.sheet.plate.matrix import Pair
+from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.system import SIGNS
 
 Array = NDArray[np.float64]

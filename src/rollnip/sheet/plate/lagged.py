@@ -16,7 +16,7 @@ from rollnip.rolling.assemble import loss_inside, mean_shear
 from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
 from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate
-from rollnip.sheet.plate.curved import curved_load, is_stiff, places_along
+from rollnip.sheet.plate.curved import CurvedLoad, curved_load, is_stiff, places_along
 from rollnip.sheet.plate.sides import SIGNS, curvatures, own_displacements, path_ratio
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 
@@ -58,7 +58,8 @@ def lagged_terms(
     old = None if before is None else before.curved
     path = places_along(problem)
     is_curved = geometry in FINITE and is_stiff(problem, state, path)
-    slope = problem.rotation_at(state, path, old) if is_curved else path
+    slopes = problem.rotations(state, old) if is_curved else None
+    bent = (0.0, 0.0) if slopes is None or old is None else _turned(old, problem)
     for side in (0, 1):
         mesh = problem.meshes[side]
         flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
@@ -66,24 +67,30 @@ def lagged_terms(
         clearance.append(_clearance(problem, geometry, side, flat, u))
         offsets.append(_offsets(problem, geometry, state, side, (flat, u)))
         leans.append(_lean(problem, state, side, u) if geometry in FINITE else 0.0)
-        if not is_curved:
+        if slopes is None:
             continue
-        x, half = mesh.nodes[1:], 0.5 * problem.sheet.thickness
-        here = slope[np.searchsorted(path, x)]
+        here, half = slopes[side], 0.5 * problem.sheet.thickness
         clearance[side] -= 0.5 * half * here[:-1] ** 2
         # the linear system has the rotation; all of the face runs at V_s
         turned, rate = here / np.sqrt(1.0 + here**2) - here, sheet_rate(*state.creepages)
-        if old is not None:
-            turned += (1.0 - 1.0 / rate) * old.bent_at(x)[1]
+        turned += (1.0 - 1.0 / rate) * bent[side]
         offsets[side] += rate * half * np.diff(turned)
     traction = first.traction
     if isinstance(problem.nip.tangential, Torque):
         traction = _traction_for_torque(problem, geometry, state)
     both = (clearance[0], clearance[1]), (offsets[0], offsets[1])
-    if not is_curved:
+    if slopes is None:
         return LaggedPlate(*both, traction, 0.5 * sum(leans))
+    slope = np.concatenate(slopes)[np.unique(problem.places, return_index=True)[1]]
     curved = curved_load(problem, state, path, slope)
     return LaggedPlate(*both, traction, 0.5 * (sum(leans) + curved.whole), curved)
+
+
+def _turned(curved: CurvedLoad, problem: PlateProblem) -> tuple[Array, Array]:
+    """Return the rotation that a curved path makes at nodes[1:] of either mesh."""
+    both = (curved.bent_at(mesh.nodes[1:])[1] for mesh in problem.meshes)
+    upper, lower = both
+    return upper, lower
 
 
 def change_of(

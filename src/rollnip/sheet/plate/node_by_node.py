@@ -11,7 +11,8 @@ from rollnip.contact import Inequalities, State, interior_point
 from rollnip.nip import LineLoad
 from rollnip.sheet.node_by_node import parted
 from rollnip.sheet.plate.factorised import FURTHER, equations, given
-from rollnip.sheet.plate.system import LaggedPlate, Pair, PlateProblem, PlateState
+from rollnip.sheet.plate.matrix import Pair
+from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 
 Array = NDArray[np.float64]
 Edges = tuple[tuple[float, float], tuple[float, float]]

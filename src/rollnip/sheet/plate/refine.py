@@ -19,6 +19,7 @@ from rollnip.sheet.bending import bending_length
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
 from rollnip.sheet.lagged import sheet_rate
 from rollnip.sheet.plate.attempt import PlateAttempt, overlap, violation
+from rollnip.sheet.plate.curved import direction_of
 from rollnip.sheet.plate.lagged import displacements_of, lost_inside, pull_of
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.plate.sides import SIGNS, highest
@@ -270,7 +271,7 @@ def _error_of_torques(attempt: PlateAttempt, spent: SheetPowers) -> Array:
 def _pushed(attempt: PlateAttempt, side: int) -> Array:
     """Return int q ds over the intervals of one interface but the last, (n - 1,) [N/mm]."""
     mesh, one = attempt.problem.meshes[side], attempt.problem.pulls[side]
-    return -np.diff(one.of(attempt.state.shear[side]).beyond(mesh.inner)[0, :, 0])
+    return -np.diff(one.of(attempt.state.shear[side]).moments_beyond(mesh.inner)[0, :, 0])
 
 
 def _slip_works(
@@ -307,12 +308,12 @@ def _into_sheet(attempt: PlateAttempt) -> float:
     """
     problem, state = attempt.problem, attempt.state
     rate, taken = sheet_rate(*state.creepages), 0.0
-    x = np.concatenate([mesh.inner for mesh in problem.meshes])
-    directions = problem.direction_at(state, x, attempt.lagged.curved)
+    curved = attempt.lagged.curved
+    rotations = problem.rotations(state, curved)
     for side, mesh in enumerate(problem.meshes):
         pushed, sign = _pushed(attempt, side), SIGNS[side]
         strained = problem.strain_over(state, side)[:-1]
-        turned = np.diff(np.split(directions, [problem.meshes[0].inner.size])[side])
+        turned = np.diff(direction_of(rotations[side][:-1], curved))
         face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]
         taken += sign * float(pushed @ (1.0 + face))
     return rate * taken

@@ -1,10 +1,10 @@
-"""One interface of a plate: its mesh, and what tractions on it do to the sheet at some places."""
+"""One interface of a plate: its mesh, its roller, and its highest pressure."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import copysign, factorial, nan, sqrt
+from math import copysign, nan, sqrt
 from typing import ClassVar
 
 import numpy as np
@@ -17,22 +17,12 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.round import peaks_alike
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.plate.bending import Plate
-from rollnip.sheet.squeeze import squeezed
-from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 SIGNS = (1.0, -1.0)
 """Of the shear on each roller, and of the creep of its surface."""
-_PIECES = tuple(
-    (1.0 / factorial(k + 1) - (k + 1.0) / factorial(k + 2), (k + 1.0) / factorial(k + 2))
-    for k in range(4)
-)
-"""Integrals of s^k/k! over a piece of length 1, times 1 - s and s."""
-_WITHIN = 0.25  # of the mesh: length over which Gauss points would not do
 _CUBIC = np.linalg.inv(np.vander(np.arange(4.0), increasing=True))
 """Coefficients of a cubic, from the constant on, by its values at 0, 1, 2 and 3."""
-_GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # points of a piece, over its length
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,171 +94,6 @@ def stretch_by(mesh: Mesh, side: int, u_x: Array, u_z: Array) -> Array:
         dx = np.diff(mesh.fine.nodes[1:])[:, None]
         out = out - hoop * (mesh.sums(dx * means) @ u_z)
     return np.asarray(out)
-
-
-@dataclass(frozen=True, slots=True)
-class Spread:
-    """Tractions as the sheet feels them at other places, per value of each of their sets.
-
-    Attributes
-    ----------
-    sheet, plate : what they act on.
-    nodes : (M + 1,) between which they are straight lines [mm].
-    lines : (M + 1, n) their values at the nodes.
-    tails : (4, M + 1, n) int_x^inf t ds at the nodes, its integral from each node on, and so on:
-        the k-th is int (s - x)^k/k! t ds from x on [mm^(k + 1)].
-    """
-
-    sheet: Sheet
-    plate: Plate
-    nodes: Array
-    lines: Array
-    tails: Array
-
-    @classmethod
-    def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None) -> Spread:
-        """Return the spread of nodal tractions on a mesh.
-
-        ``along``: factors at its finer nodes, such as ds/dx; None: all 1.
-        """
-        nodes, acting = mesh.fine.nodes, mesh.fine.acting
-        assert acting is not None
-        lines = np.zeros((nodes.size, mesh.inner.size))
-        lines[1:-1] = acting[1:-1, 1:-1]
-        lines = lines if along is None else lines * along[:, None]
-        return cls.of_lines(nodes, lines, sheet, plate)
-
-    @classmethod
-    def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> Spread:
-        """Return the spread of tractions given at nodes, (M + 1, n)."""
-        length, (first, last) = np.diff(nodes)[:, None], (lines[:-1], lines[1:])
-        tails = np.zeros((4, *lines.shape))
-        for k, (one, two) in enumerate(_PIECES):
-            piece = length ** (k + 1) * (one * first + two * last)
-            for j in range(k):
-                piece += length ** (k - j) / factorial(k - j) * tails[j, 1:]
-            tails[k, :-1] = np.cumsum(piece[::-1], axis=0)[::-1]
-        return cls(sheet, plate, nodes, lines, tails)
-
-    def of(self, values: Array) -> Spread:
-        """Return the spread of one set of tractions, of nodal values (n,), or of s sets (n, s)."""
-        sets = values.reshape(values.shape[0], -1)
-        return replace(self, lines=self.lines @ sets, tails=self.tails @ sets)
-
-    @property
-    def whole(self) -> Array:
-        """Return int t dx of each set, (n,) [mm]."""
-        return np.asarray(self.tails[0, 0])
-
-    @property
-    def moment(self) -> Array:
-        """Return int x t dx of each set, (n,) [mm^2]."""
-        return np.asarray(self.tails[1, 0] + self.nodes[0] * self.tails[0, 0])
-
-    def beyond(self, x: Array) -> Array:
-        """Return ``tails`` from some places on, (4, m, n); exact."""
-        nodes = self.nodes
-        at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
-        own = at + (x == nodes[-1])
-        if np.array_equal(nodes[own], x):
-            return np.asarray(self.tails[:, own])
-        step = (nodes[at] - np.minimum(x, nodes[-1]))[:, None]  # negative but before the first node
-        t = self.lines[at]
-        rise = (self.lines[at + 1] - t) / (nodes[at + 1] - nodes[at])[:, None]
-        inside = np.minimum(step, 0.0)
-        out = np.empty((4, x.size, t.shape[1]))
-        for k in range(4):
-            out[k] = self.tails[k, at] + inside ** (k + 1) / factorial(k + 1) * t
-            out[k] -= inside ** (k + 2) / factorial(k + 2) * rise
-            for j in range(k):
-                out[k] += step ** (k - j) / factorial(k - j) * self.tails[j, at]
-        return out
-
-    def bent(self, x: Array, beyond: Array) -> tuple[Array, Array, Array]:
-        """Return what loads do to the plate at some places, each (m, n).
-
-        Parameters
-        ----------
-        x : (m,) places [mm].
-        beyond : what `beyond` says of them.
-
-        Returns
-        -------
-        Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa].
-        """
-        # |x - s|^3/6 and its derivatives: twice what lies ahead, less all of it with its sign
-        step = (self.nodes[0] - x)[:, None]
-        whole = [
-            sum(step ** (k - j) / factorial(k - j) * self.tails[j, :1] for j in range(k + 1))
-            for k in (1, 2, 3)
-        ]
-        kinked = 2.0 * beyond[1] - whole[0]
-        sheared = -0.5 * self.plate.shear * kinked
-        if self.plate.length < _WITHIN * float(np.ptp(self.nodes)):
-            height, slope, bend = self._drawn(x, beyond, whole[1], whole[0])
-            return height + sheared, slope, bend
-        yielding = 0.5 / self.plate.stiffness
-        height = yielding * (2.0 * beyond[3] - whole[2]) + sheared
-        slope, bend = yielding * (whole[1] - 2.0 * beyond[2]), yielding * kinked
-        if self.plate.tension > 0.0:
-            places, forces = self._points
-            for out, less in zip(
-                (height, slope, bend),
-                self.plate.straightened(x[:, None] - places),
-                strict=True,
-            ):
-                out -= less @ forces
-        return height, slope, bend
-
-    def _drawn(
-        self, x: Array, beyond: Array, squares: Array, firsts: Array
-    ) -> tuple[Array, Array, Array]:
-        """Return what loads do to a plate that its tension straightens within the nip.
-
-        K is then L/(2 D) (x^2/2 - L |x| + L^2 (1 - exp(-|x|/L))), all of it exact: for straight
-        lines that turn by a_i at nodes x_i, int exp(-|x - s|/L) t ds is
-        2 L t + L^2 sum a_i exp(-|x - x_i|/L).
-
-        ``squares``, ``firsts``: int (s - x)^2/2 t ds and int (s - x) t ds. The shear of sections is
-        left out.
-        """
-        length, yielding = self.plate.length, 0.5 * self.plate.length / self.plate.stiffness
-        slopes = np.zeros((self.nodes.size + 1, self.lines.shape[1]))
-        slopes[1:-1] = np.diff(self.lines, axis=0) / np.diff(self.nodes)[:, None]
-        turns = np.diff(slopes, axis=0)
-        away = (x[:, None] - self.nodes) / length
-        decay = np.exp(-np.abs(away))
-        before, after = (np.searchsorted(self.nodes, x, side=side) for side in ("left", "right"))
-        at = np.clip(after - 1, 0, self.nodes.size - 1)
-        inside = np.clip(x, self.nodes[0], self.nodes[-1])
-        values = self.lines[at] + slopes[after] * (inside - self.nodes[at])[:, None]
-        rises = 0.5 * (slopes[before] + slopes[after])
-        near = 2.0 * length * values + length**2 * (decay @ turns)
-        nears = 2.0 * length * rises - length * ((np.sign(away) * decay) @ turns)
-        whole = self.tails[0, :1]
-        distances = 2.0 * beyond[1] - firsts
-        height = yielding * (squares - length * distances + length**2 * (whole - near))
-        slope = -yielding * (firsts + length * (whole - 2.0 * beyond[0]) + length**2 * nears)
-        return height, slope, yielding * (whole - near)
-
-    @property
-    def _points(self) -> tuple[Array, Array]:
-        """Return Gauss points (2 M,) [mm], and tractions there times their lengths (2 M, n)."""
-        length, lines = np.diff(self.nodes), self.lines
-        places = [self.nodes[:-1] + share * length for share in _GAUSS]
-        forces = [
-            0.5 * length[:, None] * ((1.0 - share) * lines[:-1] + share * lines[1:])
-            for share in _GAUSS
-        ]
-        return np.concatenate(places), np.concatenate(forces)
-
-    def squeezed(self, x: Array, *, far: bool) -> Array:
-        """Return how far a face gives way to the pressures towards the middle, (m, n) [mm/MPa].
-
-        ``far``: the face opposite to that under the pressures; else that face itself.
-        """
-        shares = (0.25, -0.25) if far else (0.25, 0.25)
-        return squeezed(self.sheet, x, self.nodes, self.lines[1:-1], shares)
 
 
 def values_at(mesh: Mesh, x: Array) -> Array:

@@ -26,6 +26,7 @@ from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.plate.attempt import PlateAttempt
+from rollnip.sheet.plate.curved import direction_of
 from rollnip.sheet.plate.factorised import FactorisedPlate
 from rollnip.sheet.plate.refine import PlateRefined
 from rollnip.sheet.plate.sides import SIGNS, values_at
@@ -104,9 +105,9 @@ class PlateSolution(SheetSolution):
     def _path(self) -> tuple[float, float]:
         """Return the largest square of the path's slope in the contacts, and its curvature."""
         attempt, slope, curvature = self._standing, 0.0, 0.0
-        for mesh in attempt.problem.meshes:
-            x = mesh.inner
-            turned = attempt.problem.rotation_at(attempt.state, x, attempt.lagged.curved)
+        rotations = attempt.problem.rotations(attempt.state, attempt.lagged.curved)
+        for mesh, rotation in zip(attempt.problem.meshes, rotations, strict=True):
+            x, turned = mesh.inner, rotation[:-1]
             slope = max(slope, float(np.max(turned**2, initial=0.0)))
             bent = np.abs(np.diff(turned) / np.diff(x))
             curvature = max(curvature, float(np.max(bent, initial=0.0)))
@@ -207,13 +208,9 @@ class PlateSolution(SheetSolution):
         stretch = stretch_excess(x, self.nip, self.model.geometry, u)[side] / dx
         strain = problem.strain_at(state, x)
         face = 0.5 * (strain[1:] + strain[:-1])
-        face -= (
-            SIGNS[side]
-            * 0.5
-            * problem.sheet.thickness
-            * np.diff(problem.direction_at(state, x, attempt.lagged.curved))
-            / dx
-        )
+        curved, half = attempt.lagged.curved, 0.5 * problem.sheet.thickness
+        turned = direction_of(problem.rotation_at(state, x, curved), curved)
+        face -= SIGNS[side] * half * np.diff(turned) / dx
         rate = state.creepages[side] + SIGNS[side] * (stretch - face)
         out = np.full(x.size, np.nan)
         middle = 0.5 * (x[1:] + x[:-1])

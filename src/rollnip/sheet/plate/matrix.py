@@ -1,0 +1,125 @@
+"""What unit tractions on both interfaces of a plate do to their gaps and creeps."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.contact import CREEP_TO_EDGE
+from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.plate.sides import SIGNS, stretch_by, values_at
+from rollnip.sheet.plate.spread import Spread, about
+from rollnip.sheets import Sheet
+
+Array = NDArray[np.float64]
+Pair = tuple[Array, Array]
+"""Values of the upper and of the lower interface."""
+_STEEP = 4.0  # how fast the integral of the tension changes its kind
+
+
+def gaps_and_creeps_of(
+    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], pulls: tuple[Spread, Spread]
+) -> tuple[Array, Array]:
+    """Return gaps and creeps, and rotations of the sheet, per unit traction.
+
+    ``spreads``, ``pulls``: see `PlateProblem`.
+
+    Returns
+    -------
+    (r, r) gap and creep of the upper, then of the lower interface, and (m, r) rotation of the
+    sections at nodes[1:] of both meshes, per p_u, q_u, p_l and q_l.
+    """
+    by_rollers = [_by_roller(mesh, at) for at, mesh in enumerate(meshes)]
+    through = spreads[0].sheet.shear_by_thickness / 3.0
+    above, below = (np.diagonal(one)[len(one) // 2 :] - through for one in by_rollers)
+    own = np.concatenate([above, [-1.0], below])
+    n, (upper, lower) = above.size, (2 * above.size, 2 * below.size)
+    rows, places = (slice(n), slice(n + 1, None)), (slice(upper), slice(upper, None))
+    matrix = np.empty((upper + lower, upper + lower))
+    turned = np.empty((own.size + 1, upper + lower))
+    for by, columns in enumerate(places):
+        made, turned[:, columns] = _by_sheet(meshes, (spreads[by], pulls[by]), by, own)
+        for at, block in enumerate((matrix[:upper, columns], matrix[upper:, columns])):
+            block[:] = made[:, rows[at]].reshape(block.shape)
+            if at == by:
+                block += by_rollers[at]
+                block[-2, -2] *= 1.0 - CREEP_TO_EDGE
+    return matrix, turned
+
+
+def _by_roller(mesh: Mesh, side: int) -> Array:
+    """Return gap and creep of one interface by its own roller, (2 n, 2 n) [mm/MPa]."""
+    n, sign = mesh.inner.size, SIGNS[side]
+    xx, zz, xz = mesh.per_traction[3 * side : 3 * side + 3]
+    out = np.zeros((2 * n, 2 * n))
+    out[:n, :n] = zz[:-1]
+    out[:n, n:] = -sign * xz[:-1]
+    out[n:, :n] = sign * stretch_by(mesh, side, xz, zz)
+    out[n:, n:] = stretch_by(mesh, side, xx, -xz)
+    return out
+
+
+def _by_sheet(
+    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], by: int, own: Array
+) -> tuple[Array, Array]:
+    """Return gaps and creeps by what tractions on one interface do to the sheet.
+
+    Parameters
+    ----------
+    spreads : of loads, and of pulls, on the interface ``by``.
+    own : (m - 1,) see `_lumped_share`.
+
+    Returns
+    -------
+    (2, m - 1, 2, n) gaps at the m places nodes[1:] of both meshes but the last, and creeps up to
+    the next one, per pressure and shear; those between both meshes mean nothing. And (m, 2 n)
+    rotations of the sections at the places.
+    """
+    one, pull = spreads
+    sheet, half, there = one.sheet, 0.5 * one.sheet.thickness, SIGNS[by]
+    x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
+    is_upper = np.arange(x.size - 1) < meshes[0].nodes.size - 1
+    here = np.where(is_upper, *SIGNS)[:, None]
+    signs = here * there
+    loads = one.moments_beyond(x)
+    pulled = loads if pull is one else pull.moments_beyond(x)
+    height, slope, bend = one.bent(x, loads)
+    out = np.empty((2, x.size - 1, 2, one.lines.shape[1]))
+    # y goes with -p_u and +p_l, the gap above with -y and below with +y
+    out[0, :, 0] = signs * height[:-1] + one.squeezed(x[:-1], is_upper == by)
+    by_pressure = 0.5 * sheet.stretch_by_pressure
+    out[0, :, 1] = half * here * slope[:-1] - there * by_pressure * pulled[0, :-1]
+    out[1, :, 0] = by_pressure * here * _changes(loads[0]) - there * half * _changes(slope)
+    exact = _stretched(sheet, signs, _changes(about(x, pulled, 1)), _changes(bend))
+    share = _lumped_share(sheet, np.diff(x), own)
+    if share.any():
+        ahead = meshes[by].inner - x[:, None]
+        bends = one.plate.curvature(ahead)
+        lumped = _stretched(sheet, signs, _changes(np.maximum(ahead, 0.0)), _changes(bends))
+        exact += share * (pull.whole * lumped - exact)
+    through = np.where(signs > 0.0, 1.0 / 3.0, 1.0 / 6.0) * sheet.shear_by_thickness
+    out[1, :, 1] = exact + through * _changes(values_at(meshes[by], x))
+    return out, np.concatenate([-there * slope, -half * bend], axis=1)
+
+
+def _changes(values: Array) -> Array:
+    return np.asarray(values[1:] - values[:-1])
+
+
+def _stretched(sheet: Sheet, signs: Array, tails: Array, bends: Array) -> Array:
+    """Return the creep by the strain of a face under shears: tension, and bending by couples."""
+    stretched = -signs * sheet.stretch_by_tension * tails
+    return np.asarray(stretched - 0.25 * sheet.thickness**2 * bends)
+
+
+def _lumped_share(sheet: Sheet, dx: Array, own: Array) -> Array:
+    """Return the share of each interval that takes shears as forces at their nodes, (k, 1).
+
+    Where an interval stretches more by the tension and the bending that its own node makes than by
+    that node's shear on the roller, ``own``, exact integrals let neighbouring shears alternate and
+    grow.
+    """
+    strain = 4.0 * sheet.stretch_by_tension
+    ratio = strain * dx**2 / (6.0 * np.abs(own))
+    share = 1.0 / (1.0 + np.clip(ratio, 1e-9, 1e6) ** -_STEEP)
+    return np.asarray(np.where(share > 1e-12, share, 0.0)[:, None])

@@ -1,0 +1,189 @@
+"""Tractions on one interface as the sheet feels them at other places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from math import sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import lapack
+
+from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.plate.bending import Plate, exponential_weights
+from rollnip.sheet.squeeze import squeezed
+from rollnip.sheets import Sheet
+
+Array = NDArray[np.float64]
+
+_GAUSS = 0.5 - sqrt(1.0 / 12.0), 0.5 + sqrt(1.0 / 12.0)  # points of a piece, over its length
+# Three Gauss points of a piece, over its length, and the integrals by them of what goes with the
+# value at either end: exact for the moments of straight lines.
+_PLACES, _SHARES = 0.5 + sqrt(0.15) * np.array([-1.0, 0.0, 1.0]), np.array([5.0, 8.0, 5.0]) / 18.0
+_OF_ENDS = np.stack([_SHARES * (1.0 - _PLACES), _SHARES * _PLACES])
+_FEEBLE = 33.0  # of the mesh: length from which tension hardly straightens the sheet within it
+
+
+@dataclass(frozen=True, slots=True)
+class Spread:
+    """Tractions as the sheet feels them at other places, per value of each of their sets.
+
+    Attributes
+    ----------
+    sheet, plate : what they act on.
+    nodes : (M + 1,) between which they are straight lines [mm].
+    lines : (M + 1, n) their values at the nodes.
+    beyond : (4, M + 1, n) int_x^inf s^k/k! t ds from the nodes on [mm^(k + 1)].
+    """
+
+    sheet: Sheet
+    plate: Plate
+    nodes: Array
+    lines: Array
+    beyond: Array
+
+    @classmethod
+    def on(cls, mesh: Mesh, sheet: Sheet, plate: Plate, along: Array | None = None) -> Spread:
+        """Return the spread of nodal tractions on a mesh.
+
+        ``along``: factors at its finer nodes, such as ds/dx; None: all 1.
+        """
+        nodes, acting = mesh.fine.nodes, mesh.fine.acting
+        assert acting is not None
+        lines = np.zeros((nodes.size, mesh.inner.size))
+        lines[1:-1] = acting[1:-1, 1:-1]
+        lines = lines if along is None else lines * along[:, None]
+        return cls.of_lines(nodes, lines, sheet, plate)
+
+    @classmethod
+    def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> Spread:
+        """Return the spread of tractions given at nodes, (M + 1, n)."""
+        first, last = _moments(nodes[:-1], np.diff(nodes))[..., None]
+        pieces = first * lines[:-1] + last * lines[1:]
+        beyond = np.zeros((4, *lines.shape))
+        np.cumsum(pieces[:, ::-1], axis=1, out=beyond[:, -2::-1])
+        return cls(sheet, plate, nodes, lines, beyond)
+
+    def of(self, values: Array) -> Spread:
+        """Return the spread of one set of tractions, of nodal values (n,), or of s sets (n, s)."""
+        sets = values.reshape(values.shape[0], -1)
+        return replace(self, lines=self.lines @ sets, beyond=self.beyond @ sets)
+
+    @property
+    def whole(self) -> Array:
+        """Return int t dx of each set, (n,) [mm]."""
+        return np.asarray(self.beyond[0, 0])
+
+    @property
+    def moment(self) -> Array:
+        """Return int x t dx of each set, (n,) [mm^2]."""
+        return np.asarray(self.beyond[1, 0])
+
+    def moments_beyond(self, x: Array) -> Array:
+        """Return ``beyond`` from some places on, (4, m, n); exact."""
+        inside = np.clip(x, self.nodes[0], self.nodes[-1])
+        at = np.clip(np.searchsorted(self.nodes, inside, side="right") - 1, 0, self.nodes.size - 2)
+        length = self.nodes[at + 1] - inside
+        share = length / (self.nodes[at + 1] - self.nodes[at])
+        first, last = _moments(inside, length)
+        out = (first * share)[..., None] * self.lines[at]
+        out += (first * (1.0 - share) + last)[..., None] * self.lines[at + 1]
+        return np.asarray(out + self.beyond[:, at + 1])
+
+    def bent(self, x: Array, beyond: Array) -> tuple[Array, Array, Array]:
+        """Return what loads do to the plate at some places, each (m, n).
+
+        Parameters
+        ----------
+        x : (m,) places [mm].
+        beyond : what `moments_beyond` says of them.
+
+        Returns
+        -------
+        Height of the middle [mm/MPa], rotation of the sections [1/MPa], curvature [1/mm/MPa].
+        """
+        # |x - s|^3/6 and its derivatives: twice what lies ahead, less all of it with its sign
+        whole = self.beyond[:, :1]
+        ahead = 2.0 * beyond - whole
+        distances = about(x, ahead, 1)
+        sheared = -0.5 * self.plate.shear * distances
+        length, yielding = self.plate.length, 0.5 / self.plate.stiffness
+        if length > _FEEBLE * float(np.ptp(self.nodes)):
+            height = yielding * about(x, ahead, 3) + sheared
+            slope, bend = -yielding * about(x, ahead, 2), yielding * distances
+            if self.plate.tension > 0.0:
+                places, forces = self._points
+                less = self.plate.straightened(x[:, None] - places)
+                height, slope, bend = (
+                    out - one @ forces for out, one in zip((height, slope, bend), less, strict=True)
+                )
+            return height, slope, bend
+        # K is L/(2 D) (x^2/2 - L |x| + L^2 (1 - exp(-|x|/L))), all of it exact
+        before, after = self._decayed(x)
+        yielding *= length
+        near = whole[0] - before - after
+        height = about(x, whole, 2) - length * distances + length**2 * near
+        slope = -about(x, whole, 1) + length * (ahead[0] + before - after)
+        return yielding * height + sheared, yielding * slope, yielding * near
+
+    def _decayed(self, x: Array) -> tuple[Array, Array]:
+        """Return int exp(-|x - s|/L) t ds of what lies behind and ahead of some places, (m, n)."""
+        nodes, lines, length = self.nodes, self.lines, self.plate.length
+        inside = np.clip(x, nodes[0], nodes[-1])
+        at = np.clip(np.searchsorted(nodes, inside, side="right") - 1, 0, nodes.size - 2)
+        left, right = inside - nodes[at], nodes[at + 1] - inside
+        lengths = np.concatenate([np.diff(nodes), left, right])
+        ends = nodes.size - 1, nodes.size - 1 + x.size
+        near, far = (np.split(one[:, None], ends) for one in exponential_weights(lengths, length))
+        decays = np.split(np.exp(-lengths / length)[:, None], ends)
+        pieces = np.zeros((2, *lines.shape))
+        pieces[0, 1:] = far[0] * lines[:-1] + near[0] * lines[1:]
+        pieces[1, :-1] = near[0] * lines[:-1] + far[0] * lines[1:]
+        less, none, one = -decays[0][:, 0], np.zeros(nodes.size - 1), np.ones(nodes.size)
+        behind = lapack.dgtsv(less, one, none, pieces[0])[3]
+        ahead = lapack.dgtsv(none, one, less, pieces[1])[3]
+        share = (left / (left + right))[:, None]
+        here = (1.0 - share) * lines[at] + share * lines[at + 1]
+        outside = np.exp(-np.abs(x - inside) / length)[:, None]
+        out = []
+        for way, end, total in ((1, at, behind), (2, at + 1, ahead)):
+            passed = decays[way] * total[end] + near[way] * here + far[way] * lines[end]
+            out.append(outside * passed)
+        return out[0], out[1]
+
+    def squeezed(self, x: Array, far: NDArray[np.bool_]) -> Array:
+        """Return how far a face gives way to the pressures towards the middle, (m, n) [mm/MPa].
+
+        ``far``: where it is the face opposite to that under the pressures; else that face itself.
+        """
+        nodes, lines = self.nodes, self.lines[1:-1]
+        return squeezed(self.sheet, x, nodes, lines, (0.25, 0.25), opposite=far)
+
+    @property
+    def _points(self) -> tuple[Array, Array]:
+        """Return Gauss points (2 M,) [mm], and tractions there times their lengths (2 M, n)."""
+        length, lines = np.diff(self.nodes), self.lines
+        places = [self.nodes[:-1] + share * length for share in _GAUSS]
+        forces = [
+            0.5 * length[:, None] * ((1.0 - share) * lines[:-1] + share * lines[1:])
+            for share in _GAUSS
+        ]
+        return np.concatenate(places), np.concatenate(forces)
+
+
+def about(x: Array, moments: Array, order: int) -> Array:
+    """Return integrals of (s - x)^k/k! from those of s^j/j!, j <= k: (m, n) of (4, m or 1, n)."""
+    out, back = moments[order], -x[:, None]
+    power = np.ones(back.shape)
+    for k in range(order - 1, -1, -1):
+        power = power * back / (order - k)
+        out = out + power * moments[k]
+    return np.asarray(out)
+
+
+def _moments(starts: Array, lengths: Array) -> Array:
+    """Return int s^k/k! t ds over pieces per value of straight lines at either end, (2, 4, m)."""
+    s = starts + _PLACES[:, None] * lengths
+    square = 0.5 * s * s
+    powers = np.stack([np.ones(s.shape), s, square, s * square / 3.0])
+    return np.asarray((_OF_ENDS[:, None, None] @ powers)[:, :, 0] * lengths)

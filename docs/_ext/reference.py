@@ -237,8 +237,6 @@ class Names(Markup):
 def home_of(door: str, name: str, value: Any) -> str:
     """Where a name of the top door is described; others are described on the page itself."""
     module = str(getattr(value, "__module__", ""))
-    if door == "rollnip.rolling" and module == "rollnip.rolling.records":
-        return f"rollnip.solution.{name}"
     if not callable(value) or not module.startswith("rollnip"):
         return ""
     if door != "rollnip":

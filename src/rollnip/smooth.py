@@ -10,16 +10,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.records import DeformedSurfaces, Profiles, Zone
 from rollnip._sealed import sealed
 from rollnip.contact import State, contact_intervals
 from rollnip.interior import SurfaceTractions
 from rollnip.rolling import (
-    DeformedSurfaces,
     PairKernels,
     Powers,
-    Profiles,
     Round,
-    Zone,
     claims,
     fields_at,
     fine_points,

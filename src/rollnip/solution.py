@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike, NDArray
 from rollnip._blas import one_blas_thread
 from rollnip._errors import InvalidInputError
 from rollnip._results.presented import Presented
+from rollnip._results.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.interior import (
     FiniteFields,
     InterfaceStress,
@@ -28,16 +29,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation, texts
 from rollnip.rollers import Side
-from rollnip.rolling import (
-    DeformedSurfaces,
-    Powers,
-    Profiles,
-    SolverInfo,
-    Zone,
-    peak_at,
-    peaks_alike,
-    rates_of,
-)
+from rollnip.rolling import Powers, peak_at, peaks_alike, rates_of
 
 __all__ = ["DeformedSurfaces", "Profiles", "Solution", "SolverInfo", "Zone"]
 

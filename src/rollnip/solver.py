@@ -20,25 +20,23 @@ from rollnip._errors import ConvergenceError, InvalidInputError, require_instanc
 from rollnip.influence import KernelCache
 from rollnip.model import BEYOND, FINITE, SIMPLER, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
+from rollnip.no_nip import impossible
 from rollnip.rolling import (
-    ACCEPT_IT,
     Ended,
     Nearby,
     PairKernels,
     Round,
     half_width_guess,
     has_grip,
-    impossible,
     pair_kernels,
     refine,
     refine_all_orders,
-    verdict,
-    violated,
     with_second_order,
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
 from rollnip.validity import StrainSizes, instead_of, second_share, validity_reservations
+from rollnip.verdict import ACCEPT_IT, verdict, violated
 
 _CLEARLY = 1.5  # times a limit that is known roughly
 _THIN = 0.025  # covering over half the nip width, below which hardly compressible ones are hard

@@ -13,7 +13,6 @@ MODULES = [
     for module in sorted((ROOT / "src" / "rollnip" / floor).rglob("*.py"))
 ]
 DEFINITIONS = {
-    "rolling.no_nip.MOST_CREEPAGE",  # the creepage at which one roller stands still
     "rolling.displacements.NO_SECOND_ORDER",
     "rolling.elements.EVERYWHERE",
     "contact.problem._SHEAR_SIGNS",

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import rollnip as rn
-from rollnip.rolling import verdict
+from rollnip.verdict import verdict
 
 NIP = rn.Nip(
     upper=rn.Roller(radius=50.0, layers=[rn.Layer(4.0, rn.Elastic(modulus=2.0, poisson=0.49))]),

@@ -10,7 +10,7 @@ from sheet_nips import RIGID, nip_with
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.rolling import DeformedSurfaces
+from rollnip._results.records import DeformedSurfaces
 from rollnip.sheet.bending import bending_length, spreading_length
 from rollnip.sheet.freely import wrapped_length
 

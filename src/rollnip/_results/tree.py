@@ -11,7 +11,7 @@ from rollnip.figures import CLAIMED, FIGURES, INTERFACE_FIGURES, PROFILES
 from rollnip.sheet_figures import SHEET_FIGURES, SHEET_PROFILES
 
 if TYPE_CHECKING:
-    from rollnip.rolling import Zone
+    from rollnip._results.records import Zone
 
 SCHEMA = 1
 

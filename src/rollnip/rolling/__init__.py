@@ -27,23 +27,15 @@ from rollnip.rolling.check import (
     surface_strain_in_nip,
 )
 from rollnip.rolling.claimed_errors import (
-    ACCEPT_IT,
-    WORDS,
     claims,
-    estimated_error_of,
     further_claims,
-    left_open,
-    missed,
-    verdict,
-    violated,
-    worst_error,
+    model_shares,
+    relative_claims,
 )
 from rollnip.rolling.displacements import Displacements
 from rollnip.rolling.further import further_figures, further_sizes
 from rollnip.rolling.nearby import Nearby
-from rollnip.rolling.no_nip import MOST_PRESSED_IN, impossible
 from rollnip.rolling.power_balance import Powers, powers, rates_of
-from rollnip.rolling.records import DeformedSurfaces, Profiles, SolverInfo, Zone
 from rollnip.rolling.refinement import refine
 from rollnip.rolling.round import (
     Ended,
@@ -65,10 +57,6 @@ from rollnip.rolling.surfaces import (
 )
 
 __all__ = [
-    "ACCEPT_IT",
-    "MOST_PRESSED_IN",
-    "WORDS",
-    "DeformedSurfaces",
     "Displacements",
     "Ended",
     "Figures",
@@ -77,13 +65,9 @@ __all__ = [
     "PairFields",
     "PairKernels",
     "Powers",
-    "Profiles",
     "Round",
-    "SolverInfo",
-    "Zone",
     "claims",
     "creepage_scale",
-    "estimated_error_of",
     "excess",
     "fields_at",
     "fine_points",
@@ -93,9 +77,7 @@ __all__ = [
     "half_width_guess",
     "has_grip",
     "hoop_curvature",
-    "impossible",
-    "left_open",
-    "missed",
+    "model_shares",
     "pair_kernels",
     "peak_at",
     "peak_pressure",
@@ -104,13 +86,11 @@ __all__ = [
     "rates_of",
     "refine",
     "refine_all_orders",
+    "relative_claims",
     "slip_velocity",
     "stretch_excess",
     "surface_depths",
     "surface_strain",
     "surface_strain_in_nip",
-    "verdict",
-    "violated",
     "with_second_order",
-    "worst_error",
 ]

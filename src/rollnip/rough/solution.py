@@ -9,17 +9,12 @@ from math import nan
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.records import DeformedSurfaces, Profiles, Zone
 from rollnip._sealed import sealed
 from rollnip.interior import InterfaceStress, SurfaceTractions, interface_stresses
 from rollnip.nip import Approach
 from rollnip.rollers import Roller
-from rollnip.rolling import (
-    DeformedSurfaces,
-    Powers,
-    Profiles,
-    Zone,
-    hoop_curvature,
-)
+from rollnip.rolling import Powers, hoop_curvature
 from rollnip.rough.contact import RoughContact
 from rollnip.rough.fields import SurfaceFields, outside, surface_fields, thinned
 from rollnip.solution import Solution

@@ -10,26 +10,18 @@ from typing import Literal
 import numpy as np
 
 from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip._results.records import SolverInfo
 from rollnip.model import COARSEST, FINITE, Model
 from rollnip.nip import Approach, LineLoad, Nip
+from rollnip.no_nip import MOST_PRESSED_IN
 from rollnip.reservation import Reservation
 from rollnip.rollers import Roller, Side
-from rollnip.rolling import (
-    ACCEPT_IT,
-    MOST_PRESSED_IN,
-    WORDS,
-    SolverInfo,
-    estimated_error_of,
-    half_width_guess,
-    left_open,
-    pair_kernels,
-    violated,
-    worst_error,
-)
+from rollnip.rolling import half_width_guess, pair_kernels
 from rollnip.rough.contact import RoughContact, max_or_nan, rough_contact
 from rollnip.rough.sampling import sampled
 from rollnip.rough.solution import RoughSolution
 from rollnip.validity import CONTACT_ANGLE, THICKNESS_RATIO, pressed_in
+from rollnip.verdict import ACCEPT_IT, WORDS, estimated_error_of, left_open, violated, worst_error
 
 _TOO_FAR_APART = "the samples are too far apart; measure more closely"
 _NOTED = 0.01  # relative error of a figure that is worth a note

@@ -12,8 +12,8 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.records import DeformedSurfaces
 from rollnip.nip import Creepage, Nip
-from rollnip.rolling import DeformedSurfaces
 from rollnip.sheet.bending import mean_tension, spreading_length
 from rollnip.sheet.figures import NAMES, SheetFigures, scales
 

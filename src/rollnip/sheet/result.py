@@ -9,10 +9,11 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.records import Zone
 from rollnip._sealed import Sealed
 from rollnip.contact import ContactZone, Layout, State
 from rollnip.rollers import Side
-from rollnip.rolling import Round, Zone
+from rollnip.rolling import Round
 
 Array = NDArray[np.float64]
 _KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {

@@ -6,10 +6,10 @@ from dataclasses import replace
 from math import isfinite
 from typing import TypeVar
 
-from rollnip.rolling import WORDS, left_open
 from rollnip.sheet.common import not_prescribed
 from rollnip.sheet.figures import NAMES, scales
 from rollnip.sheet.solution import SheetSolution
+from rollnip.verdict import WORDS, left_open
 
 Solved = TypeVar("Solved", bound=SheetSolution)
 

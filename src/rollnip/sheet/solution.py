@@ -9,18 +9,16 @@ from math import isinf, nan
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.records import DeformedSurfaces, Profiles, Zone
 from rollnip.contact import State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
 from rollnip.rollers import SIDES
 from rollnip.rolling import (
-    DeformedSurfaces,
     Displacements,
     Powers,
-    Profiles,
     Round,
-    Zone,
     claims,
     fine_points,
     stretch_excess,

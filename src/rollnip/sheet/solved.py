@@ -8,19 +8,13 @@ from time import perf_counter
 import numpy as np
 
 from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip._results.records import SolverInfo
 from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation
-from rollnip.rolling import (
-    PairKernels,
-    Round,
-    SolverInfo,
-    half_width_guess,
-    pair_kernels,
-    with_second_order,
-)
+from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED, STIFF, bending_length, spreading_length

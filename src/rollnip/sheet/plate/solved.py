@@ -9,18 +9,12 @@ from typing import Any
 import numpy as np
 
 from rollnip._errors import ConvergenceError
+from rollnip._results.records import SolverInfo
 from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation
-from rollnip.rolling import (
-    PairKernels,
-    Round,
-    SolverInfo,
-    half_width_guess,
-    pair_kernels,
-    with_second_order,
-)
+from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
 from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED
 from rollnip.sheet.common import (

@@ -100,7 +100,7 @@ def test_no_field_is_computed_inside_layers_that_the_surface_hardly_moves(monkey
         normal=rn.LineLoad(8.0),
         friction=0.0,
     )
-    checks = importlib.import_module("rollnip.rolling.no_nip")
+    checks = importlib.import_module("rollnip.no_nip")
     asked = []
     field = checks.interior_field
     monkeypatch.setattr(checks, "interior_field", lambda *a, **k: asked.append(1) or field(*a, **k))

@@ -1,0 +1,107 @@
+"""Whether a solution is verified: its claimed errors against the tolerance, in words.
+
+`converged` and `status` come from the same numbers.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf, isnan
+
+from rollnip.model import Geometry, Model
+from rollnip.nip import Nip
+from rollnip.rolling import Round, model_shares, relative_claims
+from rollnip.rolling.changes import ROUNDING
+
+FINEST_OF_FINITE = Model().tolerance
+"""The finest tolerance that geometries of finite strain can meet, the default one.
+
+Below it they leave more open, however fine the mesh.
+"""
+_LEFT_BY: Mapping[Geometry, str] = {
+    "second": 'the second order of "second"',
+    "finite": 'the finite elements of "finite"',
+}
+ACCEPT_IT = "accept it with a larger tolerance"
+"""What helps where no finer mesh or grid is to be had."""
+WORDS: Mapping[str, str] = {
+    "approach": "approach",
+    "load": "load",
+    "creepage": "creepage",
+    "nip_width": "nip width",
+    "peak_pressure": "peak pressure",
+}
+"""Words for the figures that the tolerance is for."""
+
+
+def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
+    """Return whether the claimed errors meet the tolerance, and a sentence on them.
+
+    At finite strain the error of the model meets a tolerance of 1e-3 or more, and does not meet a
+    finer one. The mesh may then leave as much of the same figures.
+    """
+    relative = relative_claims(nip, model.geometry, final)
+    if not relative:
+        return False, "Nothing is pressed: no figure has an error that could be claimed."
+    model_errors = model_shares(nip, model.geometry, final)
+    shares = {name: model_errors[name] for name in relative}
+    is_met = model.tolerance >= FINEST_OF_FINITE
+    allowed = {
+        name: max(model.tolerance, shares[name]) if is_met else model.tolerance for name in relative
+    }
+    worst, ratio = worst_error(relative, allowed)
+    if ratio <= 1.0 + ROUNDING:
+        more = left_open(relative, model.tolerance, "the model and the mesh leave")
+        return True, f"errors within the tolerance {model.tolerance:g}{more}."
+    if relative[worst] <= shares[worst] * (1.0 + ROUNDING):
+        return False, (
+            f"{estimated_error_of(WORDS[worst], f'{100.0 * relative[worst]:.2g} %')}, more than "
+            f"the tolerance {model.tolerance:g}: no mesh makes {_LEFT_BY[model.geometry]} "
+            f"better. Ask for a tolerance of {FINEST_OF_FINITE:g} or more, or for geometry "
+            '"curved" or "linear".'
+        )
+    return False, missed(WORDS[worst], relative[worst], ratio, model.tolerance)
+
+
+def missed(figure: str, error: float, ratio: float, tolerance: float) -> str:
+    """Return the sentence on a relative error that is ``ratio`` times as large as is allowed."""
+    return (
+        f"{estimated_error_of(figure, error)}, {ratio:.1f} times what the tolerance "
+        f"{tolerance:g} allows, on the finest mesh; {ACCEPT_IT}."
+    )
+
+
+def violated(by: float, tolerance: float) -> str:
+    """Return the beginning of a sentence on contact conditions that are not met."""
+    return (
+        f"The contact conditions are violated by {by:.1e} (relative), more than the tolerance "
+        f"{tolerance:g}"
+    )
+
+
+def estimated_error_of(figure: str, error: float | str) -> str:
+    """Return the beginning of a sentence on an error, relative or in words as it is given."""
+    size = error if isinstance(error, str) else f"{error:.1e} (relative)"
+    return f"The estimated error of the {figure} is {size}"
+
+
+def worst_error(relative: Mapping[str, float], allowed: Mapping[str, float]) -> tuple[str, float]:
+    """Return the figure whose error is largest over the allowed one, and that ratio; nan counts."""
+    ratios = {name: relative[name] / allowed[name] for name in relative}
+    worst = max(ratios, key=lambda name: inf if isnan(ratios[name]) else ratios[name])
+    return worst, ratios[worst]
+
+
+def left_open(relative: Mapping[str, float], tolerance: float, by: str) -> str:
+    """Return words on the errors that exceed the tolerance and that something leaves.
+
+    ``relative``: errors by the names of `WORDS` or by words. ``by`` names what leaves them with
+    its verb, as in "the samples leave".
+    """
+    beyond = tolerance * (1.0 + ROUNDING)
+    larger = {name: share for name, share in relative.items() if share > beyond}
+    if not larger:
+        return ""
+    words = {WORDS.get(name, name): 100.0 * share for name, share in larger.items()}
+    named = ", ".join(f"{word} {share:.2g} %" for word, share in words.items())
+    return f", and what {by} open ({named})"

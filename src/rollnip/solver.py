@@ -229,7 +229,7 @@ def _refined(
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     if model.geometry == "finite":
-        return refine_all_orders(nip, model, kernels, half_width, _nearby(near))
+        return refine_all_orders(nip, model, kernels, half_width, cache, _nearby(near))
     return kernels, refine(nip, model, kernels, half_width)
 
 

@@ -77,12 +77,17 @@ def test_a_family_up_and_down(evaluations):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    "nip", [configuration(2, driven=True), figure_5_viscoelastic()], ids=["II", "figure 5"]
-)
-def test_families_that_take_longer(evaluations, nip):
-    factors = np.linspace(0.98, 1.02, 5)
+def test_a_family_that_takes_longer(evaluations):
+    nip, factors = configuration(2, driven=True), np.linspace(0.98, 1.02, 5)
     family_is_the_same_both_ways(nip, evaluations, 0.8, factors)
+
+
+@pytest.mark.slow
+def test_a_family_with_memory(evaluations):
+    """From the second order, nips take three each by themselves: from one near by no more."""
+    nip, factors = figure_5_viscoelastic(), np.linspace(0.98, 1.02, 5)
+    family_is_the_same_both_ways(nip, evaluations, 1.0, factors)
+    assert len(evaluations) <= 3 * (len(factors) - 1)
 
 
 def test_what_is_not_near_does_not_count():

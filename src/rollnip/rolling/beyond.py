@@ -2,15 +2,17 @@
 
 "second" adds the second order, which every mesh evaluates again. "finite" adds all orders by finite
 elements instead: what they give beyond the linear displacements is a correction, which is held
-while a contact is solved and evaluated again from its solution. In free rolling the correction is a
-few hundredths of the first-order terms, and of elastic layers an iteration leaves a seventh of its
-error at most.
+while a contact is solved and evaluated again from its solution. Where surfaces slip or layers are
+viscoelastic the first contact holds the second order, which costs less than an iteration with
+elements. In free rolling the correction is a few hundredths of the first-order terms, and of
+elastic layers an iteration leaves a seventh of its error at most.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from math import inf
 from typing import Generic, Literal, TypeVar
 
@@ -28,7 +30,7 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
-from rollnip.rolling.held import Asked, Stage, begin, restarted, solved_next
+from rollnip.rolling.held import Progress, Stage, begin, refined_at_once, restarted, solved_next
 from rollnip.rolling.iterations import change_of, with_residual
 from rollnip.rolling.largest import largest
 from rollnip.rolling.nearby import Nearby
@@ -42,7 +44,7 @@ MOST_CORRECTIONS = 30  # of the correction and the contact
 # Violation of the contact conditions, or last change, from which iterations need not go on: over
 # the tolerance, or over the violation by what is cut, which the solution says that it leaves open.
 _ENOUGH = 0.3
-SMALL = 0.1  # change of an iteration from which it may be the last one
+SMALL = 0.05  # change of an iteration from which it may be the last one
 _MOST_RESTARTS = 10  # iterations that are solved from the beginning
 # Of the wave numbers: with all of them iterations may not settle beside an edge that slips at
 # strains of two and more. Which cut they need is not known before; what it costs is claimed.
@@ -68,9 +70,14 @@ def with_second_order(
 
 
 def refine_all_orders(
-    nip: Nip, model: Model, kernels: PairKernels, half_width: float, near: Nearby | None = None
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    half_width: float,
+    cache: KernelCache,
+    near: Nearby | None = None,
 ) -> tuple[PairKernels, Round]:
-    """Solve a coarse contact by iteration with the correction of all orders, then refine it.
+    """Solve a contact by iteration with the correction of all orders.
 
     Where a nip much like it has been solved, iterations start from that solution.
 
@@ -83,19 +90,24 @@ def refine_all_orders(
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
     if grips_skin(nip):
         kernels = replace(kernels, held=replace(NO_SECOND_ORDER, stretch=(Stretch(), Stretch())))
-    latest, stage = begin(nip, model, kernels, half_width)
+    second = partial(with_second_order, kernels, nip, "second", half_width, cache)
+    start, latest, stage = begin(
+        nip, model, kernels, half_width, None if grips_skin(nip) else second
+    )
     ended: Ended | None = None
     if latest.settled and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
         begun = None if near is None else near.begun(nip, model, kernels, half_width)
         if near is not None and begun is not None:
             orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)
-            found = _turns(nip, model, *begun, orders, Stage.REFINED)
+            found = _iterated(nip, model, begun, orders, Stage.REFINED, is_near=True)
             if not isinstance(found, Ended):
                 return found
+        if stage is Stage.COARSE and start is not kernels:
+            start, latest, stage = refined_at_once(nip, model, second(), latest)
         for share in SHARES_KEPT:
             orders = AllOrders.of(nip, kernels, half_width, strain, share)
-            found = _turns(nip, model, kernels, latest, orders, stage)
+            found = _iterated(nip, model, (start, latest), orders, stage, is_near=False)
             if not isinstance(found, Ended):
                 return found
             ended = found
@@ -114,16 +126,17 @@ class Past:
 
     x: Array
     made: list[SecondFields] = field(default_factory=list)
-    off: list[Array] = field(default_factory=list)
+    distances: list[Array] = field(default_factory=list)
 
     def next(self, held: SecondFields, made: SecondFields) -> SecondFields:
         """Return the correction to solve with next."""
-        off = (made.at(self.x).four - held.at(self.x).four).ravel()
-        self.made, self.off = [*self.made, made][-_DEPTH:], [*self.off, off][-_DEPTH:]
+        distance = (made.at(self.x).four - held.at(self.x).four).ravel()
+        self.made = [*self.made, made][-_DEPTH:]
+        self.distances = [*self.distances, distance][-_DEPTH:]
         if len(self.made) == 1:
             return made
-        steps = np.diff(np.array(self.off), axis=0)
-        back = np.linalg.lstsq(steps.T, off, rcond=1e-3)[0]
+        steps = np.diff(np.array(self.distances), axis=0)
+        back = np.linalg.lstsq(steps.T, distance, rcond=1e-3)[0]
         return _mean(np.append(back, 1.0) - np.append(0.0, back), self.made)
 
 
@@ -185,27 +198,30 @@ class Least(Generic[Found]):
         return self.found is not None and (min(left, to_come) <= enough or left > before)
 
 
-def _turns(
+def _iterated(
     nip: Nip,
     model: Model,
-    kernels: PairKernels,
-    latest: Round,
+    begun: tuple[PairKernels, Round],
     orders: AllOrders,
     stage: Stage,
+    *,
+    is_near: bool,
 ) -> tuple[PairKernels, Round] | Ended:
     """Solve the contact and evaluate its correction by iteration.
 
-    First on a coarse mesh, until the changes to come are small. Then the mesh is refined, and
-    iterations go on until the contact conditions are met with the correction that belongs to the
-    solution itself.
+    On a coarse mesh until the changes to come are small, then on a refined one until the contact
+    conditions are met with the correction that belongs to the solution itself. ``begun``: a contact
+    and what it holds; ``is_near``: whether that is the correction of a nip near by.
     """
+    kernels, latest = begun
     change, restarts, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
     least = Least[tuple[PairKernels, Round]]()
     iterations = 0
     cause: Literal["balance", "contact", "iterations"] = "iterations"
     for iteration in range(MOST_CORRECTIONS):
         try:
-            roughly = stage is Stage.COARSE and latest.is_placed and not grips_skin(nip)
+            is_far = stage is Stage.COARSE or (iteration == 0 and not is_near)
+            roughly = is_far and latest.is_placed and not grips_skin(nip)
             made, is_whole = orders.beyond(latest, kernels, roughly=roughly)
         except NoEquilibriumError:
             cause, iterations = "balance", iteration
@@ -213,21 +229,21 @@ def _turns(
         iterations = iteration + 1
         smooth = replace(kernels, held=made)
         before, change = change, _change(nip, model, smooth, latest)
-        if stage is Stage.REFINED and change < SMALL and is_whole:
-            checked = _checked(nip, model, smooth, latest, change)
+        if stage is Stage.REFINED and change < SMALL and is_whole and not roughly:
+            checked = _with_own_correction(nip, model, smooth, latest, change)
             left, cut = checked.residual / model.tolerance, checked.cut / model.tolerance
             if least.is_enough((smooth, checked), left, change / model.tolerance, cut):
                 break
-            if iteration == 0:  # of another nip's correction, later ones may well violate them more
+            if iteration == 0:  # with a nearby nip's correction: later ones may violate them more
                 least = Least()
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
-        near = min(change, to_come_after(change, before)) / model.tolerance
-        was, asked = stage, Asked(change, near if is_whole else inf)
-        found, stage = solved_next(nip, model, mixed, latest, stage, asked)
+        to_come = min(change, to_come_after(change, before)) / model.tolerance
+        was, progress = stage, Progress(change, to_come if is_whole else inf)
+        found, stage = solved_next(nip, model, mixed, latest, stage, progress)
         if not found.settled and stage is not Stage.FINE and restarts < _MOST_RESTARTS:
             restarts += 1
-            kernels, found, stage = restarted(nip, model, (mixed, smooth), latest, stage)
+            kernels, found, stage = restarted(nip, model, (mixed, smooth), latest)
         if not found.settled:
             cause = "contact"
             break
@@ -258,7 +274,9 @@ def places_by_the_edges(edges: tuple[float, float]) -> Array:
     return np.asarray(start + (stop - start) * shares)
 
 
-def _checked(nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float) -> Round:
+def _with_own_correction(
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, change: float
+) -> Round:
     """Return a solution with its violation of the contact conditions under its own correction.
 
     With the stretch of the displacements themselves, and where the conditions are met also with the

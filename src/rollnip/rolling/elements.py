@@ -29,6 +29,11 @@ EVERYWHERE = ((-inf, inf),) * 4
 """Where a correction of both surfaces holds."""
 
 
+def share_of_waves(strain: float) -> float:
+    """Return the share of the wave numbers that are kept at a strain of the surface."""
+    return 1.0 / (1.0 + strain / _STRAIN)
+
+
 @dataclass(frozen=True)
 class AllOrders:
     """Finite elements of both rollers; None for a rigid one.
@@ -56,7 +61,7 @@ class AllOrders:
         ``share``: of the wave numbers that are kept as a rule; ``bodies``: equilibria of the upper
         and the lower roller of a nip much like this one.
         """
-        cut = CUT / (1.0 + strain / _STRAIN)
+        cut = CUT * share_of_waves(strain)
 
         def response(
             roller: Roller, surface: SurfaceKernels | None, start: Equilibrium | None

@@ -7,6 +7,7 @@ node by node until the correction has settled; only then free ends take over the
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, replace
 from enum import IntEnum
@@ -18,7 +19,9 @@ from rollnip.contact import Layout
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
+from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
+from rollnip.rolling.elements import share_of_waves
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.iterations import STILL, solve_on_mesh
 from rollnip.rolling.placing import Placing
@@ -45,7 +48,13 @@ NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is re
 _REFINED_FROM = 400.0
 _REFINED_LATER_FROM = 50.0
 _COARSELY = 1e-2  # tolerance of such contacts
-_OFF = 0.01  # of the width of the contact: how far a correction moves the ends of zones, about
+_MISPLACEMENT = (
+    0.01  # of the width of the contact: how far a correction moves the ends of zones, about
+)
+
+
+Responses = Callable[[], PairKernels]
+"""Influence functions with responses of second order."""
 
 
 class Stage(IntEnum):
@@ -57,45 +66,95 @@ class Stage(IntEnum):
 
 
 @dataclass(frozen=True, slots=True)
-class Asked:
-    """Demands of a correction on the next contact.
+class Progress:
+    """How far the iterations of a correction have come.
 
     Attributes
     ----------
-    change : by which the correction changes the terms of finite strain.
-    near : that change or the sum of those to come, over the tolerance; inf where the correction is
-        not that of the tractions themselves.
+    change : by which the last one changed the terms of finite strain.
+    to_come : that change or the sum of those to come, whichever is less, over the tolerance; inf
+        where the correction is not that of the tractions themselves.
     """
 
     change: float
-    near: float
+    to_come: float
 
 
-def begin(nip: Nip, model: Model, kernels: PairKernels, half_width: float) -> tuple[Round, Stage]:
-    """Return a contact to begin with: with free ends, coarse or refined, or by nodes."""
-    asked = coarsely(model)
-    for located in by_nodes(nip, asked, kernels, half_width, SIZES[:ENOUGH_FOR_ZONES]):
+def begin(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    half_width: float,
+    second: Responses | None = None,
+) -> tuple[PairKernels, Round, Stage]:
+    """Return a contact to begin with: with free ends, coarse or refined, or by nodes.
+
+    And the influence functions with the correction that it holds: that of ``kernels`` or, with
+    ``second``, the second order under the tractions of nodes. An elastic nip that sticks all over
+    goes without: an iteration leaves so little of the error of the correction there that the second
+    order saves none.
+    """
+    coarse_model = coarsely(model)
+    for located in by_nodes(nip, coarse_model, kernels, half_width, SIZES[:ENOUGH_FOR_ZONES]):
         layout = Layout.of(located.zones) if located.settled else None
         if layout is not None:
-            start = SearchState(layout, located, misplacement=1.0 / located.mesh.inner.size)
+            held, before = kernels, located
+            if second is not None and (nip.is_viscoelastic or layout.states.size > 1):
+                held, before = _holding_second_order(nip, model, second(), located)
+            start = SearchState(layout, before, misplacement=1.0 / located.mesh.inner.size)
             with suppress(np.linalg.LinAlgError):
-                found = Placing(nip, asked, kernels).placed(start, _COARSE, known=False)
+                found = Placing(nip, coarse_model, held).placed(start, _COARSE, known=False)
                 if found is not None:
-                    return found.before, Stage.COARSE
+                    return held, found.before, Stage.COARSE
     refined = placed(nip, model, kernels, located) if located.settled else None
-    return (refined, Stage.REFINED) if is_verified(refined, model) else (located, Stage.COARSE)
+    if is_verified(refined, model):
+        return kernels, refined, Stage.REFINED
+    return kernels, located, Stage.COARSE
+
+
+def refined_at_once(
+    nip: Nip, model: Model, second: PairKernels, coarse: Round
+) -> tuple[PairKernels, Round, Stage]:
+    """Return a refined contact that holds the second order of a coarse one, and what holds it.
+
+    The coarse one itself where the ends of zones are not found on finer meshes.
+    """
+    held, before = _holding_second_order(nip, model, second, coarse)
+    refined = _with_free_ends(nip, model, held, before)
+    if refined is None:
+        return held, before, Stage.COARSE
+    return held, refined, Stage.REFINED
+
+
+def _holding_second_order(
+    nip: Nip, model: Model, second: PairKernels, latest: Round
+) -> tuple[PairKernels, Round]:
+    """Return influence functions that hold the second order of a solution, and it with them.
+
+    Of its waves those are left out that are too short at the strain of the solution.
+    """
+    kept = share_of_waves(surface_strain_in_nip(nip, model.geometry, latest))
+    half_width = 0.5 * latest.figures.nip_width / kept
+    upper, lower = (
+        None if response is None else response.fitted(half_width)
+        for response in (second.second_upper, second.second_lower)
+    )
+    fitted = replace(second, second_upper=upper, second_lower=lower)
+    fields = fitted.second_fields(latest.nodes, latest.pressure, latest.shear)
+    kernels = replace(second, second_upper=None, second_lower=None, held=fields)
+    return kernels, replace(latest, mesh=latest.mesh.holding(kernels))
 
 
 def solved_next(
-    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, asked: Asked
+    nip: Nip, model: Model, kernels: PairKernels, latest: Round, stage: Stage, progress: Progress
 ) -> tuple[Round, Stage]:
     """Solve with another correction, on better meshes where it is nearly right.
 
     Where that fails the round has not settled.
     """
-    if asked.near <= _enough_for_better(nip, latest, stage):
+    if progress.to_come <= _enough_for_better(nip, latest, stage):
         return _better(nip, model, kernels, latest, stage)
-    return _solved_again(nip, model, kernels, latest, stage, asked.change), stage
+    return _solved_again(nip, model, kernels, latest, stage, progress.change), stage
 
 
 def _enough_for_better(nip: Nip, latest: Round, stage: Stage) -> float:
@@ -135,32 +194,29 @@ def coarsely(model: Model) -> Model:
 
 def _refined(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round:
     """Refine a solution with free ends on a coarse mesh, with a correction that is held."""
+    found = _with_free_ends(nip, model, kernels, latest)
+    return found or refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
+
+
+def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -> Round | None:
+    """Return a verified solution with about the zones of a coarse one; None: there is none."""
     layout = Layout.of(latest.zones)
-    if layout is not None:
-        found = with_free_ends(nip, model, kernels, layout, latest, _OFF)
-        if is_verified(found, model):
-            return found
-    return refine(nip, model, kernels, 0.5 * latest.figures.nip_width)
+    if layout is None:
+        return None
+    found = with_free_ends(nip, model, kernels, layout, latest, _MISPLACEMENT)
+    return found if is_verified(found, model) else None
 
 
 def restarted(
-    nip: Nip,
-    model: Model,
-    both: tuple[PairKernels, PairKernels],
-    latest: Round,
-    stage: Stage,
+    nip: Nip, model: Model, both: tuple[PairKernels, PairKernels], latest: Round
 ) -> tuple[PairKernels, Round, Stage]:
-    """Solve from the beginning: with a mean of corrections or, if it leads astray, the last one."""
+    """Begin again: with a mean of corrections or, if it leads astray, the last one."""
     half_width = 0.5 * latest.figures.nip_width
     for kernels in both if both[0].held is not both[1].held else both[:1]:
-        if stage is Stage.COARSE:
-            found, stage = begin(nip, model, kernels, half_width)
-        else:
-            found = refine(nip, model, kernels, half_width)
-            stage = Stage.REFINED if found.is_placed else Stage.FINE
+        held, found, stage = begin(nip, model, kernels, half_width)
         if found.settled:
             break
-    return kernels, found, stage
+    return held, found, stage
 
 
 def _solved_again(
@@ -175,8 +231,8 @@ def _solved_again(
         start = latest.state.states, latest.second, latest.steps
         found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, STILL)
     else:
-        asked = coarsely(model) if stage is Stage.COARSE else model
-        found = _placed_again(nip, asked, kernels, latest)
+        model_of_stage = coarsely(model) if stage is Stage.COARSE else model
+        found = _placed_again(nip, model_of_stage, kernels, latest)
     return replace(found, error=latest.error, make_further_error=latest.make_further_error)
 
 
@@ -190,7 +246,7 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
     if layout is not None:
         placing = Placing(nip, model, kernels)
         second = second_order(nip, model.geometry, latest.mesh, latest.state)
-        search = SearchState(layout, replace(latest, second=second), misplacement=_OFF)
+        search = SearchState(layout, replace(latest, second=second), misplacement=_MISPLACEMENT)
         is_crowded = not grips_skin(nip) and min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.solved_at_moved_ends(search)

@@ -55,16 +55,12 @@ def refine(
     node by node, of those that have settled if any has: a start whose ends were not found.
     """
     best: Round | None = None
-    settled: Round | None = None
     for latest in by_nodes(nip, model, kernels, half_width, sizes):
-        if not latest.settled:
-            continue
-        settled = latest
-        found = placed(nip, model, kernels, latest)
+        found = placed(nip, model, kernels, latest) if latest.settled else None
         if is_verified(found, model):
             return found
         best = found or best
-    best = best or settled or latest
+    best = best or latest
     if not best.figures.peak_pressure > 0.0:
         return best
     return with_residual(nip, model, kernels, converge(nip, model, best, BY_NODES))
@@ -85,12 +81,16 @@ def by_nodes(
     half_width: float,
     sizes: tuple[int, ...],
 ) -> Iterator[Round]:
-    """Find contact, stick and slip node by node on ever finer meshes, as long as there is any."""
+    """Find contact, stick and slip node by node on ever finer meshes, as long as there is any.
+
+    Once a solution has settled only those that have settled, too, follow.
+    """
     placing = Placing(nip, model, kernels)
     before: Round | None = None
     for count in sizes:
         found = _on(placing, half_width, count, before)
-        yield found
+        if found.settled or before is None:
+            yield found
         if not (found.figures.peak_pressure > 0.0 and has_grip(found)):
             return
         before = found if found.settled else before
@@ -107,6 +107,8 @@ def _on(placing: Placing, half_width: float, count: int, before: Round | None) -
     last: Round | None = None
     for _ in range(_MOST):
         found = _on_one(placing, half_width, count, last or before)
+        if last is not None and not found.settled:
+            return last
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
         if not is_pressed or _are_known(placing, found, last):
             break

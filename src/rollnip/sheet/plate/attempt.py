@@ -60,10 +60,15 @@ def violation(attempt: PlateAttempt) -> float:
 
 
 def shear_over(attempt: PlateAttempt) -> float:
-    """Return by how much a sticking node's shear is beyond its bound, over the largest bound."""
+    """Return by how much a sticking node's shear is beyond its bound, over the largest bound.
+
+    Infinite where one side presses nowhere.
+    """
     state, most = attempt.state, 0.0
     for side, friction in enumerate(attempt.problem.frictions):
         bound = friction * np.maximum(state.pressure[side], 0.0)
+        if not np.any(state.pressure[side] > 0.0):
+            return inf
         over = (np.abs(state.shear[side]) - bound)[state.states[side] == State.STICK]
         most = max(most, float(np.max(over, initial=0.0)) / float(bound.max()))
     return most

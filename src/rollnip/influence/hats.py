@@ -7,12 +7,12 @@ differences of the double integral of G at the nodes, exact for any spacing.
 
 from __future__ import annotations
 
-from math import inf, sqrt
+from math import inf, log, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.influence.kernel import TOLERANCE, Kernel
+from rollnip.influence.kernel import Kernel
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ def displacement_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
     A kernel with channels gives (channels, m, N-1).
     """
     lengths = nodes[1:] - nodes[:-1]
-    steps = _under_slopes(kernel, x, nodes, _most(kernel, lengths))
+    steps = _under_slopes(kernel, x, nodes, _furthest(kernel) * lengths)
     steps /= lengths.reshape(-1, *[1] * (steps.ndim - 1))
     hats = np.moveaxis(steps[:-1] - steps[1:], 0, 1)
     if kernel.coefficients.ndim == 3:
@@ -48,7 +48,8 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     lengths = nodes[1:] - nodes[:-1]
     ends = np.zeros((1, tractions.shape[1]))
     slopes = np.diff(tractions, axis=0, prepend=ends, append=ends) / lengths[:, None]
-    most = _most(kernel, lengths)
+    furthest = _furthest(kernel) * lengths
+    furthest[[0, -1]] = inf  # they only end the mesh
     # Some elements at a time: their values stay in the processor's cache, and sets that are each of
     # a few neighbours make a band.
     channels = kernel.coefficients[0, 0].size
@@ -60,48 +61,47 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
         if sets.size:
             columns = slice(int(sets[0]), int(sets[-1]) + 1)
             here = nodes[start : start + block + 1]
-            values = _under_slopes(kernel, x, here, most[rows])
+            values = _under_slopes(kernel, x, here, furthest[rows])
             out[columns] += slopes[rows, columns].T @ values.reshape(-1, out.shape[1])
     made = out.reshape(-1, x.size, channels).T[: kernel.count]
     return np.ascontiguousarray(made[0] if kernel.coefficients.ndim == 2 else made)
 
 
-def _under_slopes(kernel: Kernel, x: Array, nodes: Array, most: Array) -> Array:
+def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Array:
     """Displacement at ``x`` (m,) per slope of the traction over each element; (N, m) [mm^2/MPa].
 
     That is the difference of the double integral at both ends of the element, which is the integral
-    of the single one over it. Where the double integral exceeds ``most`` (N,), rounding would be
-    seen: two Gauss points of the single integral take its place. They miss h^4/4320 of the third
-    derivative of G, h the length of the element.
+    of the single one over it. From distances ``furthest`` (N,) on, two Gauss points of the single
+    integral take its place.
 
     A kernel with channels gives (N, m, channels).
     """
     values = kernel.double_integral(x - nodes[:, None])
     out = values[:-1] - values[1:]
-    rows = np.flatnonzero(np.abs(values[:-1]).reshape(most.size, -1).max(axis=1) > most)
-    if rows.size:
-        largest = np.abs(values[rows]).reshape(rows.size, x.size, -1).max(axis=2)
-        row, place = np.nonzero(largest > most[rows, None])
-        element = rows[row]
-        length = nodes[element + 1] - nodes[element]
-        middle = x[place] - nodes[element] - 0.5 * length
+    if max(x.max() - nodes[0], nodes[-1] - x.min()) > furthest.min():
+        lengths = nodes[1:] - nodes[:-1]
+        distance = x - (nodes[:-1] + 0.5 * lengths)[:, None]
+        element, place = np.nonzero(np.abs(distance) > furthest[:, None])
+        length, middle = lengths[element], distance[element, place]
         apart = length / sqrt(12.0)
         mean = 0.5 * (kernel.integral(middle - apart) + kernel.integral(middle + apart))
         out[element, place] = mean * length.reshape(-1, *[1] * (mean.ndim - 1))
     return out
 
 
-def _most(kernel: Kernel, lengths: Array) -> Array:
-    """Return the double integral from which on its rounding would be seen in tractions, (N,).
+def _furthest(kernel: Kernel) -> float:
+    """Return at what distance, over the length h of an element, rounding counts in differences.
 
-    It grows as the square of the distance, and its rounding with it. An element resists as its own
-    deflection tells, which goes as the square of its length h and is small under a stiff skin:
-    there noise of 1e-16 is some 1e-3 of the pressure, with h = 2e-4 mm in a contact of 7 mm. It may
-    be as much of it as a table leaves out. The first and the last element only end the mesh.
+    A difference keeps eps G x^2/2 of the double integral at a distance x. The element itself yields
+    as G falls with ln|x| at its own place, by A h^2: the rest is noise of the tractions, under a
+    stiff skin 1e-3 of the pressure where a tenth of the elements lie within 1e-3 of the contact.
+    A third of all digits, 6e-6 of the tractions, is little beside any tolerance. Two Gauss points
+    miss h^4/2160 A/x^3 of a logarithm: nearer than where that is eps x^2/2 they gain nothing.
     """
-    own = np.abs(kernel.double_integral(lengths)).reshape(lengths.size, -1).max(axis=1)
-    own[[0, -1]] = inf
-    return np.asarray(own * (TOLERANCE / np.finfo(float).eps))
+    eps, per_log = float(np.finfo(float).eps), kernel.points_per_octave / log(2.0)
+    nearest = kernel.coefficients[1, kernel.coefficients.shape[1] // 2]
+    share = per_log * float(np.abs(nearest).max()) / float(np.abs(kernel.coefficients[0]).max())
+    return max(sqrt(2.0 * share * eps ** (1.0 / 3.0) / eps), (1080.0 * eps) ** -0.2)
 
 
 def load_weights(nodes: Array) -> Array:

@@ -7,7 +7,7 @@ differences of the double integral of G at the nodes, exact for any spacing.
 
 from __future__ import annotations
 
-from math import inf, log, sqrt
+from math import cbrt, inf, log, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -98,10 +98,13 @@ def _furthest(kernel: Kernel) -> float:
     A third of all digits, 6e-6 of the tractions, is little beside any tolerance. Two Gauss points
     miss h^4/2160 A/x^3 of a logarithm: nearer than where that is eps x^2/2 they gain nothing.
     """
+    largest = float(np.abs(kernel.coefficients[0]).max())
+    if largest == 0.0:
+        return inf
     eps, per_log = float(np.finfo(float).eps), kernel.points_per_octave / log(2.0)
-    nearest = kernel.coefficients[1, kernel.coefficients.shape[1] // 2]
-    share = per_log * float(np.abs(nearest).max()) / float(np.abs(kernel.coefficients[0]).max())
-    return max(sqrt(2.0 * share * eps ** (1.0 / 3.0) / eps), (1080.0 * eps) ** -0.2)
+    nearest = float(np.abs(kernel.coefficients[1, kernel.coefficients.shape[1] // 2]).max())
+    noise = cbrt(eps) * per_log * nearest / largest
+    return max(sqrt(2.0 * noise / eps), float((1080.0 * eps) ** -0.2))
 
 
 def load_weights(nodes: Array) -> Array:

@@ -15,6 +15,7 @@ from rollnip.model import Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.estimates import edge_within_memory
+from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.figures import ALIKE, NAMES, SheetFigures, ratio, scales
 from rollnip.sheet.powers import off_the_moments, slip_works
 from rollnip.sheet.search import (
@@ -117,11 +118,12 @@ def refine_sheet(
             continue
         here = _size_of(attempt, model.geometry)
         figures = here[1]
-        errors = _errors(nip, attempt, [*history, here])
+        meshes = (attempt.problem.mesh,)
+        errors = estimated_errors(nip, meshes, [*history, here])
         is_near = attempt.settled and may_be_last
         if is_near and ratio(nip, figures, errors) > model.tolerance:
             history = _with_zones_of(attempt, history, search, last_count)
-            errors = _errors(nip, attempt, [*history, here])
+            errors = estimated_errors(nip, meshes, [*history, here])
         latest = SheetRefined(attempt, figures, errors, violation(attempt), round(count))
         if attempt.settled:
             history.append(here)
@@ -145,15 +147,30 @@ def _size_of(attempt: SheetAttempt, geometry: Geometry) -> _Size:
     return float(elements), SheetFigures.of(attempt, geometry), attempt.zones
 
 
-def _errors(nip: Nip, attempt: SheetAttempt, history: list[_Size]) -> SheetFigures:
+class _Alike(Protocol):
+    """Zones that can be compared with others."""
+
+    def is_like(self, other: Any) -> bool:
+        """Return whether the other zones have the same states in the same order."""
+        ...
+
+
+def estimated_errors(
+    nip: Nip, meshes: Sequence[Mesh], history: Sequence[tuple[float, SheetFigures, _Alike]]
+) -> SheetFigures:
     """Return the estimated errors of a solution, the last of some sizes of mesh.
 
     They are those of the mesh, and what a memory does that is shorter than its elements, on which
     all sizes agree: to the width, and twice its share to a creepage that follows from a traction
     and to all that tractions make, as without a sheet.
+
+    Parameters
+    ----------
+    nip, meshes : the problem, and the meshes of the last size.
+    history : see `errors_between`.
     """
     errors, figures = errors_between(nip, history, ORDERS), history[-1][1]
-    lag = edge_within_memory(nip, attempt.problem.mesh)
+    lag = max(edge_within_memory(nip, mesh) for mesh in meshes)
     errors[_WIDTH] += lag
     by_edges = [*_CREEPAGES[isinstance(nip.tangential, Creepage) :], *_BY_TRACTIONS]
     errors[by_edges] += 2.0 * lag / figures.nip_width * scales(nip, figures)[by_edges]
@@ -235,14 +252,6 @@ def claimed_of_powers(
 def residual_of(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
     """Return how badly a solution violates its conditions, relative."""
     return max(violation(attempt), overlap(attempt, kernels, geometry))
-
-
-class _Alike(Protocol):
-    """Zones that can be compared with others."""
-
-    def is_like(self, other: Any) -> bool:
-        """Return whether the other zones have the same states in the same order."""
-        ...
 
 
 def errors_between(

@@ -30,9 +30,8 @@ from rollnip.sheet.refine import (
     FEWEST,
     FEWEST_WITH_SLIP,
     FIRST_COUNT,
-    ORDERS,
     claimed_of_powers,
-    errors_between,
+    estimated_errors,
     next_count,
 )
 
@@ -132,8 +131,9 @@ def refine_plate(
         here = (count, figures, attempt.zones)
         lower = of_lower(figures, attempt)
         here_below = (count, lower, attempt.zones)
-        errors = SheetFigures(errors_between(nip, [*history, here], ORDERS))
-        lower_errors = SheetFigures(errors_between(nip, [*below, here_below], ORDERS))
+        meshes = attempt.problem.meshes
+        errors = estimated_errors(nip, meshes, [*history, here])
+        lower_errors = estimated_errors(nip, meshes, [*below, here_below])
         left = violation(attempt)
         latest = PlateRefined(attempt, figures, errors, left, lower, lower_errors, round(count))
         slips = any(side.states.size > 1 for side in attempt.zones.sides)

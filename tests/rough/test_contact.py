@@ -10,16 +10,9 @@ import rollnip as rn
 from rollnip.model import Model
 from rollnip.rolling import pair_kernels
 from rollnip.rough import contact as contact_module
-from rollnip.rough.contact import max_or_nan, rough_contact
+from rollnip.rough.contact import rough_contact
 from rollnip.rough.sampling import sampled
 from rollnip.rough.solved import _verdict
-
-
-def test_the_largest_of_values_with_a_nan_is_nan():
-    assert max_or_nan(1.0, 2.0) == 2.0
-    assert max_or_nan(-1.0) == 0.0
-    assert isnan(max_or_nan(1.0, nan))
-    assert isnan(max_or_nan(nan, 1.0))
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from math import isfinite, isnan, nan, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import (
     ContactProblem,
     ContactState,
@@ -28,7 +29,6 @@ from rollnip.model import FINITE, RINGS, Geometry
 from rollnip.nip import Approach, Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rollers import Side
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order, hoop_curvature
 
 Array = NDArray[np.float64]

@@ -19,6 +19,7 @@ from typing import Generic, Literal, TypeVar
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.finite import NoEquilibriumError, Spline
 from rollnip.influence import KernelCache, SecondResponse
 from rollnip.model import Geometry, Model
@@ -32,7 +33,6 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, 
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
 from rollnip.rolling.held import Progress, Stage, begin, refined_at_once, restarted, solved_next
 from rollnip.rolling.iterations import change_of, with_residual
-from rollnip.rolling.largest import largest
 from rollnip.rolling.nearby import Nearby
 from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.surfaces import PairKernels

@@ -6,20 +6,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from rollnip._largest import largest
 from rollnip.contact import ContactZone, State
 from rollnip.influence import displacement_matrix, strain_matrix
 from rollnip.model import RINGS, Geometry
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import creep_of, stretch_excess, stretch_parts, surface_depths
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Round, creepage_scale
-from rollnip.rolling.surfaces import (
-    Array,
-    PairKernels,
-    hoop_curvature,
-    pair_displacements,
-)
+from rollnip.rolling.surfaces import Array, PairKernels, hoop_curvature
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +70,7 @@ def places_outside(nodes: Array, width: float) -> Array:
 
 def _displacements(x: Array, kernels: PairKernels, final: Round) -> Displacements:
     """Return the displacements of both surfaces at ``x``, to the order of the model."""
-    tractions = np.stack([final.pressure, final.shear], axis=1)
-    linear = Displacements.under(pair_displacements(kernels, x, final.nodes, tractions))
+    linear = final.mesh.linear_displacements_at(x, final.state)
     if kernels.is_linear:
         return linear
     held = kernels.held

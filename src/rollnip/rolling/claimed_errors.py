@@ -12,13 +12,13 @@ from math import inf, isfinite, isinf, isnan, nan
 
 import numpy as np
 
+from rollnip._largest import largest
 from rollnip.contact import contact_intervals
 from rollnip.contact.coupled import solve_states
 from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.rolling.further import further_of, further_sizes
-from rollnip.rolling.largest import largest
 from rollnip.rolling.power_balance import Powers, rates_of
 from rollnip.rolling.round import Figures, Further, Round, creepage_scale
 

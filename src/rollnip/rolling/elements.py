@@ -16,10 +16,10 @@ from rollnip.nip import Nip
 from rollnip.rollers import Roller
 from rollnip.rolling.assemble import stretch_excess
 from rollnip.rolling.claimed_errors import grips_skin
-from rollnip.rolling.displacements import Displacements, Field, SecondFields, Stretch
+from rollnip.rolling.displacements import Field, SecondFields, Stretch
 from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.round import Round
-from rollnip.rolling.surfaces import PairKernels, pair_displacements
+from rollnip.rolling.surfaces import PairKernels
 
 Array = NDArray[np.float64]
 Acting = tuple[Array, Array, Array]
@@ -161,8 +161,7 @@ def _stretch_beyond(
     if not isinstance(columns, Spline):
         return Stretch()
     x = np.union1d(columns.x, latest.nodes)
-    tractions = np.stack([latest.pressure, latest.shear], axis=1)
-    flat = Displacements.under(pair_displacements(kernels, x, latest.nodes, tractions))
+    flat = latest.mesh.linear_displacements_at(x, latest.state)
     hoops = np.array(kernels.hoops)[:, None]
     beyond = stretch_excess(x, nip, "finite", flat + made.at(x))
     beyond -= linear_stretch(x[1:] - x[:-1], hoops, *flat.rows)

@@ -12,6 +12,7 @@ from typing import TypeGuard
 
 import numpy as np
 
+from rollnip._largest import largest
 from rollnip.contact import Layout, cubic_error, more_elements
 from rollnip.model import Model
 from rollnip.nip import Nip
@@ -24,7 +25,6 @@ from rollnip.rolling.estimates import (
     zone_excess,
 )
 from rollnip.rolling.iterations import converge, with_residual
-from rollnip.rolling.largest import largest
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import SearchState

@@ -6,13 +6,13 @@ from dataclasses import replace
 from math import inf
 from typing import Protocol
 
+from rollnip._largest import largest
 from rollnip.contact import ContactProblem, ContactState, ContactZone, States, contact_zones
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.largest import largest
 from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 

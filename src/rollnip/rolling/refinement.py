@@ -110,7 +110,7 @@ def _on(placing: Placing, half_width: float, count: int, before: Round | None) -
         if last is not None and not found.settled:
             return last
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
-        if not is_pressed or _are_known(placing, found, last):
+        if not is_pressed or _zones_are_known(placing, found, last):
             break
         last = found
     return found
@@ -133,7 +133,7 @@ def _on_one(placing: Placing, half_width: float, count: int, before: Round | Non
     return solve_on_mesh(nip, model, mesh, start, BY_NODES, STILL)
 
 
-def _are_known(placing: Placing, latest: Round, before: Round | None) -> bool:
+def _zones_are_known(placing: Placing, latest: Round, before: Round | None) -> bool:
     """Return whether zones are known well enough to place their ends.
 
     The first mesh of a size has short elements at the edges of the contact, but at transitions or

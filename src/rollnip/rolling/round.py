@@ -10,12 +10,12 @@ from typing import Literal
 
 import numpy as np
 
+from rollnip._largest import largest
 from rollnip.contact import ContactProblem, ContactState, ContactZone
 from rollnip.influence import load_weights
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.displacements import Displacements
-from rollnip.rolling.largest import largest
 from rollnip.rolling.surfaces import Array, Mesh
 
 _ALIKE = 1e-4  # peaks that differ by less agree in the four digits that are shown

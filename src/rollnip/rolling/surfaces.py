@@ -266,7 +266,11 @@ class Mesh:
             six, m, n = self.per_traction.shape  # one product is faster than six
             made = self.per_traction.reshape(-1, n) @ tractions
             return Displacements.under(made.reshape(six, m, 2))
-        acting, x = self.acting(tractions), self.nodes[1:]
+        return self.linear_displacements_at(self.nodes[1:], state)
+
+    def linear_displacements_at(self, x: Array, state: ContactState) -> Displacements:
+        """Return the displacements at ``x``, linear in the tractions."""
+        acting = self.acting(np.array([state.pressure, state.shear]).T)
         return Displacements.under(pair_displacements(self.kernels, x, self.fine.nodes, acting))
 
     def displacements(self, state: ContactState) -> Displacements:

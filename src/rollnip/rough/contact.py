@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip._errors import InvalidInputError
+from rollnip._largest import largest
 from rollnip.influence import Kernel, displacement_matrix, grid_displacements
 from rollnip.nip import LineLoad, Nip
 from rollnip.rolling import PairKernels
@@ -223,11 +224,6 @@ def _depth(nip: Nip, x: Array, state: GridState, pressed_in: float) -> float:
     return depth if nip.has_half_space else max(depth, pressed_in)
 
 
-def max_or_nan(*values: float) -> float:
-    """Return the largest value, at least 0; nan where any is nan, as Python's max may not."""
-    return float(np.max([0.0, *values]))
-
-
 def _residual(
     problem: GridProblem, state: GridState, gap: Array, wrong: float, depth: float
 ) -> float:
@@ -247,4 +243,4 @@ def _residual(
         state.correction,
         load,
     ]
-    return max_or_nan(*parts)
+    return largest(0.0, *parts)

@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 
 from rollnip._errors import ConvergenceError, InvalidInputError
+from rollnip._largest import largest
 from rollnip._results.records import SolverInfo
 from rollnip.model import COARSEST, FINITE, Model
 from rollnip.nip import Approach, LineLoad, Nip
@@ -17,7 +18,7 @@ from rollnip.no_nip import MOST_PRESSED_IN
 from rollnip.reservation import Reservation
 from rollnip.rollers import Roller, Side
 from rollnip.rolling import half_width_guess, pair_kernels
-from rollnip.rough.contact import RoughContact, max_or_nan, rough_contact
+from rollnip.rough.contact import RoughContact, rough_contact
 from rollnip.rough.sampling import sampled
 from rollnip.rough.solution import RoughSolution
 from rollnip.validity import CONTACT_ANGLE, THICKNESS_RATIO, pressed_in
@@ -76,7 +77,7 @@ def solve_rough(
         solver=SolverInfo(
             elements=rough.x.size - 1,
             iterations=rough.state.steps,
-            residual=max_or_nan(rough.residual, rough.between),
+            residual=largest(0.0, rough.residual, rough.between),
             geometry_change=0.0,
             seconds=perf_counter() - start,
             version=version,
@@ -146,7 +147,7 @@ def _verdict(nip: Nip, model: Model, rough: RoughContact) -> tuple[bool, str]:
     open_shares = left_open(relative, model.tolerance, "the samples leave")
     return True, (
         f"Solved on the samples of the profile and verified there and between them: residual "
-        f"{max_or_nan(rough.residual, rough.between):.1e}, tolerance {model.tolerance:g}"
+        f"{largest(0.0, rough.residual, rough.between):.1e}, tolerance {model.tolerance:g}"
         f"{open_shares}."
     )
 

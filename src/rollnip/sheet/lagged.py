@@ -7,13 +7,13 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import State, States
 from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque, Traction
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import arc_ratio, loss_inside, mean_shear
-from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 

@@ -7,13 +7,13 @@ from math import sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque, Traction
 from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import loss_inside, mean_shear
-from rollnip.rolling.largest import largest
 from rollnip.rolling.round import scale_of_creepage
 from rollnip.sheet.lagged import creep_in_stick, pressed_gap, sheet_rate
 from rollnip.sheet.plate.curved import CurvedLoad, curved_load, is_stiff, places_along

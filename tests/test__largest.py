@@ -3,7 +3,7 @@
 from itertools import permutations
 from math import inf, isnan, nan
 
-from rollnip.rolling.largest import largest
+from rollnip._largest import largest
 
 
 def test_largest():

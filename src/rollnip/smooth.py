@@ -10,6 +10,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.profiles import fine_points, slip_velocity, surface_strain
 from rollnip._results.records import DeformedSurfaces, Profiles, Zone
 from rollnip._sealed import sealed
 from rollnip.contact import State, contact_intervals
@@ -20,13 +21,10 @@ from rollnip.rolling import (
     Round,
     claims,
     fields_at,
-    fine_points,
     further_claims,
     peak_pressure,
     powers,
-    slip_velocity,
     surface_depths,
-    surface_strain,
 )
 from rollnip.solution import Solution
 

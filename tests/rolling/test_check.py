@@ -5,8 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from rollnip._results.profiles import fine_points, slip_velocity, surface_strain
 from rollnip.contact import State
-from rollnip.rolling import fields_at, fine_points, slip_velocity, surface_strain
+from rollnip.rolling import fields_at
 from rollnip.rolling.check import residual
 from rollnip.rolling.surfaces import pressure_work
 

@@ -21,9 +21,6 @@ from rollnip.rolling.beyond import refine_all_orders, with_second_order
 from rollnip.rolling.check import (
     PairFields,
     fields_at,
-    fine_points,
-    slip_velocity,
-    surface_strain,
     surface_strain_in_nip,
 )
 from rollnip.rolling.claimed_errors import (
@@ -70,7 +67,6 @@ __all__ = [
     "creepage_scale",
     "excess",
     "fields_at",
-    "fine_points",
     "further_claims",
     "further_figures",
     "further_sizes",
@@ -87,10 +83,8 @@ __all__ = [
     "refine",
     "refine_all_orders",
     "relative_claims",
-    "slip_velocity",
     "stretch_excess",
     "surface_depths",
-    "surface_strain",
     "surface_strain_in_nip",
     "with_second_order",
 ]

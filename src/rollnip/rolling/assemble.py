@@ -57,22 +57,16 @@ class SecondOrder:
     def carried(self, old: Mesh, new: Mesh) -> SecondOrder:
         """Return these terms on another mesh, zone by zone where both have the same zones."""
         matrices = carry(old.fine, new.fine)
-        rate, offset = self.creep_length / old.dx, self.creep_offset / old.dx
+        rates = np.array([self.creep_length, self.creep_offset]) / old.dx
         if matrices is not None:
             nodes, intervals = matrices
-            return replace(
-                self,
-                clearance=nodes @ self.clearance,
-                creep_length=new.dx * (intervals @ rate),
-                creep_offset=new.dx * (intervals @ offset),
-            )
-        middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
-        return replace(
-            self,
-            clearance=np.interp(new.inner, old.inner, self.clearance),
-            creep_length=new.dx * np.interp(places, middles, rate),
-            creep_offset=new.dx * np.interp(places, middles, offset),
-        )
+            clearance, rates = nodes @ self.clearance, rates @ intervals.T
+        else:
+            clearance = np.interp(new.inner, old.inner, self.clearance)
+            middles, places = (0.5 * (x[1:-1] + x[2:]) for x in (old.nodes, new.nodes))
+            rates = np.array([np.interp(places, middles, rate) for rate in rates])
+        length, offset = new.dx * rates
+        return replace(self, clearance=clearance, creep_length=length, creep_offset=offset)
 
     def change(
         self, before: SecondOrder, creepage: float, dx: Array, scales: tuple[float, float, float]

@@ -143,20 +143,13 @@ class SecondFields:
         """Return the fields with the waves that were cut."""
         return replace(self, functions=self.rough or self.functions)
 
-    def at(self, x: Array) -> Displacements:
-        """Return the displacements at some places."""
+    def at(self, x: Array, order: int = 0) -> Displacements:
+        """Return the displacements at some places, or with ``order`` 1 their derivatives by x."""
         four = np.zeros((4, x.size))
         for row, f, ends in zip(four, self.functions, self.ends, strict=True):
             if f is not None:
-                row[:] = f(np.clip(x, *ends))
-        return Displacements(four)
-
-    def slopes_at(self, x: Array) -> Displacements:
-        """Return the derivatives by x of the displacements at some places."""
-        four = np.zeros((4, x.size))
-        for row, f, ends in zip(four, self.functions, self.ends, strict=True):
-            if f is not None:
-                row[:] = f(np.clip(x, *ends), 1) * ((x > ends[0]) & (x < ends[1]))
+                changes = (x > ends[0]) & (x < ends[1]) if order else 1.0
+                row[:] = f(np.clip(x, *ends), order) * changes
         return Displacements(four)
 
     def of_side(self, side: int) -> SecondFields:

@@ -9,22 +9,14 @@ from math import isinf, nan
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.profiles import fine_points, surface_strain
 from rollnip._results.records import DeformedSurfaces, Profiles, Zone
 from rollnip.contact import State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage, Torque, Traction
 from rollnip.rollers import SIDES
-from rollnip.rolling import (
-    Displacements,
-    Powers,
-    Round,
-    claims,
-    fine_points,
-    stretch_excess,
-    surface_depths,
-    surface_strain,
-)
+from rollnip.rolling import Displacements, Powers, Round, claims, stretch_excess, surface_depths
 from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length

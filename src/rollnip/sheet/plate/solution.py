@@ -9,18 +9,13 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._results.profiles import fine_points, surface_strain
 from rollnip.contact import ContactProblem, Control, State
 from rollnip.interior import SurfaceTractions
 from rollnip.model import FINITE
 from rollnip.nip import Creepage
 from rollnip.rollers import SIDES
-from rollnip.rolling import (
-    Displacements,
-    Round,
-    fine_points,
-    stretch_excess,
-    surface_strain,
-)
+from rollnip.rolling import Displacements, Round, stretch_excess
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
 from rollnip.rolling.surfaces import pair_displacements

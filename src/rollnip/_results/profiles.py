@@ -1,0 +1,69 @@
+"""Distributions along the surfaces: places to show them at, slip velocities, strains."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from rollnip.contact import ContactZone, State
+from rollnip.influence import displacement_matrix, strain_matrix
+from rollnip.model import RINGS, Geometry
+from rollnip.nip import Nip
+from rollnip.rolling import PairFields, PairKernels, Round, hoop_curvature
+from rollnip.rolling.surfaces import Array
+
+
+def fine_points(final: Round) -> Array:
+    """Return the nodes from edge to edge, and points to just over a nip width outside."""
+    is_cubic = final.mesh.fine.values is not None
+    inside = final.nodes[1:-1] if is_cubic else final.nodes[2:-2]
+    width = final.figures.nip_width
+    away = np.concatenate([np.geomspace(1e-3, 0.1, 20), np.linspace(0.12, 1.1, 50)]) * width
+    edges = final.zones[0].start, final.zones[-1].stop
+    trailing = edges[0] - away[::-1]
+    leading = edges[1] + away
+    return np.concatenate([trailing[trailing < inside[0]], inside, leading[leading > inside[-1]]])
+
+
+def slip_velocity(fields: PairFields, zones: tuple[ContactZone, ...], speed: float) -> Array:
+    """Return the slip velocity of the upper surface relative to the lower, nan outside."""
+    rate = -speed * fields.creep / np.diff(fields.x)
+    out = np.full(fields.x.size, np.nan)
+    middle = 0.5 * (fields.x[1:] + fields.x[:-1])
+    for zone in zones:
+        inside = (fields.x >= zone.start) & (fields.x <= zone.stop)
+        if zone.state == State.STICK:
+            out[inside] = 0.0
+        else:
+            out[inside] = np.interp(fields.x[inside], middle, rate)
+    return out
+
+
+def surface_strain(
+    x: Array, nip: Nip, geometry: Geometry, kernels: PairKernels, final: Round, *, side: str
+) -> Array:
+    """Return the strain of one surface at ``x``: du_x/dx, in curved geometry stretch less 1."""
+    upper = side == "upper"
+    roller, surface = (nip.upper, kernels.upper) if upper else (nip.lower, kernels.lower)
+    if surface is None:
+        return np.zeros(x.size)
+    p, q = final.pressure, final.shear if upper else -final.shear
+    strain, slope = _of_surface(strain_matrix(surface.together, x, final.nodes), p, q)
+    if geometry not in RINGS:
+        return strain
+    hoop = hoop_curvature(roller, geometry)
+    u_x, u_z = _of_surface(displacement_matrix(surface.together, x, final.nodes), p, q)
+    held, second = kernels.held, kernels.second_upper if upper else kernels.second_lower
+    if held is None and second is None:
+        return strain - hoop * u_z + 0.5 * (slope + hoop * u_x) ** 2
+    if held is None:
+        held = kernels.second_fields(final.nodes, final.pressure, final.shear)
+    beyond = held.at(x, 1).four
+    along, inward = beyond[:2] if upper else beyond[2:]
+    present = np.hypot(1.0, hoop * x + slope + inward)
+    return np.asarray(present / (1.0 - strain - along) - 1.0)
+
+
+def _of_surface(per_traction: Array, pressure: Array, shear: Array) -> tuple[Array, Array]:
+    """u_x and u_z, or slopes, of a surface; ``per_traction``, (3, n, N-1): by xx, zz and xz."""
+    xx, zz, xz = per_traction
+    return xz @ pressure + xx @ shear, zz @ pressure - xz @ shear

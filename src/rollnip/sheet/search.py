@@ -14,6 +14,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import (
     Layout,
     State,
@@ -32,13 +33,18 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.placing import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.attempt import Attempt
+from rollnip.sheet.conditions import (
+    OUTSIDE,
+    scale_of_slip,
+    violation_of_friction,
+    violation_outside,
+)
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
 from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.node_by_node import next_slip, slipping, solve_node_by_node
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import (
-    SIGNS,
     Factorised,
     Lagged,
     SheetMesh,
@@ -66,7 +72,6 @@ _WIDER = 1.5  # times the reach, where the contact does not fit in
 _MOST_REACHES = 4
 _MOST_ITERATIONS = 10
 _STILL = 0.1  # of the tolerance: last change of the lagged terms
-_OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
 SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
 
 
@@ -317,41 +322,24 @@ class _ZonesCalledFor:
 
 
 def violation(attempt: SheetAttempt) -> float:
-    """Return how badly a solution violates the conditions of friction, relative.
-
-    The parts are the traction that a piece in stick carries beyond the traction bound, over what
-    friction carries at most; and slip with its own shear: the distance slipped so in a piece, over
-    a twentieth of the nip's slope times its width or the larger creepage times it.
-    """
+    """Return how badly a solution violates the conditions of friction, relative."""
     state, problem = attempt.state, attempt.problem
-    creeps = attempt.creeps
-    weights, width = problem.mesh.weights, float(np.ptp(problem.mesh.inner))
-    load = float(weights @ state.pressure)
-    if not load > 0.0:
-        return inf
-    slope = 0.5 * width * problem.nip.curvature
-    allowed = width * max(0.05 * slope, abs(state.creepage + state.creepage_lower))
-    parts = [0.0]
-    for side, friction in enumerate(problem.frictions):
-        states, bound = state.both_states[side], friction * np.maximum(state.pressure, 0.0)
-        beyond = np.maximum(np.abs(state.shears[side]) - bound, 0.0) * weights
-        parts.append(longest_run(np.where(states == State.STICK, beyond, 0.0)) / (friction * load))
-        signs = SIGNS.take(states)
-        slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
-        wrong = np.where(slips, np.maximum(-signs[:-1] * creeps[side, :-1], 0.0), 0.0)
-        parts.append(longest_run(wrong) / allowed)
-    return max(parts)
+    creepage = state.creepage + state.creepage_lower
+    scale = scale_of_slip(problem.nip, attempt.zones.width, creepage)
+    sides = zip(attempt.creeps, problem.frictions, strict=True)
+    return largest(
+        *(
+            violation_of_friction(problem.mesh, state.side(side), creep, friction, scale)
+            for side, (creep, friction) in enumerate(sides)
+        )
+    )
 
 
 def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
-    """Return how far surfaces and sheet overlap outside the contact, and tension, relative.
-
-    Over the approach, or the depth of the gap at the edge; over the highest pressure.
-    """
+    """Return how far surfaces and sheet overlap outside the contact, and tension, relative."""
     problem, state = attempt.problem, attempt.state
-    nip, mesh = problem.nip, problem.mesh
-    width = attempt.zones.width
-    away = width * _OUTSIDE
+    nip, mesh, width = problem.nip, problem.mesh, attempt.zones.width
+    away = width * OUTSIDE
     x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
     acting = [mesh.acting(t) for t in (state.pressure, state.shear, state.shear_lower)]
     made = pair_displacements(kernels, x, mesh.fine.nodes, np.stack(acting, axis=1))
@@ -361,21 +349,7 @@ def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> 
     sides = np.repeat([problem.sheet.tension_out, problem.sheet.tension_in], away.size)
     gap += problem.sheet.stretch_by_pressure * sides
     gap += squeezed(problem.sheet, x, mesh.fine.nodes, acting[0][:, None])[:, 0]
-    depth = 0.125 * nip.curvature * width**2
-    if not nip.has_half_space:
-        depth = max(depth, abs(state.approach))
-    peak = float(np.max(state.pressure))
-    pull = float(np.max(-state.pressure)) / peak if peak > 0.0 else inf
-    return max(0.0, float(np.max(-gap)) / depth, pull)
-
-
-def longest_run(values: Array) -> float:
-    """Return the largest sum of a run of positive values."""
-    if not values.any():
-        return 0.0
-    total = np.concatenate([[0.0], np.cumsum(values)])
-    rest = np.maximum.accumulate(np.where(np.append(values, 0.0) > 0.0, 0.0, total))
-    return float(np.max(total - np.concatenate([[0.0], rest[:-1]])))
+    return violation_outside(nip, gap, state.pressure, width, state.approach)
 
 
 def carried(attempt: SheetAttempt, problem: SheetProblem) -> Lagged:

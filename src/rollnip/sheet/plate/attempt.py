@@ -8,55 +8,42 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip._largest import largest
 from rollnip.contact import State
 from rollnip.influence import displacement_under
 from rollnip.model import Geometry
 from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.attempt import Attempt
+from rollnip.sheet.conditions import (
+    OUTSIDE,
+    scale_of_slip,
+    violation_of_friction,
+    violation_outside,
+)
 from rollnip.sheet.plate.curved import CurvedLoad, places_along
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.search import longest_run
-from rollnip.sheet.system import SIGNS as SIGNS_OF_STATES
 
 Array = NDArray[np.float64]
-
-_OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])  # over the width, where overlap is looked for
 
 
 PlateAttempt = Attempt[PlateZones, PlateProblem, PlateState, LaggedPlate]
 
 
 def violation(attempt: PlateAttempt) -> float:
-    """Return how badly a solution violates the conditions of friction, relative.
-
-    As without bending: the traction that a piece in stick carries beyond the traction bound, over
-    what friction carries at most; and slip with its own shear: the distance slipped so in a piece,
-    over a twentieth of the nip's slope times the width or the creepage times it.
-    """
+    """Return how badly a solution violates the conditions of friction, relative."""
     state, problem = attempt.state, attempt.problem
-    slope = 0.5 * attempt.zones.width * problem.nip.curvature
-    parts = [0.0]
-    for side, friction in enumerate(problem.frictions):
-        creep = problem.gaps_and_creeps(state, attempt.lagged)[side][1]
-        pressure, states = state.pressure[side], state.states[side]
-        width = float(np.ptp(problem.meshes[side].inner))
-        weights = problem.meshes[side].weights
-        load = float(weights @ pressure)
-        if not load > 0.0:
-            return inf
-        bound = friction * np.maximum(pressure, 0.0)
-        beyond = np.maximum(np.abs(state.shear[side]) - bound, 0.0) * weights
-        carried_beyond = longest_run(np.where(states == State.STICK, beyond, 0.0))
-        parts.append(carried_beyond / (friction * load))
-        signs = SIGNS_OF_STATES.take(states)
-        slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
-        wrong = np.where(slips, np.maximum(-signs[:-1] * creep[:-1], 0.0), 0.0)
-        allowed = width * max(0.05 * slope, abs(state.creepage))
-        parts.append(longest_run(wrong) / allowed)
-    return max(parts)
+    creeps = problem.gaps_and_creeps(state, attempt.lagged)
+    scale = scale_of_slip(problem.nip, attempt.zones.width, state.creepage)
+    sides = zip(problem.meshes, problem.frictions, strict=True)
+    return largest(
+        *(
+            violation_of_friction(mesh, state.side(side), creeps[side][1], friction, scale)
+            for side, (mesh, friction) in enumerate(sides)
+        )
+    )
 
 
 def shear_over(attempt: PlateAttempt) -> float:
@@ -99,25 +86,15 @@ def added_to_peaks(attempt: PlateAttempt, proposed: PlateZones) -> float:
 
 
 def overlap(attempt: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
-    """Return how far surfaces and sheet overlap outside the contacts, and tension, relative.
-
-    Over the approach, or the depth of the gap at the edge; over the highest pressure.
-    """
-    problem, state, nip = attempt.problem, attempt.state, attempt.problem.nip
-    width = attempt.zones.width
-    depth = 0.125 * nip.curvature * width**2
-    if not nip.has_half_space:
-        depth = max(depth, abs(state.approach))
-    parts = [0.0]
+    """Return how far surfaces and sheet overlap outside the contacts, and tension, relative."""
+    problem, state, width = attempt.problem, attempt.state, attempt.zones.width
+    parts = []
     for side, mesh in enumerate(problem.meshes):
-        away = attempt.zones.sides[side].width * _OUTSIDE
+        away = attempt.zones.sides[side].width * OUTSIDE
         x = np.concatenate([mesh.inner[0] - away, mesh.inner[-1] + away])
-        gap = gap_at(attempt, (kernels, geometry), side, x)
-        parts.append(float(np.max(-gap)) / depth)
-        pressure = state.pressure[side]
-        peak = float(pressure.max())
-        parts.append(float(np.max(-pressure)) / peak if peak > 0.0 else inf)
-    return max(parts)
+        gap, pressure = gap_at(attempt, (kernels, geometry), side, x), state.pressure[side]
+        parts.append(violation_outside(problem.nip, gap, pressure, width, state.approach))
+    return largest(*parts)
 
 
 def gap_at(

@@ -1,0 +1,71 @@
+"""How badly an interface of a sheet violates its conditions, whether the sheet bends or not."""
+
+from __future__ import annotations
+
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip._largest import largest
+from rollnip.contact import ContactState, State
+from rollnip.nip import Nip
+from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.system import SIGNS
+
+Array = NDArray[np.float64]
+
+OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])
+"""Places beyond an edge where overlap is looked for, over the width."""
+_OF_SLOPE = 0.05  # of the nip's slope: the least creepage that slip is measured by
+
+
+def scale_of_slip(nip: Nip, width: float, creepage: float) -> float:
+    """Return the creepage that slip is measured by: the rollers', or a twentieth of the slope."""
+    return max(_OF_SLOPE * 0.5 * width * nip.curvature, abs(creepage))
+
+
+def violation_of_friction(
+    mesh: Mesh, state: ContactState, creep: Array, friction: float, creepage: float
+) -> float:
+    """Return how badly one interface violates the conditions of friction, relative.
+
+    The parts are the traction that a piece in stick carries beyond the traction bound, over what
+    friction carries at most; and slip with its own shear: the distance slipped so in a piece, over
+    the width times ``creepage``. ``creep``: of the intervals, (n,) [mm].
+    """
+    load = float(mesh.weights @ state.pressure)
+    if not load > 0.0:
+        return inf
+    bound = friction * np.maximum(state.pressure, 0.0)
+    beyond = np.maximum(np.abs(state.shear) - bound, 0.0) * mesh.weights
+    carried = _longest_run(np.where(state.states == State.STICK, beyond, 0.0))
+    signs = SIGNS.take(state.states)
+    slips = (signs[:-1] != 0.0) & (signs[:-1] == signs[1:])
+    wrong = np.where(slips, np.maximum(-signs[:-1] * creep[:-1], 0.0), 0.0)
+    allowed = float(np.ptp(mesh.inner)) * creepage
+    return largest(carried / (friction * load), _longest_run(wrong) / allowed)
+
+
+def violation_outside(
+    nip: Nip, gap: Array, pressure: Array, width: float, approach: float
+) -> float:
+    """Return how far surfaces and sheet overlap beside an interface, and tension, relative.
+
+    Over the approach, or the depth of the gap at the edge; over the highest pressure.
+    """
+    depth = 0.125 * nip.curvature * width**2
+    if not nip.has_half_space:
+        depth = max(depth, abs(approach))
+    peak = float(np.max(pressure))
+    pull = float(np.max(-pressure)) / peak if peak > 0.0 else inf
+    return largest(0.0, float(np.max(-gap)) / depth, pull)
+
+
+def _longest_run(values: Array) -> float:
+    """Return the largest sum of a run of positive values."""
+    if not values.any():
+        return 0.0
+    total = np.concatenate([[0.0], np.cumsum(values)])
+    rest = np.maximum.accumulate(np.where(np.append(values, 0.0) > 0.0, 0.0, total))
+    return float(np.max(total - np.concatenate([[0.0], rest[:-1]])))

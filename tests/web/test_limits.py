@@ -59,17 +59,19 @@ def test_what_is_no_plain_object_is_refused(client, body, said):
 
 
 @pytest.mark.parametrize(
-    "body",
+    ("body", "said"),
     [
-        "{" + "".join(f'"{i:x}":1,' for i in range(25_000)) + '"z":1,"z":1}',
-        '{"a":[' + "[]," * 80_000 + "[]]}",
-        '{"a":[' + ",".join(["9" * 4000] * 60) + "]}",
-        '{"text":"' + "a.b=1\\n" * 30_000 + '"}',
-        '{"text":"' + "[a.b.c]\\n" * 20_000 + '"}',
+        ("{" + "".join(f'"{i:x}":1,' for i in range(25_000)) + '"z":1,"z":1}', "'z' is given twice"),
+        ('{"a":[' + "[]," * 80_000 + "[]]}", "text: Field required"),
+        ('{"a":[' + ",".join(["9" * 4000] * 60) + "]}", "text: Field required"),
+        ('{"text":"' + "a.b=1\\n" * 30_000 + '"}', "at line 2"),
+        ('{"text":"' + "[a.b.c]\\n" * 20_000 + '"}', "at line 2"),
+        ('{"text":"' + ".".join("a" * 90_000) + '=1"}', "nested too deeply"),
+        ('{"text":"a=' + "[" * 90_000 + '"}', "nested too deeply"),
     ],
-    ids=["keys", "lists", "numbers", "lines", "tables"],
+    ids=["keys", "lists", "numbers", "lines", "tables", "deep-keys", "deep-lists"],
 )
-def test_no_body_of_the_allowed_size_takes_long_to_refuse(calls, served, body):
+def test_no_body_of_the_allowed_size_takes_long_to_refuse(calls, served, body, said):
     """Calls of functions are counted, not time: at most five for each byte of the body."""
     assert len(body) <= Limits().body
     head = {"content-type": "application/json"}
@@ -79,7 +81,43 @@ def test_no_body_of_the_allowed_size_takes_long_to_refuse(calls, served, body):
         answer = client.post("/api/toml", content=body, headers=head)
         made = len(calls) - before
     assert answer.status_code in (400, 422)
+    assert said in answer.json()["error"]
     assert made < 5 * len(body)
+
+
+SMALL = {"body": 4000, "depth": 8, "layers": 1, "terms": 1, "values": 1, "points": 5}
+"""Limits of a server that a harmless request goes beyond, one at a time."""
+
+
+def _beyond_one(case):
+    """Requests that go beyond one limit of `SMALL` each: the limit, route, body, said."""
+    layer = case["upper"]["layers"][0]
+    term = {"modulus": 1, "relaxation_time": 1e-3}
+    prony = {"model": "prony", "modulus": 1, "poisson": 0.5, "terms": [term] * 2}
+    two_layers = {**case, "upper": {**case["upper"], "layers": [layer] * 2}}
+    two_terms = {**case, "upper": {**case["upper"], "layers": [{**layer, "material": prony}]}}
+    sweep = {"case": case, "path": "nip.friction", "values": [1.0, 2.0]}
+    return [
+        ("body", "case", {**case, "title": "t" * 4000}, "3 kB"),
+        ("depth", "toml", {"text": "", "a": [[[[[[[[1]]]]]]]]}, "8 deep"),
+        ("layers", "case", two_layers, "at most 1 here"),
+        ("terms", "case", two_terms, "at most 1 term"),
+        ("tolerance", "case", {**case, "solver": {"tolerance": 5e-4}}, "0.001"),
+        ("values", "sweep", sweep, "at most 1 value"),
+        ("points", "interior", {"case": case, "roller": "upper", "nx": 6, "nz": 4}, "nx: "),
+    ]
+
+
+def test_a_limit_that_is_set_is_acted_on(served, client, case):
+    """A server with the usual limits refuses none of these requests for such a limit."""
+    with served(**SMALL, tolerance=1e-3) as small:
+        assert small.post("/api/case", json=case).status_code == 200
+        for limit, route, body, said in _beyond_one(case):
+            answer = small.post(f"/api/{route}", json=body)
+            assert answer.status_code in (400, 413, 422), limit
+            assert said in answer.json()["error"], limit
+            usual = client.post(f"/api/{route}", json=body)
+            assert said not in usual.text, limit
 
 
 def test_layers(post, case):

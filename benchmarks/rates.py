@@ -219,6 +219,9 @@ FAMILIES = {
 }
 """Nips solved at five loads in steps of 1 %, each near the one before, over alone."""
 
+NAMES = (*SINGLE, *(f"sweep_{geometry}" for geometry in SWEEPS), *FAMILIES)
+"""All that is measured."""
+
 
 def _loaded(nip, factor):
     tangential = nip.tangential
@@ -243,12 +246,12 @@ def saved_by_near(nip, rounds):
     return float(np.median([chain(True) / chain(False) for _ in range(rounds)]))
 
 
-def memory_of_a_solve():
-    """Most MiB that a solve holds at a time."""
+def memory_of_a_solve(model):
+    """Most MiB that a solve of configuration II, driven, holds at a time."""
     nip = nip_of("configuration-2-driven")
-    rn.solve(nip, CURVED)
+    rn.solve(nip, model)
     tracemalloc.start()
-    rn.solve(nip, CURVED)
+    rn.solve(nip, model)
     peak = tracemalloc.get_traced_memory()[1] / 2**20
     tracemalloc.stop()
     return peak
@@ -280,21 +283,22 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--rounds", type=int, default=7, help="of which the median counts")
     parser.add_argument("--print", action="store_true", help="print them as JSON; write nothing")
-    parser.add_argument("--only", nargs="*", default=(), help="names: measure these alone")
+    parser.add_argument("--only", nargs="+", help="names: measure and print these alone")
     arguments = parser.parse_args()
+    only = arguments.only or ()
+    if unknown := set(only) - set(NAMES):
+        parser.error(f"unknown: {', '.join(sorted(unknown))}; there are {', '.join(NAMES)}")
     with threadpool_limits(1):
-        found = measured(arguments.rounds, arguments.only)
+        found = measured(arguments.rounds, only)
+        if arguments.print or only:  # the file has one date for all
+            print(json.dumps(found))  # noqa: T201
+            return
         written = {
             "date": date.today().isoformat(),
             "version": rn.__version__,
             "unit_ms": float(f"{1e3 * unit():.3g}"),
-            "memory_MiB": float(f"{memory_of_a_solve():.2g}"),
+            "memory_MiB": float(f"{memory_of_a_solve(CURVED):.2g}"),
         }
-    if arguments.print:
-        print(json.dumps(found))  # noqa: T201
-        return
-    if arguments.only:
-        found = json.loads(FILE.read_text(encoding="utf-8"))["units"] | found
     text = json.dumps({**written, "units": found}, indent=2)
     FILE.write_text(text + "\n", encoding="utf-8")
 

@@ -7,7 +7,6 @@ import os
 import subprocess
 import sys
 import time
-import tracemalloc
 from dataclasses import replace
 from math import sqrt
 from pathlib import Path
@@ -20,6 +19,7 @@ from rates import (
     SECOND,
     carter,
     measured_profile,
+    memory_of_a_solve,
     nip_of,
     thicker,
     two_on_two,
@@ -125,10 +125,5 @@ def test_command(watch, what, arguments, goal):
 
 @pytest.mark.parametrize("model", [CURVED, rn.Model()], ids=lambda model: model.geometry)
 def test_memory(watch, model):
-    nip = nip_of("configuration-2-driven")
-    rn.solve(nip, model)
-    tracemalloc.start()
-    rn.solve(nip, model)
-    peak = tracemalloc.get_traced_memory()[1] / 2**20
-    tracemalloc.stop()
+    peak = memory_of_a_solve(model)
     watch.note(f"memory of one solve, {model.geometry}", f"{peak:.1f} MiB", "-", "30 MB")

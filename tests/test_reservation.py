@@ -9,6 +9,7 @@ import pytest
 import rollnip
 import rollnip as rn
 from rollnip.reservation import Reservation, texts
+from rollnip.validity import consistent, instead_of
 
 PACKAGE = Path(rollnip.__file__).parent
 
@@ -20,6 +21,17 @@ def test_a_sentence_is_filled_with_its_figures_and_its_place():
     assert one.text == f"{where} of 12 % on the lower side."
     assert Reservation("kind", "{where}", side="upper").text == "The upper roller"
     assert texts((one, one)) == (one.text, one.text)
+
+
+def test_no_advice_to_take_a_geometry_that_had_no_solution():
+    """A reservation of "second" says "take finite", but not where "finite" gave way to it."""
+    advised = Reservation("kind", "Terms are left out.", advice='Take geometry "finite".')
+    assert advised.text == 'Terms are left out. Take geometry "finite".'
+    assert consistent((advised,)) == (advised,)
+    second = instead_of([("second", "it did not settle")], "curved")
+    assert consistent((*second, advised)) == (*second, advised)
+    finite = instead_of([("finite", "it did not settle")], "second")
+    assert texts(consistent((*finite, advised)))[1] == "Terms are left out."
 
 
 def test_figures_are_those_of_the_solution():

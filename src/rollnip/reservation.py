@@ -22,6 +22,7 @@ class Reservation:
     side : the roller it is about; None where it is about the nip.
     material : number of the material from the surface of that roller; None where it is about none.
     excess : what is over its limit, over that limit; 0 where there is no limit.
+    advice : a sentence on a geometry that has not this fault; empty where there is none.
     """
 
     kind: str
@@ -30,6 +31,7 @@ class Reservation:
     side: Side | None = None
     material: int | None = None
     excess: float = 0.0
+    advice: str = ""
 
     @property
     def where(self) -> str:
@@ -40,8 +42,9 @@ class Reservation:
 
     @property
     def text(self) -> str:
-        """The sentence with its figures."""
-        return self.sentence.format(**self.figures, where=self.where, side=self.side)
+        """The sentence with its figures, and the advice."""
+        said = self.sentence.format(**self.figures, where=self.where, side=self.side)
+        return f"{said} {self.advice}".rstrip()
 
 
 def texts(reservations: Iterable[Reservation]) -> tuple[str, ...]:

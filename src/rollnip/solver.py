@@ -35,7 +35,7 @@ from rollnip.rolling import (
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import StrainSizes, instead_of, second_share, validity_reservations
+from rollnip.validity import StrainSizes, consistent, instead_of, second_share, validity_reservations
 from rollnip.verdict import ACCEPT_IT, verdict, violated
 
 _CLEARLY = 1.5  # times a limit that is known roughly
@@ -162,8 +162,9 @@ def _solved(
         model=model,
         converged=converged,
         status=status,
-        reservations=instead_of(left, model.geometry)
-        + validity_reservations(nip, model, final, strains),
+        reservations=consistent(
+            instead_of(left, model.geometry) + validity_reservations(nip, model, final, strains)
+        ),
         solver=SolverInfo(
             elements=int(final.problem.x.size + 1),
             iterations=final.steps,

@@ -6,7 +6,7 @@ list with its reasons is in docs/validity.md. A reservation never changes a resu
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from math import inf, isnan
 
@@ -115,6 +115,13 @@ def instead_of(left: Sequence[tuple[Geometry, str]], geometry: Geometry) -> tupl
     )
 
 
+def consistent(reservations: Iterable[Reservation]) -> tuple[Reservation, ...]:
+    """Return reservations without the advice to take a geometry that had no solution."""
+    said = tuple(reservations)
+    left = {one.figures["geometry"] for one in said if one.kind == "other_geometry"}
+    return tuple(replace(one, advice="") if "finite" in left else one for one in said)
+
+
 def _rollers(nip: Nip) -> tuple[tuple[Side, Roller], tuple[Side, Roller]]:
     return ("upper", nip.upper), ("lower", nip.lower)
 
@@ -214,10 +221,10 @@ def _second_order(share: float) -> Reservation | None:
         "second_order",
         "Finite strain changes the indentation by {share:.0f} % of the approach; beyond "
         "{limit:.0f} % terms of third order count, which are left out: approach, nip width and "
-        'peak pressure may be off by some {further:.0f} %. Take geometry "finite" where the cores '
-        "are rigid.",
+        "peak pressure may be off by some {further:.0f} %.",
         {"share": 100.0 * share, "limit": 100.0 * SECOND_SHARE, "further": 100.0 * share**2},
         excess=share / SECOND_SHARE,
+        advice='Take geometry "finite" where the cores are rigid.',
     )
 
 
@@ -286,9 +293,10 @@ def _stiff_skin(stretch: float, creepage: float) -> Reservation | None:
         "stiff_skin",
         "A stiff top layer bends and resists stretch like a sheet: terms of third order, which "
         'geometry "second" leaves out, may change the creepage by about {change:.1g} (it is '
-        '{creepage:.2g}). Geometry "finite", for layers on rigid cores, includes them.',
+        "{creepage:.2g}).",
         {"change": stretch, "creepage": creepage},
         excess=stretch / limit,
+        advice='Geometry "finite", for layers on rigid cores, includes them.',
     )
 
 

@@ -16,9 +16,9 @@ from rollnip.rollers import Roller, Side
 from rollnip.rolling import Round
 
 BULK_MODULUS = 2000.0
-"""Bulk modulus of rubber [MPa], about: what the tables of Lindley, Engineering Design with Natural
-Rubber, give as the value of Wood & Martin (1964), J. Res. Natl. Bur. Stand. 68A, 259-268, which was
-not consulted itself; the tables' own value for springs is half of it."""
+"""Bulk modulus of rubber [MPa], rounded. Measured values differ from one rubber to another; natural
+rubber: L. A. Wood & G. M. Martin, Compressibility of natural rubber at pressures below 500 kg/cm2,
+J. Res. Natl. Bur. Stand. 68A (1964), 259-268 (not consulted: the number is not taken from it)."""
 NEARLY_INCOMPRESSIBLE = 0.499
 """Poisson ratio from which a layer is meant to keep its volume."""
 VOLUME_SHARE = 0.05

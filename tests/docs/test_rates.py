@@ -46,4 +46,12 @@ def test_documented_times_hold_to_a_factor_of_two() -> None:
 def test_every_measurement_is_in_the_file() -> None:
     import rates
 
+    assert set(rates.NAMES) == set(HELD)
     assert set(rates.measurements()) == set(HELD)
+
+
+def test_an_unknown_name_is_refused() -> None:
+    script = [sys.executable, str(ROOT / "benchmarks" / "rates.py"), "--only", "nothing"]
+    done = subprocess.run(script, capture_output=True, text=True, timeout=60, check=False)
+    assert done.returncode == 2
+    assert "unknown: nothing; there are driven_curved" in done.stderr

@@ -211,10 +211,10 @@ def tension_of_curved(nip: Nip, model: Model) -> tuple[Reservation, ...]:
             "tension_of_curved",
             "A covering is {ratio:.2f} of the radius of its roller: beyond {limit:g} geometry "
             '"curved" understates how far the tension of the sheet rises in the nip, by a tenth to '
-            'a quarter at 0.1 and a fifth to 60 % at 0.15. Take geometry "finite", with which '
-            '"second" and "linear" agree within 2 %.',
+            "a quarter at 0.1 and a fifth to 60 % at 0.15.",
             {"ratio": ratio, "limit": CURVED_TENSION_RATIO},
             excess=ratio / CURVED_TENSION_RATIO,
+            advice='Take geometry "finite", with which "second" and "linear" agree within 2 %.',
         ),
     )
 

@@ -33,7 +33,7 @@ from rollnip.sheet.plate.solved import longest_freely, solve_plate
 from rollnip.sheet.refine import SheetRefined, refine_sheet
 from rollnip.sheet.said import with_errors_said
 from rollnip.sheet.solution import SheetSolution
-from rollnip.validity import StrainSizes, validity_reservations
+from rollnip.validity import StrainSizes, consistent, validity_reservations
 
 # Largest change of a width, in the share of the bending length, of the nips of decision 16, and the
 # largest share of these.
@@ -104,10 +104,12 @@ def _bending_freely(
         model=model,
         converged=converged,
         status=status,
-        reservations=left
-        + _reservations(nip, refined)
-        + tension_of_curved(nip, model)
-        + validity_reservations(nip, model, final, strains),
+        reservations=consistent(
+            left
+            + _reservations(nip, refined)
+            + tension_of_curved(nip, model)
+            + validity_reservations(nip, model, final, strains)
+        ),
         solver=SolverInfo(
             elements=int(refined.attempt.problem.mesh.nodes.size - 1),
             iterations=refined.attempt.steps,

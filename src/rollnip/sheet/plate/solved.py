@@ -29,7 +29,7 @@ from rollnip.sheet.plate.all_orders import Bending
 from rollnip.sheet.plate.refine import PlateRefined, peak_allowed, refine_plate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.sheet.said import with_errors_said
-from rollnip.validity import StrainSizes, validity_reservations
+from rollnip.validity import StrainSizes, consistent, validity_reservations
 
 _HARDLY = 0.01  # violation of the conditions that moves of the ends make
 
@@ -142,7 +142,7 @@ def _solution(
         model=model,
         converged=converged,
         status=status,
-        reservations=said,
+        reservations=consistent(said),
         solver=SolverInfo(
             elements=int(max(mesh.nodes.size for mesh in attempt.problem.meshes) - 1),
             iterations=attempt.steps,

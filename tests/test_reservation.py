@@ -8,8 +8,7 @@ import pytest
 
 import rollnip
 import rollnip as rn
-from rollnip.reservation import Reservation, texts
-from rollnip.validity import consistent, instead_of
+from rollnip.reservation import Reservation, consistent, instead_of, texts
 
 PACKAGE = Path(rollnip.__file__).parent
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from rollnip.rollers import Side
 
@@ -50,3 +50,30 @@ class Reservation:
 def texts(reservations: Iterable[Reservation]) -> tuple[str, ...]:
     """Return the sentences of reservations, as results show them under `warnings`."""
     return tuple(one.text for one in reservations)
+
+
+def instead_of(left: Sequence[tuple[str, str]], geometry: str) -> tuple[Reservation, ...]:
+    """Return reservations that say which geometries had no solution, and which is solved.
+
+    Parameters
+    ----------
+    left : geometries without a solution, the first tried first, each with the reason.
+    geometry : the one that is solved.
+    """
+    none = 'No solution of geometry "{geometry}" was found: {cause}.'
+    solved = ' All figures are those of geometry "{solved}".'
+    return tuple(
+        Reservation(
+            "other_geometry",
+            none if number < len(left) else none + solved,
+            {"geometry": one, "cause": cause, "solved": geometry},
+        )
+        for number, (one, cause) in enumerate(left, start=1)
+    )
+
+
+def consistent(reservations: Iterable[Reservation]) -> tuple[Reservation, ...]:
+    """Return reservations without the advice to take a geometry that had no solution."""
+    said = tuple(reservations)
+    left = {one.figures["geometry"] for one in said if one.kind == "other_geometry"}
+    return tuple(replace(one, advice="") if "finite" in left else one for one in said)

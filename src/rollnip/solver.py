@@ -21,6 +21,7 @@ from rollnip.influence import KernelCache
 from rollnip.model import BEYOND, FINITE, SIMPLER, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
 from rollnip.no_nip import impossible
+from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
     Ended,
     Nearby,
@@ -35,7 +36,7 @@ from rollnip.rolling import (
 )
 from rollnip.smooth import SmoothSolution
 from rollnip.solution import Solution, SolverInfo
-from rollnip.validity import StrainSizes, consistent, instead_of, second_share, validity_reservations
+from rollnip.validity import StrainSizes, second_share, validity_reservations
 from rollnip.verdict import ACCEPT_IT, verdict, violated
 
 _CLEARLY = 1.5  # times a limit that is known roughly

@@ -6,7 +6,7 @@ list with its reasons is in docs/validity.md. A reservation never changes a resu
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf, isnan
 
@@ -15,7 +15,7 @@ import numpy as np
 from rollnip.compliance import flat_compliance
 from rollnip.influence import is_ring
 from rollnip.materials import LossFactor, NeoHookean, Prony, Viscoelastic
-from rollnip.model import FINITE, RINGS, Geometry, Model
+from rollnip.model import FINITE, RINGS, Model
 from rollnip.nip import Nip
 from rollnip.reservation import Reservation
 from rollnip.rollers import Layer, Roller, Side
@@ -93,33 +93,6 @@ def validity_reservations(
         *(one for side, roller in rollers for one in _energies(side, roller, model)),
     ]
     return tuple(one for one in found if one is not None)
-
-
-def instead_of(left: Sequence[tuple[Geometry, str]], geometry: Geometry) -> tuple[Reservation, ...]:
-    """Return reservations that say which geometries had no solution, and which is solved.
-
-    Parameters
-    ----------
-    left : geometries without a solution, the first tried first, each with the reason.
-    geometry : the one that is solved.
-    """
-    none = 'No solution of geometry "{geometry}" was found: {cause}.'
-    solved = ' All figures are those of geometry "{solved}".'
-    return tuple(
-        Reservation(
-            "other_geometry",
-            none if number < len(left) else none + solved,
-            {"geometry": one, "cause": cause, "solved": geometry},
-        )
-        for number, (one, cause) in enumerate(left, start=1)
-    )
-
-
-def consistent(reservations: Iterable[Reservation]) -> tuple[Reservation, ...]:
-    """Return reservations without the advice to take a geometry that had no solution."""
-    said = tuple(reservations)
-    left = {one.figures["geometry"] for one in said if one.kind == "other_geometry"}
-    return tuple(replace(one, advice="") if "finite" in left else one for one in said)
 
 
 def _rollers(nip: Nip) -> tuple[tuple[Side, Roller], tuple[Side, Roller]]:

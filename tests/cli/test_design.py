@@ -377,3 +377,19 @@ def test_killed_at_any_moment_a_search_goes_on_from_there(study, tmp_path):
             held.append(store.size)
     assert held == sorted(set(held))  # each went on where the one before was killed
     assert run("optimise", path, *options).stdout == wanted.stdout
+
+
+@pytest.mark.parametrize(
+    "arguments", [("find", "gone.toml", "nip.load"), ("optimise", "gone.toml")]
+)
+def test_a_file_that_is_missing_is_refused_before_the_numerics_are_loaded(arguments):
+    extra = ("--for", "nip_width=8", "--between", "1", "2") if arguments[0] == "find" else ()
+    code = (
+        "import sys; from rollnip.cli import main\n"
+        "try: main()\n"
+        "except SystemExit as left: sys.exit(9 if 'rollnip.solver' in sys.modules else left.code)"
+    )
+    command = [sys.executable, "-c", code, *arguments, *extra]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 2
+    assert "there is no such file" in done.stderr

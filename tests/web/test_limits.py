@@ -61,7 +61,7 @@ def test_what_is_no_plain_object_is_refused(client, body, said):
 @pytest.mark.parametrize(
     ("body", "said"),
     [
-        ("{" + "".join(f'"{i:x}":1,' for i in range(25_000)) + '"z":1,"z":1}', "'z' is given twice"),
+        ("{" + "".join(f'"{i:x}":1,' for i in range(25_000)) + '"z":1,"z":1}', "given twice"),
         ('{"a":[' + "[]," * 80_000 + "[]]}", "text: Field required"),
         ('{"a":[' + ",".join(["9" * 4000] * 60) + "]}", "text: Field required"),
         ('{"text":"' + "a.b=1\\n" * 30_000 + '"}', "at line 2"),

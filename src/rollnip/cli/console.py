@@ -50,6 +50,17 @@ def clear_failures() -> Iterator[None]:
         leave(f"cannot write to the standard output: {error.strerror or error}.", 2)
 
 
+def look_at(file: str) -> None:
+    """Raise CaseFileError where a file is missing or no document, before numerics are loaded.
+
+    The standard input and pipes can be read but once: they are left to who reads them.
+    """
+    from rollnip.io.document import read_document
+
+    if Path(file).is_file() or (not Path(file).exists() and file != "-"):
+        read_document(file)
+
+
 @contextmanager
 def named(source: str) -> Iterator[None]:
     """Prefix an input error raised inside the block with the name of its option or file."""

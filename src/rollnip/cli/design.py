@@ -14,7 +14,7 @@ import typer
 
 from rollnip._errors import InvalidInputError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures, named
+from rollnip.cli.console import clear_failures, look_at, named
 from rollnip.cli.kept import evaluating
 from rollnip.cli.options import WORKERS, Force, Geometry
 
@@ -61,13 +61,17 @@ def find(
     """
     with clear_failures(), one_run(force=force) as run:
         from rollnip._units import parse_quantity
-        from rollnip.design import find as search
+        from rollnip.io import dimension_at
         from rollnip.io.document import read_document
 
         quantity, value = _parted(_only(wanted))
         with named("--tolerance"):
             share = parse_quantity(tolerance, "ratio")
         tree = _with_geometry(read_document(case), geometry)
+        with named(case):
+            dimension_at(tree, path)  # a wrong path is refused before the numerics are loaded
+        from rollnip.design import find as search
+
         run.reserve({"--out": out})
         if out is not None:
             _check_case_target(out)
@@ -105,6 +109,7 @@ def optimise(
     is finished, 1 otherwise, 2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
+        look_at(study)
         from rollnip.cli.progress import progress
         from rollnip.design import optimise as search
         from rollnip.design.files import read_optimise
@@ -160,6 +165,7 @@ def tolerance(
 ) -> None:
     """Compute how results scatter where parameters do, and how often specifications are met."""
     with clear_failures(), one_run(force=force) as run:
+        look_at(study)
         from functools import partial
 
         from rollnip.design import tolerance as scatter

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, cast
 import typer
 
 from rollnip._files import make_folder, one_run
-from rollnip.cli.console import clear_failures, named
+from rollnip.cli.console import clear_failures, look_at, named
 from rollnip.cli.kept import evaluating
 from rollnip.cli.options import Force
 
@@ -51,6 +51,7 @@ def fit(
     2 for wrong input.
     """
     with clear_failures(), one_run(force=force) as run:
+        look_at(file)
         from dataclasses import replace
         from json import dumps
 

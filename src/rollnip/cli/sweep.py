@@ -15,7 +15,7 @@ from typer.core import TyperGroup
 
 from rollnip._errors import InvalidInputError, RollnipError
 from rollnip._files import one_run
-from rollnip.cli.console import clear_failures
+from rollnip.cli.console import clear_failures, look_at
 from rollnip.cli.kept import interrupts_told, kept
 from rollnip.cli.options import WORKERS, Force
 
@@ -91,6 +91,7 @@ def run(
     Ctrl-C.
     """
     with clear_failures(), one_run(force=force) as run:
+        look_at(study)
         from rollnip.sweeps.merge import take_known
         from rollnip.sweeps.profiles import check_profiles_target
         from rollnip.sweeps.run import OpenCases

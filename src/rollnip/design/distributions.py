@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+import scipy  # its parts are imported where they are first used
 from numpy.typing import NDArray
-from scipy.stats import lognorm, norm, qmc, triang, uniform
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import Dimension
@@ -105,21 +105,21 @@ def frozen(distribution: Distribution, dimension: Dimension) -> Any:
     match distribution:
         case Normal(mean, deviation, low, high):
             kind: Dimension = "temperature difference" if dimension == "temperature" else dimension
-            whole = norm(
+            whole = scipy.stats.norm(
                 read_parameter("mean", mean, dimension), _positive("deviation", deviation, kind)
             )
             return _cut(whole, dimension, low, high)
         case Uniform(low, high):
             a, b = _ordered(dimension, low=low, high=high)
-            return uniform(a, b - a)
+            return scipy.stats.uniform(a, b - a)
         case Triangular(low, mode, high):
             a, b = _ordered(dimension, low=low, high=high)
             c = read_parameter("mode", mode, dimension)
             if not a <= c <= b:
                 raise InvalidInputError(f"`mode` must lie between low and high, got {mode!r}.")
-            return triang((c - a) / (b - a), a, b - a)
+            return scipy.stats.triang((c - a) / (b - a), a, b - a)
         case LogNormal(median, spread, low, high):
-            whole = lognorm(
+            whole = scipy.stats.lognorm(
                 _positive("spread", spread, "ratio"), scale=_positive("median", median, dimension)
             )
             return _cut(whole, dimension, low, high)
@@ -188,9 +188,9 @@ def hypercube(distributions: Sequence[Any], count: int, scores: Array | None, se
     Statist. B 11, 311-334.
     """
     generator = np.random.default_rng(seed)
-    shares = qmc.LatinHypercube(len(distributions), seed=generator).random(count)
+    shares = scipy.stats.qmc.LatinHypercube(len(distributions), seed=generator).random(count)
     if scores is not None:
-        wanted = norm.ppf(shares) @ np.linalg.cholesky(scores).T
+        wanted = scipy.stats.norm.ppf(shares) @ np.linalg.cholesky(scores).T
         ranks = np.argsort(np.argsort(wanted, axis=0), axis=0)
         shares = np.take_along_axis(np.sort(shares, axis=0), ranks, axis=0)
     return quantiles_at(distributions, shares)

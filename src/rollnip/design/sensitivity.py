@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import scipy  # its parts are imported where they are first used
 from numpy.typing import NDArray
-from scipy.stats import qmc, sobol_indices
 
 from rollnip._errors import InvalidInputError
 
@@ -92,7 +92,7 @@ def sobol_places(count: int, dimensions: int, seed: int) -> Array:
     Saltelli et al. (2010), Comput. Phys. Commun. 181, 259-270.
     """
     require_sobol_count(count)
-    engine = qmc.Sobol(2 * dimensions, seed=np.random.default_rng(seed))
+    engine = scipy.stats.qmc.Sobol(2 * dimensions, seed=np.random.default_rng(seed))
     both = engine.random_base2(count.bit_length() - 1)
     a, b = both[:, :dimensions], both[:, dimensions:]
     mixed = []
@@ -144,7 +144,7 @@ def _indices(parts: Array) -> tuple[Array, Array]:
     """Return first-order and total Sobol indices, (d,) each, from the rows f_A, f_B, f_AB."""
     # twice, for scipy 1.17 cannot take one result of one parameter
     twice = np.stack([parts, parts], axis=1)
-    found = sobol_indices(
+    found = scipy.stats.sobol_indices(
         func={"f_A": twice[0], "f_B": twice[1], "f_AB": twice[2:]}, n=parts.shape[1]
     )
     return found.first_order.reshape(2, -1)[0], found.total_order.reshape(2, -1)[0]

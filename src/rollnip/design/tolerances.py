@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.stats import binom, binomtest
+import scipy  # its parts are imported where they are first used
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import base_unit
@@ -221,8 +221,8 @@ def quantile(values: Array, probability: float, confidence: float) -> Quantile:
     ordered, count = np.sort(values), values.size
     tail = 0.5 * (1.0 - confidence)
     # P(x_(low) <= quantile) = P(at least `low` samples below), ranks counted from 1
-    low = int(binom.ppf(tail, count, probability))
-    high = int(binom.ppf(1.0 - tail, count, probability)) + 1
+    low = int(scipy.stats.binom.ppf(tail, count, probability))
+    high = int(scipy.stats.binom.ppf(1.0 - tail, count, probability)) + 1
     return Quantile(
         probability=probability,
         value=float(np.quantile(values, probability)),
@@ -248,8 +248,8 @@ def _chance(
         limits=limits,
         text=" and ".join(limit_text(limit) for limit in limits),
         value=met / solved,
-        low=float(binomtest(met, count).proportion_ci(level).low),
-        high=float(binomtest(met + count - solved, count).proportion_ci(level).high),
+        low=float(scipy.stats.binomtest(met, count).proportion_ci(level).low),
+        high=float(scipy.stats.binomtest(met + count - solved, count).proportion_ci(level).high),
         undecided=int(is_near.sum()),
     )
 

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import scipy  # its parts are imported where they are first used
 from numpy.typing import NDArray
-from scipy.stats import chi2, norm, t
 
 from rollnip._errors import InvalidInputError
 from rollnip._units import base_unit
@@ -265,13 +265,15 @@ class _ChiSquare:
         tail = 0.5 * (1.0 + confidence)
         probability, widened = None, 1.0
         if given and degrees > 0.0 and misfit.loss == "squares":
-            probability = float(chi2.sf(total, degrees))
+            probability = float(scipy.stats.chi2.sf(total, degrees))
             if probability < _IMPROBABLE:
                 widened = sqrt(total / degrees)
         if given and widened == 1.0:
-            quantile = float(norm.ppf(tail))
+            quantile = float(scipy.stats.norm.ppf(tail))
         else:
-            quantile = float(t.ppf(tail, degrees if noise.degrees is None else noise.degrees))
+            quantile = float(
+                scipy.stats.t.ppf(tail, degrees if noise.degrees is None else noise.degrees)
+            )
         return cls(total, degrees, probability, widened, quantile, given)
 
 

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from math import comb
 
 import numpy as np
+import scipy  # its parts are imported where they are first used
 from numpy.typing import NDArray
-from scipy.stats import norm, t
 
 from rollnip._units import format_quantity
 from rollnip.identification.costs import Measurements
@@ -140,7 +140,11 @@ def _outlier_words(
     distance = np.sqrt(squares) / np.maximum(scale, 1e-12)
     worst = int(np.argmax(np.where(projected < 1.0 - 1e-6, distance, 0.0)))
     is_known = not estimated and scale[worst] == 1.0
-    tail = norm.sf(distance[worst]) if is_known else t.sf(distance[worst], free - 1.0)
+    tail = (
+        scipy.stats.norm.sf(distance[worst])
+        if is_known
+        else scipy.stats.t.sf(distance[worst], free - 1.0)
+    )
     if 2.0 * residuals.size * float(tail) >= _IMPROBABLE:
         return []
     return [_row_words(part, worst, residuals, error, float(distance[worst]))]

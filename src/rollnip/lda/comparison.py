@@ -6,9 +6,9 @@ from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
+import scipy  # its parts are imported where they are first used
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
-from scipy.stats import chi2, t
 
 from rollnip._errors import InvalidInputError, require_not_negative, require_positive
 from rollnip.lda.statistics import VelocityProfile
@@ -195,7 +195,7 @@ def _compared(
     jacobian = np.stack([-speed * slope, 1.0 + computed], axis=1)
     root = jacobian / np.sqrt(measured.variance)[:, None]
     covariance = np.linalg.inv(root.T @ root) * max(1.0, chi_square / degrees)
-    quantile = float(t.ppf(0.5 * (1.0 + confidence), degrees))
+    quantile = float(scipy.stats.t.ppf(0.5 * (1.0 + confidence), degrees))
     fits = []
     for value, variance in zip(fitted, np.diag(covariance), strict=True):
         error = float(np.sqrt(variance))
@@ -213,7 +213,7 @@ def _compared(
         noise=float(np.sqrt(np.mean(measured.error**2)) / speed),
         chi_square=chi_square,
         degrees=degrees,
-        probability=float(chi2.sf(chi_square, degrees)),
+        probability=float(scipy.stats.chi2.sf(chi_square, degrees)),
         confidence=confidence,
         contact=(solution.contact[0][0], solution.contact[-1][1]),
         left_out=0,

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 from math import log, sqrt
 
 import numpy as np
+import scipy  # its parts are imported where they are first used
 from numpy.typing import NDArray
-from scipy.ndimage import gaussian_filter1d
-from scipy.signal import find_peaks
 
 from rollnip._errors import InvalidInputError
 from rollnip.lda.frequency import Tone, estimate_tone, frequency_scatter
@@ -91,9 +90,11 @@ def detect_bursts(
     band = _band(instrument, speed)
     power, noise = _power(samples, instrument.sample_rate, band)
     # the envelope's square is narrower by sqrt(2)
-    smooth = gaussian_filter1d(power, width / sqrt(2.0), mode="constant")
+    smooth = scipy.ndimage.gaussian_filter1d(power, width / sqrt(2.0), mode="constant")
     floor = 4.0 * (band[1] - band[0]) / instrument.sample_rate * noise
-    peaks, _ = find_peaks(smooth, height=threshold * floor, distance=max(1, int(2.0 * width)))
+    peaks, _ = scipy.signal.find_peaks(
+        smooth, height=threshold * floor, distance=max(1, int(2.0 * width))
+    )
     tried = [_tried(samples, instrument, int(p), speed, band, noise) for p in peaks]
     whole = [attempt for attempt in tried if attempt is not None and attempt.snr >= least_snr]
     # the median difference of all bursts is the velocity's change across the volume

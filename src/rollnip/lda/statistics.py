@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+import scipy  # its parts are imported where they are first used
 from numpy.typing import NDArray
-from scipy.stats import norm, t
 
 from rollnip._errors import InvalidInputError, require_positive
 
@@ -76,7 +76,9 @@ class VelocityProfile:
     def _quantile(self, confidence: float) -> Array:
         tail = 0.5 * (1.0 + confidence)
         degrees = np.maximum(self.count - 1, 1)
-        return np.asarray(np.where(self.count > 0, t.ppf(tail, degrees), norm.ppf(tail)))
+        return np.asarray(
+            np.where(self.count > 0, scipy.stats.t.ppf(tail, degrees), scipy.stats.norm.ppf(tail))
+        )
 
 
 def estimate_profile(

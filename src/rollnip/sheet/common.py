@@ -12,11 +12,10 @@ from rollnip._errors import InvalidInputError
 from rollnip.model import BEYOND, Geometry, Model
 from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.no_nip import impossible
-from rollnip.reservation import Reservation
+from rollnip.reservation import Reservation, instead_of
 from rollnip.rolling import Round
 from rollnip.sheet.figures import SheetFigures, scales
 from rollnip.sheet.system import frictions_of
-from rollnip.validity import instead_of
 from rollnip.verdict import missed, verdict, violated
 
 _CLEARLY = 1.2  # times what friction carries; a torque also turns against the pressure

@@ -13,7 +13,7 @@ from rollnip.contact import ContactProblem, Control
 from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Geometry, Model
 from rollnip.nip import Nip
-from rollnip.reservation import Reservation
+from rollnip.reservation import Reservation, consistent
 from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
 from rollnip.rolling.assemble import SecondOrder
 from rollnip.sheet.all_orders import solve_by_iteration
@@ -33,7 +33,7 @@ from rollnip.sheet.plate.solved import longest_freely, solve_plate
 from rollnip.sheet.refine import SheetRefined, refine_sheet
 from rollnip.sheet.said import with_errors_said
 from rollnip.sheet.solution import SheetSolution
-from rollnip.validity import StrainSizes, consistent, validity_reservations
+from rollnip.validity import StrainSizes, validity_reservations
 
 # Largest change of a width, in the share of the bending length, of the nips of decision 16, and the
 # largest share of these.

@@ -13,7 +13,7 @@ from rollnip._results.records import SolverInfo
 from rollnip.influence import KernelCache
 from rollnip.model import SIMPLER, Model
 from rollnip.nip import Nip
-from rollnip.reservation import Reservation
+from rollnip.reservation import Reservation, consistent
 from rollnip.rolling import PairKernels, Round, half_width_guess, pair_kernels, with_second_order
 from rollnip.sheet.all_orders import solve_by_iteration
 from rollnip.sheet.bending import COUNTED
@@ -29,7 +29,7 @@ from rollnip.sheet.plate.all_orders import Bending
 from rollnip.sheet.plate.refine import PlateRefined, peak_allowed, refine_plate
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
 from rollnip.sheet.said import with_errors_said
-from rollnip.validity import StrainSizes, consistent, validity_reservations
+from rollnip.validity import StrainSizes, validity_reservations
 
 _HARDLY = 0.01  # violation of the conditions that moves of the ends make
 

@@ -23,6 +23,8 @@ def test_rounding_never_leaves_the_bounds():
     low, high = inner_bounds((one,))
     assert outer_values((one,), high + 1e-9) == {PATH: 0.7}
     assert outer_values((one,), low - 1e-9) == {PATH: 0.3}
+    # an interval of what the data do not tell is as wide as can be
+    assert outer_values((one,), high + 1e140) == {PATH: 0.7}
 
 
 def test_the_first_guess_is_the_middle_of_the_scale():

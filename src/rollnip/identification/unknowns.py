@@ -103,7 +103,8 @@ class Unknown:
 
     def outer(self, coordinate: float) -> float:
         """Return the value at a coordinate of the search, within the bounds despite rounding."""
-        value = exp(coordinate) if self.log else coordinate
+        within = min(max(coordinate, self.inner(self.low)), self.inner(self.high))
+        value = exp(within) if self.log else within
         return min(max(value, self.low), self.high)
 
     def slope(self, value: float) -> float:

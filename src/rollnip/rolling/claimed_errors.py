@@ -104,7 +104,9 @@ def further_claims(nip: Nip, geometry: Geometry, final: Round, spent: Powers) ->
         "peak_pressure_x": further.peak_pressure_x,
     }
     length = sum(stop - start for start, stop in contact_intervals(final.zones))
-    out["mean_pressure"] = load / length * (further.contact_length / length + first["load"] / load)
+    # What the model leaves of the width it leaves of the length in contact.
+    shortened = largest(further.contact_length, first["nip_width"]) / length
+    out["mean_pressure"] = load / length * (shortened + first["load"] / load)
     out["dwell_time"] = first["nip_width"] / speed
     out["speed_ratio"] = first["creepage"] / (1.0 - half) ** 2
     if isinstance(nip.tangential, Traction):

@@ -81,7 +81,7 @@ def head(phase: Array) -> ComplexArray:
 
 @lru_cache(maxsize=8)
 def gauss_legendre(nodes: int) -> tuple[Array, Array, Array]:
-    """Nodes t, weights, and the matrix from nodal values to Legendre coefficients, on [-1, 1]."""
+    """Return nodes t in [-1, 1], weights, and the matrix to Legendre coefficients from values."""
     t, weight = np.polynomial.legendre.leggauss(nodes)
     vandermonde = np.polynomial.legendre.legvander(t, nodes - 1)
     return np.asarray(t), np.asarray(weight), np.asarray(np.linalg.inv(vandermonde))
@@ -90,7 +90,7 @@ def gauss_legendre(nodes: int) -> tuple[Array, Array, Array]:
 def unit_panel_weights(
     first: int, last: int, points_per_octave: int, panels_per_octave: int, nodes: int
 ) -> ComplexArray:
-    """Weights of the panel [1, 2^(1/panels_per_octave)] for x = 2^(s/points_per_octave).
+    """Return weights of the panel [1, 2^(1/panels_per_octave)] for x = 2^(s/points_per_octave).
 
     Returns
     -------
@@ -118,7 +118,7 @@ def unit_panel_weights(
 
 
 def _lowest_filon_phase(nodes: int) -> float:
-    """Phase y below which Gauss quadrature of the oscillation itself is exact to rounding.
+    """Return the phase y up to which Gauss quadrature of the oscillation is exact to rounding.
 
     Its error is about y^(2m)/(2m)! for m nodes; Filon's formulas for m_1 and m_2 divide by y.
     """

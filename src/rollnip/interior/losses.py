@@ -17,13 +17,15 @@ from rollnip.rollers import Roller
 Array = NDArray[np.float64]
 
 _SHORTEST = 1e3
-"""Largest wave number times half the contact. Of k Im C |t|^2 with t ~ k^-3/2, as at a root's edge,
-what is left out is 1e-3 where a memory is shorter than that, and 1e-9 where it is as long as the
-contact."""
+"""Largest wave number times half the contact.
+
+With k Im C |t|^2 and t ~ k^-3/2, as of tractions that end as a square root, 1e-3 is left out where
+a memory is shorter than that length, and 1e-9 where it is as long as the contact.
+"""
 _SIZES_PER_OCTAVE = 4
-"""Half-widths whose wave numbers are kept."""
+"""Half-widths in an octave for which wave numbers are kept."""
 _FADED = 16.0
-"""Largest depth times wave number that counts: the work there goes as its e^-2 k z, 1e-14."""
+"""Largest depth times wave number that counts: the work goes as e^(-2 k z), there 1e-14."""
 
 
 def loss_per_distance(

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 ComplexArray = NDArray[np.complex128]
 
 _MOMENTS = 14
-"""That take over below `SMALL_PHASE`: of the first of them they leave 0.625^14/16! < 1e-16."""
+"""Moments for phases below `SMALL_PHASE`: they leave 0.625^14/16! < 1e-16 of the first one."""
 
 
 @dataclass(frozen=True)
@@ -89,13 +89,12 @@ class SurfaceTractions:
         return np.asarray(means @ np.diff(self.nodes))
 
     def transform(self, w: Array, sums: ComplexArray | None = None) -> ComplexArray:
-        """Transforms of t_x and t_z about the centre, (2, n) [N/mm].
+        """Return the transforms of t_x and t_z about the centre, (2, n) [N/mm].
 
         Parameters
         ----------
         w : (n,) wave numbers [1/mm], positive.
-        sums : (2, n) sum kappa_j e^{-i w x_j} where they are known already; those of small phases
-            are not used.
+        sums : (2, n) sum kappa_j e^{-i w x_j} where they are known; small phases do not use them.
         """
         if sums is None:
             sums = self.kinks @ np.exp(-1j * np.outer(self.places, w))

@@ -28,11 +28,11 @@ _NODES_LOW = 16
 _NODES = 66
 """On panels of at most P/2, and of P, 2P and 4P: (e y/(4 m))^(2m) < 1e-11 for m nodes on 4P."""
 _OCTAVES = 5
-"""Of panels below P in a block of their own; below these no phase exceeds `SMALL_PHASE`."""
+"""Octaves of panels below P that make a block; below it no phase exceeds `SMALL_PHASE`."""
 SMALL_PHASE = _HALF_TURN * 0.5**_OCTAVES
 """Phase of half the reach at the end of the first block."""
 _MOST_AT_ONCE = 24
-"""Panels of 4P dealt with at once."""
+"""Panels of 4P in a block at most."""
 _MOST_OCTAVES = 60
 
 
@@ -44,7 +44,7 @@ def _gauss(nodes: int) -> tuple[Array, Array]:
 
 @dataclass(frozen=True, slots=True)
 class Block:
-    """Some panels in a row, all dealt with at once.
+    """Some panels in a row that are evaluated together.
 
     Attributes
     ----------
@@ -79,9 +79,10 @@ class Block:
 class Phases:
     """e^{-ikx} at some places x, block after block.
 
-    They are those of the panels' middles times those from a middle to the nodes. Sines take most of
-    the time; so phases to the nodes below a middle are the conjugates of those above, phases on a
-    panel are the squares of those on one of half its width, and both are kept for further blocks.
+    Each is the phase of the middle of its panel times the phase from there to the node. Sines take
+    most of the time. So phases to the nodes below a middle are taken as the conjugates of those
+    above, phases on a panel as the squares of those on one of half its width; both are kept for
+    further blocks.
 
     Parameters
     ----------
@@ -93,21 +94,21 @@ class Phases:
         self._within: dict[tuple[float, int], ComplexArray] = {}
 
     def on(self, block: Block) -> ComplexArray:
-        """The phases themselves, (m, n)."""
-        if block.start == 0.0:  # of squares of squares over many octaves no digit would be left
+        """Return the phases, (m, n)."""
+        if block.start == 0.0:  # squares of squares over many octaves would leave no digit
             return self._at(block.k)
         both = self._at(block.middles)[:, :, None] * self._from_middles(block)
         return np.asarray(both.reshape(self.x.size, -1))
 
     def sums(self, block: Block, weights: Array) -> ComplexArray:
-        """Sums over x of ``weights`` (rows, m) times the phases, (rows, n)."""
+        """Return sums over x of ``weights`` (rows, m) times the phases, (rows, n)."""
         if not block.is_even:
             return np.asarray(weights @ self.on(block))
         turned = weights[:, None, :] * self._at(block.middles).T
         return np.asarray(turned @ self._from_middles(block)[:, 0]).reshape(len(weights), -1)
 
     def _from_middles(self, block: Block) -> ComplexArray:
-        """Phases from the middles of panels to their nodes, (m, panels, nodes); 1 if even."""
+        """Return phases from middles to nodes, (m, panels, nodes); those of one panel if even."""
         halves = block.halves[:1] if block.is_even else block.halves
         return np.stack([self._from_middle(half, block.nodes) for half in halves.tolist()], axis=1)
 
@@ -141,13 +142,13 @@ class Waves:
 
     @classmethod
     def resolving(cls, reach: float, slowest: float) -> Waves:
-        """Panels for distances up to ``reach`` and features as fine as 1/``slowest`` [mm]."""
+        """Return panels for distances up to ``reach`` [mm], features as fine as 1/``slowest``."""
         width = 2.0 * _HALF_TURN / reach
         octaves = ceil(log2(max(2.0**_OCTAVES, width * slowest)))
         return cls(width, width * 2.0 ** -min(octaves, _MOST_OCTAVES))
 
     def blocks(self, last: float) -> list[Block]:
-        """Panels from 0 to ``last`` [1/mm] or a little above, blocks growing; see `SMALL_PHASE`."""
+        """Return panels from 0 to ``last`` [1/mm] or a little above, in blocks that grow."""
         octaves = round(log2(self.width / self.lowest))
         edges = np.zeros(octaves + 2)
         edges[1:] = np.ldexp(self.lowest, np.arange(octaves + 1))
@@ -164,10 +165,10 @@ class Waves:
         return blocks
 
     def logarithm(self) -> float:
-        """Correction of the sum for a part c/k of the integrand: add it times c.
+        """Return the correction of the sum, per c, where the integrand has a part c/k.
 
-        The finite part of int_0 dk/k, as if only wave numbers above 1/mm counted, less what the
-        nodes of the lowest panel sum up to; over pi.
+        That is the finite part of int_0 dk/k, for which only wave numbers above 1/mm count, less
+        the sum over the nodes of the lowest panel; over pi.
         """
         first = self.blocks(0.0)[0]
         inside = slice(0, _NODES_LOW)
@@ -175,6 +176,6 @@ class Waves:
 
 
 def _block(edges: NDArray[Any], nodes: int, width: float | None = None) -> Block:
-    """Panels between ``edges``; all of one ``width`` where it is given."""
+    """Return panels between ``edges``; all of one ``width`` where it is given."""
     halves = 0.5 * np.diff(edges) if width is None else np.full(edges.size - 1, 0.5 * width)
     return Block(float(edges[0]), 0.5 * (edges[1:] + edges[:-1]), halves, nodes)

@@ -70,12 +70,12 @@ def with_errors(nip: Nip, latest: Round, history: list[Size], left: Figures | No
     """Return the round with the estimated errors of the figures that the tolerance is for.
 
     They are those of the mesh, what the ends of zones may still change (``left``), and what memory
-    does within their elements: two sizes of mesh whose ends are off alike, or whose elements are
-    all too long, agree on figures that are wrong.
+    does within their elements: two sizes of mesh agree on wrong figures where their ends are
+    misplaced alike, or where the elements of both are too long.
     """
     figures, edge = latest.figures, edge_within_memory(nip, latest.mesh)
-    # By that much edges are off. A creepage at a given traction goes as the square of the width, as
-    # the load does. Approach, load and peak pressure do not depend on edges to first order.
+    # Edges are misplaced by that much. A creepage at a given traction goes as the square of the
+    # width, as the load does. Approach, load and peak pressure depend on edges to second order.
     creepage = 0.0
     if not isinstance(nip.tangential, Creepage):
         creepage = 2.0 * creepage_scale(nip, figures) * edge / figures.nip_width
@@ -118,8 +118,9 @@ def with_further_errors(nip: Nip, latest: Round, history: list[Size]) -> Round:
 def _further_error(nip: Nip, latest: Round, history: Sequence[Size]) -> Further | None:
     """Return the estimated errors of the further figures; None where there is a single mesh.
 
-    Edges that are off as in `with_errors` change tractions by twice that over the width, and with
-    them what is handed on and lost, which is quadratic in them; the length by one at either edge.
+    Edges that are misplaced as in `with_errors` change tractions by twice that over the width, and
+    with them what is handed on and lost, which is quadratic in them; the length by one at either
+    edge.
     """
     sizes = [(size.count, size.further) for size in history]
     error = further_errors(nip, latest, sizes)

@@ -14,9 +14,9 @@ axles must give the same torques to the order of the geometry; tests confirm tha
 
 Shear opposes slip, so no zone of slip loses less than nothing. A solution meets this to its
 residual only: in a zone of a thousandth of the contact slip may come out reversed, by as little as
-the residual allows. The loss of a zone is then taken as 0, the nearest loss that is possible and so
-nearer to the true one. What is left out counts as an error of the loss; the balance of the powers
-is off by as much.
+the residual allows. The loss of a zone is then taken as 0, which of all possible losses is nearest
+to the one computed, and nearer to the true one than that. What is left out counts as an error of
+the loss, and the powers miss their balance by as much.
 """
 
 from __future__ import annotations

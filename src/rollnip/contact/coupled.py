@@ -28,7 +28,6 @@ from rollnip.contact.problem import (
 )
 
 _TINY = np.finfo(float).tiny
-_LEAST_DIVISOR = 0.1  # from zero: what a change of one column may leave of the determinant
 
 
 def solve_states(
@@ -108,15 +107,16 @@ class LinearSystem:
         if problem.creep_length is self.problem.creep_length:
             return self._divided(right)
         # The lengths are the column of the creepage, so other lengths change one column of the
-        # matrix (Sherman & Morrison).
+        # matrix (Sherman & Morrison). The divisor is the ratio of the determinants: where it is
+        # small, the other matrix has lost its digits, however it is factorised.
         change = np.zeros(right.size)
         longer = problem.creep_length - self.problem.creep_length
         change[self.contact.size : -2] = longer[self.stick]
         both = self._divided(np.stack([right, change], axis=1))
         first, more = both[:, 0], both[:, 1]
         divisor = 1.0 + float(more[-1])
-        if not divisor > _LEAST_DIVISOR:
-            return LinearSystem.of(problem, self.states)._unknowns(problem)
+        if divisor == 0.0:
+            raise np.linalg.LinAlgError("Singular matrix")
         return np.asarray(first - more * (first[-1] / divisor))
 
     def _divided(self, right: Array) -> Array:

@@ -30,6 +30,7 @@ from rollnip.sheet.refine import (
     FEWEST,
     FEWEST_WITH_SLIP,
     FIRST_COUNT,
+    LAST_CLOSELY,
     claimed_of_powers,
     estimated_errors,
     next_count,
@@ -40,6 +41,7 @@ Array = NDArray[np.float64]
 _MOST_COUNT = 340
 _FIRST_PER_LENGTH = 1.6  # elements of the first size over the bending lengths in the width
 _MOST_FIRST = 60.0  # of the first size
+_FIRST_CLOSELY = 0.3  # of the tolerance: allowed error of ends on the first size
 _MOST_FAILED = 3  # sizes of mesh in a row on which zones do not settle
 
 
@@ -126,7 +128,8 @@ def refine_plate(
     attempt = search.begun(half_width, round(count)) if before is None else before
     failed = 0
     while count <= _MOST_COUNT:
-        attempt = search.placed(attempt.zones, round(count), attempt)
+        closely = LAST_CLOSELY if history else _FIRST_CLOSELY
+        attempt = search.placed(attempt.zones, round(count), attempt, closely)
         figures = plate_figures(attempt, model.geometry)
         here = (count, figures, attempt.zones)
         lower = of_lower(figures, attempt)

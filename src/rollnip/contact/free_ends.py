@@ -41,8 +41,7 @@ _RESPONSE = (-0.6831, -0.1132, -0.0597)
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
 _STICK_BETWEEN = 0.1
-_MOVE_WITHOUT_PLACE = 0.1  # of an end with no proposed place, over the shorter zone beside it
-_LONGEST_MOVE = 0.4  # of an end into a zone, over its length, where proposed ends cross
+_LONGEST_MOVE = 0.4  # of an end into a zone, over its length
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,6 +173,12 @@ class Layout:
         moves[~self.is_edge] *= 0.1
         return float(np.max(moves)) / other.width
 
+    def misses(self, other: Layout) -> float:
+        """Return the largest distance of the breaks of two like layouts, over the shorter zone."""
+        lengths = np.diff(other.breaks)
+        shorter = np.minimum(np.append(lengths, np.inf), np.append(np.inf, lengths))
+        return float(np.max(np.abs(self.breaks - other.breaks) / shorter))
+
     def towards(self, proposed: Layout) -> Layout:
         """Return this layout with its breaks moved towards proposed ones, without crossing.
 
@@ -184,16 +189,23 @@ class Layout:
         back = np.concatenate([[self.width], lengths])
         ahead = np.concatenate([lengths, [self.width]])
         moves = proposed.breaks - self.breaks
-        little = np.where(np.isfinite(moves), np.inf, _MOVE_WITHOUT_PLACE * np.minimum(back, ahead))
-        furthest_back = np.minimum(np.minimum(_LONGEST_MOVE * back, ahead), little)
-        furthest_ahead = np.minimum(np.minimum(_LONGEST_MOVE * ahead, back), little)
+        furthest_back = np.minimum(_LONGEST_MOVE * back, ahead)
+        furthest_ahead = np.minimum(_LONGEST_MOVE * ahead, back)
         bounded = np.clip(moves, -furthest_back, furthest_ahead)
         return Layout(self.breaks + bounded, self.states)
 
     def vanishing(self, proposed: Layout) -> Mask:
-        """Return which zones would have no length left with the proposed breaks, (m,)."""
+        """Return which zones would have no length left with the proposed breaks, (m,).
+
+        A break with no proposed place says that its zone goes on, but the tractions of that zone
+        see no further than it is long: a longer zone beside it does not vanish.
+        """
+        lengths, breaks = np.diff(self.breaks), proposed.breaks.copy()
+        behind, ahead = np.append(np.inf, lengths), np.append(lengths, np.inf)
+        unseen = (np.isposinf(breaks) & (ahead > behind)) | (np.isneginf(breaks) & (behind > ahead))
+        breaks[unseen] = self.breaks[unseen]
         with np.errstate(invalid="ignore"):
-            return np.asarray(~(np.diff(proposed.breaks) > 0.0))
+            return np.asarray(~(np.diff(breaks) > 0.0))
 
     def without(self, number: int, *, keeps_stick: bool) -> Layout | None:
         """Return the layout without one zone; None where slip both ways would be side by side.
@@ -227,18 +239,6 @@ class Layout:
         state = self.states[number]
         breaks = np.insert(self.breaks, number + 1, [start, stop])
         return Layout(breaks, np.insert(self.states, number + 1, [FREE, state]))
-
-    def slipping_up_to(self, place: float, slip: State) -> Layout | None:
-        """Return the layout with a zone of slip from a place [mm] to the nearer edge.
-
-        Return None where the contact does not stick there.
-        """
-        leads = place > self.breaks.mean()
-        if self.states[-1 if leads else 0] != STICK:
-            return None
-        breaks = np.insert(self.breaks, self.breaks.size - 1 if leads else 1, place)
-        states = np.insert(self.states, self.states.size if leads else 0, np.int8(slip))
-        return Layout(breaks, states)
 
     @property
     def zones(self) -> tuple[ContactZone, ...]:
@@ -300,6 +300,33 @@ class Layout:
             breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)
 
+    def slipping_at_edges(
+        self, x: Array, state: ContactState, friction: float, least: float
+    ) -> Layout:
+        """Return the layout with slip at those edges up to which the surfaces cannot stick.
+
+        ``least``: shortest zone of slip that matters [mm]; else as `moved`.
+        """
+        ends, edges = self.ends(x).tolist(), self.is_edge.tolist()
+        places = self.breaks.tolist()
+        breaks, states = places[:1], []
+        for number, own in enumerate(self.states.tolist()):
+            behind = ahead = None
+            if own == STICK and edges[number]:
+                behind = _slip_beside(x, state, friction, ends[number], leads=False)
+            if own == STICK and edges[number + 1]:
+                ahead = _slip_beside(x, state, friction, ends[number + 1], leads=True)
+            if behind is not None and behind[0] > least:
+                breaks.append(places[number] + behind[0])
+                states.append(behind[1])
+            states.append(own)
+            if ahead is not None and ahead[0] > least:
+                breaks.append(places[number + 1] - ahead[0])
+                states.append(ahead[1])
+            breaks.append(places[number + 1])
+        found = Layout(np.array(breaks), np.array(states, dtype=np.int8))
+        return found if found.is_proper else self
+
     def singular(self, x: Array, state: ContactState) -> Array:
         """Return the inverse square roots that misplaced edges leave in the pressure, (2,).
 
@@ -331,6 +358,29 @@ def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ..
         else:
             out.append(zone)
     return tuple(out)
+
+
+def _slip_beside(
+    x: Array, state: ContactState, friction: float, end: int, *, leads: bool
+) -> tuple[float, State] | None:
+    """Return the length of the slip at an edge where the solution sticks, and its state.
+
+    A zone of slip that is too short for the elements leaves in mu p - |q| what an end of stick
+    leaves that is misplaced by its length. All else that three nodes may take for it falls with
+    their distance: they are believed if those twice as far apart differ by less than the length.
+    """
+    inwards = -1 if leads else 1
+    for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0)):
+        lengths = []
+        for apart in (1, 2):
+            beside = end + inwards * apart * np.array([1, 2, 3])
+            distance = np.abs(x[beside] - x[end]).tolist()
+            values = (friction * state.pressure[beside] - sign * state.shear[beside]).tolist()
+            lengths.append(-_outwards(distance, values, smooth=leads))
+        near, far = lengths
+        if abs(far - near) < near:
+            return near, slip
+    return None
 
 
 _Three = Sequence[float]

@@ -112,13 +112,9 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
             if final.residual <= model.tolerance:
                 return with_further_errors(nip, final, history)
             ratio = final.residual / model.tolerance
-            slipping = placing.search.slipping_at_edge(final, state.layout)
-            if slipping is None and not is_repeated:
+            if not is_repeated:
                 is_repeated, count = True, wanted  # with ends at their next places
                 continue
-            if slipping is not None:
-                ratio = 1.0
-            state = SearchState(slipping or state.layout, latest)
         finer = _next_count(count, largest(ratio, roughness), model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer

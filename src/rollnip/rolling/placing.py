@@ -86,7 +86,7 @@ class Placing:
         # The second order held so far is that of a coarser mesh: each size evaluates its own.
         state, known_to = self._renewed(replace(start, expected=inf)), start.misplacement
         shape: Shape | None = None
-        ends, meshes = Secants(), 0
+        ends, meshes, is_seen = Secants(), 0, True
         last: tuple[Layout, Figures] | None = None
         effect = start.effect
         tried: set[bytes] = set()
@@ -106,7 +106,11 @@ class Placing:
             is_quiet = self.kernels.is_fixed or state.is_quiet
             is_near = not known and misplacement < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_still = latest.settled and is_quiet
+            # Figures of other zones than those of the size before tell nothing of errors.
+            closely = closely and layout.breaks.size == start.layout.breaks.size
             there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
+            # The first mesh with other zones shows where their ends are, not that they are there.
+            is_first = last is None and not start.layout.is_like(layout)
             if last is not None:
                 effect = _effect_of_ends(last, (layout, latest.figures))
             elif length_excess(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
@@ -116,7 +120,7 @@ class Placing:
             by_figures = closely and self._rests_by_figures
             is_placed = (
                 self._is_placed(layout, proposed, known=known, by_figures=by_figures)
-                and (proposed.is_proper and is_still)
+                and (proposed.is_proper and is_still and not is_first)
                 and not (by_figures and self._changes(latest, left))
                 and not (_is_false_at_edge(latest) or (closely and self._exceeds_bound(latest)))
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
@@ -124,16 +128,19 @@ class Placing:
             other = self.search.other_zones(
                 latest, (layout, proposed), ends, is_placed=is_placed, is_near=is_near
             )
-            moves_on = other is not None and other.layout.is_like(layout)
-            if other is not None and not moves_on and other.layout.key not in tried:
+            # Zones tried before are left for good, but those left when one vanishes are not new.
+            if other is not None and (
+                other.layout.states.size < layout.states.size or other.layout.key not in tried
+            ):
                 tried.add(other.layout.key)
                 state, shape, ends = self._renewed(other), None, Secants()
-                effect = None
-                meshes = meshes if known else 0
-            elif is_placed and not moves_on:
+                # Ends that have been placed before hardly move: what they do is not seen.
+                is_seen, effect = is_seen and not is_placed, None
+                meshes = 0
+            elif is_placed:
                 if not self.search.pulls(latest):
                     placed = _state_at(there, latest, state, misplacement)
-                    return replace(placed, left=left, effect=effect)
+                    return replace(placed, left=left, effect=effect if is_seen else None)
                 parted = self.search.parted(latest, layout)
                 if parted is None or parted.key in tried:
                     return None

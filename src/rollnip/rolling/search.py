@@ -97,10 +97,11 @@ class ZoneSearch:
         if wanted is not None:
             edges = proposed if proposed.is_proper else layout.towards(proposed)
             found = self.between_edges(latest, wanted, edges, self.model.geometry)
-            if found is None or is_placed or not found.layout.is_like(layout):
+            # The ends of the same zones move without that.
+            if found is not None and not found.layout.is_like(layout):
                 return found
-            return None  # the same zones: their ends move without that
-        return None
+        slipping = self.slipping_at_edges(latest, layout) if is_placed else layout
+        return None if slipping.is_like(layout) else SearchState(slipping, latest)
 
     def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
         """Return the states that a solution calls for; None where nodes in contact have them.
@@ -152,18 +153,9 @@ class ZoneSearch:
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 
-    def slipping_at_edge(self, latest: Round, layout: Layout) -> Layout | None:
-        """Return the layout with slip at an edge, where the shear between nodes exceeds its bound.
-
-        Where unlike surfaces stick up to an edge, the shear rises ever more steeply towards it.
-        Return None where the worst place does not lie in an element that sticks up to an edge.
-        """
-        friction, x = self.nip.friction, latest.mesh.inner
-        slack = self.model.tolerance * latest.figures.peak_pressure
-        over = np.abs(latest.shear) - friction * np.maximum(latest.pressure, 0.0)
-        worst = int(np.argmax(over))
-        place, shear = latest.x[worst], latest.shear[worst]
-        if not over[worst] > friction * slack or x[1] < place < x[-2]:
-            return None
-        slip = State.SLIP_PLUS if shear > 0.0 else State.SLIP_MINUS
-        return layout.slipping_up_to(x[1] if place <= x[1] else x[-2], slip)
+    def slipping_at_edges(self, latest: Round, layout: Layout) -> Layout:
+        """Return the layout with slip at edges that has a length beyond the errors of edges."""
+        if self.nip.friction == 0.0:
+            return layout
+        least = STILL * self.model.tolerance * layout.width
+        return layout.slipping_at_edges(latest.mesh.inner, latest.state, self.nip.friction, least)

@@ -106,23 +106,23 @@ class Placing:
             is_quiet = self.kernels.is_fixed or state.is_quiet
             is_near = not known and misplacement < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_still = latest.settled and is_quiet
-            # Figures of other zones than those of the size before tell nothing of errors.
-            closely = closely and layout.breaks.size == start.layout.breaks.size
+            # Figures of other zones than those of the size before tell nothing of errors, and the
+            # first mesh with them shows where their ends are, not that they are there.
+            is_first = closely and last is None and not start.layout.is_like(layout)
+            is_close = closely and layout.breaks.size == start.layout.breaks.size
             there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
-            # The first mesh with other zones shows where their ends are, not that they are there.
-            is_first = last is None and not start.layout.is_like(layout)
             if last is not None:
                 effect = _effect_of_ends(last, (layout, latest.figures))
             elif length_excess(layout.breaks, there.breaks, self.model.tolerance) > 1.0:
                 effect = None  # zones change too much to tell from those of another size
             left = None if effect is None else effect.times(there.distance(layout))
             last = layout, latest.figures
-            by_figures = closely and self._rests_by_figures
+            by_figures = is_close and self._rests_by_figures
             is_placed = (
                 self._is_placed(layout, proposed, known=known, by_figures=by_figures)
                 and (proposed.is_proper and is_still and not is_first)
                 and not (by_figures and self._changes(latest, left))
-                and not (_is_false_at_edge(latest) or (closely and self._exceeds_bound(latest)))
+                and not (_is_false_at_edge(latest) or (is_close and self._exceeds_bound(latest)))
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
             )
             other = self.search.other_zones(

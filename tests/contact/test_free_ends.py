@@ -20,7 +20,7 @@ from rollnip.contact import (
     subdivided,
 )
 from rollnip.contact.coupled import LinearSystem
-from rollnip.contact.free_ends import _RESPONSE
+from rollnip.contact.ends import RESPONSE
 from rollnip.contact.problem import ContactProblem, Control, influence_of
 from rollnip.influence import load_weights
 
@@ -78,7 +78,7 @@ def test_pattern_of_the_elements_beside_an_edge():
     np.testing.assert_allclose(right.pressure[1:4], exact, rtol=1e-4)
     _, _, wide = hertz([-1.0 - 0.01 * first, 1.0], 160)
     response = (wide.pressure[1:4] / right.pressure[1:4] - 1.0) / 0.01
-    np.testing.assert_allclose(response, _RESPONSE, atol=2e-4)
+    np.testing.assert_allclose(response, RESPONSE, atol=2e-4)
 
 
 def test_what_a_root_leaves_at_the_edge():
@@ -324,12 +324,66 @@ def test_ends_on_their_way_never_cross():
         assert np.all(np.sign(moved.breaks - layout.breaks) == wanted)
 
 
-def test_a_zone_of_slip_is_put_at_the_nearer_edge_that_sticks():
-    layout = Layout(np.array([0.0, 1.0, 3.0]), np.array([PLUS, STICK], dtype=np.int8))
-    found = layout.slipping_up_to(2.9, MINUS)
-    assert found.breaks.tolist() == [0.0, 1.0, 2.9, 3.0]
-    assert found.states.tolist() == [PLUS, STICK, MINUS]
-    assert layout.slipping_up_to(0.1, MINUS) is None
+def carter_without_slip(share, count=22):
+    """A contact that sticks all over under a share of what friction can bear."""
+    problem = half_planes(
+        [-1.0, 1.0], [count], load=HERTZ_LOAD, traction=share * HERTZ_LOAD, friction=1.0
+    )
+    layout = Layout.sticking(1.0)
+    return problem, layout, GivenStates().solve(problem, layout.states_on(problem.x))
+
+
+@pytest.mark.parametrize("share", [0.0005, 0.005, -0.005])
+def test_slip_shorter_than_the_elements_is_as_long_as_carter_has_it(share):
+    """The first element is 0.01 long, the slip half of it and a twentieth."""
+    problem, layout, state = carter_without_slip(share)
+    found = layout.slipping_at_edges(problem.x, state, 1.0, 1e-5)
+    assert found.states.tolist() == [PLUS if share > 0.0 else MINUS, STICK]
+    carter = 2.0 * (1.0 - np.sqrt(1.0 - abs(share)))
+    np.testing.assert_allclose(found.breaks, [-1.0, -1.0 + carter, 1.0], atol=0.02 * carter)
+    assert layout.slipping_at_edges(problem.x, state, 1.0, 2.0 * carter).is_like(layout)
+
+
+def test_no_slip_is_found_without_traction_or_beside_slip():
+    problem, layout, state = carter_without_slip(0.0)
+    assert layout.slipping_at_edges(problem.x, state, 1.0, 1e-9).is_like(layout)
+    problem, _, state = carter_without_slip(0.005)
+    slips = Layout(np.array([-1.0, 1.0]), np.array([PLUS], dtype=np.int8))
+    assert slips.slipping_at_edges(problem.x, state, 1.0, 1e-9).is_like(slips)
+
+
+def planted(slack, count=22):
+    """Nodes on (0, 1) with the leading edge at 1, and tractions with mu p - q as given there."""
+    x = cosine_nodes(np.array([0.0, 1.0]), np.array([count]))[1:-1]
+    pressure = np.sqrt(np.maximum(x * (1.0 - x), 0.0))
+    shear = np.where(x > 0.5, pressure - slack(np.maximum(1.0 - x, 0.0)), 0.0)
+    states = np.full(x.size, STICK, dtype=np.int8)
+    return x, ContactState(states, pressure, shear, 0.0, 0.0, 1, True)
+
+
+def test_slip_at_the_leading_edge_is_found_from_the_power_of_three_halves():
+    """Stick that is d too long leaves y^1.5 - 1.5 d y^0.5 there."""
+    layout = Layout(np.array([0.0, 1.0]), np.array([STICK], dtype=np.int8))
+    x, state = planted(lambda y: y**1.5 - 1.5 * 0.002 * np.sqrt(y))
+    found = layout.slipping_at_edges(x, state, 1.0, 1e-4)
+    assert found.states.tolist() == [STICK, PLUS]
+    np.testing.assert_allclose(found.breaks, [0.0, 1.0 - 0.002, 1.0], atol=1e-5)
+
+
+def test_what_falls_with_the_distance_from_an_edge_is_no_slip():
+    """A term of y^1.5 lg y tells three nodes of a length that is a share of theirs."""
+    layout = Layout(np.array([0.0, 1.0]), np.array([STICK], dtype=np.int8))
+    x, state = planted(lambda y: 0.4 * np.sqrt(y) * (1.0 + y * np.log(np.maximum(y, 1e-9))))
+    assert layout.slipping_at_edges(x, state, 1.0, 1e-6).is_like(layout)
+
+
+def test_a_longer_zone_does_not_vanish_for_an_end_without_a_place():
+    """The zone beside such an end tells nothing of what is further off than it is long."""
+    states = np.array([PLUS, STICK, MINUS], dtype=np.int8)
+    proposed = Layout(np.array([0.0, 1.0, np.inf, 4.0]), states)
+    for breaks, vanish in (([0.0, 1.0, 3.0, 4.0], True), ([0.0, 1.0, 1.2, 4.0], False)):
+        layout = Layout(np.array(breaks), states)
+        assert layout.vanishing(proposed).tolist() == [False, False, vanish]
 
 
 def test_a_smooth_end_is_found_further_inside_where_the_first_nodes_tell_none():

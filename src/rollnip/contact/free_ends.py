@@ -13,13 +13,13 @@ to a hundredth of one.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from math import copysign, inf, isfinite, sqrt
+from math import inf, isfinite
 
 import numpy as np
 
+from rollnip.contact.ends import RESPONSE, outwards, slip_beside
 from rollnip.contact.features import ContactZone, transition
 from rollnip.contact.problem import (
     FREE,
@@ -32,11 +32,6 @@ from rollnip.contact.problem import (
     States,
     shear_signs,
 )
-
-# Of the first three nodes beside the end of a zone of many cubic elements (see `subdivided`): the
-# change relative to a square root from there, for each first element that the zone is too wide.
-# Measured on a parabola pressed on a half-plane (tests).
-_RESPONSE = (-0.6831, -0.1132, -0.0597)
 
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
@@ -295,7 +290,7 @@ class Layout:
                 beside = [end + inwards * apart * i for i in (1, 2, 3)]
                 distance = [abs(nodes[i] - place) for i in beside]
                 values = [bound * pressure[i] - sign * shear[i] for i in beside]
-                step, apart = _outwards(distance, values, smooth=smooth), 2 * apart
+                step, apart = outwards(distance, values, smooth=smooth), 2 * apart
                 reach = distance[-1]
             breaks.append(place - inwards * step)
         return Layout(np.array(breaks), self.states)
@@ -307,23 +302,17 @@ class Layout:
 
         ``least``: shortest zone of slip that matters [mm]; else as `moved`.
         """
-        ends, edges = self.ends(x).tolist(), self.is_edge.tolist()
-        places = self.breaks.tolist()
-        breaks, states = places[:1], []
-        for number, own in enumerate(self.states.tolist()):
-            behind = ahead = None
-            if own == STICK and edges[number]:
-                behind = _slip_beside(x, state, friction, ends[number], leads=False)
-            if own == STICK and edges[number + 1]:
-                ahead = _slip_beside(x, state, friction, ends[number + 1], leads=True)
-            if behind is not None and behind[0] > least:
-                breaks.append(places[number] + behind[0])
-                states.append(behind[1])
-            states.append(own)
-            if ahead is not None and ahead[0] > least:
-                breaks.append(places[number + 1] - ahead[0])
-                states.append(ahead[1])
-            breaks.append(places[number + 1])
+        ends, breaks, states = self.ends(x), self.breaks.tolist(), self.states.tolist()
+        for edge in np.flatnonzero(self.is_edge)[::-1].tolist():
+            for leads in (False, True):
+                zone = edge - leads
+                if not 0 <= zone < self.states.size or self.states[zone] != STICK:
+                    continue
+                length, slip = slip_beside(x, state, friction, int(ends[edge]), leads=leads)
+                if length > least:
+                    place = float(self.breaks[edge])
+                    breaks.insert(edge + (not leads), place - length if leads else place + length)
+                    states.insert(edge, slip)
         found = Layout(np.array(breaks), np.array(states, dtype=np.int8))
         return found if found.is_proper else self
 
@@ -339,7 +328,7 @@ class Layout:
             beside = end + inwards * np.array([1, 2, 3])
             distance = np.abs(x[beside] - x[end])
             right = state.pressure[beside] / np.sqrt(distance)
-            patterns = np.stack([np.ones(3), distance, np.array(_RESPONSE)], axis=1)
+            patterns = np.stack([np.ones(3), distance, np.array(RESPONSE)], axis=1)
             out.append(inwards * float(np.linalg.solve(patterns, right)[2] * distance[0]))
         return np.array(out)
 
@@ -358,59 +347,3 @@ def _with_stick_between(zones: tuple[ContactZone, ...]) -> tuple[ContactZone, ..
         else:
             out.append(zone)
     return tuple(out)
-
-
-def _slip_beside(
-    x: Array, state: ContactState, friction: float, end: int, *, leads: bool
-) -> tuple[float, State] | None:
-    """Return the length of the slip at an edge where the solution sticks, and its state.
-
-    A zone of slip that is too short for the elements leaves in mu p - |q| what an end of stick
-    leaves that is misplaced by its length. All else that three nodes may take for it falls with
-    their distance: they are believed if those twice as far apart differ by less than the length.
-    """
-    inwards = -1 if leads else 1
-    for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0)):
-        lengths = []
-        for apart in (1, 2):
-            beside = end + inwards * apart * np.array([1, 2, 3])
-            distance = np.abs(x[beside] - x[end]).tolist()
-            values = (friction * state.pressure[beside] - sign * state.shear[beside]).tolist()
-            lengths.append(-_outwards(distance, values, smooth=leads))
-        near, far = lengths
-        if abs(far - near) < near:
-            return near, slip
-    return None
-
-
-_Three = Sequence[float]
-
-
-def _outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
-    """Return how far outwards a zone's end should move, from values at three distances inwards.
-
-    The values are fitted by s, s^3 and a third pattern, where s is the square root of the
-    distance: the pattern that a misplaced end leaves, or s^5 at a smooth end. Where the values do
-    not rise inwards as they should, the end is infinitely far off, on the side that they tell.
-    """
-    first = (1.0, 1.0, 1.0)
-    third = [d * d for d in distance] if smooth else _RESPONSE
-    right = [value / sqrt(d) for value, d in zip(values, distance, strict=True)]
-    whole = _determinant(first, distance, third)
-    root = _determinant(right, distance, third)
-    if smooth:
-        bend = _determinant(first, right, third)
-        return root / (1.5 * bend) if bend * whole > 0.0 else copysign(inf, root * whole)
-    misplaced = _determinant(first, distance, right)
-    if root * whole > 0.0:
-        return -misplaced / root * distance[0]
-    return copysign(inf, -misplaced * whole)
-
-
-def _determinant(a: _Three, b: _Three, c: _Three) -> float:
-    """Return the determinant of the matrix with these three columns."""
-    return (
-        a[0] * (b[1] * c[2] - b[2] * c[1])
-        + a[1] * (b[2] * c[0] - b[0] * c[2])
-        + a[2] * (b[0] * c[1] - b[1] * c[0])
-    )

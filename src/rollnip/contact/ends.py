@@ -1,0 +1,75 @@
+"""Where the end of a zone should be, from the tractions at the nodes beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import copysign, inf, sqrt
+
+import numpy as np
+
+from rollnip.contact.problem import Array, ContactState, State
+
+# Of the first three nodes beside the end of a zone of many cubic elements (see `subdivided`): the
+# change relative to a square root from there, for each first element that the zone is too wide.
+# Measured on a parabola pressed on a half-plane (tests).
+RESPONSE = (-0.6831, -0.1132, -0.0597)
+
+_Three = Sequence[float]
+
+
+def slip_beside(
+    x: Array, state: ContactState, friction: float, edge: int, *, leads: bool
+) -> tuple[float, State]:
+    """Return the length of the slip that stick up to an edge leaves out, and its state.
+
+    Slip that is short beside the elements leaves in mu p - |q| what an end of stick leaves that is
+    too far out by its length. All else that three nodes take for it falls with their distance: a
+    length is believed if nodes twice as far apart tell it to within itself, and else is 0.
+
+    Parameters
+    ----------
+    edge : number of its node in ``x``.
+    leads : whether it is the leading edge of its piece of the contact.
+    """
+    inwards = -1 if leads else 1
+    for slip, sign in ((State.SLIP_PLUS, 1.0), (State.SLIP_MINUS, -1.0)):
+        lengths = []
+        for apart in (1, 2):
+            beside = edge + inwards * apart * np.array([1, 2, 3])
+            distance = np.abs(x[beside] - x[edge]).tolist()
+            values = (friction * state.pressure[beside] - sign * state.shear[beside]).tolist()
+            lengths.append(-outwards(distance, values, smooth=leads))
+        near, far = lengths
+        if abs(far - near) < near < inf:
+            return near, slip
+    return 0.0, State.STICK
+
+
+def outwards(distance: _Three, values: _Three, *, smooth: bool) -> float:
+    """Return how far outwards a zone's end should move, from values at three distances inwards.
+
+    The values are fitted by s, s^3 and a third pattern, where s is the square root of the
+    distance: the pattern that a misplaced end leaves, or s^5 at a smooth end. Where the values do
+    not rise inwards as they should, the end is infinitely far off, on the side that they tell.
+    """
+    first = (1.0, 1.0, 1.0)
+    third = [d * d for d in distance] if smooth else RESPONSE
+    right = [value / sqrt(d) for value, d in zip(values, distance, strict=True)]
+    whole = _determinant(first, distance, third)
+    root = _determinant(right, distance, third)
+    if smooth:
+        bend = _determinant(first, right, third)
+        return root / (1.5 * bend) if bend * whole > 0.0 else copysign(inf, root * whole)
+    misplaced = _determinant(first, distance, right)
+    if root * whole > 0.0:
+        return -misplaced / root * distance[0]
+    return copysign(inf, -misplaced * whole)
+
+
+def _determinant(a: _Three, b: _Three, c: _Three) -> float:
+    """Return the determinant of the matrix with these three columns."""
+    return (
+        a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
+        + a[2] * (b[0] * c[1] - b[1] * c[0])
+    )

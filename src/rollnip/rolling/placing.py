@@ -106,8 +106,7 @@ class Placing:
             is_quiet = self.kernels.is_fixed or state.is_quiet
             is_near = not known and misplacement < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_still = latest.settled and is_quiet
-            # Figures of other zones than those of the size before tell nothing of errors, and the
-            # first mesh with them shows where their ends are, not that they are there.
+            # Figures of other zones tell nothing of errors, the first mesh with them only their ends.
             is_first = closely and last is None and not start.layout.is_like(layout)
             is_close = closely and layout.breaks.size == start.layout.breaks.size
             there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
@@ -138,15 +137,10 @@ class Placing:
                 is_seen, effect = is_seen and not is_placed, None
                 meshes = 0
             elif is_placed:
-                if not self.search.pulls(latest):
-                    placed = _state_at(there, latest, state, misplacement)
-                    return replace(placed, left=left, effect=effect if is_seen else None)
-                parted = self.search.parted(latest, layout)
-                if parted is None or parted.key in tried:
+                if self.search.pulls(latest):
                     return None
-                tried.add(parted.key)
-                state, shape, ends = self._renewed(SearchState(parted, latest)), None, Secants()
-                effect = None
+                placed = _state_at(there, latest, state, misplacement)
+                return replace(placed, left=left, effect=effect if is_seen else None)
             else:
                 state = self._renewed(SearchState(there, latest, state.change, state.expected))
         return None

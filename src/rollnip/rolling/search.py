@@ -100,8 +100,12 @@ class ZoneSearch:
             # The ends of the same zones move without that.
             if found is not None and not found.layout.is_like(layout):
                 return found
-        slipping = self.slipping_at_edges(latest, layout) if is_placed else layout
-        return None if slipping.is_like(layout) else SearchState(slipping, latest)
+        if not is_placed:
+            return None
+        more = self.slipping_at_edges(latest, layout)
+        if more is None and self.pulls(latest):
+            more = self.parted(latest, layout)
+        return None if more is None else SearchState(more, latest)
 
     def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
         """Return the states that a solution calls for; None where nodes in contact have them.
@@ -153,9 +157,14 @@ class ZoneSearch:
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
 
-    def slipping_at_edges(self, latest: Round, layout: Layout) -> Layout:
-        """Return the layout with slip at edges that has a length beyond the errors of edges."""
+    def slipping_at_edges(self, latest: Round, layout: Layout) -> Layout | None:
+        """Return the layout with slip at edges, where it has a length beyond the errors of edges.
+
+        Return None where there is none.
+        """
         if self.nip.friction == 0.0:
-            return layout
+            return None
         least = STILL * self.model.tolerance * layout.width
-        return layout.slipping_at_edges(latest.mesh.inner, latest.state, self.nip.friction, least)
+        x, state = latest.mesh.inner, latest.state
+        slipping = layout.slipping_at_edges(x, state, self.nip.friction, least)
+        return None if slipping.is_like(layout) else slipping

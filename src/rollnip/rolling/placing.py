@@ -106,7 +106,7 @@ class Placing:
             is_quiet = self.kernels.is_fixed or state.is_quiet
             is_near = not known and misplacement < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_still = latest.settled and is_quiet
-            # Figures of other zones tell nothing of errors, the first mesh with them only their ends.
+            # Figures of other zones tell nothing of errors, a first mesh of them only their ends.
             is_first = closely and last is None and not start.layout.is_like(layout)
             is_close = closely and layout.breaks.size == start.layout.breaks.size
             there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)

@@ -140,7 +140,7 @@ def refine_plate(
         left = violation(attempt)
         latest = PlateRefined(attempt, figures, errors, left, lower, lower_errors, round(count))
         slips = any(side.states.size > 1 for side in attempt.zones.sides)
-        fewest = FEWEST_WITH_SLIP if slips else FEWEST + nip.is_viscoelastic
+        fewest = FEWEST_WITH_SLIP if slips else FEWEST
         if attempt.settled:
             history.append(here)
             below.append(here_below)

@@ -7,7 +7,7 @@ differences of the double integral of G at the nodes, exact for any spacing.
 
 from __future__ import annotations
 
-from math import cbrt, inf, log, sqrt
+from math import inf, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,7 @@ def displacement_matrix(kernel: Kernel, x: Array, nodes: Array) -> Array:
     A kernel with channels gives (channels, m, N-1).
     """
     lengths = nodes[1:] - nodes[:-1]
-    steps = _under_slopes(kernel, x, nodes, _furthest(kernel) * lengths)
+    steps = _under_slopes(kernel, x, nodes, kernel.reach_of_differences * lengths)
     steps /= lengths.reshape(-1, *[1] * (steps.ndim - 1))
     hats = np.moveaxis(steps[:-1] - steps[1:], 0, 1)
     if kernel.coefficients.ndim == 3:
@@ -46,23 +46,28 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
     kernel with channels (channels, m, s).
     """
     lengths = nodes[1:] - nodes[:-1]
-    ends = np.zeros((1, tractions.shape[1]))
-    slopes = np.diff(tractions, axis=0, prepend=ends, append=ends) / lengths[:, None]
-    furthest = _furthest(kernel) * lengths
+    slopes = _steps(tractions) / lengths[:, None]
+    furthest = kernel.reach_of_differences * lengths
     furthest[[0, -1]] = inf  # they only end the mesh
-    # Some elements at a time: their values stay in the processor's cache, and sets that are each of
-    # a few neighbours make a band.
+    # Where no element is far from any place, changes of slope at the nodes save a difference.
+    is_near = _reach(x, nodes) <= furthest.min()
+    parts = _steps(slopes) if is_near else slopes
+    # Some at a time: their values stay in the processor's cache, and sets that are each of a few
+    # neighbours make a band.
     channels = kernel.coefficients[0, 0].size
     out = np.zeros((slopes.shape[1], x.size * channels))
     block = max(2**15 // out.shape[1], 1)
-    for start in range(0, lengths.size, block):
+    for start in range(0, len(parts), block):
         rows = slice(start, start + block)
-        sets = np.flatnonzero(np.any(slopes[rows], axis=0))
+        sets = np.flatnonzero(np.any(parts[rows], axis=0))
         if sets.size:
             columns = slice(int(sets[0]), int(sets[-1]) + 1)
-            here = nodes[start : start + block + 1]
-            values = _under_slopes(kernel, x, here, furthest[rows])
-            out[columns] += slopes[rows, columns].T @ values.reshape(-1, out.shape[1])
+            if is_near:
+                values = kernel.double_integral(x - nodes[rows, None])
+            else:
+                here = nodes[start : start + block + 1]
+                values = _under_slopes(kernel, x, here, furthest[rows])
+            out[columns] += parts[rows, columns].T @ values.reshape(-1, out.shape[1])
     made = out.reshape(-1, x.size, channels).T[: kernel.count]
     return np.ascontiguousarray(made[0] if kernel.coefficients.ndim == 2 else made)
 
@@ -78,7 +83,7 @@ def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Ar
     """
     values = kernel.double_integral(x - nodes[:, None])
     out = values[:-1] - values[1:]
-    if max(x.max() - nodes[0], nodes[-1] - x.min()) > furthest.min():
+    if _reach(x, nodes) > furthest.min():
         lengths = nodes[1:] - nodes[:-1]
         distance = x - (nodes[:-1] + 0.5 * lengths)[:, None]
         element, place = np.nonzero(np.abs(distance) > furthest[:, None])
@@ -89,22 +94,16 @@ def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Ar
     return out
 
 
-def _furthest(kernel: Kernel) -> float:
-    """Return at what distance, over the length h of an element, rounding counts in differences.
+def _steps(values: Array) -> Array:
+    """Return the changes from row to row, with zeros before the first and behind the last."""
+    padded = np.zeros((len(values) + 2, values.shape[1]))
+    padded[1:-1] = values
+    return np.asarray(padded[1:] - padded[:-1])
 
-    A difference keeps eps G x^2/2 of the double integral at a distance x. The element itself yields
-    as G falls with ln|x| at its own place, by A h^2: the rest is noise of the tractions, under a
-    stiff skin 1e-3 of the pressure where a tenth of the elements lie within 1e-3 of the contact.
-    A third of all digits, 6e-6 of the tractions, is little beside any tolerance. Two Gauss points
-    miss h^4/2160 A/x^3 of a logarithm: nearer than where that is eps x^2/2 they gain nothing.
-    """
-    largest = float(np.abs(kernel.coefficients[0]).max())
-    if largest == 0.0:
-        return inf
-    eps, per_log = float(np.finfo(float).eps), kernel.points_per_octave / log(2.0)
-    nearest = float(np.abs(kernel.coefficients[1, kernel.coefficients.shape[1] // 2]).max())
-    noise = cbrt(eps) * per_log * nearest / largest
-    return max(sqrt(2.0 * noise / eps), float((1080.0 * eps) ** -0.2))
+
+def _reach(x: Array, nodes: Array) -> float:
+    """Return the largest distance of a place from a node."""
+    return float(max(x.max() - nodes[0], nodes[-1] - x.min()))
 
 
 def load_weights(nodes: Array) -> Array:

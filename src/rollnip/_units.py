@@ -54,6 +54,7 @@ _KGF = Fraction("9.80665")  # N
 _SPACED = re.compile(r"\s*([/*·⋅])\s*")
 _QUANTITY = re.compile(r"\s*([+-]?)([0-9.,]*[0-9][0-9.,]*)([eE][+-]?[0-9]+)?\s*(.*?)\s*", re.DOTALL)
 _NUMBER = re.compile(r"[0-9]+(?:[.,][0-9]+)?|[0-9]+\.|[.,][0-9]+")
+_FRACTION = re.compile(r"[-\d ]*/ ?\d")  # what follows the first number of "3/8 in", "1 1/2 in"
 _GROUPED = re.compile(r"[1-9][0-9]{0,2},[0-9]{3}")
 _SAME = str.maketrans({"µ": "u", "μ": "u", "²": "2", "°": "deg", "*": " ", "·": " ", "⋅": " "})
 _MINUS = str.maketrans({"\u2212": "-"})
@@ -368,6 +369,8 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
         raise _refusal(dimension, value, why)
     if unit[:3].isdigit():  # "1 780 N/m", and no "1/s"
         raise _refusal(dimension, value, "there is a space within the number")
+    if _FRACTION.match(unit):
+        raise _refusal(dimension, value, "a fraction is not read; write a decimal number")
     if unit in _REFUSED:
         raise _refusal(dimension, value, f'"{written}" {_REFUSED[unit]}')
     for other in _KINDS.values():

@@ -36,6 +36,16 @@ def test_feed_tension_and_strain_are_those_of_the_solver(sheet):
     assert "feed" in designer.saved("csv-figures").lower()
 
 
+def test_totals_of_what_is_rounding_are_zero(sheet):
+    """The traction on the whole face stood there as 1.47e-14 N beside a traction of 0."""
+    designer, _ = sheet
+    page = designer.page
+    designer.unfold("advanced")
+    designer.sent(lambda: page.check("#in-has-width"))
+    whole = page.locator("#figures .figure", has_text="Traction, whole face")
+    assert "10⁻" not in whole.inner_text()
+
+
 def test_a_phone_shows_all_names_of_curves_and_the_curves(browser, base):
     """They stood in a box that scrolled, and left a chart of 50 pixels under it."""
     context = new_context(browser, viewport={"width": 390, "height": 844})

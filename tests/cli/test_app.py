@@ -13,6 +13,7 @@ import pytest
 from typer.testing import CliRunner
 
 import rollnip as rn
+from rollnip import cli
 from rollnip.cli.app import app
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "configuration-2-driven.toml"
@@ -268,3 +269,13 @@ def test_what_takes_minutes_is_said_first(quick, tmp_path, layers, geometry, sai
     path.write_text(head + layers * layer)
     result = run("solve", str(path), "--geometry", geometry, "-q")
     assert ("300 layers take long" in result.stderr) == said
+
+
+def test_ctrl_c_before_the_commands_are_loaded_ends_quietly(monkeypatch):
+    def interrupted():
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(cli, "keep_freed_memory", interrupted)
+    with pytest.raises(SystemExit) as left:
+        cli.main()
+    assert left.value.code == 130

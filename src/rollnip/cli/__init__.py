@@ -16,6 +16,14 @@ def main() -> None:
     0 is done, 1 not converged, 2 wrong input, 130 after Ctrl-C, 141 where the reader of the output
     has gone.
     """
+    try:
+        _run()
+    except KeyboardInterrupt:
+        sys.exit(130)
+
+
+def _run() -> None:
+    """Run the command; Ctrl-C may come at any moment, while modules are loaded, too."""
     # Threaded BLAS makes small dense systems many times slower; set before numpy loads.
     for name, threads in ONE_THREAD.items():
         os.environ.setdefault(name, threads)
@@ -28,8 +36,6 @@ def main() -> None:
         from rollnip.cli.app import app
 
         app()
-    except KeyboardInterrupt:
-        sys.exit(130)
     except SystemExit as error:
         # Of the help: what parses the command line makes an exit of 1 of a closed pipe.
         if isinstance(error.__context__, BrokenPipeError):

@@ -368,11 +368,12 @@ export function errorOf(all, key) {
   return error && error > TINY * Math.abs(all[key]) && !isNoise(error, all, size) ? error : null;
 }
 
-/** Totals over the face width as {label, text, unit}. */
+/** Totals over the face width as {label, text, unit}, of a flat result: what is rounding only in it is zero. */
 export function totalsOf(result, system) {
   if (!result.totals) return [];
   return TOTALS.filter(({ key }) => result.totals[key] !== null).map(({ key, label, units }) => {
     const [unit, scale] = units[system];
-    return { label: totalLabel(key, label), text: number(result.totals[key] / scale), unit: written(unit) };
+    const total = result[key] === 0 ? 0 : result.totals[key];
+    return { label: totalLabel(key, label), text: number(total / scale), unit: written(unit) };
   });
 }

@@ -54,7 +54,6 @@ _KGF = Fraction("9.80665")  # N
 _SPACED = re.compile(r"\s*([/*·⋅])\s*")
 _QUANTITY = re.compile(r"\s*([+-]?)([0-9.,]*[0-9][0-9.,]*)([eE][+-]?[0-9]+)?\s*(.*?)\s*", re.DOTALL)
 _NUMBER = re.compile(r"[0-9]+(?:[.,][0-9]+)?|[0-9]+\.|[.,][0-9]+")
-_FRACTION = re.compile(r"[-\d ]*/ ?\d")  # what follows the first number of "3/8 in", "1 1/2 in"
 _GROUPED = re.compile(r"[1-9][0-9]{0,2},[0-9]{3}")
 _SAME = str.maketrans({"µ": "u", "μ": "u", "²": "2", "°": "deg", "*": " ", "·": " ", "⋅": " "})
 _MINUS = str.maketrans({"\u2212": "-"})
@@ -227,9 +226,8 @@ _REFUSED = {
     "F": 'is the farad; write "degF"',
     "rpm": "is not a surface speed; give the circumferential speed, such as 20 m/min",
     "kn/m": 'is not a unit; kilonewtons are written "kN/m"',
-    "ShoreA": "is no pressure; give `shore_a` instead of `modulus`",
     "1/s": 'may be turns or radians a second; write "Hz" or "rad/s"',
-    "Shore A": "is no pressure; give `shore_a` instead of `modulus`",
+    **dict.fromkeys(("ShoreA", "Shore A"), "is no pressure; give `shore_a` instead of `modulus`"),
 } | dict.fromkeys(
     ("lb", "lbs", "lb/in", "lbs/in", "lb/ft", "kg", "kg/cm", "kg/m", "kg/mm", "kg/cm2", "g"),
     _MASS_OR_FORCE,
@@ -369,8 +367,6 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
         raise _refusal(dimension, value, why)
     if unit[:3].isdigit():  # "1 780 N/m", and no "1/s"
         raise _refusal(dimension, value, "there is a space within the number")
-    if _FRACTION.match(unit):
-        raise _refusal(dimension, value, "a fraction is not read; write a decimal number")
     if unit in _REFUSED:
         raise _refusal(dimension, value, f'"{written}" {_REFUSED[unit]}')
     for other in _KINDS.values():
@@ -380,12 +376,13 @@ def _unit(unit: str, written: str, value: str, dimension: Dimension) -> tuple[Fr
 
 
 def _nearest(unit: str, kind: _DimensionUnits) -> str:
-    names = [name for name in kind.units if name]
-    folded = [name for name in names if name.casefold() == unit.casefold()]
+    if unit.partition("/")[2][:1].isdigit():
+        return "; write a fraction as a decimal number"
+    folded = [name for name in kind.units if name.casefold() == unit.casefold()]
     if not folded:
         from difflib import get_close_matches
 
-        folded = get_close_matches(unit, names, n=1, cutoff=0.5)
+        folded = get_close_matches(unit, kind.units, n=1, cutoff=0.5)
     return f'; did you mean "{folded[0]}"?' if folded else ""
 
 

@@ -83,14 +83,16 @@ def by_nodes(
 ) -> Iterator[Round]:
     """Find contact, stick and slip node by node on ever finer meshes, as long as there is any.
 
-    Once a solution has settled only those that have settled, too, follow.
+    Of each size comes the last solution that has settled; one that has not only before any has.
     """
     placing = Placing(nip, model, kernels)
     before: Round | None = None
+    any_settled = False
     for count in sizes:
-        found = _on(placing, half_width, count, before)
-        if found.settled or before is None:
-            yield found
+        found, settled = _on(placing, half_width, count, before)
+        any_settled = any_settled or settled is not None
+        if settled is not None or not any_settled:
+            yield settled or found
         if not (found.figures.peak_pressure > 0.0 and has_grip(found)):
             return
         before = found if found.settled else before
@@ -99,21 +101,27 @@ def by_nodes(
 def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
     """Return contact, stick and slip of the nodes of a finer mesh; None where it is the finest."""
     finer = [count for count in SIZES[ENOUGH_FOR_ZONES:] if count > 1.3 * before.mesh.inner.size]
-    return _on(Placing(nip, model, kernels), 0.0, finer[0], before) if finer else None
+    if not finer:
+        return None
+    found, settled = _on(Placing(nip, model, kernels), 0.0, finer[0], before)
+    return settled or found
 
 
-def _on(placing: Placing, half_width: float, count: int, before: Round | None) -> Round:
-    """Solve node by node on meshes of one size, each dense at the ends that the last one found."""
+def _on(
+    placing: Placing, half_width: float, count: int, before: Round | None
+) -> tuple[Round, Round | None]:
+    """Solve node by node on meshes of one size, each dense at the ends that the last one found.
+
+    Return the last solution, and the last one that has settled.
+    """
     last: Round | None = None
     for _ in range(_MOST):
         found = _on_one(placing, half_width, count, last or before)
-        if last is not None and not found.settled:
-            return last
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
         if not is_pressed or _zones_are_known(placing, found, last):
             break
         last = found
-    return found
+    return found, found if found.settled else last
 
 
 def _on_one(placing: Placing, half_width: float, count: int, before: Round | None) -> Round:

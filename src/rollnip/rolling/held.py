@@ -20,7 +20,7 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.check import surface_strain_in_nip
-from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
+from rollnip.rolling.claimed_errors import grips_skin
 from rollnip.rolling.elements import share_of_waves
 from rollnip.rolling.free_ends import as_cosines, is_verified, with_free_ends
 from rollnip.rolling.iterations import STILL, solve_on_mesh
@@ -42,15 +42,9 @@ _FAR = 0.1  # change from which a contact is sought again, where it is sought no
 _AT_REST = 0.3  # change of such a contact's correction, over the tolerance: free ends take over
 _COARSE = 24  # elements of the contact while its correction still changes
 NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
-# Change, over the tolerance, from which on the mesh of a bare nip is refined: at once where the
-# correction is moderate, later where a layer is viscoelastic (coarse iterations are cheap then) or
-# a skin needs a correction that nearly fits to find its edges.
-_REFINED_FROM = 400.0
-_REFINED_LATER_FROM = 50.0
+_REFINED_FROM = 400.0  # change, over the tolerance, from which on the mesh of a bare nip is refined
 _COARSELY = 1e-2  # tolerance of such contacts
-_MISPLACEMENT = (
-    0.01  # of the width of the contact: how far a correction moves the ends of zones, about
-)
+_MISPLACEMENT = 0.01  # of the ends of zones by a correction, over the width of the contact, about
 
 
 Responses = Callable[[], PairKernels]
@@ -167,8 +161,7 @@ def _enough_for_better(nip: Nip, latest: Round, stage: Stage) -> float:
         return NEARLY
     if grips_skin(nip):
         return 1.0  # zones need a correction that fits
-    waits = nip.is_viscoelastic or skin_thickness(nip) > 0.0
-    return _REFINED_LATER_FROM if waits else _REFINED_FROM
+    return _REFINED_FROM
 
 
 def _better(

@@ -50,8 +50,8 @@ class Model:
         beside a slipping edge it is less accurate, by what the solution's status says. "second"
         gives approach and load to 0.001, the peak pressure to 0.0015, the nip width to 0.002 and
         the creepage to 0.01, which counts in the same way. Where the pressure peaks beside the
-        edge of a stiff top layer, nearer than that layer is thick, "finite" gives the peak to 0.02
-        and "second" to 0.15.
+        edge of a stiff top layer, nearer than that layer is thick, "finite" gives the peak to 0.02,
+        with friction to 0.07, and "second" to 0.15.
 
     Raises
     ------

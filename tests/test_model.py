@@ -3,6 +3,7 @@
 from dataclasses import FrozenInstanceError, replace
 from math import inf, nan
 
+import numpy as np
 import pytest
 
 from rollnip import InvalidInputError, Model
@@ -19,7 +20,7 @@ def test_allowed(geometry, tolerance):
     assert replace(model, tolerance=0.01).geometry == geometry
 
 
-@pytest.mark.parametrize("geometry", ["Curved", "", "flat", None, 3, ["linear"]])
+@pytest.mark.parametrize("geometry", ["Curved", "", "flat", None, 3, ["linear"], np.ones(2)])
 def test_unknown_geometry(geometry):
     known = r'"linear", "corrected", "curved", "second", "finite"'
     pattern = rf"^`geometry` must be one of {known}, got .*\.$"

@@ -75,6 +75,11 @@ def test_arguments_of_another_kind_are_refused(arguments, said):
         solve(*arguments)
 
 
+def test_a_cache_of_another_kind_is_refused():
+    with pytest.raises(rn.InvalidInputError, match=r"^`cache` must be a KernelCache, got an int"):
+        solve(NIP, cache=5)
+
+
 def test_what_to_do_on_failure_is_one_of_two():
     with pytest.raises(rn.InvalidInputError, match=r"^`on_failure` must be .* got 'x'\.$"):
         solve(NIP, on_failure="x")

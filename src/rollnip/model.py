@@ -65,7 +65,7 @@ class Model:
     def __post_init__(self) -> None:
         if isinstance(self.geometry, str):
             object.__setattr__(self, "geometry", _SYNONYMS.get(self.geometry, self.geometry))
-        if self.geometry not in get_args(Geometry):
+        if not isinstance(self.geometry, str) or self.geometry not in get_args(Geometry):
             known = ", ".join(f'"{name}"' for name in get_args(Geometry))
             raise InvalidInputError(f"`geometry` must be one of {known}, got {self.geometry!r}.")
         object.__setattr__(self, "tolerance", require_positive("tolerance", self.tolerance))

@@ -99,6 +99,7 @@ def solve(
 
         return solve_rough(nip, model, on_failure=on_failure, version=_version())
     cache = KernelCache() if cache is None else cache
+    require_instance("cache", cache, KernelCache)
     # Second-order terms that diverge may overflow; a solution that is not finite is not verified.
     with one_blas_thread(), np.errstate(over="ignore", invalid="ignore"):
         solution: Solution

@@ -48,6 +48,7 @@ def test_heat_is_frequency(shift):
         (23.0 - 51.6, UNIVERSAL, "pole of the WLF law"),
         (-100.0, UNIVERSAL, "pole of the WLF law"),
         (-28.0, UNIVERSAL, "shift factor between"),
+        (1e300, Arrhenius(60.0, 23.0), "at most 10000 degC"),
         (-300.0, Arrhenius(60.0, 23.0), "absolute zero"),
         (-270.0, Arrhenius(60.0, 23.0), "shift factor between"),
         (float("nan"), UNIVERSAL, "finite number"),

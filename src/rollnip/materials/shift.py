@@ -17,6 +17,7 @@ Points = tuple[tuple[float, float], ...]
 Vertical = Literal["none", "entropic"] | Points
 
 _ABSOLUTE_ZERO = -273.15  # degC
+_HOTTEST = 1e4  # degC, far above where any material is solid
 _GAS_CONSTANT = 8.31446261815324e-3  # kJ/(mol K), exact since 2019
 _LARGEST_EXPONENT = 100.0  # of ten; beyond it the law is used far outside its range
 
@@ -249,12 +250,14 @@ def _checked_points(name: str, points: object) -> Points:
 
 
 def checked_temperature(name: str, value: float) -> float:
-    """Return a temperature [degC], or raise InvalidInputError at or below absolute zero."""
+    """Return a temperature [degC]; raise InvalidInputError for one that nothing solid has."""
     checked = require_finite(name, value)
     if checked <= _ABSOLUTE_ZERO:
         raise InvalidInputError(
             f"`{name}` must be above absolute zero, -273.15 degC, got {value!r}."
         )
+    if checked > _HOTTEST:
+        raise InvalidInputError(f"`{name}` must be at most {_HOTTEST:g} degC, got {value!r}.")
     return checked
 
 

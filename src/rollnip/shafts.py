@@ -38,6 +38,7 @@ AnyCrown = Crown | CrownTable
 Across = Literal["free", "one-speed"]
 Ends = Literal["plane", "edge", "covering", "covering-upper", "covering-lower"]
 
+_LONGEST = 1e7  # mm; beyond it a unit was mistaken
 LARGEST_SKEW = 0.1
 """Largest angle between the axes [rad]; beyond, the gap is no parabola."""
 STEEL = 206e3
@@ -114,6 +115,10 @@ class Shaft:
     def __post_init__(self) -> None:
         for name in ("bearing_distance", "modulus"):
             object.__setattr__(self, name, require_positive(name, getattr(self, name)))
+        if self.bearing_distance > _LONGEST:
+            raise InvalidInputError(
+                f"`bearing_distance` must be at most 1e7 mm, got {self.bearing_distance!r}."
+            )
         object.__setattr__(self, "bore", require_not_negative("bore", self.bore))
         middle = require_finite("bearing_middle", self.bearing_middle)
         object.__setattr__(self, "bearing_middle", middle)

@@ -156,3 +156,8 @@ def test_what_does_not_fit_is_refused(shaft, sentence):
     roller = rn.Roller(radius=90.0, layers=(rn.Layer(10.0, rn.Elastic(modulus=2.0, poisson=0.5)),))
     with pytest.raises(rn.InvalidInputError, match=sentence):
         Beam.of(roller, shaft, LENGTH)
+
+
+def test_bearings_further_apart_than_any_machine_are_refused():
+    with pytest.raises(rn.InvalidInputError, match="`bearing_distance` must be at most 1e7 mm"):
+        Shaft(bearing_distance=1e300)

@@ -348,6 +348,7 @@ WRONG = [
     ({"lower": rn.Roller(radius=50.0), "upper": rn.Roller(radius=50.0)}, "bare rigid cores"),
     ({"across_upper": rn.Across()}, "must bound the patch"),
     ({"friction": 0.0, "along": rn.Force(1.0)}, "without friction"),
+    ({"normal": rn.Approach(1e300)}, "must be smaller than the radius"),
 ]
 
 
@@ -355,6 +356,12 @@ WRONG = [
 def test_wrong_input_is_one_sentence(change, message):
     with pytest.raises(rn.InvalidInputError, match=message):
         wheel(**change)
+
+
+def test_rigid_cores_do_not_meet():
+    layer = rn.Layer(3.0, rn.Elastic(modulus=3.6, poisson=0.5))
+    with pytest.raises(rn.InvalidInputError, match="smaller than the coverings are thick, 3 mm"):
+        wheel(upper=rn.Roller(radius=60.0, layers=(layer,)), normal=rn.Approach(3.0))
 
 
 def test_shapes_across():

@@ -37,7 +37,7 @@ def read_regular(path: str | Path, largest: int) -> bytes:
     except FileNotFoundError:
         raise UnreadableError("there is no such file.") from None
     except OSError as error:
-        if isinstance(error, PermissionError) and Path(path).is_dir():  # as Windows says it
+        if isinstance(error, PermissionError) and os.path.isdir(path):  # noqa: PTH112 - never raises
             raise UnreadableError("is a directory, not a file.") from None
         raise UnreadableError(f"cannot be read: {error.strerror or error}.") from None
     except ValueError:

@@ -325,17 +325,7 @@ class Nip:
                 "`approach` must not be prescribed with a half-space core (it is infinite in "
                 "plane strain); prescribe `load`."
             )
-        smallest = min(self.upper.radius, self.lower.radius)
-        if approach >= smallest:
-            raise InvalidInputError(
-                f"`approach` must be smaller than the radius {smallest:g} mm, got {approach!r}."
-            )
-        covering = self.upper.coating_thickness + self.lower.coating_thickness
-        if approach >= covering:
-            raise InvalidInputError(
-                f"`approach` must be smaller than the coverings are thick, {covering:g} mm in all "
-                f"(there the rigid cores would touch), got {approach!r}."
-            )
+        require_approach(self.upper, self.lower, approach)
 
 
 def _measurable(name: str, value: float, unit: str) -> float:
@@ -359,4 +349,19 @@ def _check_title(title: object) -> None:
     if "\0" in title or any("\ud800" <= letter <= "\udfff" for letter in title):
         raise InvalidInputError(
             f"`title` must hold neither zero characters nor halves of one, got {title!r}."
+        )
+
+
+def require_approach(upper: Roller, lower: Roller, approach: float) -> None:
+    """Raise InvalidInputError where rigid cores, or a roller and an axle, would touch."""
+    smallest = min(upper.radius, lower.radius)
+    if approach >= smallest:
+        raise InvalidInputError(
+            f"`approach` must be smaller than the radius {smallest:g} mm, got {approach!r}."
+        )
+    covering = upper.coating_thickness + lower.coating_thickness
+    if upper.core is None and lower.core is None and approach >= covering:
+        raise InvalidInputError(
+            f"`approach` must be smaller than the coverings are thick, {covering:g} mm in all "
+            f"(there the rigid cores would touch), got {approach!r}."
         )

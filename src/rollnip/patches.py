@@ -17,7 +17,7 @@ from rollnip._errors import (
     require_speed,
     with_hints,
 )
-from rollnip.nip import Approach, Creepage
+from rollnip.nip import Approach, Creepage, require_approach
 from rollnip.rollers import Profile, Roller
 
 Array = NDArray[np.float64]
@@ -247,7 +247,7 @@ class Patch:
         if isinstance(self.normal, Force):
             require_positive("load", self.normal.force)
         else:
-            self._check_approach(self.normal.approach)
+            require_approach(self.upper, self.lower, self.normal.approach)
         given = [f.force for f in (self.along, self.across) if isinstance(f, Force)]
         size = hypot(*given) if given else 0.0
         if self.friction == 0.0 and size > 0.0:
@@ -259,17 +259,3 @@ class Patch:
                     f"`force` along the surface must be smaller than friction * load = {limit:.6g} "
                     f"N (beyond it the patch slides), got {size:.6g} N."
                 )
-
-    def _check_approach(self, approach: float) -> None:
-        """Raise InvalidInputError where rigid cores, or a roller and an axle, would touch."""
-        smallest = min(self.upper.radius, self.lower.radius)
-        if approach >= smallest:
-            raise InvalidInputError(
-                f"`approach` must be smaller than the radius {smallest:g} mm, got {approach!r}."
-            )
-        covering = self.upper.coating_thickness + self.lower.coating_thickness
-        if self.upper.core is None and self.lower.core is None and approach >= covering:
-            raise InvalidInputError(
-                f"`approach` must be smaller than the coverings are thick, {covering:g} mm in all "
-                f"(there the rigid cores would touch), got {approach!r}."
-            )

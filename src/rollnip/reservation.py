@@ -22,7 +22,7 @@ class Reservation:
     side : the roller it is about; None where it is about the nip.
     material : number of the material from the surface of that roller; None where it is about none.
     excess : what is over its limit, over that limit; 0 where there is no limit.
-    advice : a sentence on a geometry that has not this fault; empty where there is none.
+    advice : a sentence on a geometry without this fault; empty where there is none.
     """
 
     kind: str

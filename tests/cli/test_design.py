@@ -393,3 +393,11 @@ def test_a_file_that_is_missing_is_refused_before_the_numerics_are_loaded(argume
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert "there is no such file" in done.stderr
+
+
+@pytest.mark.parametrize("command", ["optimise", "tolerance", "solve"])
+def test_names_that_no_file_can_have_and_directories_are_refused_by_name(command, tmp_path):
+    long = "n" * 5000 + ".toml"
+    assert refused(command, str(tmp_path)).startswith(f"rollnip: {tmp_path}: is a directory")
+    message = refused(command, long)
+    assert message.startswith("rollnip: nnn") and "standard output" not in message

@@ -53,11 +53,11 @@ def clear_failures() -> Iterator[None]:
 def look_at(file: str) -> None:
     """Raise CaseFileError where a file is missing or no document, before numerics are loaded.
 
-    The standard input and pipes can be read but once: they are left to who reads them.
+    The standard input can be read but once: it is left to who reads it.
     """
     from rollnip.io.document import read_document
 
-    if Path(file).is_file() or (not Path(file).exists() and file != "-"):
+    if file != "-":
         read_document(file)
 
 

@@ -4,8 +4,9 @@
 elements instead: what they give beyond the linear displacements is a correction, which is held
 while a contact is solved and evaluated again from its solution. Where surfaces slip or layers are
 viscoelastic the first contact holds the second order, which costs less than an iteration with
-elements. In free rolling the correction is a few hundredths of the first-order terms, and of
-elastic layers an iteration leaves a seventh of its error at most.
+elements (not where friction grips a stiff skin: there the stretch is held). In free rolling the
+correction is a few hundredths of the first-order terms, and of elastic layers an iteration leaves a
+seventh of its error at most.
 """
 
 from __future__ import annotations

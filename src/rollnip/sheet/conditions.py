@@ -21,7 +21,7 @@ _OF_SLOPE = 0.05  # of the nip's slope: the least creepage that slip is measured
 
 
 def scale_of_slip(nip: Nip, width: float, creepage: float) -> float:
-    """Return the creepage that slip is measured by: the rollers', or a twentieth of the slope."""
+    """Return what slip is measured by: the creepage, or a twentieth of the nip's slope if more."""
     return max(_OF_SLOPE * 0.5 * width * nip.curvature, abs(creepage))
 
 

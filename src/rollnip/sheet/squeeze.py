@@ -68,7 +68,7 @@ def squeezed(
     shares :
         of the loss of thickness under equal pressures on both faces, and of how far both faces move
         against opposite pressures beside what a plate moves.
-    opposite : (m,) places where the latter counts with the other sign; None: nowhere.
+    opposite : (m,) whether the latter counts with the other sign at a place; None: nowhere.
     """
     padded = np.zeros((nodes.size, tractions.shape[1]))
     padded[1:-1] = tractions

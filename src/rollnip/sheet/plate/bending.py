@@ -93,7 +93,8 @@ class Plate:
 def exponential_weights(pieces: Array, length: float) -> Array:
     """Return int exp(-s/length) t ds over pieces per value of straight lines at either end.
 
-    They are as many as ``pieces``, lengths from s = 0 on, by the near and by the far end.
+    ``pieces``: (m,) lengths from s = 0 on. Returns (2, m): by the value at the near and at the far
+    end.
     """
     t = np.maximum(pieces / length, np.finfo(float).tiny)
     once, series = -np.expm1(-t) / t, np.zeros(t.shape)

@@ -172,7 +172,10 @@ class Spread:
 
 
 def about(x: Array, moments: Array, order: int) -> Array:
-    """Return integrals of (s - x)^k/k! from those of s^j/j!, j <= k: (m, n) of (4, m or 1, n)."""
+    """Return int (s - x)^k/k! t ds, (m, n), from the moments int s^j/j! t ds, (4, m or 1, n).
+
+    k is the ``order``; moments count up to it.
+    """
     out, back = moments[order], -x[:, None]
     power = np.ones(back.shape)
     for k in range(order - 1, -1, -1):

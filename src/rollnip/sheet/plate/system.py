@@ -108,7 +108,7 @@ class PlateProblem:
     ----------
     nip, sheet, plate : the problem.
     meshes, spreads : of the upper and the lower interface.
-    pulls : spreads of shears along the sheet's path, whose tails are int q ds and so on.
+    pulls : spreads of shears along the sheet's path: their `beyond` are int x^k/k! q ds.
     frictions : coefficients of both.
     matrix : (r, r) of gap and creep of the upper, then of the lower interface per p_u, q_u, p_l and
         q_l [mm/MPa].

@@ -400,4 +400,5 @@ def test_names_that_no_file_can_have_and_directories_are_refused_by_name(command
     long = "n" * 5000 + ".toml"
     assert refused(command, str(tmp_path)).startswith(f"rollnip: {tmp_path}: is a directory")
     message = refused(command, long)
-    assert message.startswith("rollnip: nnn") and "standard output" not in message
+    assert message.startswith("rollnip: nnn")
+    assert "standard output" not in message

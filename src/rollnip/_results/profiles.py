@@ -64,6 +64,9 @@ def surface_strain(
 
 
 def _of_surface(per_traction: Array, pressure: Array, shear: Array) -> tuple[Array, Array]:
-    """u_x and u_z, or slopes, of a surface; ``per_traction``, (3, n, N-1): by xx, zz and xz."""
+    """Return u_x and u_z, or slopes, of a surface.
+
+    ``per_traction``: (3, n, N-1) by xx, zz and xz.
+    """
     xx, zz, xz = per_traction
     return xz @ pressure + xx @ shear, zz @ pressure - xz @ shear

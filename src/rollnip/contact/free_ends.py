@@ -36,6 +36,7 @@ from rollnip.contact.problem import (
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
 _STICK_BETWEEN = 0.1
+_MOVE_WITHOUT_PLACE = 0.1  # of an end with no proposed place, over the shorter zone beside it
 _LONGEST_MOVE = 0.4  # of an end into a zone, over its length
 
 
@@ -168,24 +169,20 @@ class Layout:
         moves[~self.is_edge] *= 0.1
         return float(np.max(moves)) / other.width
 
-    def misses(self, other: Layout) -> float:
-        """Return the largest distance of the breaks of two like layouts, over the shorter zone."""
-        lengths = np.diff(other.breaks)
-        shorter = np.minimum(np.append(lengths, np.inf), np.append(np.inf, lengths))
-        return float(np.max(np.abs(self.breaks - other.breaks) / shorter))
-
     def towards(self, proposed: Layout) -> Layout:
         """Return this layout with its breaks moved towards proposed ones, without crossing.
 
         No zone becomes more than twice as long, and no break goes further than `_LONGEST_MOVE` of
-        the zone that it moves into.
+        the zone that it moves into, nor further than `_MOVE_WITHOUT_PLACE` of the shorter zone
+        beside it where it has no proposed place.
         """
         lengths = np.diff(self.breaks)
         back = np.concatenate([[self.width], lengths])
         ahead = np.concatenate([lengths, [self.width]])
         moves = proposed.breaks - self.breaks
-        furthest_back = np.minimum(_LONGEST_MOVE * back, ahead)
-        furthest_ahead = np.minimum(_LONGEST_MOVE * ahead, back)
+        little = np.where(np.isfinite(moves), np.inf, _MOVE_WITHOUT_PLACE * np.minimum(back, ahead))
+        furthest_back = np.minimum(np.minimum(_LONGEST_MOVE * back, ahead), little)
+        furthest_ahead = np.minimum(np.minimum(_LONGEST_MOVE * ahead, back), little)
         bounded = np.clip(moves, -furthest_back, furthest_ahead)
         return Layout(self.breaks + bounded, self.states)
 

@@ -2,7 +2,8 @@
 
 A traction is a sum of hat functions on nodes x_0 < ... < x_N, zero at both ends: hat j (1 ... N-1)
 is 1 at x_j and 0 at the other nodes. Two integrations by parts turn int G(x - s) hat(s) ds into
-differences of the double integral of G at the nodes, exact for any spacing.
+differences of the double integral of G at the nodes, exact for any spacing but for rounding. Over
+short elements far away two Gauss points of the single integral take their place.
 """
 
 from __future__ import annotations
@@ -73,7 +74,9 @@ def displacement_under(kernel: Kernel, x: Array, nodes: Array, tractions: Array)
 
 
 def _under_slopes(kernel: Kernel, x: Array, nodes: Array, furthest: Array) -> Array:
-    """Displacement at ``x`` (m,) per slope of the traction over each element; (N, m) [mm^2/MPa].
+    """Return the displacement at ``x`` per slope of the traction over each element [mm^2/MPa].
+
+    x (m,), nodes (N + 1,): (N, m).
 
     That is the difference of the double integral at both ends of the element, which is the integral
     of the single one over it. From distances ``furthest`` (N,) on, two Gauss points of the single

@@ -153,8 +153,8 @@ class Kernel:
         yields as G falls with ln|x| at its own place, by A h^2: the rest is noise of the tractions,
         under a stiff skin 1e-3 of the pressure where a tenth of the elements lie within 1e-3 of the
         contact. A third of all digits, 6e-6 of the tractions, is little beside any tolerance. Two
-        Gauss points miss h^4/2160 A/x^3 of a logarithm: nearer than where that is eps x^2/2 they
-        gain nothing.
+        Gauss points miss h^5/2160 A/x^3 of a logarithm: nearer than where that is eps A x^2/2, the
+        least that a difference keeps, they gain nothing.
         """
         largest = float(np.abs(self.coefficients[0]).max())
         if largest == 0.0:

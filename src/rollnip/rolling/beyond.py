@@ -46,7 +46,7 @@ MOST_CORRECTIONS = 30  # of the correction and the contact
 # the tolerance, or over the violation by what is cut, which the solution says that it leaves open.
 _ENOUGH = 0.3
 SMALL = 0.05  # change of an iteration from which it may be the last one
-_MOST_RESTARTS = 10  # iterations that are solved from the beginning
+_MOST_RESTARTS = 3  # iterations that are solved from the beginning
 # Of the wave numbers: with all of them iterations may not settle beside an edge that slips at
 # strains of two and more. Which cut they need is not known before; what it costs is claimed.
 SHARES_KEPT = (1.0, 0.5, 0.25)
@@ -114,7 +114,7 @@ def refine_all_orders(
             ended = found
             if ended.cause == "balance" and ended.iterations == 0:
                 break  # the tractions to begin with have none, whatever waves are kept
-    return kernels, replace(latest, settled=False, ended=ended)
+    return start, replace(latest, settled=False, ended=ended)
 
 
 @dataclass

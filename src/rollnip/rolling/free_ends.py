@@ -86,7 +86,7 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
     most = max(most, _MOST_TIMES_FIRST * count)
     best: Round | None = None
     is_repeated = False  # on a mesh of the same size
-    shown = inf  # errors over the tolerance, when there were two sizes with the same zones
+    shown = inf  # last error or residual over the tolerance that is finite
     while count <= most:
         closely = bool(history)  # the error may be small enough
         placed = placing.placed(state, count, known=known or closely, closely=closely)
@@ -116,7 +116,8 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
             if not is_repeated:
                 is_repeated, count = True, wanted  # with ends at their next places
                 continue
-        shown = min(ratio, shown) if ratio == inf else ratio
+        if ratio != inf:
+            shown = ratio
         finer = _next_count(count, largest(shown, roughness), model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer

@@ -84,7 +84,7 @@ def begin(
     """Return a contact to begin with: with free ends, coarse or refined, or by nodes.
 
     And the influence functions with the correction that it holds: that of ``kernels`` or, with
-    ``second``, the second order under the tractions of nodes. An elastic nip that sticks all over
+    ``second``, the second order under the tractions of nodes. An elastic nip of a single zone
     goes without: an iteration leaves so little of the error of the correction there that the second
     order saves none.
     """

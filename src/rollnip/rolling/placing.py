@@ -47,7 +47,7 @@ _MOST_MESHES = 8
 # Meshes more for the edges of a single sticking zone with boundary layers: outside of these a
 # solution says only which way an edge should go, and the way between the last two is halved.
 _MOST_HALVINGS = 6
-_HARDLY_MOVED = 0.001  # likewise
+_HARDLY_MOVED = 0.001  # over the width: ends that move less need no second mesh
 _WEAKEST_CONTRACTION = 0.7  # of the error of ends, from mesh to mesh
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
@@ -127,7 +127,7 @@ class Placing:
             other = self.search.other_zones(
                 latest, (layout, proposed), ends, is_placed=is_placed, is_near=is_near
             )
-            # Zones tried before are left for good, but those left when one vanishes are not new.
+            # Zones are tried once; fewer, where one has vanished, may have been tried before.
             if other is not None and (
                 other.layout.states.size < layout.states.size or other.layout.key not in tried
             ):

@@ -36,7 +36,7 @@ from rollnip.contact.problem import (
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
 _STICK_BETWEEN = 0.1
-_MOVE_WITHOUT_PLACE = 0.1  # of an end with no proposed place, over the shorter zone beside it
+_MOVE_WITHOUT_PLACE = 0.2  # of an end with no proposed place, over the shorter zone beside it
 _LONGEST_MOVE = 0.4  # of an end into a zone, over its length
 
 

@@ -35,6 +35,20 @@ def test_units_of_the_head_or_of_the_cell_are_converted(table, text):
     np.testing.assert_allclose(columns.numbers("nip width", "length"), [5.08, 2.54])
 
 
+@pytest.mark.parametrize("encoding", ["utf-8-sig", "utf-16", "utf-16-le", "cp1252"])
+def test_the_encodings_that_spreadsheets_write(tmp_path, encoding):
+    path = tmp_path / "data.csv"
+    path.write_bytes("load [N/mm];thickness [µm]\n1;6580\n".encode(encoding))
+    assert read_columns(path).numbers("thickness", "length") == pytest.approx([6.58])
+
+
+def test_a_first_line_may_say_what_parts_the_columns(table):
+    columns = read_columns(table("sep=;\nx, along [mm];y\n1,5;2\n"))
+    assert columns.names == ("x, along", "y")
+    assert columns.lines == (3,)
+    assert list(columns.numbers("x, along", "length")) == [1.5]
+
+
 def test_a_path_may_head_a_column(table):
     columns = read_columns(table("upper.layers[0].thickness [in],upper.layers[0].material\n1,a\n"))
     assert columns.names == ("upper.layers[0].thickness", "upper.layers[0].material")
@@ -106,7 +120,10 @@ def test_a_unit_may_have_to_be_said(table):
         ("load [N/mm],x\n,1\n", 'line 2: "load" must not be empty'),
         ("load\nnan\n", 'line 2: "load"'),
         ("load\n1e999\n", "beyond what can be computed with"),
-        ("lad [N/mm]\n1\n", 'did you mean "lad"'),
+        ("lad [N/mm]\n1\n", 'it has "lad": both names must be the same'),
+        ("load (N/mm)\n1\n", 'write the unit in square brackets: "load [...]" for "load (N/mm)"'),
+        ("load / N/mm\n1\n", 'write the unit in square brackets: "load [...]"'),
+        ("load\n[N/mm]\n1\n", 'a unit belongs to the column name: "load [N/mm]"'),
         ("Press 3\nload [N/mm],x\n1,2\n", "a title above them must begin with #"),
         ("load\nN/mm\n1\n", 'got "N/mm"; a unit belongs to the column name: "load [N/mm]"'),
         ("load\n2024-01-02\n", 'must be a number, got the date "2024-01-02"; give its cell'),

@@ -59,4 +59,17 @@ def test_groups_are_read_back(tmp_path):
     write_netcdf(datasets(), path)
     for name, given in datasets().items():
         with xr.open_dataset(path, group=name, engine="h5netcdf") as read:
-            xr.testing.assert_identical(read.load(), given)
+            expected = given.assign_attrs(Conventions="CF-1.11") if name == "/" else given
+            xr.testing.assert_identical(read.load(), expected)
+
+
+def test_a_result_follows_the_cf_conventions(solution, tmp_path):
+    path = tmp_path / "a.nc"
+    write_result(solution, path)
+    with xr.open_dataset(path) as found:
+        assert found.attrs["Conventions"].startswith("CF-")
+        for name, one in found.variables.items():
+            assert one.attrs["long_name"], name
+            assert "units" in one.attrs or one.dtype.kind not in "if", name
+        for name in found.coords:
+            assert "_FillValue" not in found[name].encoding, name

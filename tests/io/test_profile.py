@@ -53,7 +53,7 @@ def test_scanned_backwards(tmp_path):
         ("x,height\n0,nan\n1,2\n", '"height"'),
         ("x,height\n0,\n1,2\n", "must not be empty"),
         ("x [mm],height [N]\n0,1\n1,2\n", 'unit of column "height"'),
-        ("x,hight\n0,1\n1,2\n", 'has no column "height"; did you mean "hight"'),
+        ("x,hight\n0,1\n1,2\n", 'has no column "height"; it has "hight"'),
         ("x,height\n", "rows"),
     ],
 )

@@ -35,7 +35,7 @@ def result_dataset(tree: dict[str, Any]) -> Any:
         variables,
         coords={
             "x": place,
-            "edge": ("edge", ["trailing", "leading"]),
+            "edge": ("edge", ["trailing", "leading"], {"long_name": "edge of the contact"}),
         },
         attrs=_attributes(tree),
     )
@@ -101,11 +101,15 @@ def _zones(zones: list[dict[str, Any]]) -> _Variables:
             )
             for end in ("from", "to")
         },
-        "zone_state": ("zone", np.asarray([z["state"] for z in zones], dtype=object)),
+        "zone_state": (
+            "zone",
+            np.asarray([z["state"] for z in zones], dtype=object),
+            {"long_name": "stick or slip"},
+        ),
         "zone_direction": (
             "zone",
             np.asarray([z.get("direction", 0) for z in zones], dtype="int8"),
-            {"comment": "sign of the slip velocity; 0 in stick"},
+            {"units": "1", "long_name": "sign of the slip velocity, 0 in stick"},
         ),
     }
 
@@ -151,8 +155,16 @@ def _interfaces(interfaces: list[dict[str, Any]]) -> _Variables:
     if not interfaces:
         return {}
     found: _Variables = {
-        "interface_roller": ("interface", [one["roller"] for one in interfaces]),
-        "interface_bond": ("interface", [int(one["bond"]) for one in interfaces]),
+        "interface_roller": (
+            "interface",
+            [one["roller"] for one in interfaces],
+            {"long_name": "roller of the interface"},
+        ),
+        "interface_bond": (
+            "interface",
+            [int(one["bond"]) for one in interfaces],
+            {"units": "1", "long_name": "1 for a bond to the core, 0 between layers"},
+        ),
     }
     for name, figure in INTERFACE_FIGURES.items():
         values = [one[name] for one in interfaces]

@@ -30,7 +30,7 @@ class Zone:
     direction: int | None = None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class Profiles(Sealed):
     """Distributions over x, from trailing to leading, to one nip width outside the contact.
 
@@ -56,7 +56,7 @@ class Profiles(Sealed):
     speed_lower: Array | None
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class DeformedSurfaces(Sealed):
     """Both deformed surfaces in one frame: the lower axle below, heights above first touch.
 

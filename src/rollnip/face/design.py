@@ -32,7 +32,7 @@ _BALANCED = 1e-9  # moment over load times length, below which both sides carry 
 _THINNEST = 0.005  # wall over core diameter; thinner ones are no roller
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class EvenCrown(Sealed):
     """The crown that evens out a load.
 
@@ -174,7 +174,7 @@ def with_crown(nip: Nip, roller: Side, crown: Crown | CrownTable) -> Nip:
     return replace(nip, upper=crowned) if roller == "upper" else replace(nip, lower=crowned)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class LoadRange(Sealed):
     """The mean line loads that a crown serves.
 

@@ -24,7 +24,7 @@ from rollnip.solution import Solution
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class RollerHeat(Sealed):
     """One roller in thermal balance; temperatures in degC, powers in W/m = mW/mm.
 

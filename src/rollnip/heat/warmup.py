@@ -41,7 +41,7 @@ _RTOL, _ATOL = 1e-6, 1e-4  # of the integration: relative, and K
 _RUNAWAY = 200.0  # K over the start: how far the table goes where there is no steady state
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class WarmUp(Sealed):
     """Temperatures of both rollers over time.
 

@@ -14,7 +14,7 @@ from rollnip.interior.tractions import Array, SurfaceTractions
 from rollnip.rollers import Roller
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class InterfaceStress(Sealed):
     """Stresses on one interface as material passes the nip; each revolution is one cycle.
 

@@ -11,7 +11,7 @@ from rollnip._sealed import Sealed
 from rollnip.interior.tractions import Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class StressRanges(Sealed):
     """Ranges of the stresses as material passes the nip: largest less smallest value.
 
@@ -31,7 +31,7 @@ class StressRanges(Sealed):
     max_shear: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class InteriorField(Sealed):
     """Displacements, stresses and strains inside one roller, in its own frame.
 

@@ -6,7 +6,6 @@ code page of western Windows; tabs, semicolons, commas or blanks; decimal points
 
 from __future__ import annotations
 
-import codecs
 import csv
 import re
 from collections import Counter
@@ -20,13 +19,8 @@ from rollnip._extras import require_extra
 from rollnip._files import reading
 from rollnip._reading import UnreadableError, read_regular
 from rollnip.io.columns import EXCEL, LARGEST, MOST_CELLS, Cell, cell_of, check_extents
+from rollnip.io.encodings import decoded
 
-_ZEROS = 0.2  # part of zero bytes that says UTF-16 without a mark
-_MARKS = (
-    (codecs.BOM_UTF8, "utf-8-sig", "UTF-8"),
-    (codecs.BOM_UTF16_LE, "utf-16", "UTF-16"),
-    (codecs.BOM_UTF16_BE, "utf-16", "UTF-16"),
-)
 _NUMBER = r"[+\-\u2212]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?"
 _NUMERIC = re.compile(_NUMBER)
 _BLANKS = re.compile(r"\s+")
@@ -96,7 +90,7 @@ def read_text(path: str | Path) -> tuple[str, str]:
     InvalidInputError
         where it cannot be read, is no regular file or too large, or is no text.
     """
-    return _decoded(_bytes(Path(path)), str(path))
+    return decoded(_bytes(Path(path)), str(path))
 
 
 def _bytes(file: Path) -> bytes:
@@ -124,32 +118,6 @@ def _sheets(file: Path, data: bytes) -> Iterator[CellSheet]:
                 yield CellSheet(name, tuple(row for _, row in filled), tuple(n for n, _ in filled))
     except (CalamineError, OSError) as problem:
         raise InvalidInputError(f"{file}: cannot be read as a workbook: {problem}.") from None
-
-
-def _decoded(data: bytes, source: str) -> tuple[str, str]:
-    """Text and the name of its encoding."""
-    for mark, codec, name in _MARKS:
-        if data.startswith(mark):
-            return _decode(data, codec, name, source), name
-    if data.count(0) > _ZEROS * len(data):
-        codec = "utf-16-le" if data[1:2] == b"\0" else "utf-16-be"
-        return _decode(data, codec, "UTF-16", source), "UTF-16"
-    if 0 in data:
-        raise InvalidInputError(f"{source}: is not a text file (it holds zero bytes).")
-    try:
-        return data.decode("utf-8"), "UTF-8"
-    except UnicodeDecodeError:
-        return _decode(data, "cp1252", "Windows-1252", source), "Windows-1252"
-
-
-def _decode(data: bytes, codec: str, name: str, source: str) -> str:
-    try:
-        return data.decode(codec)
-    except UnicodeDecodeError as problem:
-        raise InvalidInputError(
-            f"{source}: must be text in UTF-8, UTF-16 or Windows-1252; as {name} the byte at "
-            f"{problem.start} cannot be read. Save it as UTF-8."
-        ) from None
 
 
 def _separator(lines: Sequence[str]) -> str:

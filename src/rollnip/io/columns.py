@@ -4,8 +4,9 @@
     load [N/mm]; nip width [mm]
     1,5;         4,2
 
-Columns are parted by semicolons, tabs or commas, the first of these that the head holds; a
-decimal comma needs one of the first two. In Excel the first sheet counts unless another is named.
+Columns are parted by semicolons, tabs or commas, the first of these that the head holds, or by what
+a first line such as ``sep=;`` says; a decimal comma needs one of the first two. Text is in UTF-8,
+UTF-16 or Windows-1252. In Excel the first sheet counts unless another is named.
 """
 
 from __future__ import annotations
@@ -27,6 +28,7 @@ from rollnip._extras import require_extra
 from rollnip._files import reading
 from rollnip._reading import UnreadableError, read_regular
 from rollnip._units import Dimension, base_unit, parse_quantity
+from rollnip.io.encodings import decoded
 from rollnip.io.extents import BrokenWorkbookError, extents
 
 Array = NDArray[np.float64]
@@ -40,7 +42,8 @@ _SMALL = 2**16  # cells of a rectangle that may be as empty as it likes
 EXCEL = (".xlsx", ".xls", ".xlsb", ".ods")
 # #DIV/0!, #NAME?, #WERT!, #N/A and #NV alone in a cell: a value that is missing, and no comment.
 _SPREADSHEET_ERROR = re.compile(r"\s*#(N/A|NV|[^\W\d_a-z][^\W_a-z/]*(/0)?[!?])\s*([;,\t]|$)")
-
+# A first line that says to spreadsheets what parts the columns.
+_DECLARED = re.compile(r"\s*sep=([;,\t])\s*")
 _DATE = re.compile(r"\d{4}-\d\d-\d\d")
 _DIGIT = re.compile(r"\d")
 
@@ -137,9 +140,18 @@ class TableColumns:
     def _index(self, name: str) -> int:
         if name in self.names:
             return self.names.index(name)
+        raise InvalidInputError(f'{self.source}: has no column "{name}"; {self._near(name)}')
+
+    def _near(self, name: str) -> str:
+        """Return what the table has in place of a column."""
+        marks = tuple(f"{name} {mark}" for mark in "(/")
+        other = next((one for one in self.names if one.startswith(marks)), None)
+        if other is not None:
+            return f'write the unit in square brackets: "{name} [...]" for "{other}".'
         near = get_close_matches(name, self.names, n=1)
-        hint = f'did you mean "{near[0]}"?' if near else f"has {', '.join(self.names)}."
-        raise InvalidInputError(f'{self.source}: has no column "{name}"; {hint}')
+        if near:
+            return f'it has "{near[0]}": both names must be the same.'
+        return f"has {', '.join(self.names)}."
 
     def _scale(self, name: str, dimension: Dimension) -> tuple[float, float]:
         """Scale and offset from the unit in the head to the base unit."""
@@ -178,8 +190,9 @@ class TableColumns:
         if _DIGIT.search(text):
             return
         hint = ""
-        if _is_unit(text, dimension):
-            hint = f'; a unit belongs to the column name: "{name} [{text}]"'
+        unit = text.strip("[]()")
+        if _is_unit(unit, dimension):
+            hint = f'; a unit belongs to the column name: "{name} [{unit}]"'
         raise InvalidInputError(f'{where} must be a number, got "{text}"{hint}.')
 
 
@@ -224,13 +237,14 @@ def read_columns(path: str | Path, *, sheet: str | None = None) -> TableColumns:
 
 def _text_rows(file: Path, data: bytes) -> tuple[list[_Line], bool]:
     """Lines parted into cells (a comment is one cell), and whether a comma is a decimal one."""
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        raise InvalidInputError(f"{file}: must be a text file in UTF-8.") from None
+    text, _ = decoded(data, str(file))
     lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+    declared = _DECLARED.fullmatch(lines[0][1]) if lines else None
+    if declared is not None:
+        lines = lines[1:]
     head = next((line for _, line in lines if not is_comment(line)), "")
-    mark = next((mark for mark in (";", "\t") if mark in head), ",")
+    found = next((mark for mark in (";", "\t") if mark in head), ",")
+    mark = found if declared is None else declared[1]
     if len(lines) + text.count(mark) > MOST_CELLS:
         raise InvalidInputError(f"{file}: must hold at most {MOST_CELLS:,} cells, it holds more.")
     parted: list[_Line] = [

@@ -171,7 +171,6 @@ def _dataset(solution: Solution, section: RollerSection) -> Any:
         variables,
         coords={"x": ("x", section.x, along), "z": ("z", section.z, depth)},
         attrs={
-            "Conventions": "CF-1.11",
             "title": f"{solution.nip.title} ({section.name} roller)".strip(),
             "comment": "the roller's own frame: x along the nip, z into its body",
             "geometry": solution.model.geometry,

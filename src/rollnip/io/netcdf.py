@@ -27,6 +27,8 @@ def require_netcdf() -> None:
 def write_netcdf(groups: Mapping[str, Any], path: Path) -> None:
     """Write xarray datasets to one file, all or nothing: each a group, "/" the root.
 
+    The file follows the CF conventions: coordinates have no value for what is missing.
+
     Raises RollnipError where the file cannot be written; a file of that name stays as it was.
     """
     from h5netcdf import File
@@ -35,7 +37,12 @@ def write_netcdf(groups: Mapping[str, Any], path: Path) -> None:
     memory = BytesIO()
     with File(memory, "w") as file:
         for name, dataset in groups.items():
-            dataset.dump_to_store(H5NetCDFStore(file if name == "/" else file.create_group(name)))
+            is_root = name == "/"
+            written = dataset.assign_attrs(Conventions="CF-1.11") if is_root else dataset
+            written.dump_to_store(
+                H5NetCDFStore(file if is_root else file.create_group(name)),
+                encoding={key: {"_FillValue": None} for key in dataset.coords},
+            )
     write_whole(path, lambda target: target.write_bytes(memory.getbuffer()))
 
 

@@ -67,7 +67,7 @@ _AT_ONCE = 100_000
 """Wave vectors at which viscoelastic layers are computed at once."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True, eq=False, repr=False)
 class PatchStress(Sealed):
     """Stresses in one roller under a patch, in its own frame: z into the body, tension positive.
 

@@ -179,7 +179,7 @@ def _errors(patch: Patch, level: Level, before: Level, inner: float) -> dict[str
         errors["load"] = inner * scales["load"]
     else:
         errors["approach"] = 0.0
-    return errors
+    return {name: float(error) for name, error in errors.items()}
 
 
 def _scales(patch: Patch, level: Level) -> dict[str, float]:

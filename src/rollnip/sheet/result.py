@@ -23,7 +23,7 @@ _KINDS: dict[State, tuple[Literal["stick", "slip"], int | None]] = {
 }
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(frozen=True, slots=True, eq=False, repr=False)
 class SheetProfiles(Sealed):
     """Distributions along the sheet, at the same places as those of the solution.
 

@@ -168,7 +168,7 @@ def zone_excess(history: list[Size], tolerance: float) -> float:
     Allowed is three times the tolerance of the length, or of a twentieth of the nip for shorter
     zones.
     """
-    if len(history) < 2 or history[-1].breaks.size != history[-2].breaks.size:
+    if len(history) < 2:
         return 0.0
     coarse, fine = history[-2:]
     share = share_left(np.array([coarse.count, fine.count]), np.array(2.0))

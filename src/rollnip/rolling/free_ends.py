@@ -92,10 +92,10 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
         placed = placing.placed(state, count, known=known or closely, closely=closely)
         if placed is None:
             break
+        if not placed.layout.is_like(state.layout):
+            history.clear()  # figures of other zones tell nothing of the errors with these
         state, latest = placed, placed.before
         wanted, count = count, as_cosines(latest)
-        if history and history[-1].breaks.size != state.layout.breaks.size:
-            history.clear()  # figures of other zones tell nothing of the errors with these
         roughness = _roughness(nip, model, latest)
         if roughness > 1.0 and not history and nip.friction == 0.0:
             # Without friction zones stay as they are: how rough tractions are says all.

@@ -107,8 +107,8 @@ class Placing:
             is_near = not known and misplacement < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_still = latest.settled and is_quiet
             # Figures of other zones tell nothing of errors, a first mesh of them only their ends.
-            is_first = closely and last is None and not start.layout.is_like(layout)
-            is_close = closely and layout.breaks.size == start.layout.breaks.size
+            is_close = closely and layout.is_like(start.layout)
+            is_first = closely and not is_close and last is None
             there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
             if last is not None:
                 effect = _effect_of_ends(last, (layout, latest.figures))
@@ -124,13 +124,19 @@ class Placing:
                 and not (_is_false_at_edge(latest) or (is_close and self._exceeds_bound(latest)))
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])
             )
-            other = self.search.other_zones(
+            others = self.search.other_zones(
                 latest, (layout, proposed), ends, is_placed=is_placed, is_near=is_near
             )
             # Zones are tried once; fewer, where one has vanished, may have been tried before.
-            if other is not None and (
-                other.layout.states.size < layout.states.size or other.layout.key not in tried
-            ):
+            other = next(
+                (
+                    one
+                    for one in others
+                    if one.layout.states.size < layout.states.size or one.layout.key not in tried
+                ),
+                None,
+            )
+            if other is not None:
                 tried.add(other.layout.key)
                 state, shape, ends = self._renewed(other), None, Secants()
                 # Ends that have been placed before hardly move: what they do is not seen.

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from math import inf
 
@@ -75,8 +76,8 @@ class ZoneSearch:
         *,
         is_placed: bool,
         is_near: bool,
-    ) -> SearchState | None:
-        """Return other zones that a solution calls for; None where it agrees with its own.
+    ) -> Iterator[SearchState]:
+        """Give the other zones that a solution calls for; none where it agrees with its own.
 
         Parameters
         ----------
@@ -90,22 +91,25 @@ class ZoneSearch:
         for number in np.flatnonzero(ends.vanishing(layout, proposed)):
             fewer = layout.without(int(number), keeps_stick=keeps_stick)
             if fewer is not None:
-                return SearchState(fewer, latest)
+                yield SearchState(fewer, latest)
         if not (is_placed or is_near):
-            return None
+            return
         wanted = self.wanted(latest, layout, whole=is_placed)
         if wanted is not None:
             edges = proposed if proposed.is_proper else layout.towards(proposed)
             found = self.between_edges(latest, wanted, edges, self.model.geometry)
             # The ends of the same zones move without that.
             if found is not None and not found.layout.is_like(layout):
-                return found
+                yield found
         if not is_placed:
-            return None
-        more = self.slipping_at_edges(latest, layout)
-        if more is None and self.pulls(latest):
-            more = self.parted(latest, layout)
-        return None if more is None else SearchState(more, latest)
+            return
+        slipping = self.slipping_at_edges(latest, layout)
+        if slipping is not None:
+            yield SearchState(slipping, latest)
+        if self.pulls(latest):
+            parted = self.parted(latest, layout)
+            if parted is not None:
+                yield SearchState(parted, latest)
 
     def wanted(self, latest: Round, layout: Layout, *, whole: bool) -> States | None:
         """Return the states that a solution calls for; None where nodes in contact have them.

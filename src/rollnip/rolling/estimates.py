@@ -140,7 +140,7 @@ def estimated_error(nip: Nip, latest: Round, history: list[Size]) -> Figures:
     Parameters
     ----------
     latest : the solution on the last of the meshes.
-    history : all sizes of mesh, coarsest first.
+    history : all sizes of mesh with these zones, coarsest first.
     """
     figures, count = latest.figures, history[-1].count
     if len(history) < 2:

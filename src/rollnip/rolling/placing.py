@@ -6,6 +6,7 @@ the ends are about right, a solution tells whether its zones are right too (`sea
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from math import inf, log10
@@ -127,15 +128,7 @@ class Placing:
             others = self.search.other_zones(
                 latest, (layout, proposed), ends, is_placed=is_placed, is_near=is_near
             )
-            # Zones are tried once; fewer, where one has vanished, may have been tried before.
-            other = next(
-                (
-                    one
-                    for one in others
-                    if one.layout.states.size < layout.states.size or one.layout.key not in tried
-                ),
-                None,
-            )
+            other = _untried(others, layout, tried)
             if other is not None:
                 tried.add(other.layout.key)
                 state, shape, ends = self._renewed(other), None, Secants()
@@ -293,6 +286,16 @@ class Placing:
             self.nip, self.model, mesh, start, self.given, self.still, layout.zones
         )
         return latest, layout.moved(mesh.inner, latest.state, self.nip.friction)
+
+
+def _untried(
+    others: Iterable[SearchState], layout: Layout, tried: set[bytes]
+) -> SearchState | None:
+    """Return the first zones that were not tried before; fewer than now are tried again."""
+    for other in others:
+        if other.layout.states.size < layout.states.size or other.layout.key not in tried:
+            return other
+    return None
 
 
 def _effect_of_ends(before: tuple[Layout, Figures], now: tuple[Layout, Figures]) -> Figures:

@@ -47,6 +47,8 @@ def substitutions() -> dict[str, str]:
         "rates_unit": f"{_short(unit)} ms",
         "rates_memory": f"{_short(file['memory_MiB'])} MiB",
         "times": _times(units, unit),
+        "time_curved": _time(units["driven_curved"] * unit),
+        "time_finite": _time(units["driven_finite"] * unit),
         "rates": _rates(rates),
         "near_saves": _span([100.0 * (1.0 - share) for share in near]) + " %",
         "sheet_takes": _span(

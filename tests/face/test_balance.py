@@ -21,6 +21,7 @@ from rollnip.face import (
     with_crown,
 )
 from rollnip.face.covering import Coverings
+from rollnip.materials import TYPICAL
 from rollnip.shafts import Crown, CrownTable, Shaft
 
 TABLE = {
@@ -257,6 +258,19 @@ def test_the_law_of_another_nip_is_refused(straight):
     other = replace(press(), friction=0.4)
     with pytest.raises(rn.InvalidInputError, match="same cross-section"):
         solve_face(other, FACE, law=straight.law)
+
+
+def with_heat(nip):
+    """The nip with thermal properties of the upper covering, which change no cross-section."""
+    layer = nip.upper.layers[0]
+    warm = replace(layer.material, thermal=TYPICAL["natural-rubber-filled"])
+    return replace(nip, upper=replace(nip.upper, layers=[replace(layer, material=warm)]))
+
+
+def test_the_law_of_a_nip_serves_the_same_nip_with_thermal_properties(straight):
+    found = solve_face(with_heat(press()), FACE, law=straight.law)
+    assert found.law.solves == straight.law.solves
+    np.testing.assert_array_equal(found.load, straight.load)
 
 
 def test_the_table_kept_answers_without_solving(straight, monkeypatch):

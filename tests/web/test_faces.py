@@ -42,6 +42,15 @@ def test_a_face_is_that_of_the_solver(post, face_case):
         np.testing.assert_allclose(answer[name], expected[name], rtol=1e-9)
 
 
+def test_thermal_properties_leave_the_kept_table_as_it_is(face_case):
+    """As where heat is switched on beside a face."""
+    faces = Faces(KernelCache())
+    cold = faces.face(parse_case(face_case))
+    layer = face_case["upper"]["layers"][0]
+    layer["material"] = RUBBER | {"thermal": "natural-rubber-filled"}
+    assert faces.face(parse_case(face_case))["load"] == cold["load"]
+
+
 def test_another_crown_skew_or_load_needs_no_new_table(monkeypatch, face_case):
     """Nothing is solved but the balance, as long as the kept table reaches."""
     faces = Faces(KernelCache())

@@ -20,7 +20,7 @@ from rollnip.face.checks import REPORTED, with_errors
 from rollnip.face.covering import CoveringAxis, axes_of, covers
 from rollnip.face.lattice import Lattice, cells_at, cells_of
 from rollnip.face.law import NipLaw, slip_measure
-from rollnip.face.problem import FaceProblem, face_problem
+from rollnip.face.problem import FaceProblem, face_problem, in_section
 from rollnip.face.relief import relief_of
 from rollnip.face.reservations import OPEN, reservations_of
 from rollnip.face.rows import NipRows
@@ -34,6 +34,7 @@ from rollnip.face.table import Progress, nip_law, require_solution
 from rollnip.influence import KernelCache
 from rollnip.model import Model
 from rollnip.nip import Approach, Nip, Traction
+from rollnip.rollers import SIDES
 from rollnip.shafts import Face
 from rollnip.solver import solve
 
@@ -207,14 +208,12 @@ def _require_plain(nip: Nip, face: Face) -> None:
 
 
 def _require_same(law: NipLaw, problem: FaceProblem, model: Model) -> None:
-    """Raise unless a law is of the same cross-sections, whatever their loads and shafts."""
+    """Raise unless a law is of the same cross-sections, whatever their loads, shafts, heat."""
     one, other = law.nip, problem.nip
-    parts = [
-        getattr(a, part) == getattr(b, part)
-        for a, b in ((one.upper, other.upper), (one.lower, other.lower))
-        for part in ("radius", "layers", "core")
-    ]
-    is_same = all(parts) and one.friction == other.friction and one.speed == other.speed
+    is_same = all(
+        in_section(getattr(one, side)) == in_section(getattr(other, side)) for side in SIDES
+    )
+    is_same = is_same and one.friction == other.friction and one.speed == other.speed
     if law.model != model or not is_same or not covers(law.axes, problem.coverings):
         raise InvalidInputError("`law` must be that of the same cross-section, covering and model.")
 

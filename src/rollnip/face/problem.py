@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import cos
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -195,3 +196,14 @@ def _require_covered(roller: Roller, crown: Array) -> None:
             f"`crown` must be small against the diameter, at most {_LARGEST_CROWN:.0%} of "
             f"{2.0 * roller.radius:g} mm, got {2.0 * size:g} mm on the diameter."
         )
+
+
+def in_section(roller: Roller) -> Roller:
+    """Return a roller with what counts in its cross-section alone: no shaft, nothing of heat."""
+    layers = tuple(replace(one, material=_cold(one.material)) for one in roller.layers)
+    return replace(roller, layers=layers, core=_cold(roller.core), shaft=None)
+
+
+def _cold(material: Any) -> Any:
+    """Return a material without thermal properties; None stays None."""
+    return material and replace(material, thermal=None)

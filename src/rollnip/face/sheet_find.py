@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from rollnip._errors import ConvergenceError, InvalidInputError
 from rollnip.face.law import CrossSections, Places
-from rollnip.face.problem import FaceProblem, face_problem
+from rollnip.face.problem import FaceProblem, face_problem, in_section
 from rollnip.face.sheet_balance import SheetBalance, sheet_balance
 from rollnip.face.sheet_law import (
     MOST_SLIP,
@@ -275,8 +275,8 @@ def _require_same(law: SheetLaw, nip: Nip, model: Model) -> None:
         assert one.sheet is not None
         return replace(
             one,
-            upper=replace(one.upper, shaft=None),
-            lower=replace(one.lower, shaft=None),
+            upper=in_section(one.upper),
+            lower=in_section(one.lower),
             normal=LineLoad(1e9),
             tangential=Traction(0.0),
             sheet=replace(one.sheet, tension_in=one.sheet.tension_out),

@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 
 _PER_METRE = 1000.0  # mm per metre of web
 _LEAST = SHEET_FACE_FIGURES["least_tension_in"]
-_SLACK = 1e-6  # of the load: a tension below zero that is more than rounding
+_SLACK = 1e-6  # of the load: a tension that is more than rounding
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -92,7 +92,8 @@ class SheetFaceSolution(FaceSolution):
     @property
     def least_tension_in(self) -> float:
         """Smallest tension at the inlet over the face [N/mm]; negative: the sheet is pushed."""
-        return float(self.tension_in.min())
+        least = float(self.tension_in.min())
+        return least if abs(least) > _SLACK * float(self.load.max()) else 0.0
 
     @property
     def taut_tension(self) -> float:

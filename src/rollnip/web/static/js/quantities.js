@@ -320,14 +320,19 @@ function named(where, input) {
 }
 
 const FAR = { metric: "m", us: "ft" };
+const LEAST_AHEAD = 1e-3; // of 1000: less is rounding
 const positive = (value) =>
   value > 0 ? say("faster.upper") : say("faster.lower");
 
 // What a figure means at the size it has.
 const MEANINGS = {
   nip_width: () => say("meaning.nip"),
-  speed_ratio: (value, units) =>
-    value ? say("meaning.ratio", { length: number(1000 * Math.abs(value - 1)), unit: FAR[units.system] }) : "",
+  speed_ratio: (value, units) => {
+    const ahead = value ? 1000 * (value - 1) : 0;
+    if (Math.abs(ahead) < LEAST_AHEAD) return "";
+    const key = ahead > 0 ? "meaning.ratio-ahead" : "meaning.ratio-behind";
+    return say(key, { length: number(Math.abs(ahead)), unit: FAR[units.system] });
+  },
   creepage: (value) => (value ? say("meaning.creepage", { which: positive(value) }) : ""),
 };
 

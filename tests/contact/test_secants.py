@@ -69,6 +69,20 @@ def test_edges_under_a_stiff_skin_are_found_from_many_boundary_layers_off(off):
     np.testing.assert_allclose(places[-1].breaks, right, atol=1e-4)
 
 
+def test_an_end_without_a_proposed_place_goes_as_far_as_ends_are_misplaced_then_twice_as_far():
+    """Under a stiff skin a step beyond the boundary layer leaves moves that tell nothing."""
+    layout, ends = Layout(np.array([-1.0, -0.5, 0.5, 1.0]), THREE), Secants(0.01)
+    steps = []
+    for _ in range(3):
+        asked = Layout(layout.breaks + np.array([0.0, np.inf, 0.0, 0.0]), THREE)
+        there = ends.next(layout, asked, None, is_still=True)
+        steps.append(float((there.breaks - layout.breaks)[1]))
+        layout = there
+    np.testing.assert_allclose(steps, [0.01, 0.02, 0.04])
+    asked = Layout(layout.breaks - np.array([0.0, 0.03, 0.0, 0.0]), THREE)
+    assert abs(ends.next(layout, asked, None, is_still=True).breaks[1] + 0.46) < 1e-12
+
+
 def test_a_zone_goes_after_two_solutions_that_leave_nothing_of_it():
     layout = Layout(np.array([-1.0, -0.9, 0.9, 1.0]), THREE)
     asked = Layout(np.array([-0.9, -0.95, 0.9, 1.0]), THREE)

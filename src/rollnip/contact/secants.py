@@ -31,10 +31,13 @@ class Secants:
 
     Attributes
     ----------
+    reach : how far an end without a proposed place goes at most: as far as ends are misplaced, and
+        twice as far each time that one is lost again [mm].
     slope : (m, m) of the proposed moves by the places of the ends; None: not known yet.
     last : (m,) places of the ends on the last mesh, and the moves proposed there [mm].
     """
 
+    reach: float = np.inf
     slope: Array | None = None
     last: tuple[Array, Array] | None = None
     _longest: float = 0.0
@@ -63,7 +66,9 @@ class Secants:
         """
         moves = self._moves(layout, proposed, singular)
         given = ~np.isfinite(moves)
-        steps = np.where(given, layout.towards(proposed).breaks - layout.breaks, 0.0)
+        lost = np.clip(layout.towards(proposed).breaks - layout.breaks, -self.reach, self.reach)
+        steps = np.where(given, lost, 0.0)
+        self.reach *= 2.0 if given.any() else 1.0
         slope = self._learnt(layout.breaks, moves)
         free = ~given
         if free.any():

@@ -222,7 +222,7 @@ def _iterated(
     for iteration in range(MOST_CORRECTIONS):
         try:
             is_far = stage is Stage.COARSE or (iteration == 0 and not is_near)
-            roughly = is_far and latest.is_placed and not grips_skin(nip)
+            roughly = is_far and latest.is_placed
             made, is_whole = orders.beyond(latest, kernels, roughly=roughly)
         except NoEquilibriumError:
             cause, iterations = "balance", iteration

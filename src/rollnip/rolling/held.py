@@ -1,7 +1,7 @@
 """Contacts with a correction of all orders that is held, on ever better meshes.
 
-While the correction changes much, a coarse contact is enough. Where one with free ends is not found
-from a guess of the width, as under stiff foils with friction, contact, stick and slip are sought
+While the correction changes much, a coarse contact is enough. Under stiff foils with friction, and
+where one with free ends is not found from a guess of the width, contact, stick and slip are sought
 node by node until the correction has settled; only then free ends take over the zones.
 """
 
@@ -86,10 +86,15 @@ def begin(
     And the influence functions with the correction that it holds: that of ``kernels`` or, with
     ``second``, the second order under the tractions of nodes. An elastic nip of a single zone
     goes without: an iteration leaves so little of the error of the correction there that the second
-    order saves none.
+    order saves none. Where friction grips a stiff skin no ends are sought yet: its short zones
+    beside the edges come and go with the correction, and iterations from those would follow them.
     """
     coarse_model = coarsely(model)
-    for located in by_nodes(nip, coarse_model, kernels, half_width, SIZES[:ENOUGH_FOR_ZONES]):
+    sizes = by_nodes(nip, coarse_model, kernels, half_width, SIZES[:ENOUGH_FOR_ZONES])
+    if grips_skin(nip):
+        *_, located = sizes
+        return kernels, located, Stage.COARSE
+    for located in sizes:
         layout = Layout.of(located.zones) if located.settled else None
         if layout is not None:
             held, before = kernels, located
@@ -146,12 +151,12 @@ def solved_next(
 
     Where that fails the round has not settled.
     """
-    if progress.to_come <= _enough_for_better(nip, latest, stage):
+    if progress.to_come <= _enough_for_better(latest, stage):
         return _better(nip, model, kernels, latest, stage)
     return _solved_again(nip, model, kernels, latest, stage, progress.change), stage
 
 
-def _enough_for_better(nip: Nip, latest: Round, stage: Stage) -> float:
+def _enough_for_better(latest: Round, stage: Stage) -> float:
     """Return the change, over the tolerance, from which on a better mesh is worth its cost."""
     if stage is Stage.REFINED:
         return -inf
@@ -159,8 +164,6 @@ def _enough_for_better(nip: Nip, latest: Round, stage: Stage) -> float:
         return _AT_REST
     if not latest.is_placed:
         return NEARLY
-    if grips_skin(nip):
-        return 1.0  # zones need a correction that fits
     return _REFINED_FROM
 
 

@@ -87,7 +87,7 @@ class Placing:
         # The second order held so far is that of a coarser mesh: each size evaluates its own.
         state, known_to = self._renewed(replace(start, expected=inf)), start.misplacement
         shape: Shape | None = None
-        ends, meshes, is_seen = Secants(), 0, True
+        ends, meshes, is_seen = Secants(known_to * start.layout.width), 0, True
         last: tuple[Layout, Figures] | None = None
         effect = start.effect
         tried: set[bytes] = set()
@@ -131,7 +131,8 @@ class Placing:
             other = _untried(others, layout, tried)
             if other is not None:
                 tried.add(other.layout.key)
-                state, shape, ends = self._renewed(other), None, Secants()
+                state, shape = self._renewed(other), None
+                ends = Secants(known_to * layout.width)
                 # Ends that have been placed before hardly move: what they do is not seen.
                 is_seen, effect = is_seen and not is_placed, None
                 meshes = 0

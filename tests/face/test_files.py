@@ -69,6 +69,22 @@ def test_end_loads_take_the_place_of_the_load():
     assert case.nip.normal.load == pytest.approx(9800.0 / 1600.0)
 
 
+@pytest.mark.parametrize(
+    ("crown", "said"),
+    [
+        ('"abc"', 'crown: must be a length such as "4.5 mm", got "abc"'),
+        ("nan", "crown: must be a finite number, got nan"),
+        ('{ hight = "1 mm" }', 'crown.hight: is not a known key; did you mean "height"'),
+        ('{ height = "1 N" }', 'crown.height: must be a length such as "4.5 mm", got "1 N"'),
+    ],
+)
+def test_a_wrong_crown_is_refused_in_one_line(crown, said):
+    with pytest.raises(rn.CaseFileError) as error:
+        parse_case(TEXT.replace('crown = "0.25 mm"', f"crown = {crown}"))
+    assert f"upper.shaft.{said}" in str(error.value)
+    assert "\n" not in str(error.value)
+
+
 def test_a_crown_from_a_file(tmp_path):
     (tmp_path / "crown.csv").write_text("y [mm], diameter [um]\n-800, 0\n0, 250\n800, 0\n")
     path = tmp_path / "case.toml"

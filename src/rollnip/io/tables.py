@@ -367,6 +367,8 @@ TABLES: dict[str, type[FileTable]] = {f"<{name}>": table for name, table in MATE
     "heat": RollerHeatTable,
     "shaft": ShaftTable,
     "crown": CrownTableTable,
+    "<crown>": CrownTableTable,
+    "<height>": CrownTableTable,
     "profiles": CrownTableTable,
     "journals": JournalStepTable,
     "covering": CoveringTableTable,

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Any, Literal
 
-from pydantic import Field
+from pydantic import Discriminator, Field, Tag
 
 from rollnip.io.forms import (
     Angle,
@@ -53,6 +53,10 @@ class CoveringTableTable(FileTable):
     )
 
 
+def _crown(value: Any) -> str:
+    return "<crown>" if isinstance(value, dict) else "<height>"
+
+
 class ShaftTable(FileTable):
     """The shaft that carries the core of a roller over its face."""
 
@@ -68,7 +72,13 @@ class ShaftTable(FileTable):
     modulus: Pressure | None = None
     poisson: Ratio = 0.3
     density: Density | None = None
-    crown: Length | CrownTableTable | None = Field(
+    crown: (
+        Annotated[
+            Annotated[Length, Tag("<height>")] | Annotated[CrownTableTable, Tag("<crown>")],
+            Discriminator(_crown),
+        ]
+        | None
+    ) = Field(
         None, description="Height on the diameter, parabolic; or a table with height and shape."
     )
     profiles: list[CrownTableTable] = Field(

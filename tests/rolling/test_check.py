@@ -9,9 +9,14 @@ from rollnip._results.profiles import fine_points, slip_velocity, surface_strain
 from rollnip.contact import State
 from rollnip.rolling import fields_at
 from rollnip.rolling.check import residual
+from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.surfaces import pressure_work
 
 NAMES = ["II driven, curved", "II corrected", "Carter", "idler", "viscoelastic half-space"]
+
+
+def shortest(solution):
+    return shortest_zone(solution.nip, solution.model, solution.nip_width)
 
 
 def fresh(solution, **changes):
@@ -19,7 +24,7 @@ def fresh(solution, **changes):
     final = replace(solution.final, state=replace(solution.final.state, **changes))
     geometry = solution.model.geometry
     fields = fields_at(fine_points(final), solution.nip, geometry, solution.kernels, final)
-    return residual(solution.nip, fields, final)
+    return residual(solution.nip, fields, final, shortest(solution))
 
 
 def test_untouched(case, solved):
@@ -35,7 +40,8 @@ def test_what_is_no_number_is_no_small_residual(solved, attribute):
     fields = fields_at(fine_points(final), solution.nip, "curved", solution.kernels, final)
     values = getattr(fields, attribute).copy()
     values[values.size // 2] = np.nan
-    assert np.isnan(residual(solution.nip, replace(fields, **{attribute: values}), final))
+    changed = replace(fields, **{attribute: values})
+    assert np.isnan(residual(solution.nip, changed, final, shortest(solution)))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -93,6 +99,24 @@ def test_slip_with_its_own_shear(solved, name):
         pytest.skip("sticks all over")
     shear = solution.final.state.shear * np.where(slip, -1.0, 1.0)
     assert fresh(solution, shear=shear) > 1e-3
+
+
+def test_shear_beyond_its_bound_counts_further_than_the_shortest_zone_from_ends(solved):
+    solution = solved("II driven, curved")
+    nip, final = solution.nip, solution.final
+    fields = fields_at(fine_points(final), nip, "curved", solution.kernels, final)
+    beyond = 0.1 * nip.friction * solution.peak_pressure
+    x = final.mesh.inner
+    ends = [end for zone in final.zones for end in (zone.start, zone.stop)]
+    distance = np.min(np.abs(x[:, None] - ends), axis=1)
+    inside = (x > ends[0]) & (x < ends[-1])
+    beside = int(np.argmin(np.where(inside & (distance > 1e-9), distance, np.inf)))
+    shear = final.state.shear.copy()
+    shear[beside] += np.sign(shear[beside]) * beyond
+    wrong = replace(final, state=replace(final.state, shear=shear))
+    within = residual(nip, fields, wrong, 3.0 * distance[beside])
+    assert residual(nip, fields, wrong, 0.0) > within
+    assert residual(nip, fields, final, 0.0) <= 1e-3
 
 
 def test_fields_at_the_nodes_are_those_of_the_solution(case, solved):

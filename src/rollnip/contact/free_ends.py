@@ -223,6 +223,16 @@ class Layout:
             return None
         return Layout(np.array(breaks[1:-1]), np.array(states[1:-1], dtype=np.int8))
 
+    def of_length(self, least: float, *, keeps_stick: bool) -> Layout:
+        """Return the layout without zones shorter than a length [mm]; see `without`."""
+        layout = self
+        while np.min(np.diff(layout.breaks)) < least:
+            fewer = layout.without(int(np.argmin(np.diff(layout.breaks))), keeps_stick=keeps_stick)
+            if fewer is None:
+                break
+            layout = fewer
+        return layout
+
     def parted(self, start: float, stop: float) -> Layout | None:
         """Return the layout with a free zone between two places [mm]; None unless in one zone."""
         number = int(np.searchsorted(self.breaks, start)) - 1

@@ -106,12 +106,14 @@ def _gap(x: Array, nip: Nip, geometry: Geometry, u: Displacements) -> Array:
     return upper + lower
 
 
-def residual(nip: Nip, fields: PairFields, final: Round) -> float:
+def residual(nip: Nip, fields: PairFields, final: Round, shortest: float) -> float:
     """Return the largest relative violation of the contact conditions (theory section 5).
 
     The parts are: penetration and p times gap over the approach, tension over the peak pressure,
     shear beyond the traction bound, drift of sticking surfaces over |xi| times the nip width, slip
-    with its own shear, errors of load and traction.
+    with its own shear, errors of load and traction. The shear counts further than ``shortest`` from
+    the ends of zones [mm]: zones that short are left out, and stick without them has an infinite
+    shear at its end.
     """
     figures = final.figures
     peak = figures.peak_pressure
@@ -123,7 +125,7 @@ def residual(nip: Nip, fields: PairFields, final: Round) -> float:
         _load_error(nip, final),
     ]
     if nip.friction > 0.0:
-        parts += _friction_errors(nip, fields, final)
+        parts += _friction_errors(nip, fields, final, shortest)
     return largest(0.0, *parts)
 
 
@@ -139,12 +141,14 @@ def _load_error(nip: Nip, final: Round) -> float:
     return abs(final.state.approach - nip.normal.approach) / nip.normal.approach
 
 
-def _friction_errors(nip: Nip, fields: PairFields, final: Round) -> list[float]:
+def _friction_errors(nip: Nip, fields: PairFields, final: Round, shortest: float) -> list[float]:
     figures = final.figures
     bound = nip.friction * figures.peak_pressure
-    over = np.max(np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0))
+    over = np.abs(final.shear) - nip.friction * np.maximum(final.pressure, 0.0)
+    ends = np.array([end for zone in final.zones for end in (zone.start, zone.stop)])
+    is_far = np.min(np.abs(final.x[:, None] - ends), axis=1, initial=np.inf) > shortest
     allowed = creepage_scale(nip, figures) * figures.nip_width
-    errors = [float(over) / bound]
+    errors = [float(over[is_far].max(initial=0.0)) / bound]
     for zone in final.zones:
         creep = fields.creep[_intervals_in(fields.x, zone)]
         if zone.state == State.STICK:

@@ -34,8 +34,8 @@ _FIRST_COUNT = 18
 _ELEMENTS_PER_ZONE = 4  # elements more for each zone
 _MOST_ELEMENTS = 300  # at a tolerance of 1e-3; what needs more has no smooth tractions
 _MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
-_FIRST_GROWTH = 1.6  # of the number of elements from size to size
-_LEAST_GROWTH = 1.2
+_FIRST_EXCESS = 3.08  # error over the tolerance, about, of zones that were solved on one size only
+_LEAST_GROWTH = 1.2  # of the number of elements from size to size
 # Of the tolerance: mean error of the cubics, over the largest traction.
 _MOST_ROUGHNESS = 0.1
 _ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
@@ -86,7 +86,7 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
     most = max(most, _MOST_TIMES_FIRST * count)
     best: Round | None = None
     is_repeated = False  # on a mesh of the same size
-    shown = inf  # last error or residual over the tolerance that is finite
+    shown = _FIRST_EXCESS  # error or residual over the tolerance that the next size is to reduce
     while count <= most:
         closely = bool(history)  # the error may be small enough
         placed = placing.placed(state, count, known=known or closely, closely=closely)
@@ -116,9 +116,8 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
             if not is_repeated:
                 is_repeated, count = True, wanted  # with ends at their next places
                 continue
-        if ratio != inf:
-            shown = ratio
-        finer = _next_count(count, largest(shown, roughness), model.tolerance)
+        shown = min(shown, _FIRST_EXCESS) if ratio == inf else largest(ratio, roughness)
+        finer = _next_count(count, shown, model.tolerance)
         is_repeated = False
         count = min(finer, int(most)) if _LEAST_GROWTH * count < most else finer
     return None if best is None or len(history) < 2 else with_further_errors(nip, best, history)
@@ -129,7 +128,7 @@ def _next_count(count: int, ratio: float, tolerance: float) -> int:
 
     They are at least as many as such an error can be claimed with.
     """
-    growth = _FIRST_GROWTH if ratio == inf else max(1.1 * ratio ** (1.0 / 3.0), _LEAST_GROWTH)
+    growth = max(1.1 * ratio ** (1.0 / 3.0), _LEAST_GROWTH)
     claimed = 1.02 * sqrt(float(np.max(LEAST_ERROR)) / tolerance)
     return int(max(count * growth, claimed)) + 1
 

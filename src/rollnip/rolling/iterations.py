@@ -13,6 +13,7 @@ from rollnip.nip import Nip
 from rollnip.rolling.assemble import SecondOrder, contact_problem, second_order
 from rollnip.rolling.check import fields_between, residual
 from rollnip.rolling.displacements import NO_SECOND_ORDER
+from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.round import Figures, Round, peak_pressure, scale_of_creepage
 from rollnip.rolling.surfaces import Mesh, PairKernels, has_no_second_order
 
@@ -143,4 +144,5 @@ def with_residual(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
         change = largest(change, latest.geometry_change)
         latest = replace(latest, mesh=mesh, geometry_change=change)
     fields = fields_between(nip, model.geometry, kernels, latest)
-    return replace(latest, residual=residual(nip, fields, latest))
+    shortest = shortest_zone(nip, model, latest.figures.nip_width)
+    return replace(latest, residual=residual(nip, fields, latest, shortest))

@@ -38,6 +38,7 @@ from rollnip.rolling.iterations import (
     held_from,
     solve_on_mesh,
 )
+from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.round import Figures, Round, excess
 from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
@@ -321,15 +322,6 @@ def are_too_many(zones: int) -> bool:
     return zones * LEAST_SHARE_OF_A_ZONE > 1.0
 
 
-def boundary_layer(nip: Nip) -> float:
-    """Return the length of the shortest boundary layer at the ends of zones [mm].
-
-    Over lengths up to the depth of the first interface the surface responds as a half-plane of its
-    top layer; over larger ones the layers below count, and the tractions change between the two.
-    """
-    return min(_first_interface(nip.upper), _first_interface(nip.lower))
-
-
 def _crowds_more(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
     """Return whether nodes of any zone crowd more, or other zones."""
     return len(one) != len(other) or any(a < b for a, b in zip(one, other, strict=True))
@@ -341,17 +333,6 @@ def _incompressible(roller: Roller) -> float:
     return (
         roller.coating_thickness / _PIECES_PER_THICKNESS if nearly and roller.core is None else inf
     )
-
-
-def _first_interface(roller: Roller) -> float:
-    """Return the depth at which the material changes first [mm]; infinite for a rigid roller."""
-    depth = 0.0
-    materials = [*(layer.material for layer in roller.layers), roller.core]
-    for layer, below in zip(roller.layers, materials[1:], strict=True):
-        depth += layer.thickness
-        if layer.material != below:
-            return depth
-    return inf
 
 
 def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -> Mesh:

@@ -23,6 +23,7 @@ from rollnip.model import FINITE, Geometry, Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.iterations import STILL
+from rollnip.rolling.lengths import shortest_zone
 from rollnip.rolling.round import Figures, Round
 from rollnip.rolling.surfaces import PairKernels
 
@@ -157,6 +158,8 @@ class ZoneSearch:
         layout = Layout.found(latest.problem.x, found, self.nip.friction, *pieces)
         if layout is None:
             return None
+        keeps_stick = latest.problem.control.traction is not None
+        layout = layout.of_length(self._shortest(layout), keeps_stick=keeps_stick)
         second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
@@ -168,7 +171,10 @@ class ZoneSearch:
         """
         if self.nip.friction == 0.0:
             return None
-        least = STILL * self.model.tolerance * layout.width
+        least = self._shortest(layout)
         x, state = latest.mesh.inner, latest.state
         slipping = layout.slipping_at_edges(x, state, self.nip.friction, least)
         return None if slipping.is_like(layout) else slipping
+
+    def _shortest(self, layout: Layout) -> float:
+        return shortest_zone(self.nip, self.model, layout.width)

@@ -30,7 +30,7 @@ from rollnip.nip import Nip
 from rollnip.rolling import PairKernels, surface_depths
 from rollnip.rolling.assemble import arc_ratio
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.placing import boundary_layer
+from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.attempt import Attempt
 from rollnip.sheet.conditions import (

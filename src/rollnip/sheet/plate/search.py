@@ -20,7 +20,7 @@ from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
 from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
-from rollnip.rolling.placing import boundary_layer
+from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves

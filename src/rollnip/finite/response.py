@@ -347,10 +347,8 @@ class FiniteResponse:
             raise NoEquilibriumError
         under = np.interp(places[loaded], surface.x[front], surface.arcs[front])
         flat, body = self._on(places, loaded, under)
-        displacement = strip.moved_to(body.strip, state.displacement)
-        if body.strip.layer.size != strip.layer.size:
-            return flat, body, MeshState(displacement, body.at_rest().pressure)
-        return flat, body, MeshState(displacement, state.pressure)
+        start = strip.on_columns_of(body.strip, state.displacement, state.pressure)
+        return flat, body, MeshState(*start)
 
     def _on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
         """Return a mesh whose loaded columns are at some arcs, of linear theory and as it is.

@@ -111,3 +111,33 @@ def test_no_field_is_computed_inside_layers_that_the_surface_hardly_moves(monkey
     monkeypatch.setattr(checks, "MOST_PRESSED_IN", 0.15)
     assert not rn.solve(nip).converged
     assert asked
+
+
+@pytest.mark.parametrize("geometry", ["curved", "finite"])
+@pytest.mark.parametrize("thickness", [1e-2, 1e-6])
+def test_a_covering_pressed_in_by_its_thickness_is_refused_at_once(geometry, thickness):
+    """No mesh is refined for it: 300 systems at most, and in `finite` no equilibrium."""
+    foam = rn.Elastic(modulus=3.0, poisson=0.3)
+    covered = rn.Roller(radius=50.0, layers=[rn.Layer(thickness, foam)])
+    nip = rn.Nip(
+        upper=covered, lower=rn.Roller(radius=50.0), normal=rn.LineLoad(10.0), friction=0.3
+    )
+    solution = rn.solve(nip, rn.Model(geometry=geometry))
+    assert not solution.converged
+    assert f"{thickness:g} mm thick, is pressed in by" in solution.status
+    assert solution.solver.iterations < 300
+    assert solution.solver.elements < 100
+
+
+def test_finite_strain_refuses_what_it_presses_in_by_more_than_half():
+    """By 57 %: 88 % in `curved`, which is no start that says so."""
+    foam = rn.Elastic(modulus=3.0, poisson=0.3)
+    covered = rn.Roller(radius=50.0, layers=[rn.Layer(0.1, foam)])
+    nip = rn.Nip(
+        upper=covered, lower=rn.Roller(radius=50.0), normal=rn.LineLoad(10.0), friction=0.3
+    )
+    solution = rn.solve(nip, rn.Model(geometry="finite"))
+    assert not solution.converged
+    assert solution.model.geometry == "finite"
+    assert "is pressed in by 57 %" in solution.status
+    assert solution.solver.elements < 100

@@ -40,6 +40,22 @@ def impossible(nip: Nip, geometry: Geometry, final: Round) -> str:
     return ""
 
 
+def is_too_deep(nip: Nip, geometry: Geometry, found: Round, *, is_rough: bool) -> bool:
+    """Return whether a layer is pressed in too far.
+
+    By a solution that ``is_rough``, before finite strain or on a first mesh, it is where the
+    surface has reached the core. `finite` presses a covering in by 0.57 of its thickness and more
+    where `curved` does so by all of it (Poisson ratios of 0.3 to 0.5, thicknesses of 0.002 to 0.3
+    of the radius).
+    """
+    most = 1.0 if is_rough else MOST_PRESSED_IN
+    both = (("upper", nip.upper), ("lower", nip.lower))
+    return any(
+        bool(np.any(_pressed_in(side, roller, nip, geometry, found) >= most))
+        for side, roller in both
+    )
+
+
 def too_deep(side: str, number: int, pressed: Array, roller: Roller) -> str:
     """Return the sentence on a layer that is pressed in too far."""
     many = len(roller.layers) > 1

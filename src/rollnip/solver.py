@@ -8,7 +8,7 @@ until the results settle; and a check of the conditions at more points.
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from importlib.metadata import PackageNotFoundError, version
 from time import perf_counter
 from typing import Literal
@@ -20,7 +20,7 @@ from rollnip._errors import ConvergenceError, InvalidInputError, require_instanc
 from rollnip.influence import KernelCache
 from rollnip.model import BEYOND, FINITE, SIMPLER, Geometry, Model
 from rollnip.nip import LineLoad, Nip, Torque
-from rollnip.no_nip import impossible
+from rollnip.no_nip import impossible, is_too_deep
 from rollnip.reservation import consistent, instead_of
 from rollnip.rolling import (
     Ended,
@@ -151,7 +151,8 @@ def _solved(
     left: list[tuple[Geometry, str]] = []
     while model.geometry in FINITE and (cause := _without_solution(nip, model, final)):
         left.append((model.geometry, cause))
-        model = replace(model, geometry=SIMPLER[model.geometry])
+        is_deep = final.ended is not None and final.ended.cause == "depth"
+        model = replace(model, geometry="curved" if is_deep else SIMPLER[model.geometry])
         kernels, final = _refined(nip, model, cache, None)
     if not final.zones:
         raise ConvergenceError("No contact was found; try a larger load or other materials.")
@@ -205,6 +206,8 @@ def _without_solution(nip: Nip, model: Model, final: Round) -> str:
 def _how_far(ended: Ended) -> str:
     """Return why contact and correction found no solution, and how far their iteration got."""
     done, change = ended.iterations, f"{ended.change:.2g}"
+    if ended.cause == "depth":
+        return "without finite strain its covering is pressed in by more than its thickness"
     if ended.cause == "balance" and done == 0:
         return "no equilibrium was found under its tractions, nor under a sixteenth of them"
     if ended.cause == "balance":
@@ -232,9 +235,10 @@ def _refined(
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
+    deep = partial(is_too_deep, nip, model.geometry)
     if model.geometry == "finite":
-        return refine_all_orders(nip, model, kernels, half_width, cache, _nearby(near))
-    return kernels, refine(nip, model, kernels, half_width)
+        return refine_all_orders(nip, model, kernels, half_width, cache, deep, _nearby(near))
+    return kernels, refine(nip, model, kernels, half_width, is_too_deep=deep)
 
 
 def _nearby(near: Solution | None) -> Nearby | None:

@@ -13,6 +13,7 @@ from rollnip.finite import (
     nodal,
     response,
 )
+from rollnip.finite.state import MeshState
 from rollnip.finite.strip import LINEAR
 from rollnip.influence import KernelCache, covering_window, displacement_under, surface_kernels
 
@@ -168,13 +169,14 @@ def test_a_state_is_carried_to_other_columns_as_it_is():
     fine = Strip(depths, np.linspace(-4.0, 4.0, 33))
     rng = np.random.default_rng(7)
     displacement, pressure = rng.normal(size=coarse.size), rng.normal(size=(coarse.layer.size, 3))
-    moved, pressed = coarse.on_columns_of(fine, displacement, pressure)
-    gradient, there = coarse.gradient(displacement), fine.gradient(moved)
+    there = MeshState(displacement, pressure).on_columns(coarse, fine)
+    moved, pressed = there.displacement, there.pressure
+    gradient, finer = coarse.gradient(displacement), fine.gradient(moved)
     rows = depths.owner.size
     weights = coarse.volumes, fine.volumes
-    for wide, narrow in ((gradient[2], there[2]), (pressure @ LINEAR.T, pressed @ LINEAR.T)):
+    for wide, narrow in ((gradient[2], finer[2]), (pressure @ LINEAR.T, pressed @ LINEAR.T)):
         whole = (weights[0] * wide)[3 * rows : 4 * rows].reshape(rows, 9).sum(axis=1)
         parts = (weights[1] * narrow)[12 * rows : 16 * rows].reshape(4, rows, 9).sum(axis=(0, 2))
         np.testing.assert_allclose(parts, whole, atol=1e-9)
-    back = fine.on_columns_of(coarse, moved, pressed)
-    np.testing.assert_allclose(back[0], displacement, atol=1e-12)
+    back = there.on_columns(fine, coarse)
+    np.testing.assert_allclose(back.displacement, displacement, atol=1e-12)

@@ -347,8 +347,7 @@ class FiniteResponse:
             raise NoEquilibriumError
         under = np.interp(places[loaded], surface.x[front], surface.arcs[front])
         flat, body = self._on(places, loaded, under)
-        start = strip.on_columns_of(body.strip, state.displacement, state.pressure)
-        return flat, body, MeshState(*start)
+        return flat, body, state.on_columns(strip, body.strip)
 
     def _on(self, places: Array, loaded: slice, under: Array) -> tuple[Body, Body]:
         """Return a mesh whose loaded columns are at some arcs, of linear theory and as it is.

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.linalg import lapack
 
-from rollnip.finite.strip import Array, Indices
+from rollnip.finite.strip import Array, Indices, Strip, quadratics
 from rollnip.finite.viscous import Relaxing
 
 LEFT = 1e-7  # of the loads by an iterative solution
@@ -95,3 +95,24 @@ class MeshState:
     displacement: Array
     pressure: Array
     tangent: Tangent | None = field(default=None, repr=False, compare=False)
+
+    def on_columns(self, strip: Strip, other: Strip) -> MeshState:
+        """Return the state on a mesh of other columns, as it is on its own one, ``strip``.
+
+        Beyond this one displacements and pressures are those of its end.
+        """
+        at, place, _ = _elements_at(strip, other.arcs)
+        nodes = self.displacement.reshape(strip.arcs.size, -1)[2 * at[:, None] + np.arange(3)]
+        moved = (quadratics(place)[0][..., None] * nodes).sum(axis=1)
+        at, place, half = _elements_at(strip, other.arcs[1::2])
+        mean, along, down = np.moveaxis(self.pressure.reshape(strip.columns, -1, 3)[at], -1, 0)
+        share = (0.5 * np.diff(other.ends) / half)[:, None]
+        pressed = np.stack((mean + place[:, None] * along, share * along, down), axis=-1)
+        return MeshState(moved.ravel(), pressed.reshape(-1, 3))
+
+
+def _elements_at(strip: Strip, arcs: Array) -> tuple[Indices, Array, Array]:
+    """Return the columns of some arcs, the places in them on [-1, 1] and their half lengths."""
+    at = np.clip(np.searchsorted(strip.ends, arcs) - 1, 0, strip.columns - 1)
+    half = 0.5 * np.diff(strip.ends)[at]
+    return at, np.clip((arcs - strip.arcs[2 * at + 1]) / half, -1.0, 1.0), half

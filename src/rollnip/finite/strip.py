@@ -266,29 +266,6 @@ class Strip:
         """Return the displacements of the nodes of the surface, (2 columns + 1, 2) [mm]."""
         return displacement.reshape(-1, self.rows, 2)[:, 0]
 
-    def on_columns_of(
-        self, other: Strip, displacement: Array, pressure: Array
-    ) -> tuple[Array, Array]:
-        """Return displacements and pressures on a mesh of other columns, as they are on this one.
-
-        Beyond this mesh the displacements are those of its end, the pressures those of its last
-        elements.
-        """
-        at, place, _ = self._elements_at(other.arcs)
-        nodes = displacement.reshape(self.arcs.size, -1)[2 * at[:, None] + np.arange(3)]
-        moved = (quadratics(place)[0][..., None] * nodes).sum(axis=1)
-        at, place, half = self._elements_at(other.arcs[1::2])
-        mean, along, down = np.moveaxis(pressure.reshape(self.columns, -1, 3)[at], -1, 0)
-        share = (0.5 * np.diff(other.ends) / half)[:, None]
-        pressed = np.stack((mean + place[:, None] * along, share * along, down), axis=-1)
-        return moved.ravel(), pressed.reshape(-1, 3)
-
-    def _elements_at(self, arcs: Array) -> tuple[Indices, Array, Array]:
-        """Return the column of some arcs, their places in it on [-1, 1] and its half length."""
-        at = np.clip(np.searchsorted(self.ends, arcs) - 1, 0, self.columns - 1)
-        half = 0.5 * np.diff(self.ends)[at]
-        return at, np.clip((arcs - self.arcs[2 * at + 1]) / half, -1.0, 1.0), half
-
 
 @lru_cache(maxsize=_MESHES_KEPT)
 def _unknowns(columns: int, elements: int) -> Indices:

@@ -211,8 +211,8 @@ def _equilibrium(
         if float(np.abs(arcs - body.strip.ends)[1:-1].max()) <= allowed:
             break
         new = Body(Strip(body.strip.depths, arcs), body.speed)
-        start = body.strip.on_columns_of(new.strip, state.displacement, state.pressure)
-        body, state = new, new.equilibrium(acting, MeshState(*start))
+        start = state.on_columns(body.strip, new.strip)
+        body, state = new, new.equilibrium(acting, start)
     return body, state
 
 

@@ -32,9 +32,18 @@ from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
 from rollnip.rolling.elements import EVERYWHERE, AllOrders
-from rollnip.rolling.held import Progress, Stage, begin, refined_at_once, restarted, solved_next
+from rollnip.rolling.held import (
+    NEARLY,
+    Progress,
+    Stage,
+    begin,
+    refined_at_once,
+    restarted,
+    solved_next,
+)
 from rollnip.rolling.iterations import change_of, with_residual
 from rollnip.rolling.nearby import Nearby
+from rollnip.rolling.refinement import IsTooDeep
 from rollnip.rolling.round import Ended, Round
 from rollnip.rolling.surfaces import PairKernels
 
@@ -76,6 +85,7 @@ def refine_all_orders(
     kernels: PairKernels,
     half_width: float,
     cache: KernelCache,
+    is_too_deep: IsTooDeep,
     near: Nearby | None = None,
 ) -> tuple[PairKernels, Round]:
     """Solve a contact by iteration with the correction of all orders.
@@ -93,28 +103,48 @@ def refine_all_orders(
         kernels = replace(kernels, held=replace(NO_SECOND_ORDER, stretch=(Stretch(), Stretch())))
     second = partial(with_second_order, kernels, nip, "second", half_width, cache)
     start, latest, stage = begin(
-        nip, model, kernels, half_width, None if grips_skin(nip) else second
+        nip, model, kernels, half_width, None if grips_skin(nip) else second, is_too_deep
     )
     ended: Ended | None = None
-    if latest.settled and latest.figures.peak_pressure > 0.0:
+    if latest.settled and is_too_deep(latest, is_rough=True):
+        ended = Ended("depth", 0, inf)
+    elif latest.settled and latest.figures.peak_pressure > 0.0:
         strain = surface_strain_in_nip(nip, model.geometry, latest)
-        begun = None if near is None else near.begun(nip, model, kernels, half_width)
-        if near is not None and begun is not None:
-            orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)
-            found = _iterated(nip, model, begun, orders, Stage.REFINED, is_near=True)
-            if not isinstance(found, Ended):
-                return found
+        begun = _from_nearby(nip, model, kernels, (half_width, strain), near, is_too_deep)
+        if begun is not None:
+            return begun
         if stage is Stage.COARSE and start is not kernels:
             start, latest, stage = refined_at_once(nip, model, second(), latest)
         for share in SHARES_KEPT:
             orders = AllOrders.of(nip, kernels, half_width, strain, share)
-            found = _iterated(nip, model, (start, latest), orders, stage, is_near=False)
+            found = _iterated(nip, model, (start, latest), orders, stage, is_too_deep)
             if not isinstance(found, Ended):
                 return found
             ended = found
             if ended.cause == "balance" and ended.iterations == 0:
                 break  # the tractions to begin with have none, whatever waves are kept
     return start, replace(latest, settled=False, ended=ended)
+
+
+def _from_nearby(
+    nip: Nip,
+    model: Model,
+    kernels: PairKernels,
+    sizes: tuple[float, float],
+    near: Nearby | None,
+    is_too_deep: IsTooDeep,
+) -> tuple[PairKernels, Round] | None:
+    """Solve from the solution of a nip near by; None where there is none or it is too far.
+
+    ``sizes``: half-width of the contact [mm] and strain of the surface.
+    """
+    half_width, strain = sizes
+    begun = None if near is None else near.begun(nip, model, kernels, half_width)
+    if near is None or begun is None:
+        return None
+    orders = AllOrders.of(nip, kernels, half_width, strain, bodies=near.bodies)
+    found = _iterated(nip, model, begun, orders, Stage.REFINED, is_too_deep, is_near=True)
+    return None if isinstance(found, Ended) else found
 
 
 @dataclass
@@ -205,14 +235,16 @@ def _iterated(
     begun: tuple[PairKernels, Round],
     orders: AllOrders,
     stage: Stage,
+    is_too_deep: IsTooDeep,
     *,
-    is_near: bool,
+    is_near: bool = False,
 ) -> tuple[PairKernels, Round] | Ended:
     """Solve the contact and evaluate its correction by iteration.
 
     On a coarse mesh until the changes to come are small, then on a refined one until the contact
-    conditions are met with the correction that belongs to the solution itself. ``begun``: a contact
-    and what it holds; ``is_near``: whether that is the correction of a nip near by.
+    conditions are met with the correction that belongs to the solution itself. A contact that
+    presses a layer in too far is not refined. ``begun``: a contact and what it holds;
+    ``is_near``: whether that is the correction of a nip near by.
     """
     kernels, latest = begun
     change, restarts, past = inf, 0, Past(places_by_the_edges(_edges(latest)))
@@ -240,7 +272,10 @@ def _iterated(
         mixed = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         kernels, latest = mixed, _with(latest, mixed)
         to_come = min(change, to_come_after(change, before)) / model.tolerance
-        was, progress = stage, Progress(change, to_come if is_whole else inf)
+        deep = stage is Stage.COARSE and is_too_deep(latest, is_rough=False)
+        if deep and is_whole and to_come <= NEARLY:
+            return mixed, latest
+        was, progress = stage, Progress(change, to_come if is_whole and not deep else inf)
         found, stage = solved_next(nip, model, mixed, latest, stage, progress)
         if not found.settled and stage is not Stage.FINE and restarts < _MOST_RESTARTS:
             restarts += 1
@@ -248,8 +283,7 @@ def _iterated(
         if not found.settled:
             cause = "contact"
             break
-        if stage is not was:
-            past = Past(places_by_the_edges(_edges(latest)))
+        past = past if stage is was else Past(places_by_the_edges(_edges(latest)))
         latest = found
     if least.found is None:
         return Ended(cause, iterations, change)

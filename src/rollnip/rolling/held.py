@@ -29,6 +29,7 @@ from rollnip.rolling.refinement import (
     BY_NODES,
     ENOUGH_FOR_ZONES,
     SIZES,
+    IsTooDeep,
     by_nodes,
     finer_by_nodes,
     placed,
@@ -80,6 +81,7 @@ def begin(
     kernels: PairKernels,
     half_width: float,
     second: Responses | None = None,
+    is_too_deep: IsTooDeep | None = None,
 ) -> tuple[PairKernels, Round, Stage]:
     """Return a contact to begin with: with free ends, coarse or refined, or by nodes.
 
@@ -96,6 +98,8 @@ def begin(
         return kernels, located, Stage.COARSE
     for located in sizes:
         layout = Layout.of(located.zones) if located.settled else None
+        if layout is not None and is_too_deep is not None and is_too_deep(located, is_rough=True):
+            return kernels, located, Stage.COARSE
         if layout is not None:
             held, before = kernels, located
             if second is not None and (nip.is_viscoelastic or layout.states.size > 1):

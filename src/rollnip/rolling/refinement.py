@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Protocol
 
 import numpy as np
 
@@ -31,12 +32,21 @@ _MOST = 8  # meshes of a size
 _ROOM = 0.1  # beyond either edge of such a mesh, over the width of the contact
 
 
+class IsTooDeep(Protocol):
+    """Whether a layer is pressed in too far by a solution, be it rough."""
+
+    def __call__(self, found: Round, *, is_rough: bool) -> bool:
+        """Return so."""
+        ...
+
+
 def refine(
     nip: Nip,
     model: Model,
     kernels: PairKernels,
     half_width: float,
     sizes: tuple[int, ...] = SIZES,
+    is_too_deep: IsTooDeep | None = None,
 ) -> Round:
     """Solve on ever better meshes until the estimated error is below the tolerance.
 
@@ -48,6 +58,7 @@ def refine(
     ----------
     half_width : first guess [mm].
     sizes : elements of the meshes on which zones are sought, in turn.
+    is_too_deep : tells solutions that no finer mesh makes possible.
 
     Returns
     -------
@@ -56,6 +67,8 @@ def refine(
     """
     best: Round | None = None
     for latest in by_nodes(nip, model, kernels, half_width, sizes):
+        if latest.settled and is_too_deep is not None and is_too_deep(latest, is_rough=True):
+            return latest
         found = placed(nip, model, kernels, latest) if latest.settled else None
         if is_verified(found, model):
             return found

@@ -80,14 +80,14 @@ class Ended:
 
     Attributes
     ----------
-    cause : no equilibrium was found ("balance"), contact, stick and slip did not settle
-        ("contact"), or the correction still changed after the last iteration allowed
-        ("iterations").
+    cause : without them a layer is pressed in by its thickness ("depth"), no equilibrium was found
+        ("balance"), contact, stick and slip did not settle ("contact"), or the correction still
+        changed after the last iteration allowed ("iterations").
     iterations : how often a correction was found.
     change : the last change of the correction, over the first-order terms; inf without any.
     """
 
-    cause: Literal["balance", "contact", "iterations"]
+    cause: Literal["depth", "balance", "contact", "iterations"]
     iterations: int
     change: float
 

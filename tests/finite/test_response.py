@@ -180,3 +180,21 @@ def test_a_state_is_carried_to_other_columns_as_it_is():
         np.testing.assert_allclose(parts, whole, atol=1e-9)
     back = there.on_columns(fine, coarse)
     np.testing.assert_allclose(back.displacement, displacement, atol=1e-12)
+
+
+def test_a_matrix_by_rows_gives_what_one_by_columns_does(monkeypatch):
+    """Many layers on few columns: the band of its matrix is as wide as a row, not a column."""
+    layers = [rn.Layer(0.05, RUBBER if i % 2 else FOAM) for i in range(40)]
+    depths = Depths.of(covered(*layers), HALF)
+    nodes, p, q = tractions(0.1)
+    made = []
+    for by_rows in (True, False):
+        kind = property(lambda strip, rows=by_rows: (strip.columns, strip.depths.owner.size, rows))
+        body = Body(Strip(depths, np.linspace(-4.0, 4.0, 17)))
+        assert body.strip.order is not None
+        assert body.strip.band == 8 * 16 + 9
+        monkeypatch.setattr(Strip, "_kind", kind)
+        acting = nodal(nodes, p, q)
+        made.append(body.equilibrium(acting, body.linear_state(acting), still=1e-9).displacement)
+        monkeypatch.undo()
+    np.testing.assert_allclose(made[0], made[1], atol=1e-9 * np.abs(made[0]).max())

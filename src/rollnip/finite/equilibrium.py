@@ -277,7 +277,8 @@ class Body:
         factors, pivots, info = lapack.dgbtrf(matrix.T, band, above, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        return Tangent((band, above), factors, pivots, means, rate, relaxing)
+        order = self.strip.order
+        return Tangent((band, above), factors, pivots, means, rate, relaxing, order)
 
     @cached_property
     def at_first(self) -> Tangent:
@@ -294,7 +295,7 @@ class Body:
         factors, info = lapack.dpbtrf(matrix, lower=1, overwrite_ab=1)
         if info != 0:
             raise NoEquilibriumError
-        return Tangent((band, 0), factors, None, means, rate)
+        return Tangent((band, 0), factors, None, means, rate, order=self.strip.order)
 
     def linear_displacements(self, tractions: Tractions, left: float = LEFT) -> Array:
         """Return the displacements (unknowns,) of linear theory, the tractions per undeformed arc.

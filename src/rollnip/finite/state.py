@@ -30,6 +30,7 @@ class Tangent:
     means : (elements, 3, 18) derivatives of the volumes, weighted with the basis `LINEAR`.
     rate : (elements, 3, 18) derivatives of the pressures.
     relaxing : what the factors leave out, the memory of columns beyond the next; None: nothing.
+    order : place in the matrix of each unknown; None: as they are.
     """
 
     bands: tuple[int, int]
@@ -38,6 +39,7 @@ class Tangent:
     means: Array
     rate: Array
     relaxing: Relaxing | None = None
+    order: Indices | None = None
 
     def solved(self, loads: Array, left: float = LEFT) -> Array:
         """Return the displacements that balance some loads, (unknowns,).
@@ -71,13 +73,17 @@ class Tangent:
 
     def _near(self, loads: Array) -> Array:
         """Return the displacements without the memory of columns beyond the next."""
+        if self.order is not None:
+            by_place = np.empty_like(loads)
+            by_place[self.order] = loads
+            loads = by_place
         if self.pivots is None:
             out, info = lapack.dpbtrs(self.factors, loads, lower=1)
         else:
             out, info = lapack.dgbtrs(self.factors, *self.bands, loads, self.pivots)
         if info != 0 or not np.all(np.isfinite(out)):
             raise NoEquilibriumError
-        return np.asarray(out)
+        return np.asarray(out if self.order is None else out[self.order])
 
 
 @dataclass(frozen=True)

@@ -7,12 +7,13 @@ material point is known by its undeformed arc s along the surface and its depth 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.finite import numbering
 from rollnip.rollers import Roller
 
 Array = NDArray[np.float64]
@@ -26,7 +27,6 @@ LINEAR = np.stack((np.ones(9), _ALONG, _DOWN), axis=-1)
 """Basis of volume and pressure in an element, at its nine points of Gauss, (9, 3)."""
 _FOLDS = 3.5  # of e in depth, from the surface to the nip width or the core
 _PER_FOLD = 1.14  # elements
-_MESHES_KEPT = 16  # whose places of matrix entries are kept
 
 
 def quadratics(at: Array) -> tuple[Array, Array]:
@@ -102,12 +102,24 @@ class Strip:
     @property
     def size(self) -> int:
         """Number of unknown displacements."""
-        return _size_and_band(self.columns, self.depths.owner.size)[0]
+        return numbering.size_and_band(*self._kind)[0]
+
+    @property
+    def _kind(self) -> tuple[int, int, bool]:
+        """Columns, elements of each, and whether a matrix goes by rows, as many layers ask for."""
+        count = self.depths.owner.size
+        by_rows = count > self.columns and not self.depths.roller.is_viscoelastic
+        return self.columns, count, by_rows
 
     @property
     def band(self) -> int:
         """Diagonals of a stiffness matrix on either side of the main one."""
-        return _size_and_band(self.columns, self.depths.owner.size)[1]
+        return numbering.size_and_band(*self._kind)[1]
+
+    @property
+    def order(self) -> Indices | None:
+        """Place in a matrix of each unknown; None: as they are."""
+        return numbering.order(*self._kind)
 
     @cached_property
     def arcs(self) -> Array:
@@ -228,12 +240,12 @@ class Strip:
     @property
     def unknowns(self) -> Indices:
         """Unknowns of every element, (elements, 18), x of all nodes, then y; -1 on the core."""
-        return _unknowns(self.columns, self.depths.owner.size)
+        return numbering.unknowns(self.columns, self.depths.owner.size)
 
     @property
     def slots(self) -> Indices:
         """Places of the entries of the element matrices in banded storage; beyond it if fixed."""
-        return _slots(self.columns, self.depths.owner.size)
+        return numbering.slots(*self._kind)
 
     @property
     def lower_slots(self) -> tuple[Indices, Indices]:
@@ -241,7 +253,7 @@ class Strip:
 
         In banded storage of a symmetric matrix, columns one after the other.
         """
-        return _lower_slots(self.columns, self.depths.owner.size)
+        return numbering.lower_slots(*self._kind)
 
     @property
     def stored(self) -> int:
@@ -250,7 +262,10 @@ class Strip:
 
     def place(self, row: Indices, column: Indices) -> Indices:
         """Return places in banded storage, columns one after the other, of matrix entries."""
-        return _place(row, column, self.band)
+        order = self.order
+        if order is not None:
+            row, column = order[row], order[column]
+        return numbering.place(row, column, self.band)
 
     @cached_property
     def layer(self) -> Indices:
@@ -265,72 +280,6 @@ class Strip:
     def on_surface(self, displacement: Array) -> Array:
         """Return the displacements of the nodes of the surface, (2 columns + 1, 2) [mm]."""
         return displacement.reshape(-1, self.rows, 2)[:, 0]
-
-
-@lru_cache(maxsize=_MESHES_KEPT)
-def _unknowns(columns: int, elements: int) -> Indices:
-    """Return `Strip.unknowns` of a mesh of so many columns, each of so many elements."""
-    column = 2 * np.arange(columns)[:, None, None, None] + np.arange(3)[:, None]
-    row = 2 * np.arange(elements)[:, None, None] + np.arange(3)
-    node = np.where(row < 2 * elements, column * 2 * elements + row, -1).reshape(-1, 9)
-    unknowns = np.concatenate((2 * node, 2 * node + 1), axis=-1)
-    unknowns[np.tile(node < 0, 2)] = -1
-    unknowns.setflags(write=False)
-    return unknowns
-
-
-def _size_and_band(columns: int, elements: int) -> tuple[int, int]:
-    """Return the number of unknowns of such a mesh, and of diagonals on either side."""
-    return 4 * elements * (2 * columns + 1), 8 * elements + 5
-
-
-def _place(row: Indices, column: Indices, band: int) -> Indices:
-    return column * (3 * band + 1) + 2 * band + row - column
-
-
-@lru_cache(maxsize=_MESHES_KEPT)
-def _slots(columns: int, elements: int) -> Indices:
-    """Return `Strip.slots` of such a mesh."""
-    unknowns = _unknowns(columns, elements)
-    size, band = _size_and_band(columns, elements)
-    row, column = unknowns[:, :, None], unknowns[:, None, :]
-    places = _place(row, column, band)
-    places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = (3 * band + 1) * size
-    slots = places.ravel()
-    slots.setflags(write=False)
-    return slots
-
-
-@lru_cache(maxsize=_MESHES_KEPT)
-def near_slots(columns: int, elements: int) -> Indices:
-    """Return places of the entries of every element, and of every element with the next of its row.
-
-    In banded storage with twice as many diagonals above the main one; beyond it if fixed.
-    """
-    unknowns = _unknowns(columns, elements)
-    size, band = _size_and_band(columns, elements)
-    slots = []
-    for rows, others in ((unknowns, unknowns), (unknowns[:-elements], unknowns[elements:])):
-        row, column = rows[:, :, None], others[:, None, :]
-        places = column * (4 * band + 1) + 3 * band + row - column
-        places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = (4 * band + 1) * size
-        slots.append(places.ravel())
-    both = np.concatenate(slots)
-    both.setflags(write=False)
-    return both
-
-
-@lru_cache(maxsize=_MESHES_KEPT)
-def _lower_slots(columns: int, elements: int) -> tuple[Indices, Indices]:
-    """Return `Strip.lower_slots` of such a mesh."""
-    unknowns = _unknowns(columns, elements)
-    band = _size_and_band(columns, elements)[1]
-    row, column = np.broadcast_arrays(unknowns[:, :, None], unknowns[:, None, :])
-    entries = np.flatnonzero(((column >= 0) & (row >= column)).ravel())
-    places = (column * band + row).ravel()[entries]  # the diagonal and so many below it
-    entries.setflags(write=False)
-    places.setflags(write=False)
-    return entries, places
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,8 @@ from functools import cached_property
 import numpy as np
 
 from rollnip.finite.memory import Memory
-from rollnip.finite.strip import LINEAR, Array, near_slots
+from rollnip.finite.numbering import near_slots
+from rollnip.finite.strip import LINEAR, Array
 from rollnip.materials import Energy
 
 

@@ -1,0 +1,98 @@
+"""Unknowns of a mesh of elements: their numbers, and their places in a matrix in banded storage.
+
+A mesh has so many columns, each of so many elements. The displacements are numbered down one column
+of nodes after the other. A matrix goes by columns, too, or by rows where these are shorter: its
+diagonals are as many as what an element ties together is apart.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+Indices = NDArray[np.intp]
+_MESHES_KEPT = 16  # whose places of matrix entries are kept
+
+
+@lru_cache(maxsize=_MESHES_KEPT)
+def unknowns(columns: int, elements: int) -> Indices:
+    """Return `Strip.unknowns` of a mesh of so many columns, each of so many elements."""
+    column = 2 * np.arange(columns)[:, None, None, None] + np.arange(3)[:, None]
+    row = 2 * np.arange(elements)[:, None, None] + np.arange(3)
+    node = np.where(row < 2 * elements, column * 2 * elements + row, -1).reshape(-1, 9)
+    numbers = np.concatenate((2 * node, 2 * node + 1), axis=-1)
+    numbers[np.tile(node < 0, 2)] = -1
+    numbers.setflags(write=False)
+    return numbers
+
+
+def size_and_band(columns: int, elements: int, by_rows: bool = False) -> tuple[int, int]:
+    """Return the number of unknowns of such a mesh, and of diagonals on either side."""
+    return 4 * elements * (2 * columns + 1), 8 * columns + 9 if by_rows else 8 * elements + 5
+
+
+@lru_cache(maxsize=_MESHES_KEPT)
+def order(columns: int, elements: int, by_rows: bool) -> Indices | None:
+    """Return `Strip.order` of such a mesh."""
+    if not by_rows:
+        return None
+    nodes = np.arange(2 * elements * (2 * columns + 1)).reshape(2 * elements, -1).T.ravel()
+    return np.stack((2 * nodes, 2 * nodes + 1), axis=-1).ravel()
+
+
+def placed(columns: int, elements: int, by_rows: bool) -> Indices:
+    """Return the places in a matrix of the unknowns of every element; -1 on the core."""
+    numbers, by_place = unknowns(columns, elements), order(columns, elements, by_rows)
+    return numbers if by_place is None else np.append(by_place, -1)[numbers]
+
+
+def place(row: Indices, column: Indices, band: int) -> Indices:
+    """Return places in banded storage of entries at some rows and columns of a matrix."""
+    return column * (3 * band + 1) + 2 * band + row - column
+
+
+@lru_cache(maxsize=_MESHES_KEPT)
+def slots(columns: int, elements: int, by_rows: bool) -> Indices:
+    """Return `Strip.slots` of such a mesh."""
+    numbers = placed(columns, elements, by_rows)
+    size, band = size_and_band(columns, elements, by_rows)
+    row, column = numbers[:, :, None], numbers[:, None, :]
+    places = place(row, column, band)
+    places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = (3 * band + 1) * size
+    flat = places.ravel()
+    flat.setflags(write=False)
+    return flat
+
+
+@lru_cache(maxsize=_MESHES_KEPT)
+def near_slots(columns: int, elements: int) -> Indices:
+    """Return places of the entries of every element, and of every element with the next of its row.
+
+    In banded storage with twice as many diagonals above the main one; beyond it if fixed.
+    """
+    numbers = unknowns(columns, elements)
+    size, band = size_and_band(columns, elements)
+    parts = []
+    for rows, others in ((numbers, numbers), (numbers[:-elements], numbers[elements:])):
+        row, column = rows[:, :, None], others[:, None, :]
+        places = column * (4 * band + 1) + 3 * band + row - column
+        places[np.broadcast_to((row < 0) | (column < 0), places.shape)] = (4 * band + 1) * size
+        parts.append(places.ravel())
+    both = np.concatenate(parts)
+    both.setflags(write=False)
+    return both
+
+
+@lru_cache(maxsize=_MESHES_KEPT)
+def lower_slots(columns: int, elements: int, by_rows: bool) -> tuple[Indices, Indices]:
+    """Return `Strip.lower_slots` of such a mesh."""
+    numbers = placed(columns, elements, by_rows)
+    band = size_and_band(columns, elements, by_rows)[1]
+    row, column = np.broadcast_arrays(numbers[:, :, None], numbers[:, None, :])
+    entries = np.flatnonzero(((column >= 0) & (row >= column)).ravel())
+    places = (column * band + row).ravel()[entries]  # the diagonal and so many below it
+    entries.setflags(write=False)
+    places.setflags(write=False)
+    return entries, places

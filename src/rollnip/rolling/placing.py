@@ -108,9 +108,8 @@ class Placing:
             is_quiet = self.kernels.is_fixed or state.is_quiet
             is_near = not known and misplacement < NEAR_ENOUGH_FOR_SLIP and is_quiet
             is_still = latest.settled and is_quiet
-            # Figures of other zones tell nothing of errors, a first mesh of them only their ends.
+            # Figures of other zones tell nothing of errors.
             is_close = closely and layout.is_like(start.layout)
-            is_first = closely and not is_close and last is None
             there = ends.next(layout, proposed, self._singular(latest, layout), is_still=is_still)
             if last is not None:
                 effect = _effect_of_ends(last, (layout, latest.figures))
@@ -121,7 +120,7 @@ class Placing:
             by_figures = is_close and self._rests_by_figures
             is_placed = (
                 self._is_placed(layout, proposed, known=known, by_figures=by_figures)
-                and (proposed.is_proper and is_still and not is_first)
+                and (proposed.is_proper and is_still)
                 and not (by_figures and self._changes(latest, left))
                 and not (_is_false_at_edge(latest) or (is_close and self._exceeds_bound(latest)))
                 and not _crowds_more(crowding_of(layout.breaks, self.boundary), shape[1])

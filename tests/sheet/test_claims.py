@@ -9,7 +9,8 @@ from sheet_population import random_case
 
 import rollnip as rn
 from rollnip.rolling import peak_pressure
-from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, SheetFigures, scales
+from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, scales
+from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.said import relative_errors
 from rollnip.sheet.search import SheetSearch
@@ -40,7 +41,7 @@ def _errors(number, geometry=None):
     )
     if not fine.settled:
         return None
-    truth = SheetFigures.of(fine, model.geometry)
+    (truth,) = Membrane(case.nip).figures(fine, model.geometry)
     scale = scales(case.nip, truth)
     scale[scale == 0.0] = 1.0  # losses of elastic layers: rounding
     claim = refined.errors.values / scale

@@ -12,6 +12,7 @@ from rollnip._results.tree import result_dict
 from rollnip.io import base_tree, case_python, case_toml, parse_case
 from rollnip.sheet.common import sheet_verdict
 from rollnip.sheet.figures import SheetFigures, scales
+from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.refine import with_errors_of_powers
 from rollnip.sheet_figures import SHEET_FIGURES
 from rollnip.sweeps.row import SCALARS, evaluate
@@ -138,12 +139,13 @@ def test_slip_along_its_own_shear_is_an_error_of_the_loss():
     assert refined.figures.friction_upper > 10.0 * claimed
     attempt = refined.attempt
     ahead = replace(attempt.state, creepage=-attempt.state.creepage - 0.1)
+    kind = Membrane(solution.nip)
     turned = with_errors_of_powers(
-        replace(refined, attempt=replace(attempt, state=ahead)), "linear"
+        kind, replace(refined, attempt=replace(attempt, state=ahead)), "linear"
     ).errors
     other = replace(attempt.state, creepage=-attempt.state.creepage + 0.1)
     back = with_errors_of_powers(
-        replace(refined, attempt=replace(attempt, state=other)), "linear"
+        kind, replace(refined, attempt=replace(attempt, state=other)), "linear"
     ).errors
     assert max(turned.friction_upper, back.friction_upper) > 10.0 * claimed
     assert turned.friction_lower == refined.errors.friction_lower

@@ -64,6 +64,6 @@ def test_a_sheet_that_may_not_resist_bending_and_has_no_solution_is_told_to(monk
     def without_solution(*_):
         raise np.linalg.LinAlgError("no size of mesh has a solution")
 
-    monkeypatch.setattr(solved, "refine_sheet", without_solution)
+    monkeypatch.setattr(solved, "refine", without_solution)
     with pytest.raises(rn.ConvergenceError, match="bending freely was found; leave `bending` out"):
         rn.solve(random_case(0).nip, rn.Model(geometry="curved"))

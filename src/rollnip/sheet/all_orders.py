@@ -10,14 +10,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import inf
-from typing import Generic, Protocol, TypeVar
+from typing import Generic
 
 import numpy as np
 
 from rollnip.finite import NoEquilibriumError
 from rollnip.model import Model
-from rollnip.nip import Nip
-from rollnip.rolling import PairKernels
+from rollnip.rolling import PairKernels, stretch_excess
 from rollnip.rolling.beyond import (
     MOST_CORRECTIONS,
     SHARES_KEPT,
@@ -33,86 +32,18 @@ from rollnip.rolling.claimed_errors import skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
 from rollnip.rolling.held import NEARLY, coarsely
+from rollnip.sheet.attempt import AnyAttempt
+from rollnip.sheet.kind import CLOSELY, S, SheetKind
+from rollnip.sheet.powers import smooth_works
+from rollnip.sheet.refine import Refined, elements_to_begin_with, on_last_mesh, refine
 
 _MOST_RESTARTS = 10  # iterations that are solved from the beginning
-COARSE = 20
-"""Elements of the contact while its corrections still change."""
-
-
-class Iterated(Protocol):
-    """A solution between ends of zones, as far as the iterations need it."""
-
-    @property
-    def change(self) -> float:
-        """Last change of the terms that depend on the solution."""
-        ...
-
-    @property
-    def settled(self) -> bool:
-        """Whether zones and terms have settled."""
-        ...
-
-
-S = TypeVar("S", bound=Iterated)
-R = TypeVar("R")
-
-
-class Sheeted(Protocol[S, R]):
-    """A nip with a sheet of some kind, as far as the iterations need it."""
-
-    def begun(self, model: Model, kernels: PairKernels, half_width: float) -> S:
-        """Return a solution of a coarse contact, from no other one."""
-        ...
-
-    def placed(self, model: Model, kernels: PairKernels, before: S, count: int) -> S:
-        """Return the solution on meshes of some size, from one before."""
-        ...
-
-    def refined(self, model: Model, kernels: PairKernels, before: S) -> tuple[R, S, int]:
-        """Return the refined solution, and its last mesh and size."""
-        ...
-
-    def holding(self, attempt: S, kernels: PairKernels) -> S:
-        """Return a solution whose terms are those with other corrections; ``change`` says how."""
-        ...
-
-    def sides(self, attempt: S) -> tuple[Acting, Acting]:
-        """Return the tractions of the upper and of the lower roller."""
-        ...
-
-    def creepage(self, attempt: S) -> float:
-        """Return the creepage of the upper roller against the lower one."""
-        ...
-
-    def edges(self, attempt: S) -> tuple[float, float]:
-        """Return the ends of the contact [mm]."""
-        ...
-
-    def strain(self, attempt: S) -> float:
-        """Return the largest strain of either surface."""
-        ...
-
-    def missed(self, attempt: S, other: S) -> float:
-        """Return how badly a solution violates its conditions with the terms of the other one."""
-        ...
-
-    def with_residual(
-        self, refined: R, attempt: S, kernels: PairKernels, left: float
-    ) -> tuple[R, float]:
-        """Return a refined solution on its last mesh, and how badly it violates its conditions.
-
-        ``left``: how badly those of gap and creep.
-        """
-        ...
-
-    def with_cut(self, refined: R, cut: float) -> R:
-        """Return a refined solution with what the correction leaves out."""
-        ...
+_COARSE = 20  # elements of the contact while its corrections still change
 
 
 def solve_by_iteration(
-    nip: Nip, model: Model, kernels: PairKernels, sheeted: Sheeted[S, R], half_width: float
-) -> tuple[PairKernels, R] | None:
+    kind: SheetKind[S], model: Model, kernels: PairKernels, half_width: float
+) -> tuple[PairKernels, Refined[S]] | None:
     """Solve the contact with a sheet and evaluate both corrections by iteration.
 
     First on a coarse mesh, from the linear displacements, until the changes to come are small. Then
@@ -127,16 +58,16 @@ def solve_by_iteration(
     The influence functions with the last corrections and the solution with them; None where there
     is no equilibrium, or zones or corrections do not settle.
     """
-    if skin_thickness(nip) > 0.0:
+    if skin_thickness(kind.nip) > 0.0:
         model = replace(model, tolerance=min(model.tolerance, UNDER_SKINS))
     try:
-        attempt = sheeted.begun(coarsely(model), kernels, half_width)
+        attempt = _begun(kind, coarsely(model), kernels, half_width)
     except np.linalg.LinAlgError:
         return None
     for share in SHARES_KEPT:
-        orders = AllOrders.of(nip, kernels, half_width, sheeted.strain(attempt), share)
+        orders = AllOrders.of(kind.nip, kernels, half_width, _largest_strain(attempt), share)
         try:
-            found = _iterate_until_settled(kernels, _Contact(sheeted, model, attempt), orders)
+            found = _iterate_until_settled(kernels, _Contact(kind, model, attempt), orders)
         except (NoEquilibriumError, np.linalg.LinAlgError):
             continue
         if found is not None:
@@ -144,24 +75,30 @@ def solve_by_iteration(
     return None
 
 
+def _begun(kind: SheetKind[S], model: Model, kernels: PairKernels, half_width: float) -> S:
+    """Return a solution of a coarse contact, from no other one."""
+    search = kind.search(model, kernels)
+    count = round(elements_to_begin_with(kind, half_width, _COARSE))
+    attempt = search.begun(half_width, count)
+    return search.placed(attempt.zones, count, attempt)
+
+
 @dataclass
-class _Contact(Generic[S, R]):
+class _Contact(Generic[S]):
     """A contact that is solved repeatedly.
 
     Attributes
     ----------
-    sheeted, model : what solves it, and how accurately once it is refined.
+    kind, model : what solves it, and how accurately once it is refined.
     attempt : the last solution.
     refined : the refined one; None: the mesh is coarse still.
-    count : size of its mesh.
     restarts : how often it was restarted.
     """
 
-    sheeted: Sheeted[S, R]
+    kind: SheetKind[S]
     model: Model
     attempt: S
-    refined: R | None = None
-    count: int = COARSE
+    refined: Refined[S] | None = None
     restarts: int = 0
 
     def solve(self, kernels: PairKernels, *, refine: bool) -> None:
@@ -169,15 +106,19 @@ class _Contact(Generic[S, R]):
 
         Where zones do not settle, from none. ``refine``: on finer and finer meshes.
         """
-        found = self.sheeted.holding(self.attempt, kernels)
+        found = self.kind.holding(self.attempt, kernels)
         if refine:
             self._refine(kernels, found)
             return
         model = coarsely(self.model) if self.refined is None else self.model
-        found = self.sheeted.placed(model, kernels, found, self.count)
+        size = _COARSE if self.refined is None else self.refined.count
+        half_width = 0.5 * found.zones.width
+        count = round(elements_to_begin_with(self.kind, half_width, size))
+        search = self.kind.search(model, kernels)
+        found = search.placed(found.zones, count, found, CLOSELY)
         if not found.settled and self.restarts < _MOST_RESTARTS:
-            start, stop = self.sheeted.edges(self.attempt)
-            found = self.sheeted.begun(model, kernels, 0.5 * (stop - start))
+            start, stop = _edges(self.attempt)
+            found = _begun(self.kind, model, kernels, 0.5 * (stop - start))
             self.restarts += 1
             if self.refined is not None:
                 self._refine(kernels, found)
@@ -185,40 +126,75 @@ class _Contact(Generic[S, R]):
         self.attempt = found
 
     def _refine(self, kernels: PairKernels, before: S) -> None:
-        self.refined, self.attempt, self.count = self.sheeted.refined(self.model, kernels, before)
+        half_width = 0.5 * before.zones.width
+        self.refined = refine(self.kind, self.model, kernels, half_width, before)
+        self.attempt = self.refined.attempt
 
 
 def _iterate_until_settled(
-    kernels: PairKernels, contact: _Contact[S, R], orders: AllOrders
-) -> tuple[PairKernels, R] | None:
+    kernels: PairKernels, contact: _Contact[S], orders: AllOrders
+) -> tuple[PairKernels, Refined[S]] | None:
     """Iterate, see `solve_by_iteration`."""
-    sheeted, tolerance, change = contact.sheeted, contact.model.tolerance, inf
-    past = Past(even_places(sheeted.edges(contact.attempt)))
-    least = Least[tuple[PairKernels, R, S]]()
+    kind, tolerance, change = contact.kind, contact.model.tolerance, inf
+    past = Past(even_places(_edges(contact.attempt)))
+    least = Least[tuple[PairKernels, Refined[S], S]]()
     for _ in range(MOST_CORRECTIONS):
         attempt, refined = contact.attempt, contact.refined
-        sides, creepage = sheeted.sides(attempt), sheeted.creepage(attempt)
-        made, is_whole = orders.under(sides, creepage, roughly=change == inf)
+        creepage = sum(attempt.state.creepages)
+        made, is_whole = orders.under(_sides(attempt), creepage, roughly=change == inf)
         smooth = replace(kernels, held=made)
-        own = sheeted.holding(attempt, smooth)
+        own = kind.holding(attempt, smooth)
         before, change = change, own.change
         to_come = to_come_after(change, before) / tolerance
         if refined is not None and change < SMALL and is_whole:
-            missed = sheeted.missed(attempt, own)
-            found, left = sheeted.with_residual(refined, own, smooth, missed)
-            if least.is_enough((smooth, found, own), left / tolerance, to_come):
+            missed = kind.missed(attempt, own)
+            found = on_last_mesh(kind, refined, own, smooth, missed)
+            if least.is_enough((smooth, found, own), found.residual / tolerance, to_come):
                 break
         kernels = replace(kernels, held=past.next(kernels.held or NO_SECOND_ORDER, made))
         near = min(to_come, change / tolerance)
-        refine = refined is None and is_whole and near <= NEARLY
-        if refine:
-            past = Past(places_by_the_edges(sheeted.edges(attempt)))
-        contact.solve(kernels, refine=refine)
+        begins = refined is None and is_whole and near <= NEARLY
+        if begins:
+            past = Past(places_by_the_edges(_edges(attempt)))
+        contact.solve(kernels, refine=begins)
         if not contact.attempt.settled and contact.refined is not None:
             break
     if least.found is None:
         return None
     kernels, found, own = least.found
     assert kernels.held is not None
-    uncut = sheeted.holding(own, replace(kernels, held=kernels.held.uncut))
-    return kernels, sheeted.with_cut(found, sheeted.missed(own, uncut))
+    uncut = kind.holding(own, replace(kernels, held=kernels.held.uncut))
+    return kernels, _with_cut(found, kind.missed(own, uncut))
+
+
+def _with_cut(refined: Refined[S], cut: float) -> Refined[S]:
+    """Return a refined solution with what the correction leaves out."""
+    figures, ((upper, _), (lower, _)) = refined.figures, smooth_works(refined.attempt)
+    losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
+    return replace(refined, cut=cut, cut_losses=losses)
+
+
+def _sides(attempt: AnyAttempt) -> tuple[Acting, Acting]:
+    """Return the tractions of the upper and of the lower roller."""
+    out: list[Acting] = []
+    for number, (mesh, sign) in enumerate(zip(attempt.problem.meshes, (1.0, -1.0), strict=True)):
+        one = attempt.state.side(number)
+        out.append((mesh.fine.nodes, mesh.acting(one.pressure), sign * mesh.acting(one.shear)))
+    return out[0], out[1]
+
+
+def _edges(attempt: AnyAttempt) -> tuple[float, float]:
+    """Return the ends of both contacts together [mm]."""
+    starts, stops = zip(*(side.edges for side in attempt.zones.sides), strict=True)
+    return min(starts), max(stops)
+
+
+def _largest_strain(attempt: AnyAttempt) -> float:
+    """Return the largest strain of either surface in its contact, mean over an element."""
+    problem, state, most = attempt.problem, attempt.state, 0.0
+    for side, mesh in enumerate(problem.meshes):
+        x, u = mesh.fine.nodes[1:], mesh.finer(problem.displacements(state, side))
+        strains = np.abs(stretch_excess(x, problem.nip, "finite", u)[side] / np.diff(x))
+        touching = mesh.acting(state.side(side).pressure) > 0.0
+        most = max(most, float(strains[touching].max(initial=0.0)))
+    return most

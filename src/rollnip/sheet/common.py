@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import isfinite
-from typing import Protocol
 
 import numpy as np
 
@@ -14,7 +13,9 @@ from rollnip.nip import Creepage, LineLoad, Nip, Torque, Traction
 from rollnip.no_nip import impossible
 from rollnip.reservation import Reservation, instead_of
 from rollnip.rolling import Round
+from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.figures import SheetFigures, scales
+from rollnip.sheet.refine import Refined
 from rollnip.sheet.system import frictions_of
 from rollnip.verdict import missed, verdict, violated
 
@@ -23,44 +24,6 @@ SLACK = 1e-6
 """Of the load: tension below zero that is more than rounding."""
 CURVED_TENSION_RATIO = 0.05
 """Thickness of a covering over the radius up to which "curved" has the tension to 7 % or better."""
-
-
-class FoundSolution(Protocol):
-    """A solution, as far as its verdict asks."""
-
-    @property
-    def settled(self) -> bool:
-        """Whether zones and terms have settled."""
-        ...
-
-    @property
-    def wanted_traction(self) -> float | None:
-        """T_l that is asked for [N/mm]; None where none is."""
-        ...
-
-
-class Refined(Protocol):
-    """A last solution, as far as its verdict asks."""
-
-    @property
-    def attempt(self) -> FoundSolution:
-        """The solution on the finest mesh."""
-        ...
-
-    @property
-    def figures(self) -> SheetFigures:
-        """Its figures."""
-        ...
-
-    @property
-    def errors(self) -> SheetFigures:
-        """Their estimated errors."""
-        ...
-
-    @property
-    def residual(self) -> float:
-        """How badly it violates the conditions."""
-        ...
 
 
 def half_width_with_sheet(nip: Nip, half_width: float) -> float:
@@ -98,7 +61,7 @@ def require_torque(nip: Nip, share: float = _CLEARLY) -> None:
         raise InvalidInputError(_slips_through("torque_lower", "upper", upper, limit))
 
 
-def require_grip(nip: Nip, refined: Refined) -> None:
+def require_grip(nip: Nip, refined: Refined[AnyAttempt]) -> None:
     """Raise where an interface is asked to carry more than friction can."""
     sheet, load = nip.sheet, refined.figures.load
     assert sheet is not None
@@ -141,7 +104,9 @@ def _slips_through(name: str, side: str, pull: float, limit: float) -> str:
     )
 
 
-def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tuple[bool, str]:
+def sheet_verdict(
+    nip: Nip, model: Model, refined: Refined[AnyAttempt], final: Round
+) -> tuple[bool, str]:
     """Return whether the solution is valid, and what to do; if it is, the words up to it."""
     if not refined.attempt.settled:
         if not isfinite(refined.residual):
@@ -173,7 +138,7 @@ def sheet_verdict(nip: Nip, model: Model, refined: Refined, final: Round) -> tup
     )
 
 
-def creepage_errors(nip: Nip, refined: Refined) -> tuple[float, float]:
+def creepage_errors(nip: Nip, refined: Refined[AnyAttempt]) -> tuple[float, float]:
     """Return the estimated errors of both creepages against the sheet, relative."""
     upper, lower = (refined.errors.values[5:7] / scales(nip, refined.figures)[5:7]).tolist()
     return upper, lower

@@ -11,6 +11,7 @@ from rollnip._largest import largest
 from rollnip.contact import ContactState, State
 from rollnip.nip import Nip
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.system import SIGNS
 
 Array = NDArray[np.float64]
@@ -20,12 +21,24 @@ OUTSIDE = np.array([0.003, 0.01, 0.03, 0.1, 0.3])
 _OF_SLOPE = 0.05  # of the nip's slope: the least creepage that slip is measured by
 
 
-def scale_of_slip(nip: Nip, width: float, creepage: float) -> float:
-    """Return what slip is measured by: the creepage, or a twentieth of the nip's slope if more."""
-    return max(_OF_SLOPE * 0.5 * width * nip.curvature, abs(creepage))
+def violation(attempt: AnyAttempt) -> float:
+    """Return how badly a solution violates the conditions of friction, relative.
+
+    Slip is measured by the creepage, or a twentieth of the nip's slope if more.
+    """
+    problem, state = attempt.problem, attempt.state
+    slope = 0.5 * attempt.zones.width * problem.nip.curvature
+    scale = max(_OF_SLOPE * slope, abs(sum(state.creepages)))
+    sides = zip(problem.meshes, attempt.creeps, problem.frictions, strict=True)
+    return largest(
+        *(
+            _violation_on(mesh, state.side(side), creep, friction, scale)
+            for side, (mesh, creep, friction) in enumerate(sides)
+        )
+    )
 
 
-def violation_of_friction(
+def _violation_on(
     mesh: Mesh, state: ContactState, creep: Array, friction: float, creepage: float
 ) -> float:
     """Return how badly one interface violates the conditions of friction, relative.

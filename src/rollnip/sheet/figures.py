@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from rollnip.model import Geometry
 from rollnip.nip import Nip
 from rollnip.rolling import Figures
-from rollnip.rolling.round import peak_pressure, scale_of_creepage
-from rollnip.sheet.powers import SheetPowers, sheet_powers
-from rollnip.sheet.search import SheetAttempt
-from rollnip.sheet.system import SheetMesh, frictions_of
+from rollnip.rolling.round import scale_of_creepage
+from rollnip.sheet.attempt import AnyAttempt
+from rollnip.sheet.powers import SheetPowers
+from rollnip.sheet.system import frictions_of
 
 Array = NDArray[np.float64]
 
@@ -38,31 +38,36 @@ class SheetFigures:
     values: Array
 
     @classmethod
-    def of(cls, attempt: SheetAttempt, geometry: str) -> SheetFigures:
-        """Return the figures of a solution."""
-        problem, state = attempt.problem, attempt.state
-        mesh = problem.mesh
-        peak, place = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
-        tension = problem.tension_at(state)
-        strain = strain_at(attempt)
-        spent = sheet_powers(problem, geometry, state, attempt.lagged)  # type: ignore[arg-type]
-        weights = mesh.weights
+    def of(
+        cls,
+        attempt: AnyAttempt,
+        powers: SheetPowers,
+        peak: tuple[float, float],
+        tension: tuple[float, float],
+        strain: float,
+    ) -> SheetFigures:
+        """Return the figures of a solution, with width and pressure of the upper interface.
+
+        Parameters
+        ----------
+        attempt, powers : the solution, and its torques and losses.
+        peak : the highest pressure and its place.
+        tension : the largest and the smallest one.
+        strain : the largest in size.
+        """
+        meshes, state = attempt.problem.meshes, attempt.state
+        sides = state.side(0), state.side(1)
+        tractions = [float(m.weights @ one.shear) for m, one in zip(meshes, sides, strict=True)]
         first = [
             state.approach,
-            float(weights @ state.pressure) - attempt.lagged.lean,
-            state.creepage + state.creepage_lower,
+            float(meshes[0].weights @ sides[0].pressure) - attempt.lagged.lean,
+            sum(state.creepages),
             attempt.zones.width,
-            peak,
-            state.creepage,
-            state.creepage_lower,
-            float(weights @ state.shear),
-            float(weights @ state.shear_lower),
-            largest_of(mesh, tension),
-            -largest_of(mesh, -tension),
+            peak[0],
         ]
-        widest = 1.0 if strain.max() > -strain.min() else -1.0
-        last = [place, widest * largest_of(mesh, widest * strain)]
-        return cls(np.array([*first, *spent.array().tolist(), *last]))
+        spent = powers.array().tolist()
+        every = [*first, *state.creepages, *tractions, *tension, *spent, peak[1], strain]
+        return cls(np.array(every))
 
     def __getattr__(self, name: str) -> float:
         if name in NAMES:
@@ -97,23 +102,6 @@ ALIKE = tuple(
     )
 )
 """Figures of one kind: what a mesh leaves of one of them, it may leave of the others."""
-
-
-def largest_of(mesh: SheetMesh, values: Array) -> float:
-    """Return the largest of values at ``mesh.inner``, between nodes too.
-
-    At an edge strains turn as the root of the pressure does, which is smooth in the number of the
-    node, as tractions are, and not in x.
-    """
-    return peak_pressure(mesh.fine.nodes[1:-1], mesh.between(values))[0]
-
-
-def strain_at(attempt: SheetAttempt) -> Array:
-    """Return the strain of the sheet at the nodes, (n,)."""
-    problem, state = attempt.problem, attempt.state
-    sheet = problem.sheet
-    tension = sheet.stretch_by_tension * problem.tension_at(state)
-    return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
 
 
 def ratio(nip: Nip, figures: SheetFigures, errors: SheetFigures) -> float:

@@ -1,57 +1,75 @@
-"""A sheet that bends freely, as the iterations at finite strain of all orders require it."""
+"""A sheet that bends freely, as a kind of sheet."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.model import Model
-from rollnip.nip import Nip
-from rollnip.rolling import PairKernels, stretch_excess
-from rollnip.rolling.elements import Acting
-from rollnip.sheet.all_orders import COARSE
+from rollnip.model import Geometry, Model
+from rollnip.nip import Creepage, Nip
+from rollnip.rolling import PairKernels
+from rollnip.rolling.round import peak_pressure
+from rollnip.sheet.factorised import Factorised
 from rollnip.sheet.figures import SheetFigures
-from rollnip.sheet.lagged import change_of, lagged_terms, missed
-from rollnip.sheet.powers import smooth_works
-from rollnip.sheet.refine import (
-    LAST_CLOSELY,
-    SheetRefined,
-    refine_sheet,
-    residual_of,
-    with_errors_of_powers,
-)
-from rollnip.sheet.search import SheetAttempt, SheetSearch
+from rollnip.sheet.lagged import change_of, lagged_terms, missed, path_turn, pulls_of, sheet_rate
+from rollnip.sheet.powers import Pulls, sheet_powers
+from rollnip.sheet.search import SheetAttempt, SheetSearch, overlap
+from rollnip.sheet.system import SheetMesh
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, slots=True)
 class Membrane:
-    """Solutions of one nip with a sheet that bends freely."""
+    """A nip with a sheet that bends freely: both interfaces have one contact and one pressure."""
 
     nip: Nip
 
-    def begun(self, model: Model, kernels: PairKernels, half_width: float) -> SheetAttempt:
-        """Return a solution of a coarse contact, from no other one."""
-        search = SheetSearch(self.nip, model, kernels)
-        attempt = search.begun(half_width, COARSE)
-        return search.placed(attempt.zones, COARSE, attempt)
+    def search(self, model: Model, kernels: PairKernels) -> SheetSearch:
+        """Return the search for its zones."""
+        return SheetSearch(self.nip, model, kernels)
 
-    def placed(
-        self, model: Model, kernels: PairKernels, before: SheetAttempt, count: int
-    ) -> SheetAttempt:
-        """Return the solution on a mesh of some size, from one before."""
-        search = SheetSearch(self.nip, model, kernels)
-        return search.placed(before.zones, count, before, LAST_CLOSELY)
+    @property
+    def bending_length(self) -> float:
+        """Length over which the sheet bends: it bends freely."""
+        return inf
 
-    def refined(
-        self, model: Model, kernels: PairKernels, before: SheetAttempt
-    ) -> tuple[SheetRefined, SheetAttempt, int]:
-        """Return the refined solution, and its last mesh and size."""
-        found = refine_sheet(self.nip, model, kernels, 0.5 * before.zones.width, before)
-        return found, found.attempt, found.count
+    def peaks_allowed(self, model: Model) -> tuple[float]:
+        """Return the relative error that is allowed of the highest pressure."""
+        return (model.tolerance,)
+
+    def figures(self, attempt: SheetAttempt, geometry: Geometry) -> tuple[SheetFigures]:
+        """Return the figures of a solution."""
+        problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
+        peak = peak_pressure(mesh.fine.nodes[1:-1], mesh.between(state.pressure))
+        tension, strain = problem.tension_at(state), strain_at(attempt)
+        widest = 1.0 if strain.max() > -strain.min() else -1.0
+        into_sheet = _into_sheet(attempt, geometry)
+        return (
+            SheetFigures.of(
+                attempt,
+                sheet_powers(attempt, geometry, self.pulls(attempt, geometry), into_sheet),
+                peak,
+                (_largest_of(mesh, tension), -_largest_of(mesh, -tension)),
+                widest * _largest_of(mesh, widest * strain),
+            ),
+        )
+
+    def pulls(self, attempt: SheetAttempt, geometry: Geometry) -> Pulls:
+        """Return int q lambda ds of either roller [N/mm]."""
+        problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
+        u = mesh.displacements(state)
+        whole = smooth = pulls_of(problem, geometry, state, mesh.uncut(u))
+        if mesh.held is not None:
+            smooth = pulls_of(problem, geometry, state, u)
+        return tuple(zip(whole, smooth, strict=True))
+
+    def overlap(self, attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+        """Return how far surfaces and sheet overlap outside the contact, and tension, relative."""
+        return overlap(attempt, kernels, geometry)
 
     def holding(self, attempt: SheetAttempt, kernels: PairKernels) -> SheetAttempt:
         """Return a solution whose terms are those with other corrections; ``change`` says how."""
@@ -60,48 +78,55 @@ class Membrane:
         change = change_of(lagged, attempt.lagged, problem, attempt.state)
         return replace(attempt, problem=problem, lagged=lagged, change=change)
 
-    def sides(self, attempt: SheetAttempt) -> tuple[Acting, Acting]:
-        """Return the tractions of the upper and of the lower roller."""
-        mesh, state = attempt.problem.mesh, attempt.state
-        nodes, pressure = mesh.fine.nodes, mesh.acting(state.pressure)
-        above, below = (mesh.acting(shear) for shear in state.shears)
-        return (nodes, pressure, above), (nodes, pressure, -below)
-
-    def creepage(self, attempt: SheetAttempt) -> float:
-        """Return the creepage of the upper roller against the lower one."""
-        return attempt.state.creepage + attempt.state.creepage_lower
-
-    def edges(self, attempt: SheetAttempt) -> tuple[float, float]:
-        """Return the edges of the contact [mm]."""
-        return attempt.zones.edges
-
-    def strain(self, attempt: SheetAttempt) -> float:
-        """Return the largest strain of either surface in the contact, mean over an element."""
-        mesh = attempt.problem.mesh
-        x, u = mesh.fine.nodes[1:], mesh.finer(mesh.displacements(attempt.state))
-        touching = mesh.acting(attempt.state.pressure) > 0.0
-        strains = np.abs(stretch_excess(x, self.nip, "finite", u) / np.diff(x))
-        return float(strains[:, touching].max(initial=0.0))
-
     def missed(self, attempt: SheetAttempt, other: SheetAttempt) -> float:
         """Return how badly a solution violates its conditions with the terms of the other one."""
         return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
 
-    def with_residual(
-        self, refined: SheetRefined, attempt: SheetAttempt, kernels: PairKernels, left: float
-    ) -> tuple[SheetRefined, float]:
-        """Return a refined solution on its last mesh, and how badly it violates its conditions.
 
-        ``left``: how badly those of gap and creep.
-        """
-        left = max(left, residual_of(attempt, kernels, "finite"))
-        figures = SheetFigures.of(attempt, "finite")
-        found = replace(refined, attempt=attempt, figures=figures, residual=left)
-        return with_errors_of_powers(found, "finite"), left
+def strain_at(attempt: SheetAttempt) -> Array:
+    """Return the strain of the sheet at the nodes, (n,)."""
+    problem, state, sheet = attempt.problem, attempt.state, attempt.problem.sheet
+    tension = sheet.stretch_by_tension * problem.tension_at(state)
+    return np.asarray(tension + sheet.stretch_by_pressure * state.pressure)
 
-    def with_cut(self, refined: SheetRefined, cut: float) -> SheetRefined:
-        """Return a refined solution with what the correction leaves out."""
-        attempt, figures = refined.attempt, refined.figures
-        (upper, _), (lower, _) = smooth_works(attempt.problem, attempt.state, attempt.lagged)
-        losses = abs(figures.friction_upper - upper), abs(figures.friction_lower - lower)
-        return replace(refined, cut=cut, cut_losses=losses)
+
+def _largest_of(mesh: SheetMesh, values: Array) -> float:
+    """Return the largest of values at ``mesh.inner``, between nodes too.
+
+    At an edge strains turn as the root of the pressure does, which is smooth in the number of the
+    node, as tractions are, and not in x.
+    """
+    return peak_pressure(mesh.fine.nodes[1:-1], mesh.between(values))[0]
+
+
+def _into_sheet(attempt: SheetAttempt, geometry: Geometry) -> float:
+    """Return the power of the shears on the faces of the sheet over V [N/mm].
+
+    Its faces run at V_s (1 + e -+ h kappa/2). "linear" leaves out products of creepage and strain.
+    """
+    problem, state, mesh = attempt.problem, attempt.state, attempt.problem.mesh
+    above, below = problem.sheared(state, 0), problem.sheared(state, 1)
+    pushed, sheared = above - below, above + below
+    strain = (problem.strain_over(state) / mesh.dx)[:-1]
+    rate = sheet_rate(*state.creepages)
+    taken = rate * float(pushed.sum())
+    if geometry == "linear":
+        return taken + float(pushed @ strain)
+    turn = path_turn(problem, mesh.displacements(state))[:-1] / mesh.dx[:-1]
+    bent = 0.5 * problem.sheet.thickness * float(sheared @ turn)
+    return taken + rate * (float(pushed @ strain) - bent)
+
+
+def traction_slope(attempt: SheetAttempt) -> float:
+    """Return how fast both tractions grow with the creepage, where the same nodes stick [N/mm].
+
+    An error of the creepage at a given traction is one of the traction at a given creepage, as
+    without a sheet.
+    """
+    tractions = []
+    for creepage in (0.0, 1.0):  # the tractions are linear in it
+        nip = replace(attempt.problem.nip, tangential=Creepage(creepage))
+        problem = replace(attempt.problem, nip=nip)
+        found = Factorised.of(problem, attempt.state.both_states).solved(attempt.lagged)
+        tractions.append(float(problem.mesh.weights @ found.shear_lower))
+    return abs(tractions[1] - tractions[0])

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import Inequalities, State, States, interior_point
 from rollnip.nip import Creepage, LineLoad
+from rollnip.sheet.factorised import Factorised
 from rollnip.sheet.system import Lagged, SheetProblem, SheetState
 
 Array = NDArray[np.float64]
@@ -59,7 +60,7 @@ def slipping(
     """
     tried: set[bytes] = set()
     for steps in range(1, state.states.size):
-        creeps = problem.gap_and_creeps(state, lagged)[1:]
+        creeps = problem.creeps(state, lagged)
         wanted = next_slip(problem, state, creeps, slack)
         if steps > 1 and np.array_equal(wanted, state.both_states):
             return replace(state, steps=steps)
@@ -67,14 +68,16 @@ def slipping(
             return None
         tried.add(wanted.tobytes())
         try:
-            state = problem.solve(wanted, lagged)
+            state = Factorised.of(problem, wanted).solved(lagged)
         except np.linalg.LinAlgError:  # nothing is left that sticks
             return None
     return None
 
 
-def next_slip(problem: SheetProblem, state: SheetState, creeps: Array, slack: float) -> States:
-    """Return the states of both interfaces that creep (2, n) and shear call for; (2, n).
+def next_slip(
+    problem: SheetProblem, state: SheetState, creeps: tuple[Array, Array], slack: float
+) -> States:
+    """Return the states of both interfaces that creep and shear call for; (2, n).
 
     Free nodes and those under tension keep theirs. Within ``slack`` of the highest pressure's
     bound a node keeps its state.

@@ -9,6 +9,7 @@ against its tensions and the elastic energy that it carries away.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import astuple, dataclass
 
 import numpy as np
@@ -16,12 +17,15 @@ from numpy.typing import NDArray
 
 from rollnip.contact import State, States
 from rollnip.model import Geometry
+from rollnip.rollers import SIDES
 from rollnip.rolling.assemble import loss_inside, moment
 from rollnip.rolling.power_balance import Powers, rates_of, slip_losses
-from rollnip.sheet.lagged import path_turn, pulls_of, sheet_rate
-from rollnip.sheet.system import Lagged, SheetProblem, SheetState
+from rollnip.sheet.attempt import AnyAttempt
 
 Array = NDArray[np.float64]
+Pulls = Sequence[tuple[float, float]]
+"""int q lambda ds of either roller [N/mm]: with all short waves, and without those that the contact
+does not follow."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -61,76 +65,65 @@ class SheetPowers:
 
 
 def sheet_powers(
-    problem: SheetProblem, geometry: Geometry, state: SheetState, lagged: Lagged
+    attempt: AnyAttempt, geometry: Geometry, pulls: Pulls, into_sheet: float
 ) -> SheetPowers:
     """Return torques over radii and losses of a solution."""
-    nip, mesh = problem.nip, problem.mesh
-    pulls = pulls_of(problem, geometry, state, mesh.uncut(mesh.displacements(state)))
+    problem, state = attempt.problem, attempt.state
     lost = [
-        loss_inside("upper", nip, geometry, mesh, state),
-        loss_inside("lower", nip, geometry, mesh, state.side(1)),
+        loss_inside(name, problem.nip, geometry, problem.meshes[side], state.side(side))
+        for side, name in enumerate(SIDES)
     ]
-    friction = [lost for lost, _ in slip_works(problem, geometry, state, lagged, pulls)]
+    friction = [lost for lost, _ in slip_works(attempt, geometry, pulls)]
     return SheetPowers(
         friction_upper=friction[0],
         friction_lower=friction[1],
         lost_upper=lost[0],
         lost_lower=lost[1],
-        pull_upper=pulls[0],
-        pull_lower=pulls[1],
-        into_sheet=_into_sheet(problem, geometry, state),
+        pull_upper=pulls[0][0],
+        pull_lower=pulls[1][0],
+        into_sheet=into_sheet,
     )
 
 
-def slip_works(
-    problem: SheetProblem,
-    geometry: Geometry,
-    state: SheetState,
-    lagged: Lagged,
-    pulls: tuple[float, float],
-) -> list[tuple[float, float]]:
+def slip_works(attempt: AnyAttempt, geometry: Geometry, pulls: Pulls) -> list[tuple[float, float]]:
     """Return what slip on either interface loses, and its work along its own shear [N/mm].
 
     Short waves that the contact does not follow change the stretch, and by it what the shear of a
-    surface hands over; the loss changes by as much. ``pulls``: see `pulls_of`, with these waves.
+    surface hands over; the loss changes by as much.
     """
-    works = smooth_works(problem, state, lagged)
-    if problem.mesh.held is None:
-        return works
-    out = []
-    smooth = pulls_of(problem, geometry, state, problem.mesh.displacements(state))
-    for side, (sign, rate) in enumerate(zip((1.0, -1.0), rates(geometry, state), strict=True)):
-        lost = works[side][0] + sign * rate * (pulls[side] - smooth[side])
-        out.append((max(lost, 0.0), works[side][1] + max(-lost, 0.0)))
+    rates, out = rates_of(geometry, sum(attempt.state.creepages)), []
+    for side, ((lost, reversed_slip), sign) in enumerate(
+        zip(smooth_works(attempt), (1.0, -1.0), strict=True)
+    ):
+        whole, smooth = pulls[side]
+        lost += sign * rates[side] * (whole - smooth)
+        out.append((max(lost, 0.0), reversed_slip + max(-lost, 0.0)))
     return out
 
 
-def smooth_works(
-    problem: SheetProblem, state: SheetState, lagged: Lagged
-) -> list[tuple[float, float]]:
+def smooth_works(attempt: AnyAttempt) -> list[tuple[float, float]]:
     """Return the same of the creep that the contact follows [N/mm]."""
-    creeps, out = problem.gap_and_creeps(state, lagged)[1:], []
-    for side in (0, 1):
-        sheared = -np.diff(problem.tension @ state.shears[side])  # int q ds over each interval
-        rate = creeps[side, :-1] / problem.mesh.dx[:-1]
-        out.append(slip_losses(sheared * rate, slip_zones(state.both_states[side])))
+    problem, state, out = attempt.problem, attempt.state, []
+    for side, mesh in enumerate(problem.meshes):
+        work = problem.sheared(state, side) * (attempt.creeps[side][:-1] / mesh.dx[:-1])
+        out.append(slip_losses(work, slip_zones(state.side(side).states)))
     return out
 
 
-def off_the_moments(
-    problem: SheetProblem, geometry: Geometry, state: SheetState, spent: SheetPowers
-) -> Array:
+def off_the_moments(attempt: AnyAttempt, spent: SheetPowers) -> Array:
     """Return by how much torques differ from moments of the tractions, over the radii, (2,) [N/mm].
 
-    In equilibrium they are the same. Both come from the displacements of finite elements, and a
-    stretch of several times beside a slipping edge is less well known than the height there.
+    In equilibrium of all orders they are the same. Both come from the displacements of finite
+    elements, and a stretch of several times beside a slipping edge is less well known than the
+    height there.
     """
-    mesh, bare = problem.mesh, spent.as_bare
-    u = mesh.uncut(mesh.displacements(state))
-    driving = np.array([bare.driving_upper, bare.driving_lower])
-    upper = moment("upper", problem.nip, geometry, mesh, state, u)
-    lower = moment("lower", problem.nip, geometry, mesh, state.side(1), u)
-    return np.asarray(np.abs(driving - [upper, lower]))
+    problem, state, out = attempt.problem, attempt.state, np.zeros(2)
+    driving = spent.as_bare.driving_upper, spent.as_bare.driving_lower
+    for side, mesh in enumerate(problem.meshes):
+        u = mesh.uncut(problem.displacements(state, side))
+        turning = moment(SIDES[side], problem.nip, "finite", mesh, state.side(side), u)
+        out[side] = abs(driving[side] - turning)
+    return out
 
 
 def slip_zones(states: States) -> list[NDArray[np.bool_]]:
@@ -144,26 +137,3 @@ def slip_zones(states: States) -> list[NDArray[np.bool_]]:
     zone = np.cumsum(~slips)[:-1]  # the same number from one node that does not slip to the next
     slips = slips[:-1] & (states[1:] != State.FREE)
     return [slips & (zone == number) for number in np.unique(zone[slips])]
-
-
-def _into_sheet(problem: SheetProblem, geometry: Geometry, state: SheetState) -> float:
-    """Return the power of the shears on the faces of the sheet over V [N/mm].
-
-    Its faces run at V_s (1 + e -+ h kappa/2). "linear" leaves out products of creepage and strain.
-    """
-    mesh = problem.mesh
-    above, below = -np.diff(problem.tension @ state.shears.T, axis=0).T
-    pushed, sheared = above - below, above + below
-    strain = (problem.strain_over(state) / mesh.dx)[:-1]
-    rate = sheet_rate(state.creepage, state.creepage_lower)
-    taken = rate * float(pushed.sum())
-    if geometry == "linear":
-        return taken + float(pushed @ strain)
-    turn = path_turn(problem, mesh.displacements(state))[:-1] / mesh.dx[:-1]
-    bent = 0.5 * problem.sheet.thickness * float(sheared @ turn)
-    return taken + rate * (float(pushed @ strain) - bent)
-
-
-def rates(geometry: Geometry, state: SheetState) -> tuple[float, float]:
-    """Return the speeds of both rollers over V, to the order of the model."""
-    return rates_of(geometry, state.creepage + state.creepage_lower)

@@ -14,7 +14,6 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip._largest import largest
 from rollnip.contact import (
     Layout,
     State,
@@ -33,19 +32,15 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.attempt import Attempt
-from rollnip.sheet.conditions import (
-    OUTSIDE,
-    scale_of_slip,
-    violation_of_friction,
-    violation_outside,
-)
+from rollnip.sheet.conditions import OUTSIDE, violation, violation_outside
+from rollnip.sheet.factorised import Factorised
+from rollnip.sheet.kind import FIRST_SIZE
 from rollnip.sheet.lagged import change_of, first_lagged, has_none, lagged_terms
 from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.node_by_node import next_slip, slipping, solve_node_by_node
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import (
-    Factorised,
     Lagged,
     SheetMesh,
     SheetProblem,
@@ -58,8 +53,6 @@ from rollnip.sheet.zones import Zones
 Array = NDArray[np.float64]
 Mask = NDArray[np.bool_]
 
-FIRST_SIZE = 24
-"""Elements of the first size of mesh."""
 _LEAST_SHARE = FEWEST_ELEMENTS_OF_A_ZONE / FIRST_SIZE  # so every zone is refined from size to size
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
@@ -75,14 +68,8 @@ _STILL = 0.1  # of the tolerance: last change of the lagged terms
 SHORTEST_LAYER = 1e-3  # over the width: the shortest boundary layer that nodes crowd for
 
 
-@dataclass(frozen=True)
-class SheetAttempt(Attempt[Zones, SheetProblem, SheetState, Lagged]):
-    """A solution between the ends of the zones of a sheet."""
-
-    @cached_property
-    def creeps(self) -> Array:
-        """Return the creep of both interfaces over each interval, (2, n) [mm]."""
-        return self.problem.gap_and_creeps(self.state, self.lagged)[1:]
+SheetAttempt = Attempt[Zones, SheetProblem, SheetState, Lagged]
+"""A solution between the ends of the zones of a sheet that bends freely."""
 
 
 @dataclass(frozen=True)
@@ -319,20 +306,6 @@ class _ZonesCalledFor:
     def sides(self) -> tuple[Layout, Layout]:
         """Return the zones of both interfaces that they make; its own where these are others."""
         return (self._found or self.attempt.zones).sides
-
-
-def violation(attempt: SheetAttempt) -> float:
-    """Return how badly a solution violates the conditions of friction, relative."""
-    state, problem = attempt.state, attempt.problem
-    creepage = state.creepage + state.creepage_lower
-    scale = scale_of_slip(problem.nip, attempt.zones.width, creepage)
-    sides = zip(attempt.creeps, problem.frictions, strict=True)
-    return largest(
-        *(
-            violation_of_friction(problem.mesh, state.side(side), creep, friction, scale)
-            for side, (creep, friction) in enumerate(sides)
-        )
-    )
 
 
 def overlap(attempt: SheetAttempt, kernels: PairKernels, geometry: Geometry) -> float:

@@ -18,6 +18,7 @@ from rollnip.nip import Creepage, Torque, Traction
 from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, Powers, Round, claims, stretch_excess, surface_depths
 from rollnip.rolling.claimed_errors import SHARE_OF_CUT, power_left
+from rollnip.rolling.power_balance import rates_of
 from rollnip.rolling.surfaces import pair_displacements
 from rollnip.sheet.bending import bending_length
 from rollnip.sheet.common import not_prescribed
@@ -25,8 +26,9 @@ from rollnip.sheet.figures import NAMES, SheetFigures, scales, shares_of_model
 from rollnip.sheet.freely import left_by_bending_freely, wrapped_length
 from rollnip.sheet.grip import grip_error, grip_of
 from rollnip.sheet.lagged import sheet_rate
-from rollnip.sheet.powers import SheetPowers, rates
-from rollnip.sheet.refine import SheetRefined, traction_slope
+from rollnip.sheet.membrane import traction_slope
+from rollnip.sheet.powers import SheetPowers
+from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import (
     SheetProfiles,
     SheetResult,
@@ -35,6 +37,7 @@ from rollnip.sheet.result import (
     slip_share_of,
     zones_of,
 )
+from rollnip.sheet.search import SheetAttempt
 from rollnip.sheet.squeeze import squeezed
 from rollnip.sheet.system import SheetState, frictions_of, sheet_displacements
 from rollnip.smooth import SmoothSolution
@@ -55,7 +58,7 @@ class SheetSolution(SmoothSolution):
     refined : the solution on the finest mesh and the estimated errors.
     """
 
-    refined: SheetRefined = field(kw_only=True, repr=False, compare=False)
+    refined: Refined[SheetAttempt] = field(kw_only=True, repr=False, compare=False)
 
     @property
     def sheet(self) -> SheetResult:
@@ -86,7 +89,7 @@ class SheetSolution(SmoothSolution):
         if self.nip.speed is None:
             return None
         axles, upper, lower = self._spent.as_bare, self._figure("traction_upper"), self.traction
-        rate = rates(self.model.geometry, self._state)
+        rate = rates_of(self.model.geometry, self.creepage)
         creep = 0.5 * self.creepage if self.model.geometry == "linear" else 0.0
         work = rate[0] * axles.driving_upper + rate[1] * axles.driving_lower
         return self.nip.speed * (work + creep * (upper + lower))
@@ -203,12 +206,14 @@ class SheetSolution(SmoothSolution):
     @property
     def on_lower_side(self) -> tuple[float, float]:
         """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
-        return self.nip_width, self.peak_pressure
+        figures = self.refined.lower
+        return figures.nip_width, figures.peak_pressure
 
     @property
     def _lower_errors(self) -> tuple[float, float]:
         """Estimated errors of ``on_lower_side``."""
-        return self._errors["nip_width"], self._errors["peak_pressure"]
+        mine = self._claimed(self.refined.lower, self.refined.lower_errors)
+        return mine["nip_width"], mine["peak_pressure"]
 
     def sheet_errors(self) -> dict[str, float]:
         """Return the errors of the figures of the sheet, by their names."""

@@ -30,8 +30,9 @@ from rollnip.sheet.common import (
 )
 from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.solved import longest_freely, solve_plate
-from rollnip.sheet.refine import SheetRefined, refine_sheet
+from rollnip.sheet.refine import Refined, refine
 from rollnip.sheet.said import with_errors_said
+from rollnip.sheet.search import SheetAttempt
 from rollnip.sheet.solution import SheetSolution
 from rollnip.validity import StrainSizes, validity_reservations
 
@@ -128,7 +129,7 @@ def _bending_freely(
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, SheetRefined, tuple[Reservation, ...]]:
+) -> tuple[Model, PairKernels, Refined[SheetAttempt], tuple[Reservation, ...]]:
     """Return the model solved, influence functions, the solution, and why it is another model."""
     left: list[Geometry] = []
     while True:
@@ -160,21 +161,23 @@ def _none_found(nip: Nip) -> str:
     return "No solution with this sheet was found; try a larger load or other tensions."
 
 
-def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, SheetRefined] | None:
+def _attempt(
+    nip: Nip, model: Model, cache: KernelCache
+) -> tuple[PairKernels, Refined[SheetAttempt]] | None:
     """Return influence functions and the solution in one geometry; None where there is none."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     half_width = half_width_with_sheet(nip, half_width)
     if model.geometry == "finite":
-        return solve_by_iteration(nip, model, kernels, Membrane(nip), half_width)
+        return solve_by_iteration(Membrane(nip), model, kernels, half_width)
     try:
-        return kernels, refine_sheet(nip, model, kernels, half_width)
+        return kernels, refine(Membrane(nip), model, kernels, half_width)
     except np.linalg.LinAlgError:
         return None
 
 
-def as_round(nip: Nip, refined: SheetRefined) -> Round:
+def as_round(nip: Nip, refined: Refined[SheetAttempt]) -> Round:
     """Return a solution as the round of a bare nip, with the shear of the upper side."""
     attempt, figures = refined.attempt, refined.figures
     mesh, n = attempt.problem.mesh, attempt.problem.mesh.inner.size
@@ -210,7 +213,7 @@ def as_round(nip: Nip, refined: SheetRefined) -> Round:
     )
 
 
-def _reservations(nip: Nip, refined: SheetRefined) -> tuple[Reservation, ...]:
+def _reservations(nip: Nip, refined: Refined[SheetAttempt]) -> tuple[Reservation, ...]:
     """Return reservations on the sheet."""
     length = spreading_length(nip)
     share = length / refined.figures.nip_width

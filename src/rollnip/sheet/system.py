@@ -25,10 +25,9 @@ from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import lapack
 
-from rollnip.contact import ContactState, State, States, Subdivision
-from rollnip.nip import Creepage, LineLoad, Nip
+from rollnip.contact import ContactState, States, Subdivision
+from rollnip.nip import Nip
 from rollnip.rolling import Displacements, PairKernels
 from rollnip.rolling.displacements import SecondFields
 from rollnip.rolling.surfaces import Mesh
@@ -56,6 +55,11 @@ class SheetState(ContactState):
     states_lower: States
     shear_lower: Array
     creepage_lower: float
+
+    @property
+    def creepages(self) -> tuple[float, float]:
+        """Return (V_u - V_s)/V and (V_s - V_l)/V."""
+        return self.creepage, self.creepage_lower
 
     @property
     def shears(self) -> Array:
@@ -229,6 +233,11 @@ class SheetProblem:
         """Return the lengths of the intervals [mm], (n,)."""
         return self.mesh.dx
 
+    @property
+    def meshes(self) -> tuple[SheetMesh, SheetMesh]:
+        """Return the mesh of either interface, which is the same."""
+        return self.mesh, self.mesh
+
     @cached_property
     def path(self) -> SheetPath:
         """The path of the sheet on this mesh."""
@@ -262,131 +271,20 @@ class SheetProblem:
         made[2] += state.creepage_lower * self.dx
         return np.asarray(made)
 
-    def solve(self, states: States, lagged: Lagged, *, steps: int = 1) -> SheetState:
-        """Solve the linear system that given states of both interfaces make.
+    def creeps(self, state: SheetState, lagged: Lagged) -> tuple[Array, Array]:
+        """Return the creep of either interface over each interval, each (n,) [mm]."""
+        _, upper, lower = self.gap_and_creeps(state, lagged)
+        return upper, lower
 
-        ``states``: (2, n). No condition is checked.
+    def sheared(self, state: SheetState, side: int) -> Array:
+        """Return int q ds over the intervals of one interface but the last, (n - 1,) [N/mm]."""
+        return np.asarray(-np.diff(self.tension @ state.shears[side]))
 
-        Raises
-        ------
-        numpy.linalg.LinAlgError
-            where the states leave the system singular.
-        """
-        return Factorised.of(self, states).solved(lagged, steps=steps)
-
-
-@dataclass(frozen=True, slots=True)
-class Factorised:
-    """The linear system that given states make, factorised."""
-
-    problem: SheetProblem
-    states: States
-    factors: Array
-    pivots: NDArray[np.intp]
-
-    @classmethod
-    def of(cls, problem: SheetProblem, states: States) -> Factorised:
-        """Factorise the system for given states (2, n)."""
-        factors, pivots, info = lapack.dgetrf(_matrix(problem, states).T, overwrite_a=1)
-        if info != 0:
-            raise np.linalg.LinAlgError("Singular matrix")
-        return cls(problem, states, factors, pivots)
-
-    def solved(self, lagged: Lagged, *, steps: int = 1) -> SheetState:
-        """Return the solution for these states."""
-        problem, states = self.problem, self.states
-        unknowns, info = lapack.dgetrs(
-            self.factors, self.pivots, _right_side(problem, states, lagged), trans=1
-        )
-        assert info == 0
-        contact, sticks = _places(states)
-        n, n_c = states.shape[1], contact.size
-        pressure = np.zeros(n)
-        pressure[contact] = unknowns[:n_c]
-        shears = _ratios(problem, states) * pressure
-        shears.reshape(-1)[sticks] = unknowns[n_c:-3]
-        approach, creepage, lower = unknowns[-3:].tolist()
-        return SheetState(
-            states=states[0],
-            pressure=pressure,
-            shear=shears[0],
-            approach=approach,
-            creepage=creepage,
-            steps=steps,
-            settled=True,
-            states_lower=states[1],
-            shear_lower=shears[1],
-            creepage_lower=lower,
-        )
+    def displacements(self, state: SheetState, _: int = 0) -> Displacements:
+        """Return the displacements of both rollers at nodes[1:]."""
+        return self.mesh.displacements(state)
 
 
 def frictions_of(nip: Nip) -> tuple[float, float]:
     """Return the friction coefficients of the sheet on the upper and on the lower roller."""
     return nip.friction_on("upper"), nip.friction_on("lower")
-
-
-def _places(states: States) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Return the nodes in contact, and the places of sticking shears among both interfaces'."""
-    return (states[0] != State.FREE).nonzero()[0], (states == State.STICK).reshape(-1).nonzero()[0]
-
-
-def _ratios(problem: SheetProblem, states: States) -> Array:
-    """Return shear over pressure where interfaces slip, 0 elsewhere, (2, n)."""
-    return np.asarray(np.array(problem.frictions)[:, None] * SIGNS.take(states))
-
-
-def _matrix(problem: SheetProblem, states: States) -> Array:
-    """Return the matrix of gap in contact, creeps in stick, and the three prescribed quantities."""
-    n, (contact, sticks) = states.shape[1], _places(states)
-    n_c, size = contact.size, contact.size + sticks.size
-    rows = np.concatenate([contact, n + sticks])
-    ratios = _ratios(problem, states)
-    influence = problem.matrix.take(rows, axis=0)
-    for side, ratio in enumerate(ratios):
-        if ratio.any():
-            influence[:, :n] += influence[:, (1 + side) * n : (2 + side) * n] * ratio
-    matrix = np.zeros((size + 3, size + 3))
-    matrix[:size, :size] = influence.take(rows, axis=1)
-    matrix[:n_c, -3] = -1.0
-    in_upper = sticks < n
-    length = problem.dx[sticks % n]
-    matrix[n_c:size, -2] = np.where(in_upper, length, 0.0)
-    matrix[n_c:size, -1] = np.where(in_upper, 0.0, length)
-    weights = problem.mesh.weights
-    if isinstance(problem.nip.normal, LineLoad):
-        matrix[-3, :n_c] = weights[contact]
-    else:
-        matrix[-3, -3] = 1.0
-    # What the tension gains, then T_l or the sum of the creepages.
-    matrix[-2, :size] = _sums(problem.pulls, ratios[0], contact, sticks)
-    matrix[-2, :size] -= _sums(problem.pulls, ratios[1], contact, sticks - n)
-    if isinstance(problem.nip.tangential, Creepage):
-        matrix[-1, -2:] = 1.0
-    else:
-        matrix[-1, :size] = _sums(weights, ratios[1], contact, sticks - n)
-    return matrix
-
-
-def _sums(
-    weights: Array, ratio: Array, contact: NDArray[np.intp], sticks: NDArray[np.intp]
-) -> Array:
-    """Return an integral of one interface's shear per pressure and sticking shear.
-
-    ``sticks``: nodes of sticking shears; those that are none stand for shears of the other side.
-    """
-    own = (sticks >= 0) & (sticks < weights.size)
-    stuck = np.where(own, weights[np.where(own, sticks, 0)], 0.0)
-    return np.concatenate([(weights * ratio)[contact], stuck])
-
-
-def _right_side(problem: SheetProblem, states: States, lagged: Lagged) -> Array:
-    contact, sticks = _places(states)
-    right, nip = problem.right(lagged), problem.nip
-    normal, tangential = nip.normal, nip.tangential
-    load = normal.load + lagged.lean if isinstance(normal, LineLoad) else normal.approach
-    last = tangential.creepage if isinstance(tangential, Creepage) else lagged.traction
-    assert last is not None
-    pulled = problem.sheet.tension_in - problem.sheet.tension_out
-    return np.concatenate(
-        [-right[0, contact], -right[1:].reshape(-1)[sticks], [load, pulled, last]]
-    )

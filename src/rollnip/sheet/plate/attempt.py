@@ -15,12 +15,7 @@ from rollnip.model import Geometry
 from rollnip.rolling import Displacements, PairKernels, surface_depths
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.attempt import Attempt
-from rollnip.sheet.conditions import (
-    OUTSIDE,
-    scale_of_slip,
-    violation_of_friction,
-    violation_outside,
-)
+from rollnip.sheet.conditions import OUTSIDE, violation_outside
 from rollnip.sheet.plate.curved import CurvedLoad, places_along
 from rollnip.sheet.plate.sides import SIGNS
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem, PlateState
@@ -30,20 +25,6 @@ Array = NDArray[np.float64]
 
 
 PlateAttempt = Attempt[PlateZones, PlateProblem, PlateState, LaggedPlate]
-
-
-def violation(attempt: PlateAttempt) -> float:
-    """Return how badly a solution violates the conditions of friction, relative."""
-    state, problem = attempt.state, attempt.problem
-    creeps = problem.gaps_and_creeps(state, attempt.lagged)
-    scale = scale_of_slip(problem.nip, attempt.zones.width, state.creepage)
-    sides = zip(problem.meshes, problem.frictions, strict=True)
-    return largest(
-        *(
-            violation_of_friction(mesh, state.side(side), creeps[side][1], friction, scale)
-            for side, (mesh, friction) in enumerate(sides)
-        )
-    )
 
 
 def shear_over(attempt: PlateAttempt) -> float:

@@ -11,7 +11,6 @@ from rollnip._largest import largest
 from rollnip.geometry import linear_stretch
 from rollnip.model import FINITE, Geometry
 from rollnip.nip import Torque, Traction
-from rollnip.rollers import SIDES
 from rollnip.rolling import Displacements, stretch_excess, surface_depths
 from rollnip.rolling.assemble import loss_inside, mean_shear
 from rollnip.rolling.round import scale_of_creepage
@@ -35,13 +34,6 @@ def first_lagged(problem: PlateProblem) -> LaggedPlate:
 def has_none(problem: PlateProblem, geometry: Geometry) -> bool:
     """Return whether nothing depends on the solution."""
     return geometry == "linear" and not isinstance(problem.nip.tangential, Torque)
-
-
-def displacements_of(problem: PlateProblem, state: PlateState, side: int) -> Displacements:
-    """Return the displacements of one roller at nodes[1:] of its interface, to all orders kept."""
-    mesh = problem.meshes[side]
-    flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
-    return mesh.with_second(flat, state.side(side))
 
 
 def lagged_terms(
@@ -157,11 +149,6 @@ def pull_of(
     return float(lengths @ mean_shear(mesh, state.side(side)))
 
 
-def lost_inside(problem: PlateProblem, geometry: Geometry, state: PlateState, side: int) -> float:
-    """Return the heat inside one roller per distance of its surface [N/mm]."""
-    return loss_inside(SIDES[side], problem.nip, geometry, problem.meshes[side], state.side(side))
-
-
 def _clearance(
     problem: PlateProblem, geometry: Geometry, side: int, flat: Displacements, u: Displacements
 ) -> Array:
@@ -213,9 +200,9 @@ def _traction_for_torque(problem: PlateProblem, geometry: Geometry, state: Plate
     """Return T_l for which the lower torque R_l (w_l - int q_l lambda_l ds) is as prescribed."""
     nip = problem.nip
     assert isinstance(nip.tangential, Torque)
-    uncut = problem.meshes[1].uncut(displacements_of(problem, state, 1))
+    uncut = problem.meshes[1].uncut(problem.displacements(state, 1))
     pull = pull_of(problem, geometry, state, 1, uncut)
-    lost = lost_inside(problem, geometry, state, 1)
+    lost = loss_inside("lower", nip, geometry, problem.meshes[1], state.side(1))
     wanted = nip.tangential.torque_lower * nip.lower.curvature
     sheared = float(problem.meshes[1].weights @ state.shear[1])
     return lost - wanted - (pull - sheared)

@@ -22,6 +22,8 @@ from rollnip.rolling import PairKernels
 from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
+from rollnip.sheet.conditions import violation
+from rollnip.sheet.kind import CLOSELY
 from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.plate.attempt import (
@@ -30,13 +32,11 @@ from rollnip.sheet.plate.attempt import (
     carried,
     pulls_at_edges,
     shear_over,
-    violation,
 )
 from rollnip.sheet.plate.factorised import FactorisedPlate
 from rollnip.sheet.plate.first import FirstZones
 from rollnip.sheet.plate.lagged import (
     change_of,
-    displacements_of,
     first_lagged,
     has_none,
     lagged_terms,
@@ -45,7 +45,6 @@ from rollnip.sheet.plate.node_by_node import solve_node_by_node
 from rollnip.sheet.plate.sides import path_ratio, side_mesh
 from rollnip.sheet.plate.system import LaggedPlate, PlateProblem
 from rollnip.sheet.plate.zones import PlateZones
-from rollnip.sheet.refine import LAST_CLOSELY
 from rollnip.sheet.search import SHORTEST_LAYER
 
 Array = NDArray[np.float64]
@@ -96,7 +95,7 @@ class PlateSearch:
         zones: PlateZones,
         count: int,
         before: PlateAttempt,
-        closely: float = LAST_CLOSELY,
+        closely: float = CLOSELY,
     ) -> PlateAttempt:
         """Return the solution on meshes of some size with nodes at the ends of its zones.
 
@@ -245,7 +244,7 @@ class PlateSearch:
         out = []
         for side, (new, own) in enumerate(zip(meshes, before.problem.meshes, strict=True)):
             x = own.fine.nodes[1:]
-            u = own.finer(displacements_of(before.problem, before.state, side))
+            u = own.finer(before.problem.displacements(before.state, side))
             ratio = path_ratio(x, self.nip, side, u)
             out.append(np.interp(new.fine.nodes, 0.5 * (x[1:] + x[:-1]), ratio))
         return out[0], out[1]

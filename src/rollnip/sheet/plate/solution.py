@@ -23,8 +23,8 @@ from rollnip.sheet.figures import SheetFigures
 from rollnip.sheet.plate.attempt import PlateAttempt
 from rollnip.sheet.plate.curved import direction_of
 from rollnip.sheet.plate.factorised import FactorisedPlate
-from rollnip.sheet.plate.refine import PlateRefined
 from rollnip.sheet.plate.sides import SIGNS, values_at
+from rollnip.sheet.refine import Refined
 from rollnip.sheet.result import SheetProfiles, inside_zone
 from rollnip.sheet.solution import SheetSolution
 from rollnip.sheet.system import SheetState
@@ -50,19 +50,6 @@ class PlateSolution(SheetSolution):
     def bends(self) -> bool:
         """Whether the sheet's stiffness against bending is counted: it is."""
         return True
-
-    @property
-    def on_lower_side(self) -> tuple[float, float]:
-        """Width of the lower interface [mm], and the highest pressure on it [MPa]."""
-        figures = self._plate_refined.lower
-        return figures.nip_width, figures.peak_pressure
-
-    @property
-    def _lower_errors(self) -> tuple[float, float]:
-        """Estimated errors of ``on_lower_side``."""
-        refined = self._plate_refined
-        mine = self._claimed(refined.lower, refined.lower_errors)
-        return mine["nip_width"], mine["peak_pressure"]
 
     def _claimed(self, figures: SheetFigures, errors: SheetFigures) -> dict[str, float]:
         """Return errors by name, and what terms of higher order in the path's slope may change.
@@ -131,9 +118,9 @@ class PlateSolution(SheetSolution):
         return self._plate_refined.attempt
 
     @property
-    def _plate_refined(self) -> PlateRefined:
+    def _plate_refined(self) -> Refined[PlateAttempt]:
         refined: Any = self.refined
-        return cast(PlateRefined, refined)
+        return cast(Refined[PlateAttempt], refined)
 
     @cached_property
     def _lower_round(self) -> Round:
@@ -217,7 +204,7 @@ class PlateSolution(SheetSolution):
         return out
 
 
-def plate_round(refined: PlateRefined) -> Round:
+def plate_round(refined: Refined[PlateAttempt]) -> Round:
     """Return a solution as the round of a bare nip, with the tractions of the upper interface."""
     attempt = refined.attempt
     state, problem = attempt.state, attempt.problem
@@ -258,7 +245,7 @@ def plate_round(refined: PlateRefined) -> Round:
     )
 
 
-def lower_round(refined: PlateRefined, upper: Round) -> Round:
+def lower_round(refined: Refined[PlateAttempt], upper: Round) -> Round:
     """Return the round of the lower interface beside that of the upper one."""
     attempt = refined.attempt
     mesh, lagged = attempt.problem.meshes[1], attempt.lagged

@@ -25,9 +25,10 @@ from rollnip.sheet.common import (
     solved_instead,
     tension_of_curved,
 )
-from rollnip.sheet.plate.all_orders import Bending
-from rollnip.sheet.plate.refine import PlateRefined, peak_allowed, refine_plate
+from rollnip.sheet.plate.attempt import PlateAttempt
+from rollnip.sheet.plate.kind import Bending
 from rollnip.sheet.plate.solution import PlateSolution, lower_round, plate_round
+from rollnip.sheet.refine import Refined, refine
 from rollnip.sheet.said import with_errors_said
 from rollnip.validity import StrainSizes, validity_reservations
 
@@ -83,18 +84,18 @@ def longest_freely(nip: Nip, model: Model, cache: KernelCache) -> float:
     return 2.0 * COUNTED * half_width_with_sheet(nip, half_width)
 
 
-def _rests(refined: PlateRefined | None) -> bool:
+def _rests(refined: Refined[PlateAttempt] | None) -> bool:
     return refined is not None and refined.attempt.settled
 
 
 def _refined(
     nip: Nip, model: Model, cache: KernelCache
-) -> tuple[Model, PairKernels, PlateRefined | None, tuple[Reservation, ...]]:
+) -> tuple[Model, PairKernels, Refined[PlateAttempt] | None, tuple[Reservation, ...]]:
     """Return the model solved, influence functions, the solution, and why it is another model.
 
     Where none rests, the first one that there is; None where there is none at all.
     """
-    tried: list[tuple[Model, PairKernels, PlateRefined | None]] = []
+    tried: list[tuple[Model, PairKernels, Refined[PlateAttempt] | None]] = []
     now: Model | None = model
     while now is not None:
         tried.append((now, *_attempt(nip, now, cache)))
@@ -108,16 +109,18 @@ def _refined(
     return model, kernels, refined, solved_instead(left, model.geometry)
 
 
-def _attempt(nip: Nip, model: Model, cache: KernelCache) -> tuple[PairKernels, PlateRefined | None]:
+def _attempt(
+    nip: Nip, model: Model, cache: KernelCache
+) -> tuple[PairKernels, Refined[PlateAttempt] | None]:
     """Return influence functions and the solution in one geometry; None where there is none."""
     kernels = pair_kernels(nip, model.geometry, cache)
     half_width = half_width_guess(nip, kernels)
     kernels = with_second_order(kernels, nip, model.geometry, half_width, cache)
     half_width = half_width_with_sheet(nip, half_width)
     if model.geometry == "finite":
-        return solve_by_iteration(nip, model, kernels, Bending(nip), half_width) or (kernels, None)
+        return solve_by_iteration(Bending(nip), model, kernels, half_width) or (kernels, None)
     try:
-        return kernels, refine_plate(nip, model, kernels, half_width)
+        return kernels, refine(Bending(nip), model, kernels, half_width)
     except np.linalg.LinAlgError:
         return kernels, None
 
@@ -126,7 +129,7 @@ def _solution(
     nip: Nip,
     model: Model,
     kernels: PairKernels,
-    refined: PlateRefined,
+    refined: Refined[PlateAttempt],
     record: tuple[tuple[Reservation, ...], float, str],
 ) -> PlateSolution:
     said, seconds, version = record
@@ -160,7 +163,7 @@ def _solution(
 
 
 def _verdict(
-    nip: Nip, model: Model, refined: PlateRefined, rounds: tuple[Round, Round]
+    nip: Nip, model: Model, refined: Refined[PlateAttempt], rounds: tuple[Round, Round]
 ) -> tuple[bool, str]:
     """Return whether the solution is valid on both sides, and a sentence that says why."""
     attempt = refined.attempt
@@ -187,7 +190,7 @@ def _verdict(
 def _as_allowed(nip: Nip, model: Model, side: int, final: Round) -> Round:
     """Return one side for its verdict: without error of a peak that is as well known as allowed."""
     peak = final.error.peak_pressure
-    if peak > peak_allowed(nip, model, side) * final.figures.peak_pressure:
+    if peak > Bending(nip).peaks_allowed(model)[side] * final.figures.peak_pressure:
         return final
     return replace(final, error=replace(final.error, peak_pressure=0.0))
 

@@ -28,7 +28,7 @@ from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.plate.bending import Plate
 from rollnip.sheet.plate.curved import CurvedLoad
 from rollnip.sheet.plate.matrix import Pair, gaps_and_creeps_of
-from rollnip.sheet.plate.sides import SIGNS, curvatures, stretch_by, values_at
+from rollnip.sheet.plate.sides import SIGNS, curvatures, own_displacements, stretch_by, values_at
 from rollnip.sheet.plate.spread import Spread, about
 from rollnip.sheet.system import frictions_of
 from rollnip.sheets import Sheet
@@ -187,6 +187,23 @@ class PlateProblem:
             made[2 * side + 1] += state.creepages[side] * mesh.dx
         made[0] -= state.approach
         return (made[0], made[1]), (made[2], made[3])
+
+    def creeps(self, state: PlateState, lagged: LaggedPlate) -> tuple[Array, Array]:
+        """Return the creep of either interface over each interval, each (n,) [mm]."""
+        (_, upper), (_, lower) = self.gaps_and_creeps(state, lagged)
+        return upper, lower
+
+    def sheared(self, state: PlateState, side: int) -> Array:
+        """Return int q ds over the intervals of one interface but the last, (n - 1,) [N/mm]."""
+        one, mesh = self.pulls[side], self.meshes[side]
+        beyond = one.of(state.shear[side]).moments_beyond(mesh.inner)[0, :, 0]
+        return np.asarray(-np.diff(beyond))
+
+    def displacements(self, state: PlateState, side: int) -> Displacements:
+        """Return the displacements of one roller at nodes[1:] of its interface."""
+        mesh = self.meshes[side]
+        flat = own_displacements(mesh, side, state.pressure[side], state.shear[side])
+        return mesh.with_second(flat, state.side(side))
 
     def tension_at(self, state: PlateState, x: Array) -> Array:
         """Return the tension of the sheet at some places, (m,) [N/mm]."""

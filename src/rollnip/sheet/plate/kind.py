@@ -1,0 +1,143 @@
+"""A sheet that resists bending, as a kind of sheet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from rollnip.model import FINITE, Geometry, Model
+from rollnip.nip import Nip
+from rollnip.rolling import PairKernels
+from rollnip.rolling.claimed_errors import SHARE_OF_EDGE_PEAK
+from rollnip.sheet.bending import bending_length
+from rollnip.sheet.figures import NAMES, SheetFigures
+from rollnip.sheet.lagged import sheet_rate
+from rollnip.sheet.plate.attempt import PlateAttempt, overlap
+from rollnip.sheet.plate.curved import direction_of
+from rollnip.sheet.plate.lagged import change_of, lagged_terms, missed, pull_of
+from rollnip.sheet.plate.search import PlateSearch
+from rollnip.sheet.plate.sides import SIGNS, highest
+from rollnip.sheet.plate.system import PlateProblem, PlateState
+from rollnip.sheet.powers import Pulls, sheet_powers
+
+Array = NDArray[np.float64]
+
+_ON_LOWER = [NAMES.index(name) for name in ("nip_width", "peak_pressure", "peak_pressure_x")]
+
+
+@dataclass(frozen=True, slots=True)
+class Bending:
+    """A nip with a sheet that resists bending: either interface has a contact of its own."""
+
+    nip: Nip
+
+    def search(self, model: Model, kernels: PairKernels) -> PlateSearch:
+        """Return the search for its zones."""
+        return PlateSearch(self.nip, model, kernels)
+
+    @property
+    def bending_length(self) -> float:
+        """Length over which the sheet bends [mm]."""
+        return bending_length(self.nip)
+
+    def peaks_allowed(self, model: Model) -> tuple[float, float]:
+        """Return the relative error that is allowed of the highest pressure on either side.
+
+        On a bare roller finite strain leaves more of the peak open than the tolerance asks for.
+        """
+        left = SHARE_OF_EDGE_PEAK["finite"] if model.geometry in FINITE else 0.0
+        rigid = max(model.tolerance, left)
+        upper, lower = (
+            rigid if one.is_rigid else model.tolerance for one in (self.nip.upper, self.nip.lower)
+        )
+        return upper, lower
+
+    def figures(
+        self, attempt: PlateAttempt, geometry: Geometry
+    ) -> tuple[SheetFigures, SheetFigures]:
+        """Return figures with width and pressure of the upper, and of the lower interface."""
+        problem, state = attempt.problem, attempt.state
+        x = _turning_places(problem, state)
+        tension, strain = problem.tension_at(state, x), problem.strain_at(state, x)
+        pulls = self.pulls(attempt, geometry)
+        upper = SheetFigures.of(
+            attempt,
+            sheet_powers(attempt, geometry, pulls, _into_sheet(attempt)),
+            highest(problem.meshes[0], state.pressure[0]),
+            (float(tension.max()), float(tension.min())),
+            float(strain[np.argmax(np.abs(strain))]),
+        )
+        lower = upper.values.copy()
+        lower[_ON_LOWER] = (
+            attempt.zones.lower.width,
+            *highest(problem.meshes[1], state.pressure[1]),
+        )
+        return upper, SheetFigures(lower)
+
+    def pulls(self, attempt: PlateAttempt, geometry: Geometry) -> Pulls:
+        """Return int q lambda ds of either roller [N/mm]."""
+        problem, state, out = attempt.problem, attempt.state, []
+        for side, mesh in enumerate(problem.meshes):
+            u = problem.displacements(state, side)
+            whole = smooth = pull_of(problem, geometry, state, side, mesh.uncut(u))
+            if mesh.kernels.held is not None:
+                smooth = pull_of(problem, geometry, state, side, u)
+            out.append((whole, smooth))
+        return out
+
+    def overlap(self, attempt: PlateAttempt, kernels: PairKernels, geometry: Geometry) -> float:
+        """Return how far surfaces and sheet overlap outside the contacts, and tension, relative."""
+        return overlap(attempt, kernels, geometry)
+
+    def holding(self, attempt: PlateAttempt, kernels: PairKernels) -> PlateAttempt:
+        """Return a solution whose terms are those with other corrections; ``change`` says how."""
+        meshes = list(attempt.problem.meshes)
+        for side, roller in enumerate((self.nip.upper, self.nip.lower)):
+            if not roller.is_rigid and kernels.held is not None:
+                held = kernels.held.of_side(side)
+                meshes[side] = meshes[side].holding(replace(meshes[side].kernels, held=held))
+        problem = replace(attempt.problem, meshes=(meshes[0], meshes[1]))
+        lagged = lagged_terms(problem, "finite", attempt.state, attempt.lagged)
+        change = change_of(lagged, attempt.lagged, problem, attempt.state)
+        return replace(attempt, problem=problem, lagged=lagged, change=change)
+
+    def missed(self, attempt: PlateAttempt, other: PlateAttempt) -> float:
+        """Return how badly a solution violates its conditions with the terms of the other one."""
+        return missed(other.lagged, attempt.lagged, attempt.problem, attempt.state)
+
+
+def _turning_places(problem: PlateProblem, state: PlateState) -> Array:
+    """Return the finer nodes of both meshes, and where tension turns between them, (m,) [mm].
+
+    Between these nodes its slope q_u - q_l is a straight line.
+    """
+    x = np.unique(np.concatenate([one.nodes for one in problem.pulls]))
+    upper, lower = (
+        np.interp(x, one.nodes, one.of(shear).lines[:, 0])
+        for one, shear in zip(problem.pulls, state.shear, strict=True)
+    )
+    slope = upper - lower
+    turns = np.flatnonzero(slope[:-1] * slope[1:] < 0.0)
+    share = slope[turns] / (slope[turns] - slope[turns + 1])
+    return np.unique(np.append(x, x[turns] + share * np.diff(x)[turns]))
+
+
+def _into_sheet(attempt: PlateAttempt) -> float:
+    """Return the power of the shears on the faces of the sheet over V [N/mm].
+
+    Its faces run at V_s (1 + e -+ h y''/2); "linear" keeps the products with the strains, which
+    are of second order.
+    """
+    problem, state = attempt.problem, attempt.state
+    rate, taken = sheet_rate(*state.creepages), 0.0
+    curved = attempt.lagged.curved
+    rotations = problem.rotations(state, curved)
+    for side, mesh in enumerate(problem.meshes):
+        pushed, sign = problem.sheared(state, side), SIGNS[side]
+        strained = problem.strain_over(state, side)[:-1]
+        turned = np.diff(direction_of(rotations[side][:-1], curved))
+        face = (strained - sign * 0.5 * problem.sheet.thickness * turned) / mesh.dx[:-1]
+        taken += sign * float(pushed @ (1.0 + face))
+    return rate * taken

@@ -33,7 +33,7 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.elements import Acting, AllOrders
 from rollnip.rolling.held import NEARLY, coarsely
 from rollnip.sheet.attempt import AnyAttempt
-from rollnip.sheet.kind import CLOSELY, S, SheetKind
+from rollnip.sheet.kind import CLOSELY, ROUGHLY, S, SheetKind
 from rollnip.sheet.powers import smooth_works
 from rollnip.sheet.refine import Refined, elements_to_begin_with, on_last_mesh, refine
 
@@ -80,7 +80,7 @@ def _begun(kind: SheetKind[S], model: Model, kernels: PairKernels, half_width: f
     search = kind.search(model, kernels)
     count = round(elements_to_begin_with(kind, half_width, _COARSE))
     attempt = search.begun(half_width, count)
-    return search.placed(attempt.zones, count, attempt)
+    return search.placed(attempt.zones, count, attempt, ROUGHLY)
 
 
 @dataclass

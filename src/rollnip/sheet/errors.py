@@ -43,12 +43,12 @@ class SizeOfMesh:
 
     Attributes
     ----------
-    elements : how many there are, on the interface that has fewer.
+    elements : about how many it was to have.
     figures : of the upper interface; of a plate of the lower one, too.
     zones : where it puts the zones.
     """
 
-    elements: int
+    elements: float
     figures: tuple[SheetFigures, ...]
     zones: SideZones
 

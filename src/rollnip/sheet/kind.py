@@ -15,8 +15,8 @@ S = TypeVar("S", bound=AnyAttempt)
 
 FIRST_SIZE = 24
 """Elements of the first size of mesh, at least."""
-CLOSELY = 0.03
-"""Of the tolerance times the width: allowed error of an end."""
+ROUGHLY, CLOSELY = 0.5, 0.03
+"""Of the tolerance times the width: allowed error of an end on a first size, and on others."""
 
 
 class SearchOfZones(Protocol[S]):
@@ -26,7 +26,7 @@ class SearchOfZones(Protocol[S]):
         """Return a solution in linear geometry whose zones are about right, from no other one."""
         ...
 
-    def placed(self, zones: Any, count: int, before: S, closely: float = ...) -> S:
+    def placed(self, zones: Any, count: int, before: S, closely: float) -> S:
         """Return the solution on meshes of some size with nodes at the ends of its zones.
 
         ``before``: a solution with about these zones; ``closely``: allowed error of an end, of the

@@ -14,14 +14,14 @@ from rollnip.sheet.attempt import AnyAttempt
 from rollnip.sheet.conditions import violation
 from rollnip.sheet.errors import SizeOfMesh, claimed_of_powers, estimated_errors
 from rollnip.sheet.figures import NAMES, SheetFigures, ratio
-from rollnip.sheet.kind import CLOSELY, FIRST_SIZE, S, SearchOfZones, SheetKind
+from rollnip.sheet.kind import CLOSELY, FIRST_SIZE, ROUGHLY, S, SearchOfZones, SheetKind
 from rollnip.sheet.powers import off_the_moments, slip_works
 
 _GROWTH = 1.6  # of the number of elements from size to size, at most
 _LEAST_GROWTH = 1.25
 _MORE = 1.4  # than as many elements as bring an error to the tolerance
 _MOST_ELEMENTS = 340
-_ROUGHLY = 0.3  # of the tolerance times the width: allowed error of an end on the first size
+_CLOSELY_TO = 60  # elements beyond which ends are placed better
 _PER_LENGTH = 1.6  # elements of the first size over the bending lengths in the width
 _MOST_FOR_LENGTH = 60.0  # elements that a first size is given for these
 _MOST_FAILURES = 3  # sizes of mesh in a row whose zones do not settle
@@ -100,12 +100,12 @@ def refine(
     failures = last_count = 0
     while count <= _MOST_ELEMENTS and failures < _MOST_FAILURES:
         try:
-            closely = CLOSELY if history else _ROUGHLY
+            closely = _closely(count) if history else ROUGHLY
             attempt = search.placed(attempt.zones, round(count), attempt, closely)
         except np.linalg.LinAlgError:
             failures, count = failures + 1, _next_count(count, inf)
             continue
-        here = _size_of(kind, model.geometry, attempt)
+        here = _size_of(kind, model.geometry, attempt, count)
         errors = estimated_errors(kind.nip, attempt.problem.meshes, [*history, here])
         excess = _excess(kind, model, here, errors)
         if attempt.settled and history and excess > 1.0:
@@ -136,10 +136,9 @@ def elements_to_begin_with(
     return max(least, min(_PER_LENGTH * lengths, _MOST_FOR_LENGTH))
 
 
-def _size_of(kind: SheetKind[S], geometry: Geometry, attempt: S) -> SizeOfMesh:
+def _size_of(kind: SheetKind[S], geometry: Geometry, attempt: S, count: float) -> SizeOfMesh:
     """Return what the estimates of errors ask of a size of mesh."""
-    elements = min(mesh.inner.size for mesh in attempt.problem.meshes) - 1
-    return SizeOfMesh(elements, kind.figures(attempt, geometry), attempt.zones)
+    return SizeOfMesh(count, kind.figures(attempt, geometry), attempt.zones)
 
 
 def _excess(
@@ -173,12 +172,20 @@ def _with_zones_of(
     if not history or history[-1].zones.is_like(attempt.zones):
         return history
     try:
-        again = search.placed(attempt.zones, count, attempt, _ROUGHLY)
+        again = search.placed(attempt.zones, count, attempt, ROUGHLY)
     except np.linalg.LinAlgError:
         return history
     if not (again.settled and again.zones.is_like(attempt.zones)):
         return history
-    return [_size_of(kind, model.geometry, again)]
+    return [_size_of(kind, model.geometry, again, count)]
+
+
+def _closely(count: float) -> float:
+    """Return the allowed error of ends over the tolerance: less on finer meshes, as their errors.
+
+    Else the changes between sizes would be those of misplaced ends.
+    """
+    return CLOSELY * min(1.0, (_CLOSELY_TO / count) ** 2)
 
 
 def _next_count(count: float, excess: float) -> float:

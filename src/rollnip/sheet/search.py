@@ -57,7 +57,6 @@ _LEAST_SHARE = FEWEST_ELEMENTS_OF_A_ZONE / FIRST_SIZE  # so every zone is refine
 _SLACK = 1e-3  # shear over the bound, relative, that counts as rounding
 _FAIRLY_PLACED = 0.1  # over the width: good enough to see what slips
 _NEARLY_PLACED = 0.01  # over the width: so near that the move before tells of the next one
-_PLACED = 0.5  # of the tolerance: allowed error of an end on a first mesh, over the width
 _MOST_MESHES = 14
 _MOST_CHANGES = 5  # of zones, on meshes of one size
 _REACH = 1.12  # half of the first mesh over the half-width of the rollers alone
@@ -101,14 +100,14 @@ class SheetSearch:
         return SheetAttempt(zones, problem, state, lagged, inf, 1.0, steps + state.steps, False)
 
     def placed(
-        self, zones: Zones, count: int, before: SheetAttempt | None, closely: float = _PLACED
+        self, zones: Zones, count: int, before: SheetAttempt, closely: float
     ) -> SheetAttempt:
         """Find the solution on a mesh of some size with nodes at the ends of its zones.
 
         ``closely``: allowed error of an end, of the tolerance times the width.
         """
         placed = closely * self.model.tolerance
-        steps, misplacement = (0, inf) if before is None else (before.steps, before.misplacement)
+        steps, misplacement = before.steps, before.misplacement
         changes = 0
         known = min(misplacement, 1.0)
         # Ends count as near on the first mesh, whose terms are those of a solution.
@@ -128,7 +127,7 @@ class SheetSearch:
                 elements = elements_of_zones(breaks, count, wanted_crowding, _LEAST_SHARE)
                 crowding = wanted_crowding
             problem = self._problem(zones, (elements, crowding), attempt)
-            start = first_lagged(problem) if attempt is None else carried(attempt, problem)
+            start = carried(attempt, problem)
             attempt = self._solved(problem, zones, start, steps, (near, misplacement))
             steps = attempt.steps
             called = _ZonesCalledFor(attempt, self._slack)
@@ -158,8 +157,6 @@ class SheetSearch:
             other = self._other(attempt, proposed)
             attempt, zones = (attempt, proposed) if other is None else other
             steps, elements = attempt.steps, None
-        if attempt is None:
-            raise np.linalg.LinAlgError("zones without length")
         proper = zones if zones.is_proper else attempt.zones
         return replace(attempt, zones=proper, settled=False, misplacement=misplacement)
 

@@ -23,7 +23,6 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.conditions import violation
-from rollnip.sheet.kind import CLOSELY
 from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.plate.attempt import (
@@ -95,7 +94,7 @@ class PlateSearch:
         zones: PlateZones,
         count: int,
         before: PlateAttempt,
-        closely: float = CLOSELY,
+        closely: float,
     ) -> PlateAttempt:
         """Return the solution on meshes of some size with nodes at the ends of its zones.
 

@@ -10,6 +10,7 @@ from sheet_population import random_case
 import rollnip as rn
 from rollnip.rolling import peak_pressure
 from rollnip.sheet.figures import NAMES, SHARES_OF_MODEL, scales
+from rollnip.sheet.kind import CLOSELY
 from rollnip.sheet.membrane import Membrane
 from rollnip.sheet.plate.search import PlateSearch
 from rollnip.sheet.said import relative_errors
@@ -37,7 +38,7 @@ def _errors(number, geometry=None):
     # Not the estimates, nor where refinement stops, but meshes, zones and matrices are shared.
     search = SheetSearch(case.nip, model, solution.kernels)
     fine = search.placed(
-        refined.attempt.zones, round(2.2 * solution.solver.elements), refined.attempt
+        refined.attempt.zones, round(2.2 * solution.solver.elements), refined.attempt, CLOSELY
     )
     if not fine.settled:
         return None
@@ -209,7 +210,7 @@ def _errors_below(number):
     attempt, model = solution.refined.attempt, replace(solution.model, tolerance=5e-5)
     count = min(round(2.2 * solution.solver.elements), 240)
     search = PlateSearch(case.nip, model, solution.kernels)
-    fine = search.placed(attempt.zones, count, attempt)
+    fine = search.placed(attempt.zones, count, attempt, CLOSELY)
     if not fine.settled:
         return None
     mesh, sheet = fine.problem.meshes[1], solution.sheet

@@ -38,8 +38,7 @@ FINITE_SHARE = 6  # every so many nips is solved in "second" too
 OF_TABLES = ("influence.",)
 # Numbers of states and places, exponents that theory gives, definitions: nothing steers by them.
 NO_CHOICE = {
-    "_SHEAR_SIGNS", "_ROOT", "_SMOOTH", "_SECOND", "_CREEPAGE", "_PEAK", "MOST_CREEPAGE",
-    "NO_SECOND_ORDER",
+    "_ROOT", "_SMOOTH", "_SECOND", "_CREEPAGE", "_PEAK", "MOST_CREEPAGE",
 }  # fmt: skip
 LEAST_CLAIM = 1e-9  # relative, for errors of rounding
 

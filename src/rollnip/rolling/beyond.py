@@ -31,8 +31,9 @@ from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.check import surface_strain_in_nip
 from rollnip.rolling.claimed_errors import grips_skin, skin_thickness
 from rollnip.rolling.displacements import NO_SECOND_ORDER, Field, SecondFields, Stretch, WeightedSum
-from rollnip.rolling.elements import EVERYWHERE, AllOrders
+from rollnip.rolling.elements import AllOrders
 from rollnip.rolling.held import (
+    ENOUGH,
     NEARLY,
     Progress,
     Stage,
@@ -51,9 +52,6 @@ Array = NDArray[np.float64]
 _DEPTH = 5  # corrections of which a mean is taken
 _COMPARED = 65  # places at which they are compared
 MOST_CORRECTIONS = 30  # of the correction and the contact
-# Violation of the contact conditions, or last change, from which iterations need not go on: over
-# the tolerance, or over the violation by what is cut, which the solution says that it leaves open.
-_ENOUGH = 0.3
 SMALL = 0.05  # change of an iteration from which it may be the last one
 _MOST_RESTARTS = 3  # iterations that are solved from the beginning
 # Of the wave numbers: with all of them iterations may not settle beside an edge that slips at
@@ -184,9 +182,7 @@ def _mean(shares: Array, fields: Sequence[SecondFields]) -> SecondFields:
     lost = shares @ np.array([one.lost for one in fields])
     both = float(lost[0]), float(lost[1])
     stretch = _mean_stretch(shares, fields)
-    return SecondFields(
-        tuple(functions), EVERYWHERE, lost=both, rough=tuple(rough), stretch=stretch
-    )
+    return SecondFields(tuple(functions), lost=both, rough=tuple(rough), stretch=stretch)
 
 
 def _mean_stretch(shares: Array, fields: Sequence[SecondFields]) -> tuple[Stretch, Stretch] | None:
@@ -225,7 +221,7 @@ class Least(Generic[Found]):
         before, self.left = self.left, left
         if left <= min(1.0, before):
             self.found = found
-        enough = _ENOUGH * max(1.0, cut)
+        enough = ENOUGH * max(1.0, cut)
         return self.found is not None and (min(left, to_come) <= enough or left > before)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from math import inf
 from typing import Protocol
 
 import numpy as np
@@ -130,8 +131,8 @@ class SecondFields:
         tractions; None: that of the displacements.
     """
 
-    functions: tuple[Field | None, ...]
-    ends: tuple[tuple[float, float], ...]
+    functions: tuple[Field | None, ...] = (None,) * 4
+    ends: tuple[tuple[float, float], ...] = ((-inf, inf),) * 4
     lost: tuple[float, float] = (0.0, 0.0)
     rough: tuple[Field | None, ...] = ()
     bodies: tuple[Equilibrium | None, Equilibrium | None] = (None, None)
@@ -161,4 +162,4 @@ class SecondFields:
         return replace(self, functions=functions, rough=rough)
 
 
-NO_SECOND_ORDER = SecondFields((None,) * 4, ((0.0, 0.0),) * 4)
+NO_SECOND_ORDER = SecondFields()

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,8 +24,6 @@ Array = NDArray[np.float64]
 Acting = tuple[Array, Array, Array]
 """Nodes, and the pressure and the shear that act on a roller at all but the first and the last."""
 _STRAIN = 0.6  # of a surface at which waves up to half the number are kept
-EVERYWHERE = ((-inf, inf),) * 4
-"""Where a correction of both surfaces holds."""
 
 
 def share_of_waves(strain: float) -> float:
@@ -140,7 +137,6 @@ class AllOrders:
                 raise NoEquilibriumError
         smooth = SecondFields(
             functions=tuple(functions),
-            ends=EVERYWHERE,
             lost=(lost[0], lost[1]),
             rough=tuple(rough),
             bodies=(_equilibrium(self.upper), _equilibrium(self.lower)),

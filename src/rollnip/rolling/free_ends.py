@@ -24,7 +24,7 @@ from rollnip.rolling.estimates import (
     with_further_errors,
     zone_excess,
 )
-from rollnip.rolling.iterations import converge, with_residual
+from rollnip.rolling.iterations import STILL, converge, with_residual
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.round import Round, excess
 from rollnip.rolling.search import SearchState
@@ -36,9 +36,7 @@ _MOST_ELEMENTS = 300  # at a tolerance of 1e-3; what needs more has no smooth tr
 _MOST_TIMES_FIRST = 3.0  # likewise, over the elements of the first mesh
 _FIRST_EXCESS = 3.08  # error over the tolerance, about, of zones that were solved on one size only
 _LEAST_GROWTH = 1.2  # of the number of elements from size to size
-# Of the tolerance: mean error of the cubics, over the largest traction.
-_MOST_ROUGHNESS = 0.1
-_ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
+ENOUGH_FOR_ZONES = 100  # elements; transitions that still move have no square root at them
 
 
 def is_verified(found: Round | None, model: Model) -> TypeGuard[Round]:
@@ -63,7 +61,7 @@ def with_free_ends(
     before : the solution that the layout comes from.
     misplacement : of the ends of its zones at most, over the width of the contact.
     fewest : elements of the first mesh, at least: those of the mesh that the zones come from; above
-        `_ENOUGH_FOR_ZONES` zones count as known. 0: no lower bound.
+        `ENOUGH_FOR_ZONES` zones count as known. 0: no lower bound.
 
     Returns
     -------
@@ -74,7 +72,7 @@ def with_free_ends(
     count = max(fewest, _FIRST_COUNT + _ELEMENTS_PER_ZONE * layout.states.size)
     start = SearchState(layout, before, misplacement=misplacement)
     try:
-        return _refined(placing, start, count, known=fewest > _ENOUGH_FOR_ZONES)
+        return _refined(placing, start, count, known=fewest > ENOUGH_FOR_ZONES)
     except np.linalg.LinAlgError:
         return None
 
@@ -106,7 +104,7 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
         history.append(sized(nip, model, latest, count, state.layout.breaks))
         best = latest = with_errors(nip, latest, history, state.left)
         ratio = excess(nip, latest, model.tolerance)
-        zones_rest = count > _ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
+        zones_rest = count > ENOUGH_FOR_ZONES or zone_excess(history, model.tolerance) <= 1.0
         if largest(ratio, roughness) <= 1.0 and zones_rest:
             final = converge(nip, model, latest, placing.given, latest.zones)
             final = with_residual(nip, model, placing.kernels, final)
@@ -155,4 +153,4 @@ def _roughness(nip: Nip, model: Model, latest: Round) -> float:
     errors = [cubic_error(pressure, x, elements) / (peak * width)]
     if most > 0.0:
         errors.append(cubic_error(shear, x, elements) / (most * width))
-    return largest(*errors) / (_MOST_ROUGHNESS * model.tolerance)
+    return largest(*errors) / (STILL * model.tolerance)

@@ -27,8 +27,7 @@ from rollnip.rolling.iterations import STILL, solve_on_mesh
 from rollnip.rolling.placing import Placing
 from rollnip.rolling.refinement import (
     BY_NODES,
-    ENOUGH_FOR_ZONES,
-    SIZES,
+    COARSE_SIZES,
     IsTooDeep,
     by_nodes,
     finer_by_nodes,
@@ -36,16 +35,16 @@ from rollnip.rolling.refinement import (
     refine,
 )
 from rollnip.rolling.round import Round, excess
-from rollnip.rolling.search import SearchState
+from rollnip.rolling.search import NEAR_ENOUGH, SearchState
 from rollnip.rolling.surfaces import PairKernels
 
-_FAR = 0.1  # change from which a contact is sought again, where it is sought node by node
-_AT_REST = 0.3  # change of such a contact's correction, over the tolerance: free ends take over
+# Violation of the contact conditions, or last change, from which iterations need not go on: over
+# the tolerance, or over the violation by what is cut, which the solution says that it leaves open.
+ENOUGH = 0.3
 _COARSE = 24  # elements of the contact while its correction still changes
 NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
-_REFINED_FROM = 400.0  # change, over the tolerance, from which on the mesh of a bare nip is refined
-_COARSELY = 1e-2  # tolerance of such contacts
-_MISPLACEMENT = 0.01  # of the ends of zones by a correction, over the width of the contact, about
+# Tolerance of such contacts, and how far a correction moves their ends, over the width.
+_COARSELY = 1e-2
 
 
 Responses = Callable[[], PairKernels]
@@ -92,7 +91,7 @@ def begin(
     beside the edges come and go with the correction, and iterations from those would follow them.
     """
     coarse_model = coarsely(model)
-    sizes = by_nodes(nip, coarse_model, kernels, half_width, SIZES[:ENOUGH_FOR_ZONES])
+    sizes = by_nodes(nip, coarse_model, kernels, half_width, COARSE_SIZES)
     if grips_skin(nip):
         *_, located = sizes
         return kernels, located, Stage.COARSE
@@ -155,20 +154,20 @@ def solved_next(
 
     Where that fails the round has not settled.
     """
-    if progress.to_come <= _enough_for_better(latest, stage):
+    if progress.to_come <= _enough_for_better(model, latest, stage):
         return _better(nip, model, kernels, latest, stage)
     return _solved_again(nip, model, kernels, latest, stage, progress.change), stage
 
 
-def _enough_for_better(latest: Round, stage: Stage) -> float:
+def _enough_for_better(model: Model, latest: Round, stage: Stage) -> float:
     """Return the change, over the tolerance, from which on a better mesh is worth its cost."""
     if stage is Stage.REFINED:
         return -inf
     if stage is Stage.FINE:
-        return _AT_REST
+        return ENOUGH
     if not latest.is_placed:
         return NEARLY
-    return _REFINED_FROM
+    return 1.0 / model.tolerance  # a change of less than the terms themselves
 
 
 def _better(
@@ -203,7 +202,7 @@ def _with_free_ends(nip: Nip, model: Model, kernels: PairKernels, latest: Round)
     layout = Layout.of(latest.zones)
     if layout is None:
         return None
-    found = with_free_ends(nip, model, kernels, layout, latest, _MISPLACEMENT)
+    found = with_free_ends(nip, model, kernels, layout, latest, _COARSELY)
     return found if is_verified(found, model) else None
 
 
@@ -224,9 +223,9 @@ def _solved_again(
 ) -> Round:
     """Solve with another correction; where that fails the round has not settled."""
     if not latest.is_placed:
-        if change > _FAR:
-            sizes = SIZES[:ENOUGH_FOR_ZONES]
-            *_, found = by_nodes(nip, model, kernels, 0.5 * latest.figures.nip_width, sizes)
+        if change > NEAR_ENOUGH:
+            half_width = 0.5 * latest.figures.nip_width
+            *_, found = by_nodes(nip, model, kernels, half_width, COARSE_SIZES)
             return found
         start = latest.state.states, latest.second, latest.steps
         found = solve_on_mesh(nip, model, latest.mesh, start, BY_NODES, STILL)
@@ -246,7 +245,7 @@ def _placed_again(nip: Nip, model: Model, kernels: PairKernels, latest: Round) -
     if layout is not None:
         placing = Placing(nip, model, kernels)
         second = second_order(nip, model.geometry, latest.mesh, latest.state)
-        search = SearchState(layout, replace(latest, second=second), misplacement=_MISPLACEMENT)
+        search = SearchState(layout, replace(latest, second=second), misplacement=_COARSELY)
         is_crowded = not grips_skin(nip) and min(latest.mesh.fine.crowding) < 1.0
         with suppress(np.linalg.LinAlgError):
             found = None if is_crowded else placing.solved_at_moved_ends(search)

@@ -16,10 +16,9 @@ from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.free_ends import is_verified, with_free_ends
 from rollnip.rolling.round import Round
+from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.start import half_width_guess
 from rollnip.rolling.surfaces import PairKernels
-
-_NEAR = 0.1  # change of the half-width that is guessed, relative
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,14 +56,14 @@ class Nearby:
             return None
         kernels = replace(kernels, held=held)
         before = replace(self.final, mesh=self.final.mesh.holding(kernels), steps=0)
-        found = with_free_ends(nip, model, kernels, layout, before, _NEAR)
+        found = with_free_ends(nip, model, kernels, layout, before, NEAR_ENOUGH)
         return (kernels, found) if is_verified(found, model) else None
 
     def _is_like(self, nip: Nip, half_width: float) -> bool:
         own = self.nip
         if _kind(own) != _kind(nip):
             return False
-        return abs(log(half_width_guess(own, self.kernels) / half_width)) < _NEAR
+        return abs(log(half_width_guess(own, self.kernels) / half_width)) < NEAR_ENOUGH
 
 
 def _kind(nip: Nip) -> tuple[object, ...]:

@@ -27,7 +27,6 @@ from rollnip.contact.secants import Secants
 from rollnip.influence import has_stiff_skin
 from rollnip.model import FINITE, Model
 from rollnip.nip import Nip
-from rollnip.rollers import Roller
 from rollnip.rolling.assemble import second_order
 from rollnip.rolling.changes import to_come_after
 from rollnip.rolling.estimates import length_excess
@@ -40,17 +39,15 @@ from rollnip.rolling.iterations import (
 )
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.round import Figures, Round, excess
-from rollnip.rolling.search import NEAR_ENOUGH_FOR_SLIP, SearchState, ZoneSearch
+from rollnip.rolling.search import NEAR_ENOUGH, SearchState, ZoneSearch
 from rollnip.rolling.surfaces import Array, Mesh, PairKernels, mesh_on
 
 # Meshes of one size with the same zones at a tolerance of 1e-3, and one more for each digit. Of 708
 # sizes of 200 random nips one needed more, and those that failed would have taken 10 to 19.
-_MOST_MESHES = 8
+MOST_MESHES = 8
 # Meshes more for the edges of a single sticking zone with boundary layers: outside of these a
 # solution says only which way an edge should go, and the way between the last two is halved.
 _MOST_HALVINGS = 6
-_HARDLY_MOVED = 0.001  # over the width: ends that move less need no second mesh
-_WEAKEST_CONTRACTION = 0.7  # of the error of ends, from mesh to mesh
 _NEARLY_INCOMPRESSIBLE = 0.45  # Poisson ratio
 _PIECES_PER_THICKNESS = 6.0  # at least, in which tractions act along a thickness of such a covering
 
@@ -106,7 +103,7 @@ class Placing:
             misplacement = proposed.distance(layout)
             known_to = min(known_to, misplacement)
             is_quiet = self.kernels.is_fixed or state.is_quiet
-            is_near = not known and misplacement < NEAR_ENOUGH_FOR_SLIP and is_quiet
+            is_near = not known and misplacement < NEAR_ENOUGH and is_quiet
             is_still = latest.settled and is_quiet
             # Figures of other zones tell nothing of errors.
             is_close = closely and layout.is_like(start.layout)
@@ -166,10 +163,10 @@ class Placing:
                 or self.search.wanted(latest, layout, whole=is_placed) is not None
             ):
                 return None
-            if misplacement > max(_HARDLY_MOVED, _WEAKEST_CONTRACTION * before):
+            if misplacement > max(self.model.tolerance, before):
                 return None
             state = _state_at(proposed, latest, state, misplacement)
-            if misplacement <= _HARDLY_MOVED:
+            if misplacement <= self.model.tolerance:
                 break
         return state
 
@@ -177,7 +174,7 @@ class Placing:
         """Return a mesh on zones that are only known roughly: no solution has them as its own."""
         shape = elements_of_zones(zones.breaks, count), (1.0,) * zones.states.size
         nodes = cosine_nodes(zones.breaks, *shape)
-        fine = subdivided(nodes, *shape, self.thinnest)
+        fine = subdivided(nodes, *shape, self.longest_piece)
         return mesh_on(nodes, kernels, replace(fine, elements=(), crowding=()))
 
     @cached_property
@@ -199,10 +196,19 @@ class Placing:
         return STILL_UNDER_SKIN if has_stiff_skin((self.nip.upper, self.nip.lower)) else STILL
 
     @cached_property
-    def thinnest(self) -> float:
-        """Thickness of the thinnest covering that moves as the second derivative [mm]."""
-        rollers = self.nip.upper, self.nip.lower
-        return min(_incompressible(roller) for roller in rollers if not roller.is_rigid)
+    def longest_piece(self) -> float:
+        """Length of the straight pieces in which tractions act, at most [mm].
+
+        A thin incompressible covering on a rigid core moves as the second derivative of the
+        pressure, which straight pieces longer than its thickness do not have.
+        """
+        coverings = [
+            roller.coating_thickness
+            for roller in (self.nip.upper, self.nip.lower)
+            if not roller.is_rigid and roller.core is None
+            if all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
+        ]
+        return min(coverings, default=inf) / _PIECES_PER_THICKNESS
 
     @property
     def _rests_by_figures(self) -> bool:
@@ -258,7 +264,7 @@ class Placing:
         return layout.singular(latest.mesh.inner, latest.state)
 
     def _most_meshes(self, crowding: tuple[float, ...]) -> int:
-        most = _MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
+        most = MOST_MESHES + max(0, round(-3.0 - log10(self.model.tolerance)))
         most += round(-log10(min(crowding)))  # each mesh can crowd its nodes tenfold
         if len(crowding) == 1 and crowding[0] < 1.0:
             most += _MOST_HALVINGS
@@ -281,7 +287,7 @@ class Placing:
     def _solved_on(self, state: SearchState, shape: Shape) -> tuple[Round, Layout]:
         """Solve on one mesh; return the solution, and where it puts the ends of zones."""
         layout, before = state.layout, state.before
-        mesh = _mesh(layout, shape, self.thinnest, before.mesh.kernels)
+        mesh = _mesh(layout, shape, self.longest_piece, before.mesh.kernels)
         start = layout.states_on(mesh.inner), before.second.carried(before.mesh, mesh), before.steps
         latest = solve_on_mesh(
             self.nip, self.model, mesh, start, self.given, self.still, layout.zones
@@ -324,14 +330,6 @@ def are_too_many(zones: int) -> bool:
 def _crowds_more(one: tuple[float, ...], other: tuple[float, ...]) -> bool:
     """Return whether nodes of any zone crowd more, or other zones."""
     return len(one) != len(other) or any(a < b for a, b in zip(one, other, strict=True))
-
-
-def _incompressible(roller: Roller) -> float:
-    """Return the thickness of a nearly incompressible covering on a rigid core, or inf [mm]."""
-    nearly = all(layer.material.poisson > _NEARLY_INCOMPRESSIBLE for layer in roller.layers)
-    return (
-        roller.coating_thickness / _PIECES_PER_THICKNESS if nearly and roller.core is None else inf
-    )
 
 
 def _mesh(layout: Layout, shape: Shape, shortest: float, kernels: PairKernels) -> Mesh:

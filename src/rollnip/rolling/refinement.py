@@ -12,7 +12,7 @@ from rollnip.contact import Layout, Safeguarded
 from rollnip.model import Model
 from rollnip.nip import Nip
 from rollnip.rolling.assemble import first_guess
-from rollnip.rolling.free_ends import is_verified, with_free_ends
+from rollnip.rolling.free_ends import ENOUGH_FOR_ZONES, is_verified, with_free_ends
 from rollnip.rolling.iterations import (
     STILL,
     converge,
@@ -20,16 +20,16 @@ from rollnip.rolling.iterations import (
     solve_on_mesh,
     with_residual,
 )
-from rollnip.rolling.placing import Placing, are_too_many
+from rollnip.rolling.placing import MOST_MESHES, Placing, are_too_many
 from rollnip.rolling.round import Round, has_grip
+from rollnip.rolling.search import NEAR_ENOUGH
 from rollnip.rolling.surfaces import PairKernels
 
 BY_NODES = Safeguarded()
 """Solver of a contact problem whose states are sought node by node."""
 SIZES = (16, 32, 64, 128, 256)  # elements of the meshes on which states are sought node by node
-ENOUGH_FOR_ZONES = 3  # of these sizes, where the contact itself is only a coarse one
-_MOST = 8  # meshes of a size
-_ROOM = 0.1  # beyond either edge of such a mesh, over the width of the contact
+COARSE_SIZES = tuple(count for count in SIZES if count <= ENOUGH_FOR_ZONES)
+"""Those of them where the contact itself is only a coarse one."""
 
 
 class IsTooDeep(Protocol):
@@ -113,7 +113,7 @@ def by_nodes(
 
 def finer_by_nodes(nip: Nip, model: Model, kernels: PairKernels, before: Round) -> Round | None:
     """Return contact, stick and slip of the nodes of a finer mesh; None where it is the finest."""
-    finer = [count for count in SIZES[ENOUGH_FOR_ZONES:] if count > 1.3 * before.mesh.inner.size]
+    finer = [count for count in SIZES[len(COARSE_SIZES) :] if count > 1.3 * before.mesh.inner.size]
     if not finer:
         return None
     found, settled = _on(Placing(nip, model, kernels), 0.0, finer[0], before)
@@ -128,7 +128,7 @@ def _on(
     Return the last solution, and the last one that has settled.
     """
     last: Round | None = None
-    for _ in range(_MOST):
+    for _ in range(MOST_MESHES):
         found = _on_one(placing, half_width, count, last or before)
         is_pressed = found.settled and found.figures.peak_pressure > 0.0
         if not is_pressed or _zones_are_known(placing, found, last):
@@ -140,12 +140,12 @@ def _on(
 def _on_one(placing: Placing, half_width: float, count: int, before: Round | None) -> Round:
     nip, model, kernels = placing.nip, placing.model, placing.kernels
     if before is None:
-        around = Layout.around(Layout.sticking(half_width).zones, 3.0 * _ROOM * half_width)
+        around = Layout.around(Layout.sticking(half_width).zones, 3.0 * NEAR_ENOUGH * half_width)
     else:
         zones = before.zones
         if are_too_many(len(zones)):  # the mesh is dense at both edges only
             zones = (replace(zones[0], stop=zones[-1].stop),)
-        around = Layout.around(zones, _ROOM * before.figures.nip_width)
+        around = Layout.around(zones, NEAR_ENOUGH * before.figures.nip_width)
     mesh = placing.mesh_around(around, count, holding(kernels, before))
     second, steps = first_guess(nip, mesh), 0
     if before is not None:

@@ -28,7 +28,8 @@ from rollnip.rolling.round import Figures, Round
 from rollnip.rolling.surfaces import PairKernels
 
 _STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
-NEAR_ENOUGH_FOR_SLIP = 0.1  # over the width of the contact: good enough to see what slips
+NEAR_ENOUGH = 0.1
+"""How far ends may be off, over the width of the contact, to begin with and to see what slips."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,7 @@ class SearchState:
     before: Round
     change: float = inf
     expected: float = inf
-    misplacement: float = NEAR_ENOUGH_FOR_SLIP
+    misplacement: float = NEAR_ENOUGH
     left: Figures | None = None
     effect: Figures | None = None
 

@@ -16,6 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
+SOURCE = Path(__file__).parents[1] / "src"
 REPEATS = 3  # of each solve, of which the shortest counts
 
 
@@ -103,11 +104,13 @@ def answer(asked):
     }
 
 
-def work():
-    """Answer line by line."""
+def work(source):
+    """Answer line by line, with the engine in the folder ``source``."""
+    sys.path.insert(0, source)  # before an editable install, which comes before PYTHONPATH
     import rollnip
 
-    sys.stderr.write(f"{rollnip.__file__}\n")
+    if not Path(rollnip.__file__).resolve().is_relative_to(source):
+        raise SystemExit(f"{rollnip.__file__} is not in {source}")
     for line in sys.stdin:
         sys.stdout.write(json.dumps(answer(json.loads(line))) + "\n")
         sys.stdout.flush()
@@ -115,10 +118,8 @@ def work():
 
 def worker(source):
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
-    if source:
-        environment["PYTHONPATH"] = str(Path(source).resolve())
     return subprocess.Popen(
-        [sys.executable, __file__, "--work"],
+        [sys.executable, __file__, "--work", "--source", str(Path(source).resolve())],
         stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, env=environment,
     )  # fmt: skip
 
@@ -147,11 +148,12 @@ def main():
     parser.add_argument("--other", help="folder of another engine's sources")
     parser.add_argument("--json", type=Path)
     parser.add_argument("--work", action="store_true")
+    parser.add_argument("--source", default=SOURCE)
     asked = parser.parse_args()
     if asked.work:
-        work()
+        work(asked.source)
         return
-    engines = {"this": worker(None)} | ({"other": worker(asked.other)} if asked.other else {})
+    engines = {"this": worker(SOURCE)} | ({"other": worker(asked.other)} if asked.other else {})
     table = {name: [] for name in engines}
     for number in range(asked.first, asked.first + asked.count):
         what = {"seed": asked.seed, "number": number}

@@ -36,7 +36,6 @@ from rollnip.contact.problem import (
 _ROUNDING = float(np.sqrt(np.finfo(float).eps))  # least length of a zone over the width
 # Length of stick put between slip both ways, on either side, over the shorter zone of slip.
 _STICK_BETWEEN = 0.1
-_MOVE_WITHOUT_PLACE = 0.2  # of an end with no proposed place, over the shorter zone beside it
 _LONGEST_MOVE = 0.4  # of an end into a zone, over its length
 
 
@@ -173,18 +172,15 @@ class Layout:
         """Return this layout with its breaks moved towards proposed ones, without crossing.
 
         No zone becomes more than twice as long, and no break goes further than `_LONGEST_MOVE` of
-        the zone that it moves into, nor further than `_MOVE_WITHOUT_PLACE` of the shorter zone
-        beside it where it has no proposed place.
+        the zone that it moves into.
         """
         lengths = np.diff(self.breaks)
-        back = np.concatenate([[self.width], lengths])
+        behind = np.concatenate([[self.width], lengths])
         ahead = np.concatenate([lengths, [self.width]])
-        moves = proposed.breaks - self.breaks
-        little = np.where(np.isfinite(moves), np.inf, _MOVE_WITHOUT_PLACE * np.minimum(back, ahead))
-        furthest_back = np.minimum(np.minimum(_LONGEST_MOVE * back, ahead), little)
-        furthest_ahead = np.minimum(np.minimum(_LONGEST_MOVE * ahead, back), little)
-        bounded = np.clip(moves, -furthest_back, furthest_ahead)
-        return Layout(self.breaks + bounded, self.states)
+        furthest_back = np.minimum(_LONGEST_MOVE * behind, ahead)
+        furthest_ahead = np.minimum(_LONGEST_MOVE * ahead, behind)
+        moves = np.clip(proposed.breaks - self.breaks, -furthest_back, furthest_ahead)
+        return Layout(self.breaks + moves, self.states)
 
     def vanishing(self, proposed: Layout) -> Mask:
         """Return which zones would have no length left with the proposed breaks, (m,).

@@ -152,10 +152,13 @@ def solved_next(
 ) -> tuple[Round, Stage]:
     """Solve with another correction, on better meshes where it is nearly right.
 
-    Where that fails the round has not settled.
+    Where that fails the round has not settled; but nodes of a first mesh go on there until the
+    correction has come further.
     """
     if progress.to_come <= _enough_for_better(model, latest, stage):
-        return _better(nip, model, kernels, latest, stage)
+        found, better = _better(nip, model, kernels, latest, stage)
+        if found.settled or latest.is_placed or stage is not Stage.COARSE:
+            return found, better
     return _solved_again(nip, model, kernels, latest, stage, progress.change), stage
 
 

@@ -10,6 +10,7 @@ from population import GEOMETRIES, loaded_nips, one_of
 
 import rollnip as rn
 from rollnip.rolling import fields_at
+from rollnip.rolling.lengths import shortest_zone
 
 TOLERANCE = 1e-3
 
@@ -34,8 +35,17 @@ def check_contact(nip, geometry):
     assert solution.load == pytest.approx(nip.normal.load, rel=1e-9)
     peak, mu = solution.peak_pressure, nip.friction
     assert np.min(solution.pressure) >= -1e-9 * peak
-    # beside transitions that are placed to a thousandth, as `residual` counts it
-    assert np.all(np.abs(solution.shear) <= mu * (solution.pressure + TOLERANCE * peak))
+    # Further from ends of zones than these are known, as `residual` counts it. Nearer, a singular
+    # shear K/sqrt(y) exceeds mu p, about 2 mu peak sqrt(y/w), up to y = l: by a force of
+    # 5 (l/w)^1.5 mu F.
+    final = solution.final
+    shortest = shortest_zone(nip, solution.model, solution.nip_width)
+    excess = np.abs(final.shear) - mu * np.maximum(final.pressure, 0.0)
+    ends = [end for zone in final.zones for end in (zone.start, zone.stop)]
+    is_far = np.min(np.abs(final.x[:, None] - ends), axis=1) > shortest
+    assert np.all(excess[is_far] <= mu * TOLERANCE * peak)
+    beyond = float(final.weights @ np.where(is_far, 0.0, np.maximum(excess, 0.0)))
+    assert beyond <= 0.1 * TOLERANCE * mu * nip.normal.load
     assert solution.traction == pytest.approx(
         nip.tangential.traction, abs=1e-9 * mu * nip.normal.load
     )

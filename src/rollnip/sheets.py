@@ -122,9 +122,15 @@ class Sheet:
         """Thickness over the shear modulus E/(2 (1 + nu)) [mm/MPa].
 
         Under shears q_u and q_l its faces lie (q_u/3 + q_l/6) and (q_u/6 + q_l/3) times this from
-        the mean of the section: the shear stress goes linearly from face to face.
+        the mean of the section: the shear stress goes linearly from face to face. So it is in a
+        membrane, of which both faces lie on rollers everywhere.
         """
         return 2.0 * (1.0 + self.poisson) * self.thickness / self.modulus
+
+    @property
+    def sheared(self) -> float:
+        """Shift of a face per shear, h (1 - nu^2)/E, as `squeeze` along the sheet [mm/MPa]."""
+        return self.thickness * (1.0 - self.poisson**2) / self.modulus
 
     @property
     def bending_stiffness(self) -> float:

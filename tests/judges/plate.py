@@ -71,31 +71,50 @@ def beam(case: Plate, width: float, count: int):
 
 
 def local(case: Plate, width: float, count: int):
-    """Return how far the near and the far face give way to a pressure on one face, (2, n, n).
+    """Return what tractions on one element of a face move near it and far from it, each (2, n, n).
 
-    Of an elastic layer but for its bending as a beam and by shear: its even share is
-    (4/y) (cosh y - 1)/(sinh y + y), the odd one (4/y) (cosh y + 1)/(sinh y - y) - 48/y^4 - 9.6/y^2.
+    Of an elastic layer but for its bending as a beam, its shear and its tension; its even share and
+    its odd one are, with y = kh,
+
+    - of pressures across, (4/y) (cosh y - 1)/(sinh y + y) and (4/y) (cosh y + 1)/(sinh y - y)
+      - 48/y^4 - 9.6/y^2,
+    - of shears along, (2/y) (cosh y + 1)/(sinh y + y) - 2/y^2 and (2/y) (cosh y - 1)/(sinh y - y)
+      - 6/y^2,
+    - of pressures along, integrated from the middle on, the stretch (sinh y - y)/(sinh y + y) and
+      (sinh y + y)/(sinh y - y) - 12/y^2.
     """
     h = case.thickness
-    squeeze = h * (1.0 - case.poisson**2) / case.across
     spacing = np.pi / (6.0 * count * width + 40.0 * h)
     k = spacing * (np.arange(int(60.0 / (width * spacing))) + 0.5)
     y = k * h
     big = np.minimum(y, 300.0)
-    even = 4.0 / y * (np.cosh(big) - 1.0) / (np.sinh(big) + big)
-    odd = np.full(k.size, 81.0 / 175.0)
-    far = y > 0.1
-    odd[far] = 4.0 / y[far] * (np.cosh(big[far]) + 1.0) / (np.sinh(big[far]) - big[far])
-    odd[far] -= 48.0 / y[far] ** 4 + 9.6 / y[far] ** 2
+    cosh, sinh = np.cosh(big), np.sinh(big)
+    even = np.stack(
+        [4.0 / y * (cosh - 1.0), 2.0 / y * (cosh + 1.0), sinh - big]
+    ) / (sinh + big)  # fmt: skip
+    even[1] -= 2.0 / y**2
+    odd = np.stack([4.0 / y * (cosh + 1.0), 2.0 / y * (cosh - 1.0), sinh + big]) / (sinh - big)
+    odd -= np.stack([48.0 / y**4 + 9.6 / y**2, 6.0 / y**2, 12.0 / y**2])
+    odd[:, y < 0.1] = np.array([81.0 / 175.0, 0.2, 0.4])[:, None]
     element = spacing / np.pi * 2.0 * np.sin(0.5 * k * width) / k
     x = width * np.arange(count)
-    rows = np.zeros((2, count))
+    rows = np.zeros((6, count))
     for block in np.array_split(np.arange(k.size), max(1, k.size * count // 4_000_000)):
-        cosine = np.cos(np.outer(x, k[block]))
-        rows += np.stack([cosine @ (element[block] * share[block]) for share in (even, odd)])
-    distance = np.abs(np.subtract.outer(np.arange(count), np.arange(count)))
-    even, odd = (0.25 * squeeze * row[distance] for row in rows)
-    return np.stack([even + odd, even - odd])
+        cosine, sine = np.cos(np.outer(x, k[block])), np.sin(np.outer(x, k[block])) / k[block]
+        for share, waves in enumerate((cosine, cosine, sine)):
+            for row, one in ((0, even), (3, odd)):
+                rows[row + share] += waves @ (element[block] * one[share, block])
+    apart = np.subtract.outer(np.arange(count), np.arange(count))
+    across, along = (1.0 - case.poisson**2) / np.array([case.across, case.modulus])
+    out = []
+    for share, factor, signs in (
+        (0, 0.25 * h * across, 1.0),
+        (1, 0.5 * h * along, 1.0),
+        (2, 0.5 * along, np.sign(apart)),
+    ):
+        even_one, odd_one = (factor * signs * rows[r + share][np.abs(apart)] for r in (0, 3))
+        out.append(np.stack([even_one + odd_one, even_one - odd_one]))
+    return out
 
 
 class Judge:
@@ -108,8 +127,9 @@ class Judge:
         h, nu = case.thickness, case.poisson
         by_pressure = nu * (1.0 + nu) / case.modulus
         through = 2.0 * (1.0 + nu) * h / case.modulus
+        long = 0.1 * width * (1.0 - nu**2) / case.modulus  # half of the way from end to end
         stretch = (1.0 - nu**2) / (case.modulus * h)
-        bent, faces = beam(case, width, count), local(case, width, count)
+        bent, (faces, shifts, warps) = beam(case, width, count), local(case, width, count)
         sheared = 1.2 * through / h**2 - 2.4 * by_pressure / h
         away = np.abs(np.subtract.outer(x, x))
         places = np.arange(count)
@@ -133,14 +153,17 @@ class Judge:
                 # the load on the beam is -p above, +p below; both shears turn it by h/2
                 height = -there * width * (bent[0, :, 0] - 0.5 * sheared * away)
                 turned = 0.5 * h * width * bent[0, :, 1]
-                out[0, :, 0] += -here * height + faces[0 if at == by else 1]
-                out[0, :, 1] += -here * turned - 0.5 * there * by_pressure * halfway
+                far, sign = int(at != by), here * there
+                out[0, :, 0] += -here * height + faces[far]
+                out[0, :, 1] += -here * turned + there * (sign * long - warps[far])
                 slope = -there * width * bent[1, :, 0], 0.5 * h * width * bent[1, :, 1]
-                pressed = 0.25 * width * by_pressure * (np.eye(count) + np.eye(count, k=1))
-                out[1, :, 0] += 0.5 * h * step(slope[0]) - here * pressed
-                out[1, :, 1] += 0.5 * h * step(slope[1]) + here * there * stretch * width * beyond
-                share = 1.0 / 3.0 if at == by else 1.0 / 6.0
-                out[1, :, 1] += share * through * step(np.eye(count))
+                out[1, :, 0] += 0.5 * h * step(slope[0]) + here * step(warps[far])
+                out[1, :, 1] += 0.5 * h * step(slope[1]) + sign * stretch * width * beyond
+                out[1, :, 1] += sign * step(shifts[far])
+                if at == by:  # what a pressure stretches
+                    out[0, :, 1] -= there * by_pressure * halfway
+                    pressed = 0.5 * width * by_pressure * (np.eye(count) + np.eye(count, k=1))
+                    out[1, :, 0] -= here * pressed
         self.matrix = matrix.reshape(4 * count, 4 * count)
         gaps = [0.5 * x**2 / radius for radius in case.radii]
         pulled = case.tensions[0]

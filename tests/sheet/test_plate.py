@@ -224,13 +224,14 @@ def test_nips_like_a_copiers_are_verified(thickness, load):
 def test_a_peak_at_an_edge_of_steel_is_found_and_resolved_on_coarse_meshes():
     # PET film between rubber and steel: the pressure on the steel ends in a peak as long as the
     # film is thick, 1/160 of the width. Edges that were wrong by more than that moved away from
-    # it, and a peak with few elements did not meet the tolerance on 600 of them.
+    # it, and a peak with few elements did not meet the tolerance on 600 of them. The first two
+    # sizes find a zone of stick of 2e-4 of the width there, so two more must follow.
     nip = rn.read_case(HERE.parent / "examples" / "sheet-laminator.toml").nip
     solution = rn.solve(replace(nip, sheet=replace(nip.sheet, bending=True)), LINEAR)
     assert solution.converged, solution.status
-    assert solution.solver.elements < 150
+    assert solution.solver.elements < 200
     found = solution.sheet
-    assert found.peak_pressure_lower == pytest.approx(0.6822, rel=1e-3)
+    assert found.peak_pressure_lower == pytest.approx(0.6865, rel=1e-3)
     assert found.zones_lower[-1].stop - found.zones_lower[0].start == pytest.approx(7.687, rel=1e-3)
 
 
@@ -327,12 +328,17 @@ def test_the_pressure_under_a_thin_plate_does_not_waver_from_mesh_to_mesh():
 
 
 @pytest.mark.slow
-def test_slip_both_ways_below_a_stiff_sheet_is_found():
-    # four zones below thin steel-like paper; stick and slip node by node turned in a circle here
+@pytest.mark.parametrize("tolerance", [1e-2, 1e-3, 3e-4])
+def test_slip_both_ways_below_a_stiff_sheet_is_found(tolerance):
+    # five zones below thin steel-like paper; stick and slip node by node turned in a circle here,
+    # and the stick between slip both ways closed up
     case = random_case(9306, bending=True)
-    solution = rn.solve(case.nip, rn.Model(geometry=case.geometry))
+    solution = rn.solve(case.nip, rn.Model(geometry=case.geometry, tolerance=tolerance))
     assert solution.converged
-    assert len({zone.direction for zone in solution.sheet.zones_lower} - {None}) == 2
+    zones = solution.sheet.zones_lower
+    assert len({zone.direction for zone in zones} - {None}) == 2
+    between = zones[1].stop - zones[1].start
+    assert between == pytest.approx(0.00293, abs=min(1e-3, tolerance) * 0.87)  # of a width of .87
 
 
 def test_a_sheet_without_pressure_on_one_side_did_not_settle():

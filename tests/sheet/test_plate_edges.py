@@ -8,7 +8,7 @@ from scipy.optimize import minimize_scalar
 from sheet_nips import RIGID, nip_with, paper
 
 import rollnip as rn
-from rollnip.contact import Layout, cosine_nodes, subdivided
+from rollnip.contact import Layout, State, cosine_nodes, subdivided
 from rollnip.rolling import pair_kernels
 from rollnip.sheet.plate.attempt import added_to_peaks
 from rollnip.sheet.plate.sides import highest, side_mesh
@@ -48,8 +48,19 @@ def test_a_peak_beside_a_misplaced_edge_is_not_taken():
     wrong = attempt.state.pressure[1].copy()
     wrong[:-1] += 2.0 * wrong.max() * np.sqrt(away[-1] / away)
     state = replace(attempt.state, pressure=(attempt.state.pressure[0], wrong))
-    moved = lower.breaks + np.append(np.zeros(lower.breaks.size - 1), away[-1])
+    moved = np.append(lower.breaks[:-1], mesh.inner[-1] + away[-1])
     asked = PlateZones(zones.upper, Layout(moved, lower.states))
     added = added_to_peaks(replace(attempt, state=state), asked)
-    # sqrt(y) + delta/(2 sqrt(y)) at y = delta, but for how far the edge is off already
-    assert added == pytest.approx(1.0 / 3.0, rel=0.05)
+    # sqrt(y) + delta/(2 sqrt(y)) at y = delta
+    assert added == pytest.approx(1.0 / 3.0, rel=1e-9)
+
+
+def test_stick_between_slip_both_ways_opens_as_far_as_its_ends_may_be_misplaced():
+    stuck, alone = Layout.sticking(1.0), [State.SLIP_MINUS, State.STICK, State.SLIP_MINUS]
+    both = [State.SLIP_MINUS, State.STICK, State.SLIP_PLUS, State.STICK]
+    closed = Layout(np.array([-1.0, 0.5, 0.5001, 0.7, 1.0]), np.array(both, dtype=np.int8))
+    opened = PlateZones(stuck, closed).reopened(0.01)
+    assert opened.upper.breaks == pytest.approx(stuck.breaks)
+    assert opened.lower.breaks == pytest.approx([-1.0, 0.48005, 0.52005, 0.7, 1.0])
+    same = Layout(np.array([-1.0, 0.5, 0.5001, 1.0]), np.array(alone, dtype=np.int8))
+    assert PlateZones(stuck, same).reopened(0.01).lower.breaks == pytest.approx(same.breaks)

@@ -9,7 +9,8 @@ from sheet_nips import nip_with, paper
 from sheet_population import random_case
 
 import rollnip as rn
-from rollnip.sheet.squeeze import squeezed
+from rollnip.sheet.squeeze import _SHEARED, sheared, squeezed
+from rollnip.sheet.warp import LONG_WAVES, warped
 
 LAYER = rn.Sheet(thickness=0.2, modulus=5.0, poisson=0.3, modulus_thickness=3.0)
 
@@ -80,3 +81,63 @@ def test_over_lengths_far_below_its_thickness_a_face_yields_as_a_half_space(alik
         depths.append((made[0] - made[1]) / half)
     # what a layer bends besides, and the table of 400 places, leave 2e-3
     assert depths[1] == pytest.approx(depths[0], rel=5e-3)
+
+
+def _by_all_waves(share, x, hat, *, odd):
+    """What a hat makes at ``x``: the sum of its waves times a share; its integral if ``odd``."""
+    k = (np.arange(400_000) + 0.5) * 2e-3
+    made = share(k * LAYER.thickness) * hat * np.sinc(0.5 * k * hat / np.pi) ** 2
+    waves = np.sin(np.outer(x, k)) / k if odd else np.cos(np.outer(x, k))
+    return waves @ made * 2e-3 / np.pi
+
+
+def _sinh(y):
+    big = np.minimum(y, 300.0)
+    return np.cosh(big), np.sinh(big)
+
+
+@pytest.mark.parametrize("far", [False, True])
+def test_shears_move_faces_as_those_of_an_elastic_layer(far):
+    def share(y):
+        cosh, sinh = _sinh(y)
+        alike, unlike = (cosh + 1.0) / (sinh + y) - 1.0 / y, (cosh - 1.0) / (sinh - y) - 3.0 / y
+        unlike = np.where(y < 0.05, 0.1 * y, unlike)
+        return (unlike - alike if far else unlike + alike) / y
+
+    hat, x = 0.15, np.array([0.0, 0.07, 0.15, 0.4])
+    nodes, faces = np.array([-hat, 0.0, hat]), np.full(x.size, far)
+    found = sheared(LAYER, x, nodes, np.ones((1, 1)), faces)[:, 0]
+    wanted = LAYER.sheared * _by_all_waves(share, x, hat, odd=False)
+    # beyond k = 800/mm the waves add at most int 4/(pi h l k^3) dk, 3.3e-5
+    assert found == pytest.approx(wanted, abs=4e-5 * LAYER.sheared)
+
+
+@pytest.mark.parametrize("far", [False, True])
+def test_pressures_stretch_faces_as_those_of_an_elastic_layer(far):
+    def share(y):
+        _, sinh = _sinh(y)
+        alike, unlike = (sinh - y) / (sinh + y), (sinh + y) / (sinh - y) - 12.0 / y**2
+        unlike = np.where(y < 0.05, 0.4 + 11.0 / 700.0 * y**2, unlike)
+        return 0.5 * (alike - unlike if far else alike + unlike)
+
+    hat, x = 0.15, np.array([0.02, 0.07, 0.15, 0.4])
+    nodes, faces = np.array([-hat, 0.0, hat]), np.full(x.size, far)
+    lines = np.array([[0.0], [1.0], [0.0]])
+    found = warped(LAYER.thickness, x, nodes, lines, faces)[:, 0]
+    long = 0.5 * (LONG_WAVES[0] + (-1.0 if far else 1.0) * LONG_WAVES[1])
+    behind = np.where(x < hat, 0.5 * hat * (1.0 - np.maximum(1.0 - x / hat, 0.0) ** 2), 0.5 * hat)
+    wanted = long * behind - _by_all_waves(share, x, hat, odd=True)
+    assert found == pytest.approx(wanted, abs=1e-5 * hat)
+
+
+def test_a_layer_between_flat_faces_shears_by_its_thickness_over_the_shear_modulus():
+    # Shears through it turn its sections, by pressures that hold its faces flat: with y = kh, per
+    # c, the faces' heights by both are 0, and what they move along adds up to h/(2 G) each.
+    y, nu = 0.02, LAYER.poisson
+    c, b = 1.0 - nu**2, nu * (1.0 + nu)
+    across = (
+        12.0 * c / y**3 + (LONG_WAVES[1] * c - b) / y
+    )  # per shear; along per pressure is the same
+    pressure = -across / (24.0 * c / y**4 + 4.8 * c / y**2)
+    along = 6.0 * c / y**2 + _SHEARED[1] * c + pressure * across
+    assert along == pytest.approx(1.0 + nu, rel=1e-3)

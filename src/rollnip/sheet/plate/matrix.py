@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from rollnip.contact import CREEP_TO_EDGE
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.plate.sides import SIGNS, stretch_by, values_at
+from rollnip.sheet.plate.sides import SIGNS, stretch_by
 from rollnip.sheet.plate.spread import Spread, about
 from rollnip.sheets import Sheet
 
@@ -30,16 +30,20 @@ def gaps_and_creeps_of(
     sections at nodes[1:] of both meshes, per p_u, q_u, p_l and q_l.
     """
     by_rollers = [_by_roller(mesh, at) for at, mesh in enumerate(meshes)]
-    through = spreads[0].sheet.shear_by_thickness / 3.0
-    above, below = (np.diagonal(one)[len(one) // 2 :] - through for one in by_rollers)
+    n, m = (mesh.inner.size for mesh in meshes)
+    x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
+    is_upper = np.arange(x.size) <= n
+    by_shears = [_changes(one.sheared(x, is_upper == by)) for by, one in enumerate(spreads)]
+    above = np.diagonal(by_rollers[0][n:, n:]) + np.diagonal(by_shears[0][:n])
+    below = np.diagonal(by_rollers[1][m:, m:]) + np.diagonal(by_shears[1][n + 1 :])
     own = np.concatenate([above, [-1.0], below])
-    n, (upper, lower) = above.size, (2 * above.size, 2 * below.size)
-    rows, places = (slice(n), slice(n + 1, None)), (slice(upper), slice(upper, None))
-    matrix = np.empty((upper + lower, upper + lower))
-    turned = np.empty((own.size + 1, upper + lower))
+    rows, places = (slice(n), slice(n + 1, None)), (slice(2 * n), slice(2 * n, None))
+    matrix = np.empty((2 * (n + m), 2 * (n + m)))
+    turned = np.empty((x.size, 2 * (n + m)))
     for by, columns in enumerate(places):
         made, turned[:, columns] = _by_sheet(meshes, (spreads[by], pulls[by]), by, own)
-        for at, block in enumerate((matrix[:upper, columns], matrix[upper:, columns])):
+        made[1, :, 1] += by_shears[by]
+        for at, block in enumerate((matrix[: 2 * n, columns], matrix[2 * n :, columns])):
             block[:] = made[:, rows[at]].reshape(block.shape)
             if at == by:
                 block += by_rollers[at]
@@ -62,7 +66,7 @@ def _by_roller(mesh: Mesh, side: int) -> Array:
 def _by_sheet(
     meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], by: int, own: Array
 ) -> tuple[Array, Array]:
-    """Return gaps and creeps by what tractions on one interface do to the sheet.
+    """Return gaps and creeps by what tractions on one interface do to the sheet, less `sheared`.
 
     Parameters
     ----------
@@ -78,18 +82,20 @@ def _by_sheet(
     one, pull = spreads
     sheet, half, there = one.sheet, 0.5 * one.sheet.thickness, SIGNS[by]
     x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
-    is_upper = np.arange(x.size - 1) < meshes[0].nodes.size - 1
-    here = np.where(is_upper, *SIGNS)[:, None]
+    is_far = (np.arange(x.size) < meshes[0].nodes.size - 1) == by
+    here = np.where(is_far[:-1], -there, there)[:, None]
     signs = here * there
     loads = one.moments_beyond(x)
     pulled = loads if pull is one else pull.moments_beyond(x)
     height, slope, bend = one.bent(x, loads)
     out = np.empty((2, x.size - 1, 2, one.lines.shape[1]))
     # y goes with -p_u and +p_l, the gap above with -y and below with +y
-    out[0, :, 0] = signs * height[:-1] + one.squeezed(x[:-1], is_upper == by)
-    by_pressure = 0.5 * sheet.stretch_by_pressure
-    out[0, :, 1] = half * here * slope[:-1] - there * by_pressure * pulled[0, :-1]
-    out[1, :, 0] = by_pressure * here * _changes(loads[0]) - there * half * _changes(slope)
+    out[0, :, 0] = signs * height[:-1] + one.squeezed(x[:-1], is_far[:-1])
+    warped = one.warped(x, is_far, loads)
+    tilted = warped if pull is one else pull.warped(x, is_far, pulled)
+    out[0, :, 1] = half * here * slope[:-1] - there * tilted[:-1]
+    out[1, :, 0] = here * _changes(warped)
+    out[1, :, 0] -= there * half * _changes(slope)
     exact = _stretched(sheet, signs, _changes(about(x, pulled, 1)), _changes(bend))
     share = _lumped_share(sheet, np.diff(x), own)
     if share.any():
@@ -97,8 +103,7 @@ def _by_sheet(
         bends = one.plate.curvature(ahead)
         lumped = _stretched(sheet, signs, _changes(np.maximum(ahead, 0.0)), _changes(bends))
         exact += share * (pull.whole * lumped - exact)
-    through = np.where(signs > 0.0, 1.0 / 3.0, 1.0 / 6.0) * sheet.shear_by_thickness
-    out[1, :, 1] = exact + through * _changes(values_at(meshes[by], x))
+    out[1, :, 1] = exact
     return out, np.concatenate([-there * slope, -half * bend], axis=1)
 
 

@@ -23,6 +23,7 @@ from rollnip.rolling.displacements import NO_SECOND_ORDER
 from rollnip.rolling.lengths import boundary_layer
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.conditions import violation
+from rollnip.sheet.kind import CLOSELY
 from rollnip.sheet.layers import sheet_layer, squeeze_layer, unlike_layer
 from rollnip.sheet.moves import Moves
 from rollnip.sheet.plate.attempt import (
@@ -131,7 +132,7 @@ class PlateSearch:
         attempt, misplacement = before, inf
         fair: PlateAttempt | None = None
         for _ in range(_MOST_MESHES):
-            zones = zones.without_slivers()
+            zones = zones.without_slivers().reopened(CLOSELY * self.model.tolerance)
             if not zones.is_proper:
                 break
             attempt, is_fine = self._on_mesh(zones, (count, shapes), (known, misplacement), attempt)

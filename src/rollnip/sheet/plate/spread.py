@@ -11,7 +11,8 @@ from scipy.linalg import lapack
 
 from rollnip.rolling.surfaces import Mesh
 from rollnip.sheet.plate.bending import Plate, exponential_weights
-from rollnip.sheet.squeeze import squeezed
+from rollnip.sheet.squeeze import sheared, squeezed
+from rollnip.sheet.warp import LONG_WAVES, warped
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
@@ -158,6 +159,26 @@ class Spread:
         """
         nodes, lines = self.nodes, self.lines[1:-1]
         return squeezed(self.sheet, x, nodes, lines, (0.25, 0.25), opposite=far)
+
+    def sheared(self, x: Array, far: NDArray[np.bool_]) -> Array:
+        """Return how far shears move a face along, beside tension and bending, (m, n) [mm/MPa].
+
+        ``far``: see `squeezed`.
+        """
+        return sheared(self.sheet, x, self.nodes, self.lines[1:-1], far)
+
+    def warped(self, x: Array, far: NDArray[np.bool_], beyond: Array) -> Array:
+        """Return int g t ds from some places on, (m, n) [mm]; see `rollnip.sheet.warp`.
+
+        g t is the stretch of the face by pressures t, beside bending; ``beyond``: what
+        `moments_beyond` says of the places; ``far``: see `squeezed`.
+        """
+        sheet, alike = self.sheet, np.where(far, 0.0, self.sheet.stretch_by_pressure)
+        signs = np.where(far, -1.0, 1.0)
+        less = sheet.sheared / sheet.thickness
+        long = alike - 0.5 * less * (LONG_WAVES[0] + signs * LONG_WAVES[1])
+        short = warped(sheet.thickness, x, self.nodes, self.lines, far)
+        return np.asarray(long[:, None] * beyond[0] - less * short)
 
     @property
     def _points(self) -> tuple[Array, Array]:

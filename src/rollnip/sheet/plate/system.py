@@ -10,7 +10,8 @@ way towards the middle, N its tension and e its strain,
     creep, upper = xi_u dx + int (stretch_u - 1 - e + h y''/2) dx               = 0 in stick
     creep, lower = xi_l dx + int (e + h y''/2 - stretch_l + 1) dx               = 0 in stick
 
-e = a N + b (p_u + p_l)/2; the faces of a bent sheet are stretched by -+ h y''/2. All forces on the
+e = a N + b (p_u + p_l)/2; the faces of a bent sheet are stretched by -+ h y''/2. To all of these
+comes what an elastic layer has more of (`Spread.sheared`, `Spread.warped`). All forces on the
 sheet add up to nothing across it, and the moment of the nip on it is what its tension rights.
 """
 
@@ -252,11 +253,13 @@ class PlateProblem:
 
     def thinned_at(self, state: PlateState, x: Array) -> Array:
         """Return how far both faces give way towards the middle at some places, (2, m) [mm]."""
-        out = np.zeros((2, x.size))
-        out += 0.5 * self.sheet.stretch_by_pressure * self.tension_at(state, x)
+        both = np.tile(x, 2)
+        out = np.full((2, x.size), 0.5 * self.sheet.stretch_by_pressure * self.sheet.tension_in)
         for side, one in enumerate(self.spreads):
-            alone, far = one.of(state.pressure[side]), np.arange(2) != side
-            made = alone.squeezed(np.tile(x, 2), np.repeat(far, x.size))
+            far = np.repeat(np.arange(2) != side, x.size)
+            pulled = self.pulls[side].of(state.shear[side])
+            warped = pulled.warped(both, far, pulled.moments_beyond(both))
+            made = one.of(state.pressure[side]).squeezed(both, far) - SIGNS[side] * warped
             out += made.reshape(2, x.size)
         return out
 

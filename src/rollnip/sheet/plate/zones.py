@@ -128,6 +128,16 @@ class PlateZones(SideZones):
         upper, lower = (without_slivers_in(side, _SLIVER * side.width) for side in self.sides)
         return PlateZones(upper, lower)
 
+    def reopened(self, misplaced: float) -> PlateZones:
+        """Return the zones, those of stick between opposite slip as long as ends may be misplaced.
+
+        The tractions of a zone see no further than it is long: one that closed up while other ends
+        were misplaced could not grow again, as its ends would seem to be placed.
+        ``misplaced``: allowed error of an end, over the width.
+        """
+        upper, lower = (_reopened(side, 2.0 * misplaced * side.width) for side in self.sides)
+        return PlateZones(upper, lower)
+
     @classmethod
     def around(cls, problem: PlateProblem, state: PlateState) -> PlateZones:
         """Return the zones of nodal states on meshes that reach beyond the contacts.
@@ -171,3 +181,18 @@ def _joined(state: ContactState) -> ContactState:
         before = np.searchsorted(touching, np.arange(first, last + 1), side="right") - 1
         states[first : last + 1] = states[touching[before]]
     return replace(state, states=states)
+
+
+def _reopened(layout: Layout, least: float) -> Layout:
+    """Return a layout whose zones between unlike ones are no shorter than ``least`` [mm].
+
+    They take no more than half of their neighbours.
+    """
+    breaks, states = layout.breaks.copy(), layout.states
+    for number in range(1, states.size - 1):
+        before, start, stop, after = layout.breaks[number - 1 : number + 3]
+        missing = least - (stop - start)
+        if missing > 0.0 and states[number - 1] != states[number + 1]:
+            breaks[number] = start - 0.5 * min(missing, start - before)
+            breaks[number + 1] = stop + 0.5 * min(missing, after - stop)
+    return Layout(breaks, states)

@@ -148,7 +148,10 @@ def test_interface_under_a_film_carries_the_tractions(thickness):
     below = solution.interfaces[0]
     pressure = np.interp(below.x, solution.final.x, solution.pressure, left=0.0, right=0.0)
     shear = np.interp(below.x, solution.final.x, solution.shear, left=0.0, right=0.0)
-    allowed = 0.01 * solution.peak_pressure
-    np.testing.assert_allclose(below.peel, -pressure, atol=allowed)
-    np.testing.assert_allclose(np.abs(below.shear), np.abs(shear), atol=allowed)
+    trailing, leading = solution.contact[0]
+    # Within its thickness of an edge, a film spreads what acts on it.
+    distance = np.minimum(np.abs(below.x - trailing), np.abs(below.x - leading))
+    allowed = np.where(distance > thickness, 0.01, 0.03) * solution.peak_pressure
+    assert np.all(np.abs(below.peel + pressure) <= allowed)
+    assert np.all(np.abs(np.abs(below.shear) - np.abs(shear)) <= allowed)
     assert below.peel_min == pytest.approx(-solution.peak_pressure, rel=1e-3)

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-_SHOWN = 6  # values of an array
+_SHOWN = 6  # values of an array; of a longer one the size is shown
 
 
 def sealed(values: NDArray[Any]) -> NDArray[Any]:

@@ -41,12 +41,12 @@ def impossible(nip: Nip, geometry: Geometry, final: Round) -> str:
 
 
 def is_too_deep(nip: Nip, geometry: Geometry, found: Round, *, is_rough: bool) -> bool:
-    """Return whether a layer is pressed in too far.
+    """Return whether a layer is pressed in too far for a finer mesh or finite strain to be tried.
 
-    By a solution that ``is_rough``, before finite strain or on a first mesh, it is where the
-    surface has reached the core. `finite` presses a covering in by 0.57 of its thickness and more
-    where `curved` does so by all of it (Poisson ratios of 0.3 to 0.5, thicknesses of 0.002 to 0.3
-    of the radius).
+    In a solution that ``is_rough``, before finite strain or on a first mesh, that is by its whole
+    thickness; else by `MOST_PRESSED_IN` of it, as in `impossible`. `finite` presses a covering in
+    by 0.57 of its thickness and more where `curved` does so by all of it (Poisson ratios of 0.3 to
+    0.5, thicknesses of 0.002 to 0.3 of the radius).
     """
     most = 1.0 if is_rough else MOST_PRESSED_IN
     both = (("upper", nip.upper), ("lower", nip.lower))

@@ -207,7 +207,7 @@ def _how_far(ended: Ended) -> str:
     """Return why contact and correction found no solution, and how far their iteration got."""
     done, change = ended.iterations, f"{ended.change:.2g}"
     if ended.cause == "depth":
-        return "without finite strain its covering is pressed in by more than its thickness"
+        return "without finite strain a layer is pressed in by its whole thickness or more"
     if ended.cause == "balance" and done == 0:
         return "no equilibrium was found under its tractions, nor under a sixteenth of them"
     if ended.cause == "balance":

@@ -220,7 +220,10 @@ class Layout:
         return Layout(np.array(breaks[1:-1]), np.array(states[1:-1], dtype=np.int8))
 
     def of_length(self, least: float, *, keeps_stick: bool) -> Layout:
-        """Return the layout without zones shorter than a length [mm]; see `without`."""
+        """Return the layout without zones shorter than a length [mm], the shortest first.
+
+        It ends at a zone that cannot be left out, see `without`.
+        """
         layout = self
         while np.min(np.diff(layout.breaks)) < least:
             fewer = layout.without(int(np.argmin(np.diff(layout.breaks))), keeps_stick=keeps_stick)

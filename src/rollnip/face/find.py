@@ -208,7 +208,7 @@ def _require_plain(nip: Nip, face: Face) -> None:
 
 
 def _require_same(law: NipLaw, problem: FaceProblem, model: Model) -> None:
-    """Raise unless a law is of the same cross-sections, whatever their loads, shafts, heat."""
+    """Raise unless a law is of the same cross-sections, whatever their loads, shafts and heat."""
     one, other = law.nip, problem.nip
     is_same = all(
         in_section(getattr(one, side)) == in_section(getattr(other, side)) for side in SIDES

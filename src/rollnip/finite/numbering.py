@@ -1,8 +1,8 @@
 """Unknowns of a mesh of elements: their numbers, and their places in a matrix in banded storage.
 
-A mesh has so many columns, each of so many elements. The displacements are numbered down one column
-of nodes after the other. A matrix goes by columns, too, or by rows where these are shorter: its
-diagonals are as many as what an element ties together is apart.
+All columns of a mesh have equally many elements. The displacements are numbered down one column of
+nodes after the other. A matrix has them in the same order or, where rows are shorter, along one row
+of nodes after the other: the nearer the unknowns of an element are, the fewer diagonals it has.
 """
 
 from __future__ import annotations
@@ -39,7 +39,9 @@ def order(columns: int, elements: int, by_rows: bool) -> Indices | None:
     if not by_rows:
         return None
     nodes = np.arange(2 * elements * (2 * columns + 1)).reshape(2 * elements, -1).T.ravel()
-    return np.stack((2 * nodes, 2 * nodes + 1), axis=-1).ravel()
+    places = np.stack((2 * nodes, 2 * nodes + 1), axis=-1).ravel()
+    places.setflags(write=False)
+    return places
 
 
 def placed(columns: int, elements: int, by_rows: bool) -> Indices:
@@ -70,7 +72,8 @@ def slots(columns: int, elements: int, by_rows: bool) -> Indices:
 def near_slots(columns: int, elements: int) -> Indices:
     """Return places of the entries of every element, and of every element with the next of its row.
 
-    In banded storage with twice as many diagonals above the main one; beyond it if fixed.
+    In banded storage, by columns, with twice as many diagonals above the main one; beyond it if
+    fixed.
     """
     numbers = unknowns(columns, elements)
     size, band = size_and_band(columns, elements)

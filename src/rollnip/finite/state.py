@@ -103,9 +103,10 @@ class MeshState:
     tangent: Tangent | None = field(default=None, repr=False, compare=False)
 
     def on_columns(self, strip: Strip, other: Strip) -> MeshState:
-        """Return the state on a mesh of other columns, as it is on its own one, ``strip``.
+        """Return the state of mesh ``strip`` on a mesh of other columns, by its own elements.
 
-        Beyond this one displacements and pressures are those of its end.
+        Beyond the ends of ``strip`` displacements are those of the end, and so are the pressures
+        in the middle of elements.
         """
         at, place, _ = _elements_at(strip, other.arcs)
         nodes = self.displacement.reshape(strip.arcs.size, -1)[2 * at[:, None] + np.arange(3)]

@@ -106,7 +106,10 @@ class Strip:
 
     @property
     def _kind(self) -> tuple[int, int, bool]:
-        """Columns, elements of each, and whether a matrix goes by rows, as many layers ask for."""
+        """Columns, elements of each, and whether a matrix goes by rows, as many layers ask for.
+
+        With memory it goes by columns, which are tied to those ahead (`near_slots`).
+        """
         count = self.depths.owner.size
         by_rows = count > self.columns and not self.depths.roller.is_viscoelastic
         return self.columns, count, by_rows

@@ -84,7 +84,7 @@ def _refined(placing: Placing, state: SearchState, count: int, *, known: bool) -
     most = max(most, _MOST_TIMES_FIRST * count)
     best: Round | None = None
     is_repeated = False  # on a mesh of the same size
-    shown = _FIRST_EXCESS  # error or residual over the tolerance that the next size is to reduce
+    shown = _FIRST_EXCESS  # error, residual or roughness over what is allowed
     while count <= most:
         closely = bool(history)  # the error may be small enough
         placed = placing.placed(state, count, known=known or closely, closely=closely)

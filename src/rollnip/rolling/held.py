@@ -43,7 +43,7 @@ from rollnip.rolling.surfaces import PairKernels
 ENOUGH = 0.3
 _COARSE = 24  # elements of the contact while its correction still changes
 NEARLY = 6.0  # last change or those to come, over the tolerance: the mesh is refined now
-# Tolerance of such contacts, and how far a correction moves their ends, over the width.
+# Tolerance of such contacts, and about how far a correction moves ends of zones, over the width.
 _COARSELY = 1e-2
 
 
@@ -87,8 +87,9 @@ def begin(
     And the influence functions with the correction that it holds: that of ``kernels`` or, with
     ``second``, the second order under the tractions of nodes. An elastic nip of a single zone
     goes without: an iteration leaves so little of the error of the correction there that the second
-    order saves none. Where friction grips a stiff skin no ends are sought yet: its short zones
-    beside the edges come and go with the correction, and iterations from those would follow them.
+    order saves none. A contact that is too deep is returned as its nodes found it. Where friction
+    grips a stiff skin no ends are sought yet: its short zones beside the edges come and go with the
+    correction, and iterations from those would follow them.
     """
     coarse_model = coarsely(model)
     sizes = by_nodes(nip, coarse_model, kernels, half_width, COARSE_SIZES)

@@ -33,10 +33,10 @@ COARSE_SIZES = tuple(count for count in SIZES if count <= ENOUGH_FOR_ZONES)
 
 
 class IsTooDeep(Protocol):
-    """Whether a layer is pressed in too far by a solution, be it rough."""
+    """A function that judges how far layers are pressed in, `no_nip.is_too_deep` of one nip."""
 
     def __call__(self, found: Round, *, is_rough: bool) -> bool:
-        """Return so."""
+        """Return whether a layer is pressed in too far by a solution, a rough one or not."""
         ...
 
 
@@ -58,7 +58,8 @@ def refine(
     ----------
     half_width : first guess [mm].
     sizes : elements of the meshes on which zones are sought, in turn.
-    is_too_deep : tells solutions that no finer mesh makes possible.
+    is_too_deep : tells which solutions no finer mesh makes possible: such a one is returned as it
+        is; None: none is.
 
     Returns
     -------

@@ -80,9 +80,9 @@ class Ended:
 
     Attributes
     ----------
-    cause : without them a layer is pressed in by its thickness ("depth"), no equilibrium was found
-        ("balance"), contact, stick and slip did not settle ("contact"), or the correction still
-        changed after the last iteration allowed ("iterations").
+    cause : a layer was pressed in by its whole thickness before the first of them ("depth"), no
+        equilibrium was found ("balance"), contact, stick and slip did not settle ("contact"), or
+        the correction still changed after the last iteration allowed ("iterations").
     iterations : how often a correction was found.
     change : the last change of the correction, over the first-order terms; inf without any.
     """

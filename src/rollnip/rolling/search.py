@@ -29,7 +29,11 @@ from rollnip.rolling.surfaces import PairKernels
 
 _STICK_AND_SLIP = CoupledActiveSet(wanted=next_slip)
 NEAR_ENOUGH = 0.1
-"""How far ends may be off, over the width of the contact, to begin with and to see what slips."""
+"""How far ends may be off, over the width of the contact, to begin with and to see what slips.
+
+Likewise the room beside edges that are not known yet, and the relative change of a half-width or
+of a correction with which a contact is still a start for the next one.
+"""
 
 
 @dataclass(frozen=True, slots=True)

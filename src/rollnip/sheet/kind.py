@@ -57,7 +57,10 @@ class SheetKind(Protocol[S]):
         ...
 
     def figures(self, attempt: S, geometry: Geometry) -> tuple[SheetFigures, ...]:
-        """Return figures with width and pressure of the upper, and if it differs the lower side."""
+        """Return the figures, with width and pressure of the upper interface.
+
+        Where the lower one has a width and a pressure of its own, figures with those follow.
+        """
         ...
 
     def pulls(self, attempt: S, geometry: Geometry) -> Pulls:

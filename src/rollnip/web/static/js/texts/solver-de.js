@@ -52,6 +52,7 @@ export const SOLVER_DE = {
   "solver.all-those": "Alle Zahlen sind die des Modells „{geometry}“.",
   "solver.why-touch": "seine Oberflächen berühren sich nicht",
   "solver.why-rest": "seine {terms} kamen nicht zur Ruhe (zuletzt änderten sie sich um {change} der Glieder erster Ordnung)",
+  "solver.why-depth": "ohne endliche Dehnung wird eine Schicht um ihre ganze Dicke oder mehr eingedrückt",
   "solver.why-balance": "seine Spannungen haben kein Gleichgewicht, oder es wurde keines gefunden, auch nicht für ein Sechzehntel von ihnen",
   "solver.why-balance-later": "seine Spannungen haben im Schritt {turn} von Kontakt und Korrektur kein Gleichgewicht, oder es wurde keines gefunden (im Schritt davor änderten sich seine Glieder jenseits der linearen um {change} der Glieder erster Ordnung)",
   "solver.why-contact": "Kontakt, Haften und Gleiten kamen im Schritt {turn} von Kontakt und Korrektur nicht zur Ruhe (in ihm änderten sich seine Glieder jenseits der linearen um {change} der Glieder erster Ordnung)",

@@ -52,6 +52,7 @@ export const SOLVER_EN = {
   "solver.all-those": `All figures are those of geometry "{geometry}".`,
   "solver.why-touch": "its surfaces do not touch",
   "solver.why-rest": "its {terms} did not settle (they last changed by {change} of the first-order ones)",
+  "solver.why-depth": "without finite strain a layer is pressed in by its whole thickness or more",
   "solver.why-balance": "no equilibrium was found under its tractions, nor under a sixteenth of them",
   "solver.why-balance-later": "no equilibrium was found under its tractions in iteration {turn} of contact and correction (in the iteration before, its terms beyond the linear ones changed by {change} of the first-order ones)",
   "solver.why-contact": "contact, stick and slip did not settle in iteration {turn} of contact and correction (in it, its terms beyond the linear ones changed by {change} of the first-order ones)",

@@ -186,8 +186,8 @@ def test_totals_losses_and_lengths_per_thousand_are_in_the_units_chosen(designer
     assert watts
     designer.choose("in-drive", "traction")  # one surface is ahead
     page.click("#us")
-    assert "ft in 1000 ft" in page.inner_text("#figures")
-    assert " m in 1000" not in page.inner_text("#figures")
+    assert "in 1000 ft" in page.inner_text("#figures")
+    assert "in 1000 m" not in page.inner_text("#figures")
     horses = [text for text in whole.all_inner_texts() if " hp" in text]
     assert len(horses) == len(watts)
     page.click("#metric")

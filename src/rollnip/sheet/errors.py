@@ -39,7 +39,7 @@ _BY_TRACTIONS = range(NAMES.index("traction_upper"), len(NAMES))
 
 @dataclass(frozen=True, slots=True)
 class SizeOfMesh:
-    """What the estimates ask of the solution on one size of mesh.
+    """A solution on one size of mesh, with what estimates of its error need.
 
     Attributes
     ----------

@@ -93,7 +93,7 @@ class ZoneSearch:
         is_placed, is_near : whether the ends lie where they should, or nearly.
         """
         layout, proposed = zones
-        keeps_stick = latest.problem.control.traction is not None
+        keeps_stick = _keeps_stick(latest)
         for number in np.flatnonzero(ends.vanishing(layout, proposed)):
             fewer = layout.without(int(number), keeps_stick=keeps_stick)
             if fewer is not None:
@@ -163,8 +163,7 @@ class ZoneSearch:
         layout = Layout.found(latest.problem.x, found, self.nip.friction, *pieces)
         if layout is None:
             return None
-        keeps_stick = latest.problem.control.traction is not None
-        layout = layout.of_length(self._shortest(layout), keeps_stick=keeps_stick)
+        layout = layout.of_length(self._shortest(layout), keeps_stick=_keeps_stick(latest))
         second = second_order(self.nip, geometry, latest.mesh, found)
         steps = latest.steps + found.steps
         return SearchState(layout, replace(latest, state=found, second=second, steps=steps))
@@ -183,3 +182,8 @@ class ZoneSearch:
 
     def _shortest(self, layout: Layout) -> float:
         return shortest_zone(self.nip, self.model, layout.width)
+
+
+def _keeps_stick(latest: Round) -> bool:
+    """Return whether one zone of stick must be left, from which a wanted traction is found."""
+    return latest.problem.control.traction is not None

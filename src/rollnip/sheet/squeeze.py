@@ -13,7 +13,7 @@ make the pressure rise in proportion to the distance from the edge of the contac
 h E_rubber/E_z far below the thickness, where they no longer apply.
 
 In space the share is 1/h times a function of x/h, whose double integral is |x|/2 plus h times the
-function `spread_of` of t = |x|/h. It is a sum over the roots of sinh y = -y in the first quadrant.
+function `_spread` of t = |x|/h. It is a sum over the roots of sinh y = -y in the first quadrant.
 Close to 0 this would take all roots. There f is 4/y, but for what falls as exp(-y), and so the
 function is
 
@@ -49,12 +49,12 @@ from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 
-FAR = 9.0  # over the thickness: there `spread_of` is 1e-17, it falls as exp(-4.2 distance)
+FAR = 9.0  # over the thickness: there `_spread` is 1e-17, it falls as exp(-4.2 distance)
 PLACES = 400  # of the table, crowded at 0
 _ROOTS = 1000
 _SUMMED = 0.01, 0.2  # over the thickness: so many roots are enough there, and a series still is
 _OF_SERIES = 6  # its terms
-AT_ONCE = 64  # nodes: what these need stays in a fast memory
+_AT_ONCE = 64  # nodes: what these need stays in a fast memory
 # Long waves, over c: of forces that do not bend the layer, and beside those of a plate of others.
 _PRESSED, _SHEARED = (1.0, 81.0 / 175.0), (1.0 / 3.0, 1.0 / 5.0)
 _Shares = tuple[float, float]
@@ -126,19 +126,43 @@ def _moved(
     slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
     np.subtract(padded[1:], padded[:-1], out=slopes[1:-1])
     slopes[1:-1] *= (thickness / np.diff(nodes))[:, None]
-    turns = slopes[1:] - slopes[:-1]
-    far = FAR * thickness
-    for start in range(0, nodes.size, AT_ONCE):
-        some = slice(start, start + AT_ONCE)
+    add_spread(made, thickness, (x, nodes), slopes[1:] - slopes[:-1], (cubic, starts))
+    return made
+
+
+def add_spread(
+    made: Array,
+    thickness: float,
+    places: tuple[Array, Array],
+    turns: Array,
+    table: tuple[Array, NDArray[np.intp]],
+    *,
+    is_odd: bool = False,
+) -> None:
+    """Add what the turns of straight lines at their nodes make near by, in place.
+
+    Parameters
+    ----------
+    made : (m, s) to add to.
+    thickness : of the sheet [mm].
+    places : (m,) places and (N + 1,) nodes [mm].
+    turns : (N + 1, s) changes of slope at the nodes.
+    table : cubics, and where that of each place starts; see `_spread`.
+    is_odd : whether a spread has the other sign ahead of its node than behind it, where it adds.
+    """
+    (x, nodes), (cubic, starts), far = places, table, FAR * thickness
+    for start in range(0, nodes.size, _AT_ONCE):
+        some = slice(start, start + _AT_ONCE)
         ends = nodes[some]
         near = np.flatnonzero((x > ends[0] - far) & (x < ends[-1] + far))
         sets = np.flatnonzero(turns[some].any(axis=0))  # of a few neighbours each, as a rule
         if near.size and sets.size:
             columns = slice(int(sets[0]), int(sets[-1]) + 1)
-            away = np.abs(x[near, None] - ends) / thickness
-            spread = spread_of(away, cubic, starts[near, None])
+            away = (x[near, None] - ends) / thickness
+            spread = _spread(np.abs(away), cubic, starts[near, None])
+            if is_odd:
+                spread *= -np.sign(away)
             made[near, columns] += spread @ turns[some, columns]
-    return made
 
 
 def _straight(x: Array, nodes: Array, values: Array) -> Array:
@@ -151,7 +175,7 @@ def _straight(x: Array, nodes: Array, values: Array) -> Array:
     return np.asarray(weights[0] * values[at] + weights[1] * values[at + 1])
 
 
-def spread_of(away: Array, cubic: Array, starts: NDArray[np.intp]) -> Array:
+def _spread(away: Array, cubic: Array, starts: NDArray[np.intp]) -> Array:
     """Return the double integral of the shares in space, less half of the distance, over h.
 
     ``away``: distances over h; beyond `FAR` it is 0. ``cubic``, ``starts``: see `_table`, one

@@ -22,7 +22,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.sheet.squeeze import AT_ONCE, FAR, PLACES, roots, spread_of
+from rollnip.sheet.squeeze import FAR, PLACES, add_spread, roots
 
 Array = NDArray[np.float64]
 
@@ -49,17 +49,8 @@ def warped(thickness: float, x: Array, nodes: Array, lines: Array, far: NDArray[
     here = 0.5 * (slopes[np.searchsorted(nodes, x)] + slopes[np.searchsorted(nodes, x, "right")])
     made = 0.5 * (_STEPS[0] + signs * _STEPS[1])[:, None] * here
     turns, cubic = np.diff(slopes, axis=0), np.concatenate([_table(1.0), _table(-1.0)], axis=1)
-    starts, reach = np.where(far, PLACES - 1, 0), FAR * thickness
-    for start in range(0, nodes.size, AT_ONCE):
-        some = slice(start, start + AT_ONCE)
-        ends = nodes[some]
-        near = np.flatnonzero((x > ends[0] - reach) & (x < ends[-1] + reach))
-        sets = np.flatnonzero(turns[some].any(axis=0))
-        if near.size and sets.size:
-            columns = slice(int(sets[0]), int(sets[-1]) + 1)
-            away = (x[near, None] - ends) / thickness
-            spread = np.sign(away) * spread_of(np.abs(away), cubic, starts[near, None])
-            made[near, columns] -= spread @ turns[some, columns]
+    starts = np.where(far, PLACES - 1, 0)
+    add_spread(made, thickness, (x, nodes), turns, (cubic, starts), is_odd=True)
     return np.asarray(thickness**2 * made)
 
 

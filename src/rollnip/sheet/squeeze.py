@@ -45,16 +45,13 @@ from math import pi
 import numpy as np
 from numpy.typing import NDArray
 
+from rollnip.sheet.layer_response import DISTANCES, FaceResponse, displacements, roots, tabulated
 from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 
-FAR = 9.0  # over the thickness: there `_spread` is 1e-17, it falls as exp(-4.2 distance)
-PLACES = 400  # of the table, crowded at 0
-_ROOTS = 1000
 _SUMMED = 0.01, 0.2  # over the thickness: so many roots are enough there, and a series still is
 _OF_SERIES = 6  # its terms
-_AT_ONCE = 64  # nodes: what these need stays in a fast memory
 # Long waves, over c: of forces that do not bend the layer, and beside those of a plate of others.
 _PRESSED, _SHEARED = (1.0, 81.0 / 175.0), (1.0 / 3.0, 1.0 / 5.0)
 _Shares = tuple[float, float]
@@ -81,131 +78,35 @@ def squeezed(
         against opposite pressures beside what a plate moves.
     opposite : (m,) whether the latter counts with the other sign at a place; None: nowhere.
     """
-    made = _moved(sheet.thickness, x, nodes, tractions, (_PRESSED, shares), opposite)
+    lines = np.zeros((nodes.size, tractions.shape[1]))
+    lines[1:-1] = tractions
+    is_far = np.zeros(x.size, dtype=bool) if opposite is None else opposite
+    response = pressed_response(shares)
+    (made,) = displacements((response,), sheet.thickness, x, nodes, lines, is_far)
     return np.asarray(sheet.squeeze * made)
 
 
-def sheared(
-    sheet: Sheet, x: Array, nodes: Array, tractions: Array, opposite: NDArray[np.bool_]
-) -> Array:
-    """Return by how much shears move the faces of the sheet at some places, (m, s) [mm].
+def pressed_response(shares: _Shares) -> FaceResponse:
+    """Return how a face gives way to pressures, over c; ``shares``: see `squeezed`."""
+    return _response(_PRESSED, shares)
 
-    It is what the sheet's tension and bending leave out, and counts as shears on that roller count
-    that lies on the face.
 
-    Parameters
-    ----------
-    sheet, x, nodes, tractions : see `squeezed`; shears on the roller at one face.
-    opposite : (m,) whether a place is on the other face.
+def sheared_response() -> FaceResponse:
+    """Return how shears move a face along beside tension and bending, over c.
+
+    They count as shears on that roller count that lies on the face: at the other face than that of
+    the shears the sign is the other one.
     """
-    made = _moved(sheet.thickness, x, nodes, tractions, (_SHEARED, (0.5, 0.5)), opposite)
-    signs = np.where(opposite, -1.0, 1.0)[:, None]
-    return np.asarray(sheet.sheared * signs * made)
+    return _response(_SHEARED, (0.5, 0.5), far_sign=-1.0)
 
 
-def _moved(
-    thickness: float,
-    x: Array,
-    nodes: Array,
-    tractions: Array,
-    kind: tuple[_Shares, _Shares],
-    opposite: NDArray[np.bool_] | None,
-) -> Array:
-    """Return the same over c; ``kind``: what long waves have, and the shares."""
-    long, shares = kind
-    padded = np.zeros((nodes.size, tractions.shape[1]))
-    padded[1:-1] = tractions
-    made = _straight(x, nodes, padded)
-    signs = np.ones(x.size) if opposite is None else np.where(opposite, -1.0, 1.0)
-    made *= (shares[0] * long[0] + long[1] * shares[1] * signs)[:, None]
-    cubic = _table(shares, long)
-    if opposite is not None:
-        cubic = np.concatenate([cubic, _table((shares[0], -shares[1]), long)], axis=1)
-    starts = np.where(signs > 0.0, 0, PLACES - 1)
-    # A straight line turns at its nodes: each turn acts by the double integral, as far as that is.
-    slopes = np.zeros((nodes.size + 1, tractions.shape[1]))
-    np.subtract(padded[1:], padded[:-1], out=slopes[1:-1])
-    slopes[1:-1] *= (thickness / np.diff(nodes))[:, None]
-    add_spread(made, thickness, (x, nodes), slopes[1:] - slopes[:-1], (cubic, starts))
-    return made
-
-
-def add_spread(
-    made: Array,
-    thickness: float,
-    places: tuple[Array, Array],
-    turns: Array,
-    table: tuple[Array, NDArray[np.intp]],
-    *,
-    is_odd: bool = False,
-) -> None:
-    """Add what the turns of straight lines at their nodes make near by, in place.
-
-    Parameters
-    ----------
-    made : (m, s) to add to.
-    thickness : of the sheet [mm].
-    places : (m,) places and (N + 1,) nodes [mm].
-    turns : (N + 1, s) changes of slope at the nodes.
-    table : cubics, and where that of each place starts; see `_spread`.
-    is_odd : whether a spread has the other sign ahead of its node than behind it, where it adds.
-    """
-    (x, nodes), (cubic, starts), far = places, table, FAR * thickness
-    for start in range(0, nodes.size, _AT_ONCE):
-        some = slice(start, start + _AT_ONCE)
-        ends = nodes[some]
-        near = np.flatnonzero((x > ends[0] - far) & (x < ends[-1] + far))
-        sets = np.flatnonzero(turns[some].any(axis=0))  # of a few neighbours each, as a rule
-        if near.size and sets.size:
-            columns = slice(int(sets[0]), int(sets[-1]) + 1)
-            away = (x[near, None] - ends) / thickness
-            spread = _spread(np.abs(away), cubic, starts[near, None])
-            if is_odd:
-                spread *= -np.sign(away)
-            made[near, columns] += spread @ turns[some, columns]
-
-
-def _straight(x: Array, nodes: Array, values: Array) -> Array:
-    """Return the values at ``x`` of straight lines between nodes, 0 beyond them."""
-    at = np.clip(np.searchsorted(nodes, x, side="right") - 1, 0, nodes.size - 2)
-    share = (x - nodes[at]) / (nodes[at + 1] - nodes[at])
-    share[(share < 0.0) | (share > 1.0)] = 0.0  # values are 0 at both ends
-    inside = ((x >= nodes[0]) & (x <= nodes[-1])).astype(float)
-    weights = (inside * (1.0 - share))[:, None], (inside * share)[:, None]
-    return np.asarray(weights[0] * values[at] + weights[1] * values[at + 1])
-
-
-def _spread(away: Array, cubic: Array, starts: NDArray[np.intp]) -> Array:
-    """Return the double integral of the shares in space, less half of the distance, over h.
-
-    ``away``: distances over h; beyond `FAR` it is 0. ``cubic``, ``starts``: see `_table`, one
-    after the other, and where that of each place starts.
-    """
-    place = np.cbrt(np.minimum(away, FAR) / FAR)
-    place *= PLACES - 1
-    piece = np.minimum(place.astype(np.intp), PLACES - 2)
-    place -= piece
-    piece += starts
-    out = cubic[0].take(piece)
-    for row in cubic[1:]:
-        out *= place
-        out += row.take(piece)
-    return np.asarray(out)
-
-
-@lru_cache(maxsize=5)
-def _table(shares: _Shares, long: _Shares) -> Array:
-    """Return the cubics between the places of the table, highest power first, (4, places - 1)."""
-    # loads more than 200 modules, which a nip without a sheet does not need
-    from scipy.interpolate import CubicSpline
-
-    place = np.linspace(0.0, 1.0, PLACES)
-    values = sum(
-        share * _alone(sign, long, FAR * place**3)
-        for share, sign in zip(shares, (1.0, -1.0), strict=True)
-        if share
-    )
-    return np.asarray(CubicSpline(np.arange(PLACES), values).c)
+@lru_cache(maxsize=4)
+def _response(long: _Shares, shares: _Shares, far_sign: float = 1.0) -> FaceResponse:
+    alike = shares[0] * _alone(1.0, long, DISTANCES) if shares[0] else np.zeros(DISTANCES.size)
+    unlike = shares[1] * _alone(-1.0, long, DISTANCES) if shares[1] else np.zeros(DISTANCES.size)
+    near, far = (shares[0] * long[0] + sign * shares[1] * long[1] for sign in (1.0, -1.0))
+    cubics = tabulated(alike + unlike, far_sign * (alike - unlike))
+    return FaceResponse((near, far_sign * far), (0.0, 0.0), cubics)
 
 
 def _alone(sign: float, long: _Shares, away: Array) -> Array:
@@ -240,12 +141,3 @@ def _summed(sign: float, long: _Shares, away: Array) -> Array:
     if long != _SHEARED:
         parts = 2.0 * parts * (cosh - sign) / (cosh + sign)
     return np.array([2.0 * float(np.sum(parts * np.exp(1j * root * one)).real) for one in away])
-
-
-def roots(sign: float) -> NDArray[np.complex128]:
-    """Return the first roots of sinh y + sign y = 0 in the first quadrant."""
-    about = pi * (2.0 * np.arange(1, _ROOTS + 1) - 0.5 * sign)
-    root = np.log(2.0 * about) + 1j * about
-    for _ in range(20):  # Newton's method
-        root = root - (np.sinh(root) + sign * root) / (np.cosh(root) + sign)
-    return np.asarray(root)

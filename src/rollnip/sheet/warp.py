@@ -22,7 +22,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from rollnip.sheet.squeeze import FAR, PLACES, add_spread, roots
+from rollnip.sheet.layer_response import DISTANCES, FaceResponse, roots, tabulated
 
 Array = NDArray[np.float64]
 
@@ -30,38 +30,16 @@ LONG_WAVES = (0.0, 0.4)  # shares of pressures that are alike and opposite
 _STEPS = (1.0 / 12.0, 11.0 / 700.0)  # y^2 in their series
 
 
-def warped(thickness: float, x: Array, nodes: Array, lines: Array, far: NDArray[np.bool_]) -> Array:
-    """Return the integral of the stretch from some places on over (1 - nu^2)/E, (m, s) [mm MPa].
+@lru_cache(maxsize=1)
+def warped_response() -> FaceResponse:
+    """Return the integral of the stretch of a face from a place on, over (1 - nu^2)/E.
 
     Without the long waves, which take `LONG_WAVES` of the integral of the pressure.
-
-    Parameters
-    ----------
-    thickness : of the sheet [mm].
-    x : (m,) places [mm].
-    nodes : (N + 1,) between which tractions are straight lines [mm].
-    lines : (N + 1, s) their values, 0 at both ends [MPa].
-    far : (m,) whether a place is on the other face than the tractions.
     """
-    signs = np.where(far, -1.0, 1.0)
-    slopes = np.zeros((nodes.size + 1, lines.shape[1]))
-    slopes[1:-1] = np.diff(lines, axis=0) / np.diff(nodes)[:, None]
-    here = 0.5 * (slopes[np.searchsorted(nodes, x)] + slopes[np.searchsorted(nodes, x, "right")])
-    made = 0.5 * (_STEPS[0] + signs * _STEPS[1])[:, None] * here
-    turns, cubic = np.diff(slopes, axis=0), np.concatenate([_table(1.0), _table(-1.0)], axis=1)
-    starts = np.where(far, PLACES - 1, 0)
-    add_spread(made, thickness, (x, nodes), turns, (cubic, starts), is_odd=True)
-    return np.asarray(thickness**2 * made)
-
-
-@lru_cache(maxsize=2)
-def _table(sign: float) -> Array:
-    """Return the cubics of half of both spreads; ``sign``: that of opposite pressures."""
-    from scipy.interpolate import CubicSpline  # loads more than 200 modules
-
-    away = FAR * np.linspace(0.0, 1.0, PLACES) ** 3
-    values = 0.5 * (_spread(1.0, away) + sign * _spread(-1.0, away))
-    return np.asarray(CubicSpline(np.arange(PLACES), values).c)
+    alike, unlike = 0.5 * _spread(1.0, DISTANCES), 0.5 * _spread(-1.0, DISTANCES)
+    near, far = (0.5 * (_STEPS[0] + sign * _STEPS[1]) for sign in (1.0, -1.0))
+    cubics = tabulated(alike + unlike, alike - unlike)
+    return FaceResponse((0.0, 0.0), (near, far), cubics, is_odd=True)
 
 
 def _spread(sign: float, away: Array) -> Array:

@@ -30,8 +30,6 @@ from rollnip.sheets import Sheet
 
 Array = NDArray[np.float64]
 
-_SHORT = 0.03  # below, what exponentials leave is summed as series
-_TERMS = 4
 _SERIES = 0.1  # of the length: pieces below are integrated by series of exponentials
 
 
@@ -73,22 +71,6 @@ class Plate:
         length = self.length
         return yielding * (away if length == inf else -length * np.expm1(-away / length))
 
-    def straightened(self, x: Array) -> tuple[Array, Array, Array]:
-        """Return by how much tension lessens what a force does at distances ``x`` from it.
-
-        Returns
-        -------
-        |x|^3/(12 D) - K [mm], its first derivative, and its second one [1/mm], per 1 N/mm. They are
-        smooth at 0: the kinks of K are those without tension.
-        """
-        length, yielding = self.length, 0.5 / self.stiffness
-        second, third, fourth = _remainders(np.abs(x) / length)
-        return (
-            yielding * length**3 * fourth,
-            yielding * length**2 * np.copysign(third, x),
-            yielding * length * second,
-        )
-
 
 def exponential_weights(pieces: Array, length: float) -> Array:
     """Return int exp(-s/length) t ds over pieces per value of straight lines at either end.
@@ -102,21 +84,3 @@ def exponential_weights(pieces: Array, length: float) -> Array:
         series = series * -t + 1.0 / factorial(n)
     near = np.where(t < _SERIES, series, (1.0 - once) / t)
     return np.asarray(pieces * np.stack([near, once - near]))
-
-
-def _remainders(t: Array) -> tuple[Array, Array, Array]:
-    """Return what exp(-t) leaves after two, three and four terms of its series, all positive.
-
-    They are exp(-t) - 1 + t, t^2/2 - t + 1 - exp(-t), and so on.
-    """
-    # Differences leave rounding, over what a stiff sheet bends by (t^3/6) below 1e-16/t^3.
-    if t.max(initial=0.0) < _SHORT:
-        series = np.zeros(t.shape)
-        for n in range(4 + _TERMS, 3, -1):
-            series = series * -t + 1.0 / factorial(n)
-        fourth = series * t**4
-        third = t**3 / 6.0 - fourth
-        return 0.5 * t**2 - third, third, fourth
-    second = t + np.expm1(-t)
-    third = 0.5 * t**2 - second
-    return second, third, t**3 / 6.0 - third

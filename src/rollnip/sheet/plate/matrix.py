@@ -33,7 +33,12 @@ def gaps_and_creeps_of(
     n, m = (mesh.inner.size for mesh in meshes)
     x = np.concatenate([mesh.nodes[1:] for mesh in meshes])
     is_upper = np.arange(x.size) <= n
-    by_shears = [_changes(one.sheared(x, is_upper == by)) for by, one in enumerate(spreads)]
+    loads = [one.moments_beyond(x) for one in spreads]
+    faces = [
+        one.faces_moved(x, is_upper == by, beyond)
+        for by, (one, beyond) in enumerate(zip(spreads, loads, strict=True))
+    ]
+    by_shears = [_changes(sheared) for _, sheared, _ in faces]
     above = np.diagonal(by_rollers[0][n:, n:]) + np.diagonal(by_shears[0][:n])
     below = np.diagonal(by_rollers[1][m:, m:]) + np.diagonal(by_shears[1][n + 1 :])
     own = np.concatenate([above, [-1.0], below])
@@ -41,7 +46,9 @@ def gaps_and_creeps_of(
     matrix = np.empty((2 * (n + m), 2 * (n + m)))
     turned = np.empty((x.size, 2 * (n + m)))
     for by, columns in enumerate(places):
-        made, turned[:, columns] = _by_sheet(meshes, (spreads[by], pulls[by]), by, own)
+        made, turned[:, columns] = _by_sheet(
+            meshes, (spreads[by], pulls[by]), by, own, (loads[by], faces[by][0], faces[by][2])
+        )
         made[1, :, 1] += by_shears[by]
         for at, block in enumerate((matrix[: 2 * n, columns], matrix[2 * n :, columns])):
             block[:] = made[:, rows[at]].reshape(block.shape)
@@ -64,14 +71,22 @@ def _by_roller(mesh: Mesh, side: int) -> Array:
 
 
 def _by_sheet(
-    meshes: tuple[Mesh, Mesh], spreads: tuple[Spread, Spread], by: int, own: Array
+    meshes: tuple[Mesh, Mesh],
+    spreads: tuple[Spread, Spread],
+    by: int,
+    own: Array,
+    known: tuple[Array, Array, Array],
 ) -> tuple[Array, Array]:
-    """Return gaps and creeps by what tractions on one interface do to the sheet, less `sheared`.
+    """Return gaps and creeps by what tractions on one interface do to the sheet.
+
+    Without the shears along its faces of `Spread.faces_moved`.
 
     Parameters
     ----------
     spreads : of loads, and of pulls, on the interface ``by``.
     own : (m - 1,) see `_lumped_share`.
+    known : the moments of the loads beyond the places, and by pressures the faces' displacements
+        towards the middle and along.
 
     Returns
     -------
@@ -85,13 +100,12 @@ def _by_sheet(
     is_far = (np.arange(x.size) < meshes[0].nodes.size - 1) == by
     here = np.where(is_far[:-1], -there, there)[:, None]
     signs = here * there
-    loads = one.moments_beyond(x)
+    loads, squeezed, warped = known
     pulled = loads if pull is one else pull.moments_beyond(x)
     height, slope, bend = one.bent(x, loads)
     out = np.empty((2, x.size - 1, 2, one.lines.shape[1]))
     # y goes with -p_u and +p_l, the gap above with -y and below with +y
-    out[0, :, 0] = signs * height[:-1] + one.squeezed(x[:-1], is_far[:-1])
-    warped = one.warped(x, is_far, loads)
+    out[0, :, 0] = signs * height[:-1] + squeezed[:-1]
     tilted = warped if pull is one else pull.warped(x, is_far, pulled)
     out[0, :, 1] = half * here * slope[:-1] - there * tilted[:-1]
     out[1, :, 0] = here * _changes(warped)

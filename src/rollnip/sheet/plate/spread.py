@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rollnip.rolling.surfaces import Mesh
-from rollnip.sheet.plate.bending import Plate, exponential_weights
 from rollnip.sheet.layer_response import displacements
+from rollnip.sheet.plate.bending import Plate, exponential_weights
 from rollnip.sheet.squeeze import pressed_response, sheared_response
 from rollnip.sheet.warp import LONG_WAVES, warped_response
 from rollnip.sheets import Sheet
@@ -62,7 +62,7 @@ class Spread:
     @classmethod
     def of_lines(cls, nodes: Array, lines: Array, sheet: Sheet, plate: Plate) -> Spread:
         """Return the spread of tractions given at nodes, (M + 1, n)."""
-        is_feeble = 0.0 < plate.tension and plate.length > _FEEBLE * float(np.ptp(nodes))
+        is_feeble = plate.tension > 0.0 and plate.length > _FEEBLE * float(np.ptp(nodes))
         count = _MOMENTS + _TERMS - 1 if is_feeble else _MOMENTS
         first, last = _moments(nodes[:-1], np.diff(nodes), count)[..., None]
         beyond = np.zeros((count, *lines.shape))
@@ -133,7 +133,7 @@ class Spread:
     def _bent_by_series(self, x: Array, ahead: Array) -> tuple[Array, ...]:
         """Return height, rotation and curvature where tension straightens little or nothing.
 
-        K is the series of (-1)^(k + 1) L^3/(2 D) (|x|/L)^k/k! from k = 3 on, of which only the first
+        K is the sum of (-1)^(k + 1) L^3/(2 D) (|x|/L)^k/k! over k from 3 on, of which only the first
         term is left without tension. Even powers are polynomials, odd ones such of what lies
         ``ahead`` less what lies behind.
         """

@@ -133,9 +133,9 @@ class Spread:
     def _bent_by_series(self, x: Array, ahead: Array) -> tuple[Array, ...]:
         """Return height, rotation and curvature where tension straightens little or nothing.
 
-        K is the sum of (-1)^(k + 1) L^3/(2 D) (|x|/L)^k/k! over k from 3 on, of which only the first
-        term is left without tension. Even powers are polynomials, odd ones such of what lies
-        ``ahead`` less what lies behind.
+        K is the sum of (-1)^(k + 1) L^3/(2 D) (|x|/L)^k/k! from k = 3 on; without tension only its
+        first term is left. Even powers are polynomials. So are odd ones on either side of x, with
+        opposite signs: they take ``ahead``, the moments of what lies ahead less what lies behind.
         """
         powers = np.arange(3, 4 + self.beyond.shape[0] - _MOMENTS)
         factors = 0.5 / self.plate.stiffness * (-1.0 / self.plate.length) ** (powers - 3)

@@ -7,6 +7,9 @@ export OMP_NUM_THREADS ?= 1
 
 VENV := .venv
 BIN := $(VENV)/bin
+PIP := $(BIN)/python -m pip install --quiet --disable-pip-version-check --editable
+PROGRAM_STAMP := $(VENV)/.installed-program
+WEB_STAMP := $(VENV)/.installed-web
 STAMP := $(VENV)/.installed
 DOCS_STAMP := $(VENV)/.installed-docs
 CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
@@ -18,9 +21,18 @@ CANDIDATES := $(if $(PYTHON),$(PYTHON),python3.13 python3.12 python3.11 python3)
 help: ## list the targets
 	@grep -E '^[a-z-]+:.*## ' $(MAKEFILE_LIST) | sed -E 's/^([a-z-]+):.*## (.*)/make \1\t\2/' | expand -t 18
 
-venv: $(STAMP) ## make .venv and install rollnip into it (again only when pyproject.toml changed)
+venv: $(STAMP) ## make .venv with all that the tests need (again only when pyproject.toml changed)
 
-$(STAMP): pyproject.toml
+$(STAMP): $(PROGRAM_STAMP)
+	$(PIP) '.[dev]'
+	@touch $@
+
+$(WEB_STAMP): $(PROGRAM_STAMP)
+	$(PIP) '.[web]'
+	@touch $@
+
+# The program alone, without the designer and what tests need: a third of the download.
+$(PROGRAM_STAMP): pyproject.toml
 	@python=; for candidate in $(CANDIDATES); do \
 	  if "$$candidate" -c 'import sys, venv, ensurepip; sys.exit(sys.version_info < (3, 11))' \
 	    >/dev/null 2>&1; then python=$$candidate; break; fi; \
@@ -32,14 +44,14 @@ $(STAMP): pyproject.toml
 	fi; \
 	if $(BIN)/python -m pip --version >/dev/null 2>&1; then :; \
 	else echo "making $(VENV) with $$python"; "$$python" -m venv --clear $(VENV); fi
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	$(PIP) .
 	@touch $@
 
-demo: venv ## solve a driven press nip, print the summary, write a picture to out/
+demo: $(PROGRAM_STAMP) ## solve a driven press nip, print the summary, write a picture to out/
 	@mkdir -p out
 	$(BIN)/rollnip solve examples/press-driven.toml --plot out/press-driven.png
 
-serve: venv ## the nip designer at http://127.0.0.1:8000
+serve: $(WEB_STAMP) ## the nip designer at http://127.0.0.1:8000
 	$(BIN)/rollnip serve
 
 # Two halves of about the same length at a time; what the second one prints comes at the end.
@@ -93,7 +105,7 @@ docs: $(DOCS_STAMP) ## the documentation, to docs/_build/html; docs/verification
 	$(BIN)/sphinx-build -q -W --keep-going -b html -d docs/_build/doctrees docs docs/_build/html
 
 $(DOCS_STAMP): $(STAMP)
-	$(BIN)/python -m pip install --quiet --disable-pip-version-check --editable '.[docs]'
+	$(PIP) '.[docs]'
 	@touch $@
 
 clean: ## remove .venv, caches and out/

@@ -176,8 +176,7 @@ class _Log:
         return [self.trials[key] for key in keys]
 
     def excess(self, places: Array) -> Array:
-        """Return constraints for scipy (m, n), all to be <= 0; the first is whether it is solved.
-        """
+        """Return constraints for scipy (m, n), <= 0 where kept; the first: whether it is solved."""
         rows = []
         for trial in self.at(places):
             solved = bool(np.isfinite(trial.cost))

@@ -1,4 +1,4 @@
-"""Prony series as finite-element programs and pyvisco write them, in and out."""
+"""Prony series in the formats of finite-element programs and pyvisco, read and written."""
 
 from __future__ import annotations
 
@@ -18,18 +18,19 @@ from rollnip.materials import WLF, Prony, Shift
 
 Deck = Literal["abaqus", "ansys", "pyvisco"]
 
-_NEARLY = 1e-6  # relative difference between shear and bulk ratios that is rounding
-_INCOMPRESSIBLE = 0.49  # Poisson ratio beyond which the bulk has no say in E
+_NEARLY = 1e-6  # difference between shear and bulk ratios that is rounding
+_INCOMPRESSIBLE = 0.49  # Poisson ratio from which the bulk modulus hardly affects E
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eEdD][+-]?\d+)?")
 
 
 @dataclass(frozen=True, slots=True)
 class ReadDeck:
-    """A Prony series from a deck.
+    """A Prony series read from a deck.
 
     Attributes
     ----------
-    material : with its shift law, at the reference temperature, where the deck has one.
+    material : the material, with its shift law, at the reference temperature, where the deck has
+        one.
     format : format of the deck.
     notes : assumptions made in reading, in plain words.
     """
@@ -42,14 +43,15 @@ class ReadDeck:
 def prony_deck(material: Prony, to: Deck, name: str = "rubber") -> str:
     """Write a Prony series for Abaqus (keywords), Ansys (APDL) or pyvisco (CSV).
 
-    Units are N, mm, MPa, s, degC. All ratios are those of G and K alike, for the Poisson ratio of
-    a material here does not relax. Terms are those at the reference of the shift law, which goes
-    along where it is WLF.
+    Units are N, mm, MPa, s, degC. G and K have the same ratios, because the Poisson ratio of a
+    material
+    here does not relax. The terms are those at the reference temperature of the shift law, which is
+    written too if it is WLF.
 
     Raises
     ------
     InvalidInputError
-        where the format is unknown or the name none for a deck.
+        where the format is unknown or the name is not valid in a deck.
     """
     checked_name(name)
     writers = {"abaqus": _abaqus, "ansys": _ansys, "pyvisco": _pyvisco}
@@ -66,16 +68,16 @@ def read_deck(
     Parameters
     ----------
     path :
-        path of the file; its content tells the format.
+        path of the file; the format is recognised from its content.
     unit :
-        unit of moduli in a deck, such as "MPa": decks carry none. Times are in seconds.
+        unit of the moduli in a deck, such as "MPa", since decks carry none. Times are in seconds.
     poisson :
-        where the file has none.
+        Poisson ratio, where the file has none.
 
     Raises
     ------
     InvalidInputError
-        where there is no Prony series, a number is missing, or the unit is.
+        where there is no Prony series, or a number or the unit is missing.
     """
     source = str(path)
     if Path(path).suffix.lower() in EXCEL:
@@ -197,7 +199,7 @@ def _abaqus_shift(options: Sequence[tuple[str, list[list[float]]]]) -> Shift | N
 
 
 def _keywords(text: str) -> Iterator[tuple[str, list[list[float]]]]:
-    """Keyword lines, blanks taken out, each with the numbers of the data lines below it."""
+    """Yield keyword lines, without blanks, each with the numbers of the data lines below it."""
     line = ""
     rows: list[list[float]] = []
     for raw in text.splitlines():
@@ -254,7 +256,7 @@ def _read_ansys(text: str, source: str, scale: float, poisson: float | None) -> 
 def _table(
     cells: Sequence[str], pairs: dict[str, list[float]], wlf: list[float]
 ) -> list[float] | None:
-    """Return the list that takes the TBDATA below a TB line; None for tables that are not read."""
+    """Return the list that the TBDATA below a TB line fill; None for tables that are not read."""
     kind = cells[1].upper() if len(cells) > 1 else ""
     last = cells[5].upper() if len(cells) > 5 else ""
     if kind.startswith("PRON"):
@@ -300,12 +302,12 @@ def _made(
     kind: Deck,
     notes: list[str],
 ) -> ReadDeck:
-    """The material of ratios g_i = E_i/E_0: E_inf = E_0 (1 - sum g_i)."""
+    """Return the material of ratios g_i = E_i/E_0, with E_inf = E_0 (1 - sum g_i)."""
     if poisson is None:
         raise InvalidInputError(f"{source}: `poisson` must be given: the file has none.")
     left = 1.0 - sum(ratio for ratio, _ in terms)
     if len(terms) > 1 and instantaneous and abs(left) < _NEARLY:
-        # the table of pyvisco, whose ratios add up to 1: the slowest term is its plateau
+        # in tables of pyvisco the ratios add up to 1: the slowest term serves as the plateau
         slowest = max(range(len(terms)), key=lambda k: terms[k][1])
         left, time = terms[slowest]
         terms = [term for k, term in enumerate(terms) if k != slowest]

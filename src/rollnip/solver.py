@@ -300,10 +300,10 @@ def _first_failure(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """Return `_check` without what it adds on very thin coverings and very small friction."""
     if not final.settled and _may_spin(nip, final):
         return False, (
-            "Contact, stick and slip did not settle: a traction of about "
-            f"{final.problem.control.traction:.4g} N/mm may be asked for, and friction * load "
-            f"carries {nip.friction * final.figures.load:.4g} N/mm; lower it, or raise the load "
-            "or the friction."
+            "Contact, stick and slip did not settle: the nip may need a traction of about "
+            f"{final.problem.control.traction:.4g} N/mm, but friction carries at most "
+            f"{nip.friction * final.figures.load:.4g} N/mm (friction * load); lower the traction "
+            "or torque, or raise the load or the friction."
         )
     if not final.settled:
         what = "Contact, stick and slip did not settle"
@@ -318,7 +318,7 @@ def _first_failure(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
         return False, reason
     if not final.is_placed:
         return False, (
-            "Which nodes touch, stick and slip was found, but not where their zones end; try "
+            "The contact, stick and slip zones were found, but not exactly where they end; try "
             "another load or tolerance."
         )
     left = final.residual

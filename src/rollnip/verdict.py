@@ -43,7 +43,7 @@ def verdict(nip: Nip, model: Model, final: Round) -> tuple[bool, str]:
     """
     relative = relative_claims(nip, model.geometry, final)
     if not relative:
-        return False, "Nothing is pressed: no figure has an error that could be claimed."
+        return False, "The solution has no pressure in the nip, so that no error can be estimated."
     model_errors = model_shares(nip, model.geometry, final)
     shares = {name: model_errors[name] for name in relative}
     is_met = model.tolerance >= FINEST_OF_FINITE

@@ -52,7 +52,7 @@ def optimum_report(found: Optimum, title: str = "") -> str:
         lines += [f"  {_limit(one)}" for one in found.limits]
     asked = (found.quantity, *(one.quantity for one in found.limits))
     lines += [*result_lines(found.scalars, *asked), ""]
-    lines.append(f"{found.solves} cases solved, {len(found.failures)} of them in vain.")
+    lines.append(f"{found.solves} cases tried; {len(found.failures)} could not be solved.")
     return "\n".join(lines) + "\n"
 
 

@@ -301,9 +301,9 @@ def _solver_warnings(forward: Forward, model: Model) -> list[str]:
         )
     if forward.fallbacks:
         said.append(
-            f'Strains are too large for `geometry = "{model.geometry}"` in {forward.fallbacks} of '
-            "the nips at the fitted values; these were solved in another one, so that predictions "
-            'jump between them. Fit with `geometry = "curved"`.'
+            f"In {forward.fallbacks} of the nips at the fitted values no solution of `geometry = "
+            f'"{model.geometry}"` was found; a simpler geometry was used there, so predictions '
+            'jump between the two. Fit with `geometry = "curved"`.'
         )
     return said
 

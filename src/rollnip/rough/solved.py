@@ -183,8 +183,8 @@ def _reservations(solution: RoughSolution) -> Iterator[Reservation]:
     if solution.inside_from > 0.0:
         yield Reservation(
             "inside_from",
-            "Stresses inside are those of an averaged pressure: do not read them at depths below "
-            "{depth:.2g} mm.",
+            "Stresses inside are those of an averaged pressure: do not read them at depths of less "
+            "than {depth:.2g} mm.",
             {"depth": solution.inside_from},
         )
     pressed = pressed_in(nip, solution.rough.pressed_in)

@@ -165,7 +165,7 @@ def _end(
     if last.rise > largest_rise:
         return f"It ends at a rise of {RISE.text(last.rise)}."
     if last.value < low * (1.0 - 1e-9):
-        return f"It comes back below {over.text(low)} on states that are not stable."
+        return f"It returns below {over.text(low)} on states that are not stable."
     return ""
 
 

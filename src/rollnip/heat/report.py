@@ -230,5 +230,5 @@ def branch_lines(branch: Branch, value: float | None, units: Units = "metric") -
     )
     margin = None if value is None else branch.margin(value)
     if margin is not None and value is not None:
-        rest = f"; it may rise by {100.0 * margin:.3g} %" if margin > 0.0 else ", beyond that"
+        rest = f"; it may rise by {100.0 * margin:.3g} %" if margin > 0.0 else ", beyond it"
         yield f"  the case has {over.text(value)}{rest}"

@@ -46,8 +46,8 @@ def bound_warnings(misfit: Misfit, best: Local) -> list[str]:
             value = one.low if side == "low" else one.high
             which = "lower" if side == "low" else "upper"
             said.append(
-                f"`{one.path}` ended at its {which} bound {value:g}: the data ask for a value "
-                "beyond it, or do not determine it; its covariance interval means nothing."
+                f"`{one.path}` ended at its {which} bound {value:g}: the data fit a value "
+                "beyond it better, or do not determine it; its covariance interval is not valid."
             )
     return said
 

@@ -168,7 +168,7 @@ class SmoothSolution(Solution):
         return sealed(self.final.shear)
 
     def _tractions_on(self, roller: str) -> SurfaceTractions:
-        """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""
+        """Return the tractions on one surface in its own frame: upper (q, p), lower (-q, p)."""
         shear = self.shear if roller == "upper" else -self.shear
         return SurfaceTractions.on_inner(self.final.nodes, shear, self.pressure)
 

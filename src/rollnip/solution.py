@@ -365,7 +365,7 @@ class Solution(Presented, ABC):
 
     @abstractmethod
     def _tractions_on(self, roller: str) -> SurfaceTractions:
-        """Tractions on one surface in its own frame: (q, p) on the upper one, (-q, p) below."""
+        """Return the tractions on one surface in its own frame: upper (q, p), lower (-q, p)."""
 
     @property
     def _roller_speeds(self) -> tuple[float, float] | None:

@@ -184,7 +184,7 @@ def _read_abaqus(text: str, source: str, scale: float, poisson: float | None) ->
     instantaneous = "INSTANTANEOUS" in elastic[0].upper()
     notes = [] if "MODULI" in elastic[0].upper() else ["*ELASTIC says no MODULI: long term."]
     law = _abaqus_shift(options)
-    return _made(
+    return _deck_of_ratios(
         source, scale * constants[0], instantaneous, terms, bulk, given, law, "abaqus", notes
     )
 
@@ -250,7 +250,9 @@ def _read_ansys(text: str, source: str, scale: float, poisson: float | None) -> 
     terms = list(zip(pairs["SHEAR"][::2], pairs["SHEAR"][1::2], strict=False))
     bulk = pairs["BULK"][::2] + [0.0] * len(terms)
     law = WLF(wlf[1], wlf[2], wlf[0]) if len(wlf) >= 3 else None
-    return _made(source, scale * modulus, True, terms, bulk[: len(terms)], given, law, "ansys", [])
+    return _deck_of_ratios(
+        source, scale * modulus, True, terms, bulk[: len(terms)], given, law, "ansys", []
+    )
 
 
 def _table(
@@ -288,10 +290,10 @@ def _read_pyvisco(path: str | Path, poisson: float | None) -> ReadDeck:
     terms = [(ratio, time) for time, ratio, _ in values]
     ratios = [ratio for ratio, _ in terms]
     whole = factor * scale * values[0][2]
-    return _made(source, whole, True, terms, ratios, given, None, "pyvisco", [])
+    return _deck_of_ratios(source, whole, True, terms, ratios, given, None, "pyvisco", [])
 
 
-def _made(
+def _deck_of_ratios(
     source: str,
     modulus: float,
     instantaneous: bool,

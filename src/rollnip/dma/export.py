@@ -163,7 +163,7 @@ def _comments(fit: DmaFit | TimeFit) -> Iterator[str]:
     yield f"# From {fit.master.data.source}, {fit.master.data.frequency.size} measurements."
     yield f"# Valid from {low} Hz to {high} Hz at {fit.master.reference:g} degC,"
     yield f"# measured at {cold:.4g} to {warm:.4g} degC; outside of that it is extrapolated."
-    yield from _said_deviation(fit)
+    yield from _deviation_comments(fit)
     shift = fit.shift
     units = {"c1": "", "c2": " K", "activation_energy": " kJ/mol"}
     for name, value, error in zip(shift.names, shift.values, shift.standard_errors, strict=True):
@@ -172,7 +172,7 @@ def _comments(fit: DmaFit | TimeFit) -> Iterator[str]:
     yield from (f"# Warning: {said}" for said in fit.warnings)
 
 
-def _said_deviation(fit: DmaFit | TimeFit) -> Iterator[str]:
+def _deviation_comments(fit: DmaFit | TimeFit) -> Iterator[str]:
     if isinstance(fit, TimeFit):
         low, high = (format_quantity(v, digits=3) for v in fit.time_range)
         yield f"# That is {low} s to {high} s, as 1/(2 pi time)."

@@ -164,7 +164,7 @@ def read_head(text: str, below: str | None = None) -> Head:
         if pattern is not None and match is None:
             continue
         name, unit = (shown, below) if match is None else (match[1], match[2].strip())
-        found = _named(name, unit)
+        found = _meaning(name, unit)
         if found is not None:
             quantity, kind, angular = found
             return Head(shown, quantity, kind, unit, angular)
@@ -262,7 +262,7 @@ def _bare(text: str) -> str:
     return text if match is None else match[1]
 
 
-def _named(name: str, unit: str | None) -> tuple[MeasuredQuantity, Modulus | None, bool] | None:
+def _meaning(name: str, unit: str | None) -> tuple[MeasuredQuantity, Modulus | None, bool] | None:
     plain = " ".join(name.strip().translate(_PRIMES).lower().split())
     if plain == "t":  # temperature or time: the unit decides, else upper or lower case
         is_time = unit in {"s", "ms", "min", "h", *_TIMES} or (not unit and name.strip() == "t")
@@ -288,7 +288,7 @@ def _fits(unit: str, dimension: Dimension) -> bool:
     return True
 
 
-def _bared(part: str) -> str:
+def _unbracketed(part: str) -> str:
     """Return a part of a head without enclosing brackets and adjacent dashes or commas."""
     trimmed = part.strip(" ,-")
     closed = trimmed[:1] + trimmed[-1:] in {"()", "[]"} and trimmed.count("(") < 2
@@ -304,7 +304,7 @@ def _composed(plain: str) -> tuple[MeasuredQuantity, Modulus | None, bool] | Non
     for cut in range(1, len(words)):
         first, rest = " ".join(words[:cut]), " ".join(words[cut:])
         for one, other in ((first, rest), (rest, first)):
-            one, other = _bared(one), _bared(other)
+            one, other = _unbracketed(one), _unbracketed(other)
             quantity = _QUANTITIES.get(one)
             if one in _ANGULAR_NAMES and other in _ANGULAR_NAMES:
                 return "frequency", None, True

@@ -26,8 +26,8 @@ Law = Literal["wlf", "arrhenius", "none"]
 _ZERO = 273.15  # degC in K
 _CLEAR = 1.0  # K, least distance of the pole of WLF below the coldest isotherm
 _SLOPES = (0.02, 0.04, 0.08, 0.15, 0.3)  # starts of C1/C2 [decades/K]
-_ROOMS = (5.0, 20.0, 60.0, 150.0, 500.0)  # starts of C2 less its least value [K]
-_MOST_ROOM = 3000.0  # K: beyond it WLF is a straight line
+_C2_MARGINS = (5.0, 20.0, 60.0, 150.0, 500.0)  # starts of C2 less its least value [K]
+_LARGEST_C2_MARGIN = 3000.0  # K: beyond it WLF is a straight line
 _ENERGIES = (30.0, 60.0, 100.0, 160.0, 240.0, 400.0)  # starts of the activation energy [kJ/mol]
 _LARGEST = 30.0  # decades, largest shift accepted
 _LARGEST_LEVEL = 3.0  # largest factor on the moduli of an isotherm
@@ -86,17 +86,17 @@ def fit_law(master: Master, law: Law, *, levels: bool = False) -> ShiftFit:
     size = shape.bounds[0].size
     x, vertical = found.x[:size], master.vertical.copy()
     if levels:
-        vertical[_moved(master)] = found.x[size:]
+        vertical[_is_moved(master)] = found.x[size:]
         # 1 at the reference itself, which may lie between two isotherms
         vertical -= np.interp(master.reference, master.temperatures, vertical)
     fitted = replace(master, horizontal=shape.shifts(x), vertical=vertical)
     values, slopes = shape.constants(x), shape.slopes(x)
     within = np.diag(slopes @ _covariance(found)[:size, :size] @ slopes.T)
-    errors = np.sqrt(np.maximum(within, _between(fitted, law, x)))
+    errors = np.sqrt(np.maximum(within, _jackknife_variances(fitted, law, x)))
     return ShiftFit(shape.law(values), shape.names, values, tuple(float(e) for e in errors), fitted)
 
 
-def _between(master: Master, law: Law, x: Array) -> Array:
+def _jackknife_variances(master: Master, law: Law, x: Array) -> Array:
     """Return the variances of the constants from leaving out a tenth of the isotherms at a time.
 
     This is the delete-a-group jackknife: (k - 1)/k times the sum of squares about the mean. Errors
@@ -112,7 +112,7 @@ def _between(master: Master, law: Law, x: Array) -> Array:
     count = min(master.temperatures.size, _FOLDS)
     if count < _LEAST_FOLDS:
         return np.zeros(x.size)
-    times, least = _times(master, 1.0), _least(master)
+    times, least = _times(master, 1.0), _least_c2(master)
     found = []
     for k in range(count):
         kept = np.flatnonzero(np.arange(master.temperatures.size) % count != k)
@@ -138,7 +138,7 @@ def fit_free(start: Master) -> tuple[Master, Array]:
 
     The isotherm nearest to the reference is held, and so are all moduli.
     """
-    moved = _moved(start)
+    moved = _is_moved(start)
 
     def placed(x: Array) -> Master:
         horizontal = start.horizontal.copy()
@@ -158,7 +158,7 @@ def fit_free(start: Master) -> tuple[Master, Array]:
     return placed(found.x), errors
 
 
-def _moved(master: Master) -> NDArray[np.bool_]:
+def _is_moved(master: Master) -> NDArray[np.bool_]:
     """Return a mask (m,) that is true for all isotherms but the one nearest to the reference."""
     held = int(np.argmin(np.abs(master.temperatures - master.reference)))
     return np.asarray(np.arange(master.temperatures.size) != held)
@@ -175,7 +175,7 @@ def _times(master: Master, margin: float) -> Array:
 def _searched(master: Master, shape: _Wlf | _ArrheniusShift, *, levels: bool) -> OptimizeResult:
     """Fit the constants of a law, then the levels where wanted, starting from the best start."""
     size = shape.bounds[0].size
-    moved = _moved(master)
+    moved = _is_moved(master)
 
     def placed(x: Array) -> Master:
         vertical = master.vertical.copy()
@@ -234,7 +234,7 @@ def _covariance(found: OptimizeResult) -> Array:
     return np.asarray(scale * (right.T * inverse**2) @ right)
 
 
-def _least(master: Master) -> float:
+def _least_c2(master: Master) -> float:
     """Return the C2 [K] for which the pole of WLF lies just below the coldest isotherm."""
     return max(master.reference - float(np.min(master.temperatures)), 0.0) + _CLEAR
 
@@ -247,9 +247,9 @@ class _Wlf:
     def __init__(self, master: Master) -> None:
         self.reference = master.reference
         self.away = master.temperatures - master.reference
-        self.least = _least(master)
-        self.starts = [np.log([slope, room]) for slope, room in product(_SLOPES, _ROOMS)]
-        low, high = np.log([1e-4, 1e-2]), np.log([10.0, _MOST_ROOM])
+        self.least = _least_c2(master)
+        self.starts = [np.log([slope, room]) for slope, room in product(_SLOPES, _C2_MARGINS)]
+        low, high = np.log([1e-4, 1e-2]), np.log([10.0, _LARGEST_C2_MARGIN])
         self.bounds = (low, high)
 
     def shifts(self, x: Array) -> Array:

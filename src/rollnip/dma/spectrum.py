@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 Measured = Literal["dynamic", "relaxation", "creep"]
 
 _FOLDS = 5
-_TOLD = 1e-6  # norm of a column over the largest, below which the data do not determine its term
+_LEAST_NORM = 1e-6  # of a column over the largest; below it the data do not determine its term
 # Most and fewest terms per decade: equal terms, evenly spaced, make the loss modulus ripple by the
 # fraction 2/cosh(pi^2/ln spacing), 5 % with one term per decade, 0.6 % with one and a half.
 _PER_DECADE, _LEAST_PER_DECADE = 3.0, 1.5
@@ -117,13 +117,13 @@ def non_negative(data: Reduced, times: Array, smoothing: float = 0.0) -> tuple[A
     design, target = data.design(times), data.target
     whole, aim = design, target
     if smoothing > 0.0 and times.size > 2:
-        rows = smoothing * _curvature(data, times)
+        rows = smoothing * _second_differences(data, times)
         whole = np.concatenate([design, rows])
         aim = np.concatenate([target, np.zeros(rows.shape[0])])
     # normalise the columns, since the solver's thresholds are absolute
     scale = np.linalg.norm(whole, axis=0)
-    told = scale > _TOLD * float(np.max(scale))
-    scale[~told] = np.inf  # a term that has decayed before the data begin stays zero
+    is_determined = scale > _LEAST_NORM * float(np.max(scale))
+    scale[~is_determined] = np.inf  # a term that has decayed before the data begin stays zero
     try:
         moduli, _ = nnls(whole / scale, aim, maxiter=30 * scale.size)
     except RuntimeError:  # its active set cycled; this solver is slower and as good
@@ -132,7 +132,7 @@ def non_negative(data: Reduced, times: Array, smoothing: float = 0.0) -> tuple[A
     return moduli, design @ moduli - target
 
 
-def _curvature(data: Reduced, times: Array) -> Array:
+def _second_differences(data: Reduced, times: Array) -> Array:
     """Return (m - 2, m + 1): second differences of the terms over the local storage modulus."""
     order = np.argsort(data.omega)
     log_omega, log_storage = np.log(data.omega[order]), np.log(data.storage[order])

@@ -85,7 +85,7 @@ class _Finder:
             row, line = rows[index], lines[index]
             heads = _heads(row)
             if heads is not None:
-                table, index = self._begun(heads, index)
+                table, index = self._new_table(heads, index)
                 found.append(table)
                 continue
             if table is None and not found and self.positions and _numbers(row) >= 2:
@@ -102,7 +102,7 @@ class _Finder:
             index += 1
         return found, passed
 
-    def _begun(self, heads: tuple[Head, ...], index: int) -> tuple[RawTable, int]:
+    def _new_table(self, heads: tuple[Head, ...], index: int) -> tuple[RawTable, int]:
         """Return a new table, and the index of the row after its heads and units."""
         rows, lines = self.sheet.rows, self.sheet.lines
         line, after = lines[index], index + 1

@@ -129,7 +129,7 @@ def relaxation_of_creep(compliance: Array, times: Array) -> tuple[Array, Array]:
     first = float(compliance[0])
 
     def value(rate: float) -> float:
-        """J* at s = -rate."""
+        """Return J* at s = -rate."""
         return first + float(np.sum(parts / (1.0 - rate / rates)))
 
     roots = []

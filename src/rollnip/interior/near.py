@@ -84,7 +84,7 @@ class Depth:
         return -np.log1p(-self.z * self.curvature) / self.curvature
 
     def decay(self, k: Array) -> Array:
-        """e^{-k z'}, (nz, n)."""
+        """Return e^{-k z'}, (nz, n)."""
         return np.exp(-k * self.logarithmic)
 
 

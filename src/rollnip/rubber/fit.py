@@ -32,7 +32,7 @@ _STARTS = 6
 _MOST_TERMS = 4
 _FARTHEST_EXPONENT = 40.0
 _USUAL = (0.5, 2.0)  # stretches that a cover may reach: instability within them gives a warning
-_WAYS: dict[Test, str] = {
+_LOADINGS: dict[Test, str] = {
     "tension": "tension or compression",
     "equibiaxial": "equibiaxial tension or compression",
     "planar": "plane strain",
@@ -126,20 +126,24 @@ def fit_rubber(
         )
     if not problem.neo_hookean > 0.0:
         raise _wrong_way(data, problem.neo_hookean)
-    model, starts, names = _parts(law, terms, problem)
+    model, starts, names = _search_setup(law, terms, problem)
     best = min((problem.minimised(model, start) for start in starts), key=lambda one: one[1])[0]
     shear, energy = model(best)
     if not shear > 0.0:
         raise _wrong_way(data, shear)
     material = Elastic(modulus=2.0 * (1.0 + poisson) * shear, poisson=poisson, energy=energy)
-    unstable = {test: unstable_from(energy, test) for test in _WAYS}
+    unstable = {test: unstable_from(energy, test) for test in _LOADINGS}
     deviation = problem.stress(shear, energy) - data.stress
     rms = {
         test: float(np.sqrt(np.mean((deviation / problem.largest)[data.rows(test)] ** 2)))
         for test in data.tests
     }
     constants = _constants(problem, model, best, names)
-    warnings = (*_stability(law, data, unstable), *_range(data), *_open(constants, shear))
+    warnings = (
+        *_stability(law, data, unstable),
+        *_one_test_only(data),
+        *_undetermined(constants, shear),
+    )
     return RubberFit(data, law, material, constants, deviation, rms, unstable, warnings)
 
 
@@ -211,7 +215,7 @@ class _EnergyResiduals:
         return [start for _, start in tried[:_STARTS]]
 
 
-def _parts(
+def _search_setup(
     law: Law, terms: int, problem: _EnergyResiduals
 ) -> tuple[_Model, list[Array], list[str]]:
     """Return the energy as a function of the fit variables, starts, and names of the constants."""
@@ -263,8 +267,8 @@ def _constants(
     sides = [(best + move, best - move) for move in np.diag(step)]
     slopes = [problem.residuals(model, a) - problem.residuals(model, b) for a, b in sides]
     jacobian = np.stack(slopes, axis=1) / (2.0 * step)
-    left = float(np.sum(problem.residuals(model, best) ** 2)) / (count - best.size)
-    spread = covariance(jacobian, np.ones(count)) * left
+    variance = float(np.sum(problem.residuals(model, best) ** 2)) / (count - best.size)
+    spread = covariance(jacobian, np.ones(count)) * variance
     reach = float(student.ppf(0.5 + 0.5 * CONFIDENCE, count - best.size))
     out = []
     for name in names:
@@ -310,14 +314,14 @@ def _stability(
             if end is not None and (is_seen <= end if end < 1.0 else end <= is_seen):
                 side = "below" if end < 1.0 else "beyond"
                 lines.append(
-                    f"The energy ({law}) is not stable in {_WAYS[test]} {side} a stretch of "
+                    f"The energy ({law}) is not stable in {_LOADINGS[test]} {side} a stretch of "
                     f"{end:.2f}: more strain takes less stress there (Drucker). Take another law, "
                     "or measure there."
                 )
     return lines
 
 
-def _range(data: RubberData) -> list[str]:
+def _one_test_only(data: RubberData) -> list[str]:
     """Return a warning where only one kind of test exists, which does not determine others."""
     if len(data.tests) > 1:
         return []
@@ -327,7 +331,7 @@ def _range(data: RubberData) -> list[str]:
     ]
 
 
-def _open(constants: tuple[Constant, ...], shear: float) -> list[str]:
+def _undetermined(constants: tuple[Constant, ...], shear: float) -> list[str]:
     """Return a warning about constants that the data do not determine.
 
     The width of an interval is compared with G for a modulus, and for a number with its absolute

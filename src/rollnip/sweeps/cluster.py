@@ -85,7 +85,7 @@ class DaskCrew(Given):
 
     def submit(self, task: Task) -> Future[list[Outcome]]:
         """Start a task. Raises RollnipError where the scheduler is gone."""
-        with _scheduler_told(self._name):
+        with _plain_errors(self._name):
             return super().submit(task)
 
     def require_alive(self) -> None:
@@ -94,7 +94,7 @@ class DaskCrew(Given):
         if now - self._looked < _LOOK:
             return
         self._looked = now
-        with _scheduler_told(self._name):
+        with _plain_errors(self._name):
             if self._client.nthreads():
                 self._seen = now
         if now - self._seen > LONELY:
@@ -105,7 +105,7 @@ class DaskCrew(Given):
 
 
 @contextmanager
-def _scheduler_told(name: str) -> Iterator[None]:
+def _plain_errors(name: str) -> Iterator[None]:
     """Turn a lost connection into a RollnipError that says so."""
     try:
         yield
@@ -135,7 +135,7 @@ def _checked(client: Any, name: str) -> Given:
 
     A worker that is lost during the check is left out.
     """
-    with _scheduler_told(name):
+    with _plain_errors(name):
         answers = client.run(version.own_version, on_error="return")
     ours = own_version()
     for worker, theirs in answers.items():
@@ -150,7 +150,7 @@ def _checked(client: Any, name: str) -> Given:
             raise RollnipError(
                 f"{name}: worker {worker} has rollnip {theirs}, this is {ours}; install that there."
             )
-    with _scheduler_told(name):
+    with _plain_errors(name):
         threads = sum(client.nthreads().values())
     if not threads:
         lost = f"; {len(answers)} were lost while they were asked" if answers else ""

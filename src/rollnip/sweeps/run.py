@@ -140,12 +140,12 @@ class _Flow:
         running: dict[Future[list[Outcome]], Task] = {}
         try:
             while True:
-                suspects = self._filled(running)
+                suspects = self._fill(running)
                 if not running and not suspects:
                     return
-                suspects += self._collected(running, self._awaited(running, FIRST_COMPLETED))
+                suspects += self._collect(running, self._awaited(running, FIRST_COMPLETED))
                 if suspects:
-                    self._tried_singly(suspects, running)
+                    self._try_singly(suspects, running)
         except KeyboardInterrupt:
             self._finish(running)
             raise
@@ -162,7 +162,7 @@ class _Flow:
             if not open_ones or (done and until == FIRST_COMPLETED):
                 return done
 
-    def _filled(self, running: dict[Future[list[Outcome]], Task]) -> list[Task]:
+    def _fill(self, running: dict[Future[list[Outcome]], Task]) -> list[Task]:
         """Start tasks until the crew is busy; return the task that a broken crew did not take."""
         while len(running) < self.crew.in_flight:
             task = self.cases.task(self.crew.chunk_seconds)
@@ -174,7 +174,7 @@ class _Flow:
                 return [task]
         return []
 
-    def _collected(
+    def _collect(
         self, running: dict[Future[list[Outcome]], Task], done: set[Future[list[Outcome]]]
     ) -> list[Task]:
         """Keep the outcomes of finished futures; return the tasks that gave none."""
@@ -192,15 +192,13 @@ class _Flow:
             self.keep(outcomes)
         return failed
 
-    def _tried_singly(
-        self, suspects: list[Task], running: dict[Future[list[Outcome]], Task]
-    ) -> None:
+    def _try_singly(self, suspects: list[Task], running: dict[Future[list[Outcome]], Task]) -> None:
         """Run the suspects of a crash one case at a time, to find the one that kills its worker."""
-        suspects += self._collected(running, self._awaited(running, ALL_COMPLETED))
+        suspects += self._collect(running, self._awaited(running, ALL_COMPLETED))
         for task in (single for suspect in suspects for single in suspect.split()):
-            self.keep(self._alone(task))
+            self.keep(self._run_alone(task))
 
-    def _alone(self, task: Task) -> list[Outcome]:
+    def _run_alone(self, task: Task) -> list[Outcome]:
         try:
             future = self.crew.submit(task)
         except BrokenExecutor:
@@ -223,6 +221,6 @@ class _Flow:
         done, late = wait(left, timeout=0.0)
         while late and self.interrupts.count < 2 and monotonic() < end:
             done, late = wait(left, timeout=_LOOK)
-        self._collected(running, {one for one in done if not one.cancelled()})
+        self._collect(running, {one for one in done if not one.cancelled()})
         if late:
             self.crew.abandon()

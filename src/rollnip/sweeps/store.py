@@ -143,7 +143,7 @@ class Store:
         self.name = "the database" if path is None else str(path)
         self.is_in_memory = path is None
         self._writer: Writer | None = None
-        self._moved = monotonic()
+        self._emptied = monotonic()
         if path is not None:
             reading(path)  # it holds solved cases: no table may overwrite it
         if about is None and path is not None:
@@ -151,15 +151,15 @@ class Store:
         else:
             self._base = open_to_write(path)
         try:
-            with self._spoken():
+            with self._plain_errors():
                 self._require_ours(must_be_there=about is None)
                 if about is not None:
                     if path is not None:
                         self._writer = Writer(path)
                     self._prepare()
                 require_schema(self._base, self.name, _COLUMNS)
-            self.about = self._claimed(about)
-            with self._spoken():
+            self.about = self._matching_about(about)
+            with self._plain_errors():
                 require_sound_rows(self._base, self.name, self.about.count, len(self.about.paths))
         except BaseException:
             self.close()
@@ -176,22 +176,22 @@ class Store:
     def close(self) -> None:
         """Close the file; all that was written is then in the database itself, not in the log."""
         with suppress(sqlite3.Error):
-            self._move("TRUNCATE")
+            self._empty_log("TRUNCATE")
         self._base.close()
         if self._writer is not None:
             self._writer.close()
 
     def write(self, outcome: Outcome) -> None:
         """Commit one case. Raises RollnipError where the disk cannot take it."""
-        with self._spoken():
+        with self._plain_errors():
             if outcome.profiles is None:
                 self._write(outcome)  # one statement is a transaction of its own
             else:
                 with self._transaction():
                     self._write(outcome)
                     self._base.execute(_INSERT_PROFILES, (outcome.position, outcome.profiles))
-            if monotonic() - self._moved > _LOG_SECONDS:
-                self._move("PASSIVE")
+            if monotonic() - self._emptied > _LOG_SECONDS:
+                self._empty_log("PASSIVE")
 
     def held(self, *, with_profiles: bool) -> NDArray[np.bool_]:
         """Return a mask (count,) of the cases that need not be solved again."""
@@ -202,7 +202,7 @@ class Store:
                 " AND (status NOT IN ('solved', 'unverified')"
                 " OR position IN (SELECT position FROM profiles))"
             )
-        with self._spoken():
+        with self._plain_errors():
             for (position,) in self._base.execute(query):
                 found[position] = True
         return found
@@ -216,7 +216,7 @@ class Store:
         """Return the row of one case, as `rollnip.sweeps.evaluate` returned it."""
         names = ("status", "message", "status", "geometry", *SCALARS, "warnings")
         wanted = ", ".join(f'"{name}"' for name in names)
-        with self._spoken():
+        with self._plain_errors():
             found = self._base.execute(
                 f"SELECT {wanted} FROM cases WHERE position = ?", (position,)
             ).fetchone()
@@ -226,12 +226,12 @@ class Store:
 
     def tally(self) -> dict[str, int]:
         """Return the number of cases by status."""
-        with self._spoken():
+        with self._plain_errors():
             return dict(self._base.execute("SELECT status, count(*) FROM cases GROUP BY status"))
 
     def seconds_each(self) -> float | None:
         """Return the mean time that a case took [s]; None without any case."""
-        with self._spoken():
+        with self._plain_errors():
             query = "SELECT avg(seconds) FROM cases WHERE status != 'lost'"
             found: float | None = self._base.execute(query).fetchone()[0]
         return found
@@ -239,29 +239,29 @@ class Store:
     def rows(self, names: Sequence[str]) -> Iterator[tuple[Any, ...]]:
         """Yield the requested columns of each case as a tuple, in the order of the study."""
         wanted = ", ".join(f'"{name}"' for name in names)
-        with self._spoken():
+        with self._plain_errors():
             yield from self._base.execute(f"SELECT {wanted} FROM cases ORDER BY position")
 
     def rows_not_solved(self) -> Iterator[tuple[int, str]]:
         """Yield position and message of the cases without a verified solution."""
         query = "SELECT position, message FROM cases WHERE status != 'solved' ORDER BY position"
-        with self._spoken():
+        with self._plain_errors():
             yield from self._base.execute(query)
 
     def profiles(self) -> Iterator[tuple[int, bytes]]:
         """Yield position and profiles of the cases that have them, in the order of the study."""
-        with self._spoken():
+        with self._plain_errors():
             yield from self._base.execute("SELECT position, data FROM profiles ORDER BY position")
 
     def known(self) -> dict[str, int]:
         """Return the position by hash of all cases that need not be solved again, of any study."""
         query = "SELECT hash, position FROM cases WHERE hash IS NOT NULL AND status != 'lost'"
-        with self._spoken():
+        with self._plain_errors():
             return dict(self._base.execute(query))
 
     def adopt(self, other: Store, there: int, position: int, values: Sequence[float | str]) -> None:
         """Copy one case from position ``there`` of another database to ``position`` of this one."""
-        with other._spoken():
+        with other._plain_errors():
             row = other._base.execute(
                 f"SELECT {_QUOTED} FROM cases WHERE position = ?", (there,)
             ).fetchone()
@@ -270,14 +270,14 @@ class Store:
             ).fetchone()
         found = dict(zip(_NAMES, row, strict=True))
         found |= {"position": position, "parameters": json.dumps(values)}
-        with self._spoken(), self._transaction():
+        with self._plain_errors(), self._transaction():
             self._base.execute(_INSERT, list(found.values()))
             if profiles is not None:
                 self._base.execute(_INSERT_PROFILES, (position, *profiles))
 
     def take(self, other: Store) -> None:
         """Copy all cases from another database of the same study."""
-        with self._spoken(), self._transaction():
+        with self._plain_errors(), self._transaction():
             self._base.executemany(_INSERT, other.rows(_NAMES))
             self._base.executemany(_INSERT_PROFILES, other.profiles())
 
@@ -302,15 +302,15 @@ class Store:
                 self._base.execute(statement)
         self._base.execute("COMMIT")
 
-    def _move(self, how: str) -> None:
+    def _empty_log(self, how: str) -> None:
         """Move the log into the database file, so that a copy of that file alone has all cases."""
         if self._writer is not None:
             self._base.execute(f"PRAGMA wal_checkpoint({how})")
-        self._moved = monotonic()
+        self._emptied = monotonic()
 
-    def _claimed(self, about: About | None) -> About:
+    def _matching_about(self, about: About | None) -> About:
         """Return the description, writing it if new; raise where the file is another study's."""
-        found = self._said()
+        found = self._stored_about()
         if about is None:
             if found is None:
                 raise RollnipError(f"{self.name}: holds no study yet.")
@@ -319,14 +319,14 @@ class Store:
             _require_same(self.name, found, about)
         if found == about:
             return about
-        with self._spoken(), self._transaction():
+        with self._plain_errors(), self._transaction():
             self._base.execute("DELETE FROM about")
             text = json.dumps({"format": FORMAT, **asdict(about)})
             self._base.execute("INSERT INTO about VALUES (?)", (text,))
         return about
 
-    def _said(self) -> About | None:
-        with self._spoken():
+    def _stored_about(self) -> About | None:
+        with self._plain_errors():
             rows = self._base.execute("SELECT value FROM about").fetchall()
         if not rows:
             return None
@@ -363,7 +363,7 @@ class Store:
             raise
 
     @contextmanager
-    def _spoken(self) -> Iterator[None]:
+    def _plain_errors(self) -> Iterator[None]:
         """Turn an SQLite error into one clear sentence."""
         try:
             yield

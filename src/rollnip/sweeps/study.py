@@ -119,7 +119,7 @@ class Study:
 
         Neither the titles nor the results and profiles wanted are part of it.
         """
-        digest = _fed_with(self.tree)
+        digest = _digest_of(self.tree)
         for axis in self.axes:
             axis.feed(digest)
         return str(digest.hexdigest()[:_DIGITS])
@@ -127,12 +127,12 @@ class Study:
 
 def case_digest(case: Mapping[str, Any], *words: str) -> str:
     """Return the hash of a case without its title, and of words that state its purpose."""
-    digest = _fed_with(case)
+    digest = _digest_of(case)
     digest.update(json.dumps(words).encode())
     return str(digest.hexdigest()[:_DIGITS])
 
 
-def _fed_with(case: Mapping[str, Any]) -> Any:
+def _digest_of(case: Mapping[str, Any]) -> Any:
     """Return a hash object that has been fed a case without its title."""
     tree = {key: value for key, value in case.items() if key != "title"}
     return sha256(json.dumps(tree, sort_keys=True, default=str).encode())

@@ -316,7 +316,7 @@ def _has(parameter: ParameterTable, name: str) -> bool:
 
 
 def _unit(dimension: Dimension | None) -> str:
-    """Return the base unit; "1" for ratios, empty for what is no quantity."""
+    """Return the base unit; "1" for ratios, empty where the value is no quantity."""
     return "" if dimension is None else base_unit(dimension) or "1"
 
 
